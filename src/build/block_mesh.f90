@@ -1,4 +1,5 @@
-!> The generator of teaching meshes: BLOCK2, a quadrilateral block, and BLOCK3, a box; nodes numbered up each column first.
+!> The generator of block meshes: BLOCK2, a quadrilateral block, and BLOCK3, a box.
+!! Nodes are numbered up each column first.
 module block_mesh
    use bulk_data, only: block_card
    use element_kinds, only: kind_hexa20, kind_hexa8, kind_quad4, kind_quad8
@@ -8,7 +9,7 @@ module block_mesh
 
    public :: generate_block
 
-   !> What a block gives: places are positions in its own node list.
+   !> The mesh of a block. Places are positions in its own node list.
    type, public :: block_type
       integer :: line = 0, id = 0, property = 0, weld = 0
       integer :: kind = 0                     !! of its elements
@@ -24,13 +25,13 @@ module block_mesh
 
 contains
 
-   !> The nodes, elements and marked sides of a CARD. Node (i, j, k), i counting along x or side 1-2, j along y or side 1-4 and k
-   !! along z, all from 0, is number N1 + (i (NY + 1) + j)(NZ + 1) + k; element numbers go up each column too, from E1.
+   !> The nodes, elements and marked sides of a CARD. Node (i, j, k) has the number N1 + (i (NY + 1) + j)(NZ + 1) + k, where i counts
+   !! along x or side 1-2, j along y or side 1-4 and k along z, all from 0. Element numbers also run up each column, from E1.
    pure subroutine generate_block(card, block)
       type(block_card), intent(in)  :: card
       type(block_type), intent(out) :: block
       real(wp) :: r(0:card%divisions(1)), s(0:card%divisions(2)), t(0:card%divisions(3))
-      integer  :: corner, i, j, k, m, n(3), step(3) ! from place to place along x, y, z
+      integer  :: corner, i, j, k, m, n(3), step(3) ! step: increments of the place along x, y, z
 
       n = card%divisions
       step = [(n(2) + 1)*(n(3) + 1), n(3) + 1, 1]
@@ -38,7 +39,7 @@ contains
       block%id = card%id
       block%property = card%property
       block%weld = card%weld
-      if (card%order == 2) then ! the nodes at the middle of its edges are filled in as those that cards leave blank
+      if (card%order == 2) then ! mid-edge nodes are added later, like those that cards leave blank
          block%kind = merge(kind_quad8, kind_hexa20, card%dimension == 2)
       else
          block%kind = merge(kind_quad4, kind_hexa8, card%dimension == 2)
@@ -87,8 +88,8 @@ contains
       end if
    end subroutine generate_block
 
-   !> Where the node of a block at the graded places R, S, T in the unit square or cube stands: at its bilinear image, in a box
-   !! between the corners.
+   !> Position of the node of a block with the graded coordinates R, S, T in the unit square or cube: bilinear interpolation of the corners,
+   !! in a box linear interpolation between its two corners.
    pure function point(card, r, s, t) result(x)
       type(block_card), intent(in) :: card
       real(wp), intent(in)         :: r, s, t
@@ -103,7 +104,7 @@ contains
       end associate
    end function point
 
-   !> Places 0 = s_0 < ... < s_n = 1 whose steps grow by a constant factor, the last RATIO times the first.
+   !> Coordinates 0 = s_0 < ... < s_n = 1 whose steps grow by a constant factor; the last step is RATIO times the first.
    pure subroutine graded_places(ratio, s)
       real(wp), intent(in)  :: ratio
       real(wp), intent(out) :: s(0:)
@@ -142,12 +143,12 @@ contains
       end do
    end subroutine mark_edge
 
-   !> The marked sides on one face of a box: where it begins or ends along AXIS. Their corners go round them as seen from outside.
+   !> The marked sides on one face of a box, at the beginning or end of AXIS. Their corners are counter-clockwise as seen from outside.
    pure subroutine mark_face(card, axis, at_end, step, block)
       type(block_card), intent(in)    :: card
       integer, intent(in)             :: axis    !! 1: x, 2: y, 3: z
       logical, intent(in)             :: at_end
-      integer, intent(in)             :: step(3) !! from place to place along x, y, z
+      integer, intent(in)             :: step(3) !! increments of the place along x, y, z
       type(block_type), intent(inout) :: block
       integer :: a, b, corner, i, j, number, places(4)
 
@@ -160,7 +161,7 @@ contains
             corner = 1 + i*step(a) + j*step(b)
             if (at_end) corner = corner + card%divisions(axis)*step(axis)
             places = corner + [0, step(a), step(a) + step(b), step(b)]
-            if (at_end .eqv. axis == 2) places = places(4:1:-1) ! right-handed are y z, z x, x y
+            if (at_end .eqv. axis == 2) places = places(4:1:-1) ! y z, z x and x y are right-handed
             call add_side(block, card%marks(number), number, places)
          end do
       end do

@@ -1,4 +1,5 @@
-!> Loads on bodies: GRAV, ACCEL1 and RFORCE, which act on masses, and PLOAD1 along beams; the nodal forces, and what the ends of each beam bear.
+!> Loads on bodies: GRAV, ACCEL1, RFORCE and PLOAD1 as nodal forces and as end forces of beams.
+!! GRAV, ACCEL1 and RFORCE act on masses, PLOAD1 along beams.
 module body_loads
    use property_cards, only: load_types
    use beam_element, only: beam_axes, beam_length, beam_line_load, beam_nodal_forces, beam_point_load
@@ -20,7 +21,7 @@ module body_loads
 
    public :: add_beam_loads, add_gravity, check_beam_loads, check_gravity
 
-   !> An acceleration of all masses with the sense of its force: uniform (gravity), or growing with the distance from an axis (rotation),
+   !> An acceleration of all masses, with the sign of its force: uniform (gravity), or linear in the distance from an axis (rotation),
    !! a(x) = UNIFORM + GRADIENT (x - ORIGIN).
    type :: acceleration_field
       logical  :: is_uniform = .true.
@@ -33,7 +34,7 @@ module body_loads
 
 contains
 
-   !> GRAV and RFORCE need a mass to act on, and the directions that the model has.
+   !> Errors: GRAV or RFORCE without a mass, or in a direction that the model does not have.
    subroutine check_gravity(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -59,7 +60,7 @@ contains
       end do
    end subroutine check_gravity
 
-   !> The nodes of an ACCEL1 exist. Masses of beams are not those of nodes.
+   !> Errors of an ACCEL1: missing nodes; beams in the model, because the mass of a beam does not belong to its nodes.
    subroutine check_listed(deck, model, card)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -75,7 +76,7 @@ contains
          'ACCEL1: the masses of beams belong to no node; expected GRAV, or CONM2 in place of RHO')
    end subroutine check_listed
 
-   !> The axis of an RFORCE, given along AXES, stands along z in the plane, along y of revolution.
+   !> Errors of an RFORCE whose axis, given along AXES, is not z in the plane, or not y in an axisymmetric model.
    subroutine check_spin(deck, model, card, axes)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -98,7 +99,7 @@ contains
       end if
    end subroutine check_spin
 
-   !> Add FACTOR times the GRAV, ACCEL1 and RFORCE of SET: to LOADS what the ends of beams bear, to FORCE what nodes bear.
+   !> Add FACTOR times the GRAV, ACCEL1 and RFORCE of SET: end forces of beams to LOADS, nodal forces to FORCE.
    subroutine add_gravity(deck, model, set, factor, loads, force)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
@@ -122,7 +123,7 @@ contains
       end do
    end subroutine add_gravity
 
-   !> The forces of masses at nodes.
+   !> Add the forces of the nodal masses.
    pure subroutine add_mass_weights(model, field, force)
       type(model_type), intent(in)         :: model
       type(acceleration_field), intent(in) :: field
@@ -137,7 +138,7 @@ contains
       end do
    end subroutine add_mass_weights
 
-   !> The forces under FIELD of the masses at the nodes that CARD, an ACCEL1, lists.
+   !> Add the forces of FIELD on the masses at the nodes of CARD, an ACCEL1.
    subroutine add_listed(model, field, card, force)
       type(model_type), intent(in)         :: model
       type(acceleration_field), intent(in) :: field
@@ -156,7 +157,7 @@ contains
       end do
    end subroutine add_listed
 
-   !> The field of CARD times FACTOR: of RFORCE a = -(w x (w x r)) - dw/dt x r, r from its node; forces have its sense.
+   !> The field of CARD times FACTOR. RFORCE: a = -(w x (w x r)) - dw/dt x r, r from its node, with the sign of the force.
    function field_of(deck, model, card, factor) result(field)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -191,7 +192,7 @@ contains
       if (.not. field%is_uniform) a = a + matmul(field%gradient, x - field%origin)
    end function acceleration_at
 
-   !> Nodal forces of the masses of all bodies but beams under an acceleration FIELD.
+   !> Add the nodal forces of the masses of all bodies except beams under an acceleration FIELD.
    subroutine add_body_gravity(model, field, force)
       type(model_type), intent(in)         :: model
       type(acceleration_field), intent(in) :: field
@@ -204,7 +205,7 @@ contains
          associate (nodes => own_nodes(model, e), d => model%dimension)
             if (field%is_uniform .and. .not. is_shell(model, e)) then
                call element_weight(model, e, field%uniform(:d), f)
-            else ! of the mass between the displacements alone: at constant speed rotations do not accelerate
+            else ! from the translational mass alone: at constant speed rotations do not accelerate
                associate (corners => corners_of(model, e))
                   call scalar_mass(model, e, m)
                   f = 0.0_wp
@@ -220,7 +221,7 @@ contains
       end do
    end subroutine add_body_gravity
 
-   !> What an acceleration FIELD makes on all beams: to LOADS what their ends bear, to FORCE what their nodes bear.
+   !> Add the forces of an acceleration FIELD on all beams: end forces to LOADS, nodal forces to FORCE.
    subroutine add_beam_gravity(model, field, loads, force)
       type(model_type), intent(in)         :: model
       type(acceleration_field), intent(in) :: field
@@ -242,7 +243,7 @@ contains
       end do
    end subroutine add_beam_gravity
 
-   !> Every PLOAD1 names a beam, and acts on it.
+   !> Errors of PLOAD1: no such beam, a position beyond its end, a direction that a plane model does not have.
    subroutine check_beam_loads(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -274,7 +275,7 @@ contains
       if (.not. is_beam(model, e)) e = 0
    end function beam_of
 
-   !> Add FACTOR times the PLOAD1 of SET to LOADS, and the forces on nodes to FORCE.
+   !> Add FACTOR times the end forces of the PLOAD1 of SET to LOADS, and their nodal forces to FORCE.
    subroutine add_beam_loads(deck, model, set, factor, loads, force)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
@@ -291,7 +292,7 @@ contains
       end do
    end subroutine add_beam_loads
 
-   !> What the ends of beam E bear of the load of CARD, in the axes of the beam.
+   !> The end forces of beam E under the load of CARD, in the axes of the beam.
    pure function at_ends(model, e, card) result(f)
       type(model_type), intent(in)     :: model
       integer, intent(in)              :: e
@@ -320,7 +321,7 @@ contains
       end associate
    end function at_ends
 
-   !> Add what the ends of beam E bear, F, to LOADS, and what its nodes bear to FORCE.
+   !> Add the end forces F of beam E to LOADS, and the equivalent nodal forces to FORCE.
    subroutine add_to_beam(model, e, f, loads, force)
       type(model_type), intent(in)         :: model
       integer, intent(in)                  :: e

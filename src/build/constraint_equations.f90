@@ -1,5 +1,5 @@
-!> Equations between components: c = sum of factor c_k, as rigid elements and MPC list them, checked for what depends on what;
-!! the dependent components are eliminated, and their nodes move with the unknowns of the others. UM of RBE3 solves such
+!> Constraint equations c = sum of factor c_k, from rigid elements and MPC: checks, elimination, and RBE3.
+!! Dependent components are eliminated: their nodes move with the unknowns of the independent components. UM of RBE3 solves the
 !! equations for other components.
 module constraint_equations
    use deck_check, only: checked_deck
@@ -13,13 +13,13 @@ module constraint_equations
 
    public :: add_dependence, add_term, check_dependences, eliminate, mean_motion, solve_for
 
-   !> One component that depends on others. Components are those of unknowns, along the axes of their nodes.
+   !> A constraint equation of one dependent component. Components are unknowns, along the axes of their nodes.
    type, public :: dependence_type
       integer :: node = 0, d = 0             !! component D of NODE
-      integer :: line = 0, field = 0         !! of the card that says so, and the data field there that names the node
-      integer :: n = 0                       !! is the sum over so many
+      integer :: line = 0, field = 0         !! of the card, and the data field that names the node
+      integer :: n = 0                       !! number of terms
       integer, allocatable  :: on(:), on_d(:)  !! (at least n) component ON_D(k) of node ON(k)
-      real(wp), allocatable :: factor(:)     !! (likewise) times this; one component may come several times
+      real(wp), allocatable :: factor(:)     !! (likewise) of each term; a component may occur several times
    end type dependence_type
 
    type, public :: dependence_list
@@ -29,7 +29,7 @@ module constraint_equations
 
 contains
 
-   !> Start a dependence of what stands at PLACE, named in data field FIELD of the card on LINE.
+   !> Start the equation of the component at PLACE, which is named in data field FIELD of the card on LINE.
    pure subroutine add_dependence(list, place, line, field)
       type(dependence_list), intent(inout) :: list
       type(component_place), intent(in)    :: place
@@ -42,7 +42,7 @@ contains
       allocate (list%item(list%n)%on(8), list%item(list%n)%on_d(8), list%item(list%n)%factor(8))
    end subroutine add_dependence
 
-   !> Add FACTOR times what stands at PLACE to the dependence begun last; nothing where FACTOR is zero.
+   !> Add FACTOR times the component at PLACE to the last equation; a zero FACTOR adds nothing.
    pure subroutine add_term(list, place, factor)
       type(dependence_list), intent(inout) :: list
       type(component_place), intent(in)    :: place
@@ -62,12 +62,12 @@ contains
       end associate
    end subroutine add_term
 
-   !> Errors: a component that depends twice, is supported too, or depends on one that depends itself.
+   !> Errors: a component that depends twice, is supported too, or depends on a dependent component.
    subroutine check_dependences(deck, model, list)
       type(checked_deck), intent(in)    :: deck
       type(model_type), intent(in)      :: model
       type(dependence_list), intent(in) :: list
-      integer, allocatable :: of(:, :) ! (dimension, n_nodes) which item a component is, 0: none
+      integer, allocatable :: of(:, :) ! (dimension, n_nodes) the equation of a component, 0: none
       character(:), allocatable :: words
       logical, allocatable :: is_named(:)
       integer :: i, k, other
@@ -100,7 +100,7 @@ contains
 
    contains
 
-      !> One error a field of a card, though several components may be at fault.
+      !> One error per field of a card, though several components may be wrong.
       subroutine name_once(this, message)
          integer, intent(in)      :: this
          character(*), intent(in) :: message
@@ -116,7 +116,7 @@ contains
 
    end subroutine check_dependences
 
-   !> 'RBE2 7, deck.bdf, line 12': the card on LINE.
+   !> Text such as 'RBE2 7, deck.bdf, line 12' for the card on LINE.
    function name_of(deck, line) result(name)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line
@@ -129,7 +129,7 @@ contains
       name = name//' ('//deck%text%place(line)//')'
    end function name_of
 
-   !> 'component 3 of node 7': D of NODE, which may be that of rotations.
+   !> Text such as 'component 3 of node 7' for component D of NODE, which may be a node of rotations.
    pure function component_text(model, node, d) result(words)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node, d
@@ -141,11 +141,11 @@ contains
       words = 'component '//integer_text(digit)//' of node '//integer_text(model%node_id(point_of(model, node)))
    end function component_text
 
-   !> Couple the nodes of LIST, whose cards are right: their dependent components have no unknowns any more. Neither have components
-   !! that nothing feels of reference nodes WITHOUT elements, and rotations likewise.
+   !> Couple the nodes of LIST, whose cards have no errors: their dependent components lose their unknowns. So do components (rotations
+   !! too) of reference nodes WITHOUT elements that no equation uses.
    subroutine eliminate(list, without, model)
       type(dependence_list), intent(in) :: list
-      logical, intent(in)               :: without(:) !! (n_nodes) no element holds the node, a rigid one or an equation does
+      logical, intent(in)               :: without(:) !! (n_nodes) the node belongs to a rigid element or an equation, not to an element
       type(model_type), intent(inout)   :: model
       logical, allocatable :: is_felt(:, :)
       logical, allocatable :: depends(:)
@@ -174,11 +174,11 @@ contains
       model%held = model%held .or. model%left_out
    end subroutine eliminate
 
-   !> Couple NODE: its own components that are left, and the sums of LIST for those that are not.
+   !> Couple NODE: its independent components to its own unknowns, its dependent ones by the equations of LIST.
    subroutine couple_items(list, node, column, model)
       type(dependence_list), intent(in) :: list
       integer, intent(in)               :: node
-      integer, intent(inout)            :: column(:) !! (n_nodes) zero, and left so
+      integer, intent(inout)            :: column(:) !! (n_nodes) zero on entry and on return
       type(model_type), intent(inout)   :: model
       real(wp), allocatable :: t(:, :, :)
       integer, allocatable  :: masters(:)
@@ -226,7 +226,7 @@ contains
 
    end subroutine couple_items
 
-   !> The axes of the components of NODE, columns; those of rotations are those of their point, in the plane z, kept as the first.
+   !> The axes of the components of NODE, columns; a node of rotations has those of its point, in the plane z in the first column.
    pure function axes_at(model, node) result(axes)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
@@ -236,9 +236,9 @@ contains
       if (node_kind(model, node) == a_rotation .and. model%dimension == 2) axes = identity
    end function axes_at
 
-   !> Of the items FIRST and on of LIST, each an equation c_j = sum of factor c_k, make such of the components at PLACES, as many, named in
-   !! data fields AT: with [A] their coefficients in c_j - sum of factor c_k = 0 they are -[A]^-1 times the rest. Not OK where [A] has
-   !! no inverse.
+   !> Rewrite the equations c_j = sum of factor c_k of LIST, from FIRST on, as equations of the components at PLACES (as many), named in
+   !! data fields AT. With [A] the coefficients of these components in c_j - sum of factor c_k = 0, they are -[A]^-1 times the other
+   !! terms. OK is false where [A] is singular.
    subroutine solve_for(list, first, places, at, ok)
       type(dependence_list), intent(inout) :: list
       integer, intent(in)                  :: first
@@ -295,11 +295,11 @@ contains
 
    end subroutine solve_for
 
-   !> Bring A = [M 1] to [1 M^-1], by rows, with the largest pivot of each column. Not OK where M has no inverse, to rounding.
+   !> Transform A = [M 1] to [1 M^-1] by row operations with the largest pivot of each column. OK is false where M is singular to rounding.
    pure subroutine reduce(a, ok)
       real(wp), intent(inout) :: a(:, :) !! (n, 2 n)
       logical, intent(out)    :: ok
-      real(wp), parameter :: rounding = 1.0e-10_wp ! of the largest entry: a pivot that is none
+      real(wp), parameter :: rounding = 1.0e-10_wp ! of the largest entry: a smaller pivot is zero
       real(wp) :: least, row(size(a, 2))
       integer  :: i, j, p
 
@@ -318,11 +318,12 @@ contains
       end do
    end subroutine reduce
 
-   !> [T] of RBE3, {u, theta} = sum of T(:, :, i) {c_i}: the rigid motion, displacement and rotation at the reference point, that
-   !! makes the sum of the squares of the differences to the measured displacements least. Point i lies at the arm R(:, i) from it; c_i
-   !! are its displacements along the directions AXES(:, 1 to 3, i), of which those USED count, with WEIGHT(i).
+   !> [T] of RBE3, {u, theta} = sum of T(:, :, i) {c_i}: the rigid-body motion, displacement and rotation at the reference point, that
+   !! fits the measured displacements in the sense of least squares. Point i lies at the arm R(:, i) from the reference point; c_i are
+   !! its displacements along the directions AXES(:, 1 to 3, i), of which those USED count, with WEIGHT(i).
    !!    sum of w G^T (G {u, theta} - c) = 0,  G = directions^T [1 W]
-   !! A component that this leaves open is not DETERMINED, and its row zero: of points on a line the rotation about it.
+   !! A component that this equation does not determine is not DETERMINED, and its row is zero: for collinear points the rotation about
+   !! their line.
    pure subroutine mean_motion(r, axes, used, weight, t, determined)
       real(wp), intent(in)  :: r(:, :)       !! (3, points) [length]
       real(wp), intent(in)  :: axes(:, :, :) !! (3, 3, points), unit
@@ -351,13 +352,13 @@ contains
       end do
    end subroutine mean_motion
 
-   !> Rows of the INVERSE of A, symmetric and not negative, for the components of x that A x = b determines, zero for the others: row j
-   !! is y of A y = e_j where that has a solution. By elimination with the largest pivot left.
+   !> Rows of the INVERSE of A, symmetric and positive semidefinite, for the components of x that A x = b determines; the other rows are
+   !! zero. Row j is the solution y of A y = e_j where it exists. Elimination takes the largest remaining pivot.
    pure subroutine invert_where_determined(a, inverse, determined)
       real(wp), intent(in)  :: a(6, 6)
       real(wp), intent(out) :: inverse(6, 6)
       logical, intent(out)  :: determined(6)
-      real(wp), parameter :: rounding = 1.0e-12_wp ! of the largest entry: a pivot that is none
+      real(wp), parameter :: rounding = 1.0e-12_wp ! of the largest entry: a smaller pivot is zero
       real(wp) :: m(6, 12), pivot_row(12), residual(6)
       logical  :: done(6)
       integer  :: i, j, p
@@ -379,7 +380,7 @@ contains
          m(p, :) = pivot_row
       end do
       do j = 1, 6
-         inverse(j, :) = merge(m(:, 6 + j), 0.0_wp, done) ! y, its open components zero
+         inverse(j, :) = merge(m(:, 6 + j), 0.0_wp, done) ! y, with its undetermined components zero
          residual = matmul(a, inverse(j, :))
          residual(j) = residual(j) - 1.0_wp
          determined(j) = done(j) .and. maxval(abs(residual)) <= 1.0e-8_wp

@@ -1,5 +1,6 @@
-!> The pressure of the first increment of every joint, Eq. (9): given by the user, or by statics where no other support or
-!! joint can take a share of the load; else a guess where that will do.
+!> The pressure of the first increment of each joint, Eq. (9): from the user, from statics, or a guess.
+!! Statics determines it where no other support or joint takes part of the load. The guess is for methods whose result does not depend
+!! on it.
 module determinate_joints
    use deck_errors, only: deck_error_list
    use interface_operator, only: nodes_of_end
@@ -15,17 +16,17 @@ module determinate_joints
 
    public :: find_determinate_joints, carried_resultant, find_first_pressures
 
-   real(wp), parameter :: nothing = 1.0e-12_wp ! of the load: no resultant but rounding
-   real(wp), parameter :: alike = 1.0e-9_wp ! of the range of the gaps: those that differ by less close together
+   real(wp), parameter :: nothing = 1.0e-12_wp ! of the load: a smaller resultant is rounding
+   real(wp), parameter :: alike = 1.0e-9_wp ! of the range of the gaps: gaps that differ by less close together
 
 contains
 
-   !> Joint J is cut: where one of its sides then hangs on nothing along the joint's normal, the joint alone carries that
-   !! side's load.
+   !> Cut joint J. Where one of its sides then has no support along the normal of the joint, the joint alone carries the load of this
+   !! side.
    pure subroutine find_determinate_joints(model)
       type(model_type), intent(inout) :: model
-      integer, allocatable :: group(:)              ! parts joined by all the other joints; the base is the last one
-      integer, allocatable :: pair(:, :)            ! (3, pairs) two parts and the joint between them, each once
+      integer, allocatable :: group(:)              ! parts connected by all other joints; the base is the last one
+      integer, allocatable :: pair(:, :)            ! (3, pairs) two parts and the joint between them, each pair once
       logical, allocatable :: grounded(:), on_side(:, :), held(:, :)
       integer :: base, i, j, k, node, side
 
@@ -34,7 +35,7 @@ contains
       call list_pairs(model, pair)
       allocate (held(model%dimension, model%n_parts), source=.false.)
       do node = 1, n_points(model)
-         if (is_coupled(model, [node])) cycle ! its directions are others
+         if (is_coupled(model, [node])) cycle ! its unknowns have other directions: see ground_turned
          held(:, model%part(node)) = held(:, model%part(node)) .or. supported(model, node)
       end do
       do i = 1, n_bars(model)
@@ -56,7 +57,7 @@ contains
             do i = 1, size(pair, 2)
                if (pair(3, i) /= j) call join(group, pair(1, i), pair(2, i))
             end do
-            do i = 1, n_sections(model) ! bolts that are being tightened hold across their axis
+            do i = 1, n_sections(model) ! bolts that are being tightened hold normal to their axis
                associate (section => model%sections(i))
                   if (abs(dot_product(section%direction, joint%normal)) < 1.0_wp - 1.0e-9_wp) &
                      call join(group, model%part(section%node), model%part(section%point))
@@ -92,7 +93,7 @@ contains
       end do
    end subroutine find_determinate_joints
 
-   !> Coupled nodes that are held in a direction that is not across the normal of JOINT ground their group too.
+   !> Coupled nodes ground their group too, if they are held in a direction that is not perpendicular to the normal of JOINT.
    pure subroutine ground_turned(model, joint, group, grounded)
       type(model_type), intent(in)  :: model
       type(joint_type), intent(in)  :: joint
@@ -111,9 +112,9 @@ contains
       end do
    end subroutine ground_turned
 
-   !> Which parts the joints connect: PAIR(:, i) are two of them, or one and the base behind the last, and the joint. Neighbouring
-   !! interface elements mostly connect the same parts: these count once. Where an end lies on several parts, the first of end 1 is
-   !! connected with all others.
+   !> The parts that joints connect: PAIR(:, i) are two parts, or one part and the base (the last number), and the joint. Most neighbouring
+   !! interface elements connect the same parts; such a pair is listed once. Where an end lies on several parts, the first part of end 1
+   !! is connected to all others.
    pure subroutine list_pairs(model, pair)
       type(model_type), intent(in)      :: model
       integer, allocatable, intent(out) :: pair(:, :) !! (3, pairs)
@@ -146,7 +147,7 @@ contains
       pair = pair(:, :n)
    end subroutine list_pairs
 
-   !> The parts that end SIDE of interface element I lies on, each once; the rigid base is the part behind the last.
+   !> The parts of end SIDE of interface element I, each once; the rigid base has the number behind the last part.
    pure function parts_at(model, i, side) result(parts)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i, side
@@ -163,7 +164,7 @@ contains
       end associate
    end function parts_at
 
-   !> Normal resultant (compression positive) that LOADS send through a determinate JOINT [force].
+   !> Normal resultant of LOADS through a determinate JOINT, compression positive [force].
    pure real(wp) function carried_resultant(model, joint, loads) result(resultant)
       type(model_type), intent(in)      :: model
       type(joint_type), intent(in)      :: joint
@@ -173,12 +174,12 @@ contains
       resultant = 0.0_wp
       do i = 1, loads%n
          node = loads%node(i)
-         if (node_kind(model, node) == an_overlap) then ! a pair of forces that shortens a solid bolt
+         if (node_kind(model, node) == an_overlap) then ! the pair of forces of a pretension section
             associate (section => model%sections(place_in_kind(model, node)))
                if (joint%carries(model%part(node))) call add(loads%force(1, i)*section%direction)
                if (joint%carries(model%part(section%point))) call add(-loads%force(1, i)*section%direction)
             end associate
-         else if (node_kind(model, node) == a_point .and. joint%carries(model%part(node))) then ! behind these moments
+         else if (node_kind(model, node) == a_point .and. joint%carries(model%part(node))) then ! other nodes have moments
             call add(loads%force(:, i))
          end if
       end do
@@ -193,11 +194,11 @@ contains
 
    end function carried_resultant
 
-   !> p_av of every joint: the user's P0, else the resultant of the first increment (the share FIRST_SHARE of the first
-   !! stage's load) over A_int. Where neither gives a compression it is guessed, or where a guess will not do the deck is in error.
+   !> p_av of every joint: P0 of the user, else the resultant of the first increment (FIRST_SHARE of the load of the first stage) over
+   !! A_int. Where neither gives a compression the pressure is guessed; where a guess is not allowed, the deck is in error.
    subroutine find_first_pressures(first_share, guess_will_do, model, errors)
       real(wp), intent(in)                 :: first_share
-      logical, intent(in)                  :: guess_will_do !! the method iterates to an answer that does not depend on it
+      logical, intent(in)                  :: guess_will_do !! the result of the method does not depend on the guess
       type(model_type), intent(inout)      :: model
       type(deck_error_list), intent(inout) :: errors
       type(stage_load_type) :: loads
@@ -238,8 +239,8 @@ contains
       end do
    end subroutine find_first_pressures
 
-   !> A pressure of the order that JOINT may bear: all loads of the stage that has most of them over its area, or what its law says of
-   !! the largest movement of a support or interference; where nothing of these is there, little beside the modulus of the bodies.
+   !> A guess of the pressure in JOINT: the largest total load of a stage over the joint area, or the pressure that its law gives for the
+   !! largest prescribed displacement or interference; where none of these exists, a small fraction of the modulus of the bodies.
    pure real(wp) function guessed_pressure(model, joint) result(p)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
@@ -259,11 +260,11 @@ contains
       p = force/joint%area
       if (p <= 0.0_wp) p = loading_pressure(joint%law%normal, moved)
       if (p <= 0.0_wp) p = 1.0e-6_wp*maxval(model%properties%e)
-      if (p <= 0.0_wp) p = 1.0_wp ! nothing says in which units
+      if (p <= 0.0_wp) p = 1.0_wp ! nothing indicates the units
    end function guessed_pressure
 
-   !> The area of JOINT that takes the first increment: A_int, or where there are gaps the part that stands closed at first; where
-   !! none does, that which closes first [length^2].
+   !> The area of JOINT that carries the first increment: A_int; with gaps, the area that is closed at first; where none is, the area
+   !! that closes first [length^2].
    pure real(wp) function closed_area(model, joint) result(area)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
@@ -277,7 +278,7 @@ contains
       end associate
    end function closed_area
 
-   !> The load of the first stage with the preloads of the bolts that it tightens.
+   !> The load of the first stage, with the preloads of the bolts that this stage tightens.
    pure subroutine first_loads(model, loads)
       type(model_type), intent(in)       :: model
       type(stage_load_type), intent(out) :: loads
@@ -307,7 +308,7 @@ contains
       loads%n = n
    end subroutine first_loads
 
-   !> Whether the first stage that sends any load through JOINT pulls it open in the sense of its normal.
+   !> Whether the first stage that loads JOINT opens it, for the present sense of its normal.
    pure logical function opens_first(model, joint, loads)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
@@ -325,7 +326,7 @@ contains
       end do
    end function opens_first
 
-   !> Whether there is a body at any node of JOINT. If not, nothing but the load tells which sense of its normal closes it.
+   !> Whether any node of JOINT belongs to a body. If none does, only the load shows which sense of the normal closes the joint.
    pure logical function touches_body(model, joint)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
@@ -340,7 +341,7 @@ contains
       end do
    end function touches_body
 
-   !> Reverse the normals of a joint (and y with them, so that the axes stay right-handed).
+   !> Reverse the normals of a joint, and the y axes, so that the axes stay right-handed.
    pure subroutine turn_round(model, joint)
       type(model_type), intent(inout) :: model
       type(joint_type), intent(inout) :: joint

@@ -1,6 +1,6 @@
-!> Coordinate systems from their cards, each in global axes, whatever stands on whatever, and the vectors and nodes that are
-!! given in them. Nodes with CD have their unknowns along the directions of their system, so that supports and prescribed
-!! displacements act along these.
+!> Coordinate systems of CORD cards in global axes, and the vectors and nodes that are given in them.
+!! A system may depend on other systems in any order. Nodes with CD have their unknowns along the directions of their system, so that
+!! supports and prescribed displacements act along these directions.
 module displacement_systems
    use bulk_data, only: system_card
    use coordinate_systems, only: coordinate_system, directions_at, make_system, position_in, rectangular
@@ -18,8 +18,8 @@ module displacement_systems
 
 contains
 
-   !> The SYSTEMS of all CORD cards, in their order. CORD2 may stand on any other system, CORD1 on nodes that are given in any
-   !! other; what stands on itself is an error.
+   !> The SYSTEMS of all CORD cards, in their order. CORD2 may refer to any other system, CORD1 to nodes given in any other system. A
+   !! circular reference is an error.
    subroutine build_systems(deck, systems)
       type(checked_deck), intent(in)                    :: deck
       type(coordinate_system), allocatable, intent(out) :: systems(:)
@@ -47,7 +47,7 @@ contains
       end associate
    end subroutine build_systems
 
-   !> System I, where what it stands on is done.
+   !> Build system I, if the systems and nodes it refers to are done.
    subroutine build_system(deck, i, ids, grids, systems, is_done)
       type(checked_deck), intent(in)         :: deck
       integer, intent(in)                    :: i
@@ -81,7 +81,7 @@ contains
       end associate
    end subroutine build_system
 
-   !> Why system I could not be placed.
+   !> Report why system I could not be built.
    subroutine report_unplaced(deck, i, ids, grids)
       type(checked_deck), intent(in)  :: deck
       integer, intent(in)             :: i
@@ -105,7 +105,7 @@ contains
       end associate
    end subroutine report_unplaced
 
-   !> Position of the system that FIELD of the card on LINE calls ID; 0 for global axes, and, with an error, where there is none.
+   !> Position of the system ID in FIELD of the card on LINE; 0 for global axes, and, with an error, for a missing system.
    subroutine find_system(deck, line, field, id, systems, system)
       type(checked_deck), intent(in)      :: deck
       integer, intent(in)                 :: line
@@ -121,13 +121,13 @@ contains
       if (system > size(systems)) system = 0
    end subroutine find_system
 
-   !> X of all GRID cards in global axes; each card once a system says so.
+   !> X of all GRID cards in global axes; each card is placed once its system is known.
    subroutine place_grids(deck, systems, x)
       type(checked_deck), intent(in)      :: deck
       type(coordinate_system), intent(in) :: systems(:)
       real(wp), intent(inout)             :: x(:, :) !! (3, at least as many as GRID cards) set here [length]
       integer :: i, system
-      real(wp), parameter :: rounding = 1.0e-12_wp ! of how far points and systems are: no distance from an axis
+      real(wp), parameter :: rounding = 1.0e-12_wp ! of the distance of points and systems: a smaller distance from an axis is zero
 
       do i = 1, size(deck%bulk%grid)
          associate (grid => deck%bulk%grid(i))
@@ -141,8 +141,8 @@ contains
       end do
    end subroutine place_grids
 
-   !> VECTOR, given in system CID at the point X, in global axes; the card on LINE has CID in FIELD.
-   !! Errors: no such system, on the axis of a cylindrical or spherical one.
+   !> VECTOR, given in system CID at the point X, in global axes; CID stands in FIELD of the card on LINE.
+   !! Errors: no such system, a point on the axis of a cylindrical or spherical one.
    subroutine to_global(deck, systems, line, cid, x, vector)
       type(checked_deck), intent(in)      :: deck
       type(coordinate_system), intent(in) :: systems(:)
@@ -160,8 +160,8 @@ contains
       if (ok) vector = matmul(directions, vector)
    end subroutine to_global
 
-   !> The DIRECTIONS of SYSTEM, which FIELD of the card on LINE names, at the point X, columns. Not OK, and an error, on the axis of a
-   !! cylindrical or spherical one.
+   !> The DIRECTIONS of SYSTEM, named in FIELD of the card on LINE, at the point X, columns. OK is false, with an error, on the axis of a
+   !! cylindrical or spherical system.
    subroutine find_directions(deck, line, field, system, x, directions, ok, point)
       type(checked_deck), intent(in)      :: deck
       integer, intent(in)                 :: line
@@ -170,7 +170,7 @@ contains
       real(wp), intent(in)                :: x(3)      !! global axes [length]
       real(wp), intent(out)               :: directions(3, 3)
       logical, intent(out)                :: ok
-      character(*), intent(in), optional  :: point     !! what the card calls it; 'the node'
+      character(*), intent(in), optional  :: point     !! the name of the point on the card; default 'the node'
       character(:), allocatable :: name
 
       call directions_at(system, x, directions, ok)
@@ -181,8 +181,8 @@ contains
                             ', where its first two directions are not defined')
    end subroutine find_directions
 
-   !> The axes, columns, of the rectangular system CID of the card on LINE; those of CID 0 are global. Errors: no such system; one of
-   !! another kind, BUT what it is for.
+   !> The axes, columns, of the rectangular system CID of the card on LINE; global axes for CID 0. Errors: no such system; a system of
+   !! another kind. BUT is the end of this message: what the system is for.
    subroutine rectangular_axes(deck, systems, line, cid, but, axes)
       type(checked_deck), intent(in)      :: deck
       type(coordinate_system), intent(in) :: systems(:)
@@ -233,7 +233,7 @@ contains
          integer, intent(in) :: k
 
          if (.not. allocated(model%node_system)) allocate (model%node_system(model%n_nodes), source=0)
-         if (model%node_system(k) > 0) return ! of a number given twice there is one node
+         if (model%node_system(k) > 0) return ! a number given twice has one node
          model%node_system(k) = system
          associate (d => model%dimension)
             call couple_node(model%coupling, model%n_nodes, k, [k], reshape(directions(:d, :d), [d, d, 1]))

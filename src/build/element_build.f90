@@ -1,5 +1,4 @@
-!> Body elements and their properties: from their cards and the block generators to positions in the model, and whether they are
-!! sound.
+!> Body elements and their properties, from cards and block generators to positions; checks of their shape.
 module element_build
    use block_mesh, only: block_type
    use bulk_data, only: element_card, property_card
@@ -17,13 +16,13 @@ module element_build
    implicit none
    private
 
-   integer, parameter :: few = 4096 ! elements that are not worth more than one thread
+   integer, parameter :: few = 4096 ! number of elements up to which one thread is used
 
    public :: resolve_properties, collect_elements, check_element_numbers, check_elements, check_one_state, is_face
 
 contains
 
-   !> Whether an element card marks a face: in a model of space CTRIA3, CQUAD4 and those of second order whose property is no PSHELL.
+   !> Whether an element card marks a face: in space a CTRIA3, CQUAD4 or second-order card whose property is no PSHELL.
    elemental logical function is_face(model, card)
       type(model_type), intent(in)   :: model
       type(element_card), intent(in) :: card
@@ -32,8 +31,8 @@ contains
       if (is_face) is_face = .not. any(model%properties%id == card%property .and. model%properties%state == shell)
    end function is_face
 
-   !> Every PSHELL, PAXIS and PSOLID with its material, and the sections of beams behind them. In space a PSHELL with the
-   !! material of bending is that of shells.
+   !> Every PSHELL, PAXIS and PSOLID with its material, followed by the sections of beams. In space a PSHELL with a bending material
+   !! is a shell property.
    subroutine resolve_properties(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -74,7 +73,7 @@ contains
       end do
    end subroutine resolve_properties
 
-   !> Elements of cards and of blocks, in ascending order of their numbers; mid-side nodes left blank are blank_node.
+   !> Elements of cards and of blocks, in ascending order of their numbers; blank mid-side nodes become blank_node.
    subroutine collect_elements(deck, blocks, raw, position, model)
       type(checked_deck), intent(in)  :: deck
       type(block_type), intent(in)    :: blocks(:)
@@ -149,8 +148,8 @@ contains
       n_elements = sum([(size(blocks(b)%element_id), b = 1, size(blocks))])
    end function n_elements
 
-   !> The property ID of an element of a KIND must be one of its own sort; PROPERTY is its position, 0 for none, and set to 0
-   !! where it is of another.
+   !> The property ID of an element of a KIND must be a property for this kind; PROPERTY is its position, 0 for a missing property or one
+   !! for another kind.
    subroutine check_property(deck, model, line, id, kind, property)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -183,7 +182,8 @@ contains
       end if
    end subroutine check_property
 
-   !> No element number twice, bodies, faces, edges, interface elements and rigid ones counted together as NASTRAN does.
+   !> Errors: an element number that is given twice. Bodies, faces, edges, interface elements and rigid elements share one numbering, as
+   !! in NASTRAN.
    subroutine check_element_numbers(deck, blocks)
       type(checked_deck), intent(in) :: deck
       type(block_type), intent(in)   :: blocks(:)
@@ -208,8 +208,8 @@ contains
       call deck%report_repeated('element', id, line, n_cards=n_cards)
    end subroutine check_element_numbers
 
-   !> Plane bodies and bodies of revolution cannot be mixed: the forces of the ones are those of their thickness, of the
-   !! others those of the whole ring.
+   !> Plane and axisymmetric bodies must not be mixed: forces of a plane body are those of its thickness, forces of an axisymmetric
+   !! body those of the whole ring.
    subroutine check_one_state(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -233,11 +233,11 @@ contains
       model%axisymmetric = rings
    end subroutine check_one_state
 
-   !> Every plane element has a positive area at all its corners, every solid a positive volume where it is integrated.
+   !> Errors: an element whose det J is not positive: in a plane element at the corners, in a solid at its integration points.
    subroutine check_elements(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
-      type(id_table_type)  :: doubtful_blocks ! by their lines
+      type(id_table_type)  :: doubtful_blocks ! lines of the block cards already reported
       logical, allocatable :: doubtful(:), sound(:)
       integer :: e, i, last_line, node
 
@@ -256,7 +256,7 @@ contains
       !$omp end parallel do
       last_line = 0
       do e = 1, model%n_elements
-         if (sound(e) .or. model%element_line(e) == last_line) cycle ! once a card
+         if (sound(e) .or. model%element_line(e) == last_line) cycle ! one error per card
          last_line = model%element_line(e)
          call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '// &
                          shape_words(model%element_kind(e)))
@@ -264,7 +264,7 @@ contains
 
    contains
 
-      !> Whether element E has a shape to compute with, or is one that cannot be told of yet.
+      !> Whether element E has a valid shape, or cannot be checked yet.
       pure logical function is_sound(e)
          integer, intent(in) :: e
 
@@ -273,9 +273,9 @@ contains
             if (any(nodes == 0)) return
             if (any(doubtful(nodes))) return
             if (doubtful_blocks%find(model%element_line(e)) > 0) return
-            if (model%element_kind(e) == kind_edge2) return ! a beam: its length is asked for with its offsets
+            if (model%element_kind(e) == kind_edge2) return ! a beam: its length is checked with its offsets
             if (model%dimension == 3 .and. element_table(model%element_kind(e))%dimension == 2) then
-               if (size(nodes) > 4) return ! of second order: said already
+               if (size(nodes) > 4) return ! second order: reported already
                is_sound = smallest_jacobian(model%element_kind(e), flat_coordinates(model%x(:, nodes))) > 0.0_wp
             else
                is_sound = smallest_jacobian(model%element_kind(e), model%x(:model%dimension, nodes)) > 0.0_wp
@@ -285,7 +285,7 @@ contains
 
    end subroutine check_elements
 
-   !> What an element of a KIND lacks, and what was expected.
+   !> Text: what is wrong with the shape of an element of a KIND, and what was expected.
    pure function shape_words(kind) result(words)
       integer, intent(in) :: kind
       character(:), allocatable :: words

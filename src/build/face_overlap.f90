@@ -1,6 +1,6 @@
-!> Where two faces of a joint lie over one another: the points over which to integrate. The first face is seen in the plane
-!! through its centre at right angles to its normal there; what stands opposite is projected on that plane along the normal.
-!! Faces are taken in parts with straight rims; what two parts have in common is a polygon, of edges an interval.
+!> The overlap of two faces of a joint, as integration points in the plane of the first face.
+!! This plane goes through the centre of the first face, perpendicular to its normal there; the opposite face is projected onto it along
+!! the normal. Faces are divided into parts with straight edges; the overlap of two parts is a polygon, of two edges an interval.
 module face_overlap
    use element_kinds, only: centre_point, max_nodes, max_side_nodes, side_kind
    use kinds, only: wp
@@ -13,37 +13,37 @@ module face_overlap
    public :: make_frame, in_frame, find_point, map_point, surface_vector, clip_polygon, drop_straight_corners, polygon_area, &
              polygon_centroid, overlap_points, seen_area
 
-   !> Axes of a face: columns s and t in its plane, of an edge s along it, and its normal h out of the body.
+   !> Axes of a face: columns s and t in its plane (for an edge, s along it), and the normal h out of the body.
    type, public :: face_frame
       real(wp) :: centre(3) = 0.0_wp
       real(wp) :: axes(3, 3) = 0.0_wp
    end type face_frame
 
-   !> A face as it is seen in a frame.
+   !> A face in the coordinates of a frame.
    type, public :: seen_face
       logical  :: is_edge = .false.
       integer  :: kind = 0                    !! of its shape functions, from side_kind
-      integer  :: n = 0                       !! nodes
-      real(wp) :: x(3, max_side_nodes) = 0.0_wp !! s, t and h of each [length]
+      integer  :: n = 0                       !! number of nodes
+      real(wp) :: x(3, max_side_nodes) = 0.0_wp !! s, t and h of each node [length]
    end type seen_face
 
    integer, parameter  :: most_steps = 30     ! of Newton
-   real(wp), parameter :: still = 1.0e-14_wp  ! a step in local coordinates below which there is no further one
+   real(wp), parameter :: still = 1.0e-14_wp  ! a step in local coordinates below which the iteration stops
 
-   !> Points in the plane of the first face, and what each of them stands for there.
+   !> Integration points in the plane of the first face, with their weights.
    type, public :: plane_points
       integer :: n = 0
       real(wp), allocatable :: place(:, :) !! (2, room) s and t [length]
-      real(wp), allocatable :: weight(:)   !! (room) area, of edges length; their sum is the overlap
+      real(wp), allocatable :: weight(:)   !! (room) area, of edges length; the sum is the overlap
    end type plane_points
 
    integer, parameter  :: most_corners = 4           ! of a part
    integer, parameter  :: most_parts = 5             ! of a face
-   integer, parameter  :: room = 4*2**most_corners   ! corners of what two parts have in common
+   integer, parameter  :: room = 4*2**most_corners   ! corners of the overlap of two parts
    integer, parameter  :: corner_numbers(4) = [1, 2, 3, 4]
-   real(wp), parameter :: least_piece = 1.0e-10_wp   ! of the area of the first face: what is smaller is dropped
+   real(wp), parameter :: least_piece = 1.0e-10_wp   ! of the area of the first face: a smaller overlap is dropped
 
-   real(wp), parameter :: straight = 1.0e-3_wp       ! of that: the triangle of a corner at which a polygon does not turn
+   real(wp), parameter :: straight = 1.0e-3_wp       ! of least_piece: area of the triangle at a corner where the polygon does not turn
 
    ! Gauss, five points. Source: Abramowitz, Stegun, Handbook of Mathematical Functions, Table 25.4.
    real(wp), parameter :: r = sqrt(10.0_wp/7.0_wp), q = sqrt(70.0_wp)
@@ -54,7 +54,7 @@ module face_overlap
 
 contains
 
-   !> The frame of a face with its nodes at X; no axes where it has no area.
+   !> The frame of a face with nodes X; zero axes where the face has no area.
    pure subroutine make_frame(dimension, x, frame)
       integer, intent(in)           :: dimension !! of the model: 2, edges, or 3, faces
       real(wp), intent(in)          :: x(:, :)   !! (3, nodes) [length]
@@ -68,7 +68,7 @@ contains
       call shape_derivatives(kind, centre_point(:, kind), dn)
       frame%centre = matmul(x, n(:nodes))
       a = matmul(x, dn(1, :nodes))
-      b = [0.0_wp, 0.0_wp, 1.0_wp]               ! the body on the left of an edge, its right-hand normal
+      b = [0.0_wp, 0.0_wp, 1.0_wp]               ! body on the left of an edge, right-hand normal
       if (dimension == 3) b = matmul(x, dn(2, :nodes))
       normal = cross(a, b)
       if (norm2(normal) <= 0.0_wp) return
@@ -77,7 +77,7 @@ contains
       frame%axes(:, 2) = cross(frame%axes(:, 3), frame%axes(:, 1))
    end subroutine make_frame
 
-   !> The face with its nodes at X as it is seen in FRAME.
+   !> The face with nodes X in the coordinates of FRAME.
    pure function in_frame(dimension, x, frame) result(face)
       integer, intent(in)          :: dimension
       real(wp), intent(in)         :: x(:, :) !! (3, nodes) [length]
@@ -93,7 +93,7 @@ contains
       end do
    end function in_frame
 
-   !> Local coordinates POINT of the place of FACE that is seen at PLACE, by Newton's method.
+   !> Local coordinates POINT of the point of FACE that is projected to PLACE, by Newton's method.
    pure subroutine find_point(face, place, point, is_found)
       type(seen_face), intent(in) :: face
       real(wp), intent(in)        :: place(2)  !! s and t [length]
@@ -119,10 +119,10 @@ contains
          is_found = maxval(abs(step)) <= still*(1.0_wp + maxval(abs(point)))
          if (is_found .or. .not. maxval(abs(point)) < 1.0e3_wp) return
       end do
-      is_found = maxval(abs(step)) <= 1.0e-9_wp ! it turns about the point, by rounding
+      is_found = maxval(abs(step)) <= 1.0e-9_wp ! iterates alternate about the point by rounding
    end subroutine find_point
 
-   !> What FACE has at a POINT of it: its shape functions N, and where it is.
+   !> Shape functions N and position of FACE at a POINT.
    pure subroutine map_point(face, point, n, x)
       type(seen_face), intent(in) :: face
       real(wp), intent(in)        :: point(3)
@@ -133,8 +133,8 @@ contains
       x = matmul(face%x(:, :face%n), n(:face%n))
    end subroutine map_point
 
-   !> The outward vector of the surface of FACE at a POINT, in the frame: as long as the area, of an edge the length, that is seen
-   !! as one; 0 where the face is seen from the side there.
+   !> The outward area vector of FACE at a POINT, in the frame, divided by the projected area (of an edge, length); 0 where the projected
+   !! area is zero.
    pure function surface_vector(face, point) result(vector)
       type(seen_face), intent(in) :: face
       real(wp), intent(in)        :: point(3)
@@ -153,12 +153,12 @@ contains
       end if
    end function surface_vector
 
-   !> The part of SUBJECT that lies in the convex polygon WINDOW, in the sense of SUBJECT; a corner may stand there twice.
+   !> The part of SUBJECT inside the convex polygon WINDOW, with the orientation of SUBJECT; a corner may occur twice.
    !! Source: Sutherland and Hodgman, Reentrant polygon clipping, Comm. ACM 17 (1974) 32-42.
    pure subroutine clip_polygon(subject, window, n, common)
       real(wp), intent(in)    :: subject(:, :) !! (2, corners)
       real(wp), intent(in)    :: window(:, :)  !! (2, corners), counter-clockwise
-      integer, intent(out)    :: n             !! corners of COMMON; 0: they do not meet
+      integer, intent(out)    :: n             !! number of corners of COMMON; 0: no overlap
       real(wp), intent(inout) :: common(:, :)  !! (2, room for twice the corners of SUBJECT for each side of WINDOW), set here
       real(wp) :: before(2, size(common, 2)), along(2), here, last
       integer  :: i, k, m, previous
@@ -186,7 +186,7 @@ contains
 
    contains
 
-      !> Positive on the left of side K of the window, zero on it.
+      !> Positive to the left of side K of the window, zero on it.
       pure real(wp) function left_of(point)
          real(wp), intent(in) :: point(2)
 
@@ -195,11 +195,11 @@ contains
 
    end subroutine clip_polygon
 
-   !> Drop the corners of POLYGON at which it does not turn: clipping leaves some, by rounding, where sides of both polygons lie on one
-   !! another. A corner goes with which the triangle between its neighbours has no more than the area LEAST.
+   !> Drop the corners of POLYGON at which it does not turn. Clipping leaves some, by rounding, where sides of both polygons coincide.
+   !! A corner is dropped if its triangle with both neighbours has at most the area LEAST.
    pure subroutine drop_straight_corners(least, n, polygon)
       real(wp), intent(in)    :: least         !! [length^2]
-      integer, intent(inout)  :: n             !! corners
+      integer, intent(inout)  :: n             !! number of corners
       real(wp), intent(inout) :: polygon(:, :) !! (2, room) [length]
       real(wp) :: before(2), next(2)
       integer  :: k, kept
@@ -208,7 +208,7 @@ contains
       before = polygon(:, n)
       kept = 0
       do k = 1, n
-         next = polygon(:, merge(1, k + 1, k == n)) ! at the end the first that is kept
+         next = polygon(:, merge(1, k + 1, k == n)) ! after the last corner comes the first one kept
          if (abs(polygon_area(reshape([before, polygon(:, k), next], [2, 3]))) <= least) cycle
          kept = kept + 1
          polygon(:, kept) = polygon(:, k)
@@ -233,7 +233,7 @@ contains
       centroid = polygon(:, 1) + centroid/all_area
    end function polygon_centroid
 
-   !> Area of POLYGON, negative where its corners go round clockwise [length^2].
+   !> Area of POLYGON, negative for a clockwise polygon [length^2].
    pure real(wp) function polygon_area(polygon) result(area)
       real(wp), intent(in) :: polygon(:, :) !! (2, corners) [length]
       integer :: i
@@ -246,7 +246,7 @@ contains
       end do
    end function polygon_area
 
-   !> The POINTS of the overlap of two faces.
+   !> The integration POINTS of the overlap of two faces.
    pure subroutine overlap_points(first, second, points)
       type(seen_face), intent(in)       :: first, second !! both in the frame of FIRST
       type(plane_points), intent(inout) :: points        !! set here; keeps its room
@@ -272,7 +272,7 @@ contains
       end do
    end subroutine overlap_points
 
-   !> Area of FACE as it is seen: of its parts together, of an edge its length.
+   !> Projected area of FACE, the sum over its parts; of an edge its length.
    pure real(wp) function seen_area(face) result(area)
       type(seen_face), intent(in) :: face
       integer :: k, n, parts(most_corners, most_parts)
@@ -290,7 +290,7 @@ contains
       end do
    end function seen_area
 
-   !> The N parts of a face by its nodes, 0 behind the last: where it has mid-side nodes, those between them and the corners.
+   !> The N parts of a face as lists of nodes, 0 behind the last. A face with mid-side nodes is divided at them.
    pure subroutine list_parts(face, n, parts)
       type(seen_face), intent(in) :: face
       integer, intent(out)        :: n
@@ -312,7 +312,7 @@ contains
       end if
    end subroutine list_parts
 
-   !> Where the nodes of a PART of FACE are seen.
+   !> The projected corners of a PART of FACE.
    pure function corners(face, part) result(rim)
       type(seen_face), intent(in) :: face
       integer, intent(in)         :: part(:) !! 0 behind the last
@@ -321,7 +321,7 @@ contains
       rim = face%x(:2, part(:size(rim, 2)))
    end function corners
 
-   !> Add the points of what the intervals A and B have in common.
+   !> Add the points of the intersection of the intervals A and B.
    pure subroutine add_interval(a, b, smallest, points)
       real(wp), intent(in)              :: a(2), b(2)
       real(wp), intent(in)              :: smallest
@@ -338,8 +338,8 @@ contains
       end do
    end subroutine add_interval
 
-   !> Add the points of what the polygons A and B have in common: the RULE over each triangle of a fan from the centroid, so that it
-   !! does not matter which corner the polygon begins with. A triangle is its own fan.
+   !> Add the points of the intersection of the polygons A and B: the RULE over each triangle of a fan from the centroid, so that the
+   !! result does not depend on the first corner. A triangle is not divided.
    pure subroutine add_polygon(a, b, rule, smallest, points)
       real(wp), intent(in)               :: a(:, :), b(:, :) !! (2, corners), either sense; A convex
       type(integration_rule), intent(in) :: rule
@@ -371,7 +371,7 @@ contains
       end associate
    end subroutine add_polygon
 
-   !> Add the points of the RULE over a triangle of these CORNERS, whose polygon has the SENSE +1 or -1.
+   !> Add the points of the RULE over a triangle with these CORNERS; SENSE is the orientation of its polygon, +1 or -1.
    pure subroutine add_triangle(corners, sense, rule, points)
       real(wp), intent(in)               :: corners(2, 3), sense
       type(integration_rule), intent(in) :: rule
@@ -386,7 +386,7 @@ contains
       end do
    end subroutine add_triangle
 
-   !> Add a point.
+   !> Append a point; the arrays are doubled when they are full.
    pure subroutine add_point(place, weight, points)
       real(wp), intent(in)              :: place(2), weight
       type(plane_points), intent(inout) :: points

@@ -1,5 +1,5 @@
-!> The bodies of a model as a user would name them, their outer sides, which bodies face each other, and which are held by nothing:
-!! found by counting, before anything is factorised.
+!> The bodies of a model, their outer sides, the pairs of facing bodies, and bodies without support.
+!! Unsupported bodies are found from the connectivity, before any factorisation.
 module facing_bodies
    use element_kinds, only: element_table
    use element_mapping, only: two_pi
@@ -17,8 +17,8 @@ module facing_bodies
 
    public :: list_bodies, body_words, box_words, list_outer_sides, find_facing, loose_words, rounded
 
-   real(wp), parameter :: on_rim = 1.0e-6_wp   ! of the size of a side: a point so near to its rim is on it
-   integer, parameter  :: most_said = 5        ! loose bodies
+   real(wp), parameter :: on_rim = 1.0e-6_wp   ! of the size of a side: a point nearer to its rim lies on the rim
+   integer, parameter  :: most_said = 5        ! number of unsupported bodies that a message lists
 
    type, public :: body_type
       integer  :: first = huge(1), last = 0    !! lowest and highest number of its elements
@@ -26,11 +26,11 @@ module facing_bodies
       real(wp) :: low(3) = huge(1.0_wp), high(3) = -huge(1.0_wp) !! the box around it [length]
    end type body_type
 
-   !> A side of an element that no other element has, or one of the two faces of a shell.
+   !> A side of one element only, or one of the two faces of a shell.
    type, public :: outer_side
       integer  :: element = 0, body = 0
-      integer  :: side = 0                     !! 0: the face of a shell along its normal, -1: the other one
-      integer  :: n = 0                        !! corners
+      integer  :: side = 0                     !! 0: the face of a shell along its normal, -1: the opposite face
+      integer  :: n = 0                        !! number of corners
       integer  :: corners(4) = 0               !! positions of nodes
       real(wp) :: centre(3) = 0.0_wp           !! [length]
       real(wp) :: normal(3) = 0.0_wp           !! unit, out of the body
@@ -38,18 +38,18 @@ module facing_bodies
       real(wp) :: size = 0.0_wp                !! longest edge [length]
    end type outer_side
 
-   !> Two bodies that face each other: those of its sides of which the centres see the other body. SIDE1, of the finer mesh, is first.
+   !> Two facing bodies, with the sides whose centres face the other body. SIDE1, with the finer mesh, comes first.
    type, public :: facing_type
       integer  :: body(2) = 0
-      integer  :: n(2) = 0                     !! sides of each body that see the other
-      real(wp) :: area(2) = 0.0_wp             !! of these [length^2]
+      integer  :: n(2) = 0                     !! number of sides of each body that face the other body
+      real(wp) :: area(2) = 0.0_wp             !! area of these sides [length^2]
       real(wp) :: gap(2) = [huge(1.0_wp), -huge(1.0_wp)] !! smallest and largest distance along the normals [length]
       real(wp) :: normal(3) = 0.0_wp           !! mean of SIDE1, unit
    end type facing_type
 
 contains
 
-   !> All bodies, and which one each element belongs to.
+   !> All bodies, and the body of each element.
    pure subroutine list_bodies(model, body, bodies)
       type(model_type), intent(in)   :: model
       integer, intent(out)           :: body(:) !! (n_elements)
@@ -75,7 +75,7 @@ contains
       end do
    end subroutine list_bodies
 
-   !> 'body 3 (elements 1201 to 2400, 347 nodes, box (0, 0, 40) to (90, 30, 80))'
+   !> Text such as 'body 3 (elements 1201 to 2400, 347 nodes, box (0, 0, 40) to (90, 30, 80))'.
    pure function body_words(number, body) result(words)
       integer, intent(in)         :: number
       type(body_type), intent(in) :: body
@@ -85,7 +85,7 @@ contains
               integer_text(body%n_nodes)//' nodes, box '//box_words(body%low)//' to '//box_words(body%high)//')'
    end function body_words
 
-   !> '(0, 0, 40)'
+   !> Text such as '(0, 0, 40)'.
    pure function box_words(x) result(words)
       real(wp), intent(in)      :: x(3)
       character(:), allocatable :: words
@@ -118,7 +118,7 @@ contains
                   side(i) = s
                   corners(:size(own), i) = own
                   if (s == -1) corners(:size(own), i) = own(size(own):1:-1)
-                  least(1, i) = 0 ! compared with no side
+                  least(1, i) = 0 ! never equal to another side
                end do
             end associate
             cycle
@@ -156,7 +156,7 @@ contains
       end do
    end subroutine list_outer_sides
 
-   !> Whether A and B hold the same nodes.
+   !> Whether A and B have the same nodes.
    pure logical function are_same(a, b)
       integer, intent(in) :: a(4), b(4)
       integer :: k
@@ -164,7 +164,7 @@ contains
       are_same = all([(any(a(k) == b), k = 1, 4)]) .and. count(a > 0) == count(b > 0)
    end function are_same
 
-   !> Centre, normal, area and size of SIDE, of which the corners are known.
+   !> Centre, normal, area and size of SIDE from its corners.
    pure subroutine measure(model, side)
       type(model_type), intent(in)    :: model
       type(outer_side), intent(inout) :: side
@@ -179,7 +179,7 @@ contains
          side%size = max(side%size, norm2(x(:, 1 + modulo(k, side%n)) - x(:, k)))
       end do
       select case (side%n)
-      case (2) ! the body on the left of the edge
+      case (2) ! body on the left of the edge
          vector = [x(2, 2) - x(2, 1), x(1, 1) - x(1, 2), 0.0_wp]
       case (3)
          vector = 0.5_wp*cross(x(:, 2) - x(:, 1), x(:, 3) - x(:, 1))
@@ -202,7 +202,7 @@ contains
       end if
    end subroutine measure
 
-   !> Which bodies face each other, in the order of their numbers, and of every one of SIDES the body that its centre SEES, 0: none.
+   !> The facing bodies, in the order of their numbers, and for each of SIDES the body that its centre SEES, 0: none.
    pure subroutine find_facing(model, sides, pairs, sees)
       type(model_type), intent(in)  :: model
       type(outer_side), intent(in)  :: sides(:)
@@ -217,7 +217,7 @@ contains
       allocate (boxes(3, 2, size(sides)), sees(size(sides)), pairs(0))
       do i = 1, size(sides)
          associate (x => model%x(:, sides(i)%corners(:sides(i)%n)))
-            boxes(:, 1, i) = min(minval(x, dim=2), sides(i)%centre) ! that of a shell's face is off its nodes
+            boxes(:, 1, i) = min(minval(x, dim=2), sides(i)%centre) ! the centre of a shell face lies off its nodes
             boxes(:, 2, i) = max(maxval(x, dim=2), sides(i)%centre)
          end associate
       end do
@@ -262,7 +262,7 @@ contains
       end do
    end subroutine find_facing
 
-   !> Which of PAIRS has the bodies A and B; 0: none.
+   !> The position of the bodies A and B in PAIRS; 0: none.
    pure integer function place_of(pairs, a, b) result(p)
       type(facing_type), intent(in) :: pairs(:)
       integer, intent(in)           :: a, b
@@ -272,8 +272,8 @@ contains
       end do
    end function place_of
 
-   !> How far the centre of SIDE is from OTHER along its normal, gap or overlap [length]; huge where OTHER does not face SIDE there, or
-   !! is beyond the reach.
+   !> Distance of the centre of SIDE from OTHER along its normal, gap or overlap [length]; huge where OTHER does not face SIDE there, or
+   !! is farther away than the reach of the search.
    pure real(wp) function distance_over(model, side, other) result(distance)
       type(model_type), intent(in) :: model
       type(outer_side), intent(in) :: side, other
@@ -305,8 +305,8 @@ contains
       if (.not. lies_over) distance = huge(1.0_wp)
    end function distance_over
 
-   !> What of MODEL is held by nothing, in words; '' where all bodies are held: connected, over elements, bars, rigid elements and
-   !! joints, open or not, to a support, a rigid base or a spring to the ground.
+   !> Text that lists the unsupported bodies of MODEL; '' where elements, bars, rigid elements and joints (open or closed) connect every
+   !! body to a support, a rigid base or a grounded spring.
    function loose_words(model) result(words)
       type(model_type), intent(in) :: model
       character(:), allocatable    :: words
@@ -342,8 +342,8 @@ contains
       if (said > most_said) words = words//'; and others'
    end function loose_words
 
-   !> Sets of the parts of MODEL that hang together by joints: PARENT(1:), as of union-find; PARENT(0) is a part that the ground holds, 0:
-   !! there is none.
+   !> Sets of the parts of MODEL that joints connect: PARENT(1:) of a union-find structure; PARENT(0) is a part that is grounded, 0:
+   !! none.
    subroutine connect(model, parent)
       type(model_type), intent(in) :: model
       integer, intent(out)         :: parent(0:)
@@ -376,7 +376,7 @@ contains
 
    end subroutine connect
 
-   !> The body next to body I, ', 0 from body 1 over an area of about 1250: a JOINT?'; '' where there is none.
+   !> Text about the body next to body I, ', 0 from body 1 over an area of about 1250: a JOINT?'; '' where there is none.
    function neighbour_words(model, body, i) result(words)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: body(:) !! (n_elements)
@@ -414,7 +414,7 @@ contains
       words = '; the nearest body is '//integer_text(sides(p)%body)//', with nodes '//real_text(rounded(nearest))//' apart'
    end function neighbour_words
 
-   !> '0', or '0.1 to 0.3'.
+   !> Text of a gap: '0', or '0.1 to 0.3'.
    pure function distance_words(gap) result(words)
       real(wp), intent(in)      :: gap(2)
       character(:), allocatable :: words
@@ -423,7 +423,7 @@ contains
       if (gap(2) - gap(1) > 0.01_wp*gap(2)) words = words//' to '//real_text(rounded(gap(2)))
    end function distance_words
 
-   !> VALUE with three digits.
+   !> VALUE rounded to three digits.
    pure real(wp) function rounded(value)
       real(wp), intent(in) :: value
       character(16) :: text

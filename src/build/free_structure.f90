@@ -1,5 +1,6 @@
-!> A structure without any support that oscillates: its modes are those of the free structure, and for the state that they are
-!! about it is held by just as many components as it has rigid movements, which a load that balances itself does not feel.
+!> Statically determinate supports for a structure without supports whose free modes are requested.
+!! The reference state of the modes needs them: as many components are held as the structure has rigid-body motions. A
+!! self-equilibrated load causes no reactions there.
 module free_structure
    use bulk_data, only: rigid_card
    use deck_check, only: checked_deck
@@ -14,12 +15,12 @@ module free_structure
 
    public :: hold_free_structure, check_balance
 
-   real(wp), parameter :: balanced = 1.0e-6_wp ! resultant over the sum of the forces that a load may have
+   real(wp), parameter :: balanced = 1.0e-6_wp ! limit of the resultant over the sum of the forces of a self-equilibrated load
 
 contains
 
-   !> Hold the structure of MODEL where nothing does and some stage has MODES(FREE): all of a node with rotations, else three nodes of the
-   !! largest body that stand far apart, 3, 2 and 1 components. Nodes that depend on others, or are turned, are passed over.
+   !> Support the structure of MODEL if it has no supports and some stage has MODES(FREE): all components of a node with rotations, else 3,
+   !! 2 and 1 components of three distant nodes of the largest body. Dependent nodes and nodes with CD are skipped.
    subroutine hold_free_structure(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -29,9 +30,9 @@ contains
 
       if (.not. any(deck%control%stages%vibration%free) .or. any(model%held)) return
       if (any(deck%control%stages%vibration%modes%id > 0 .and. .not. deck%control%stages%vibration%free)) return
-      if (any(deck%bulk%spring%nodes(1) == 0 .or. deck%bulk%spring%nodes(2) == 0)) return ! to the ground
+      if (any(deck%bulk%spring%nodes(1) == 0 .or. deck%bulk%spring%nodes(2) == 0)) return ! a grounded spring
       do i = 1, size(model%interface)
-         if (named_node(model%interface(i), 2) == 0) return                               ! to a base
+         if (named_node(model%interface(i), 2) == 0) return                               ! a rigid base
       end do
       if (model%n_elements == 0) return
       parent = [(i, i = 1, size(parent))]
@@ -83,7 +84,7 @@ contains
       b = first_largest(off, may_be)
       along = (model%x(:, b) - model%x(:, a))/max(off(b), tiny(1.0_wp))
       k = first_largest(abs(along))
-      if (model%dimension == 2) then ! it turns about a: the one that moves most
+      if (model%dimension == 2) then ! the structure turns about a: the component with the largest movement
          call hold(model, b, merge(2, 1, k == 1))
          return
       end if
@@ -97,7 +98,7 @@ contains
 
    contains
 
-      !> The nodes of CARD depend on each other.
+      !> Skip the nodes of CARD, because they depend on each other.
       subroutine pass_over(card)
          type(rigid_card), intent(in) :: card
          integer :: k, node
@@ -112,7 +113,7 @@ contains
 
    end subroutine hold_free_structure
 
-   !> Of a structure that nothing holds the loads of every stage must balance.
+   !> Error: a load of a stage that is not self-equilibrated, in a structure without supports.
    subroutine check_balance(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model

@@ -1,5 +1,5 @@
-!> Joints: their laws from PJOINT, JNORM and JSHEAR cards, and their interface elements, between two facing surfaces, between a
-!! surface and a rigid base, or given outright.
+!> Joints: laws from PJOINT, JNORM and JSHEAR cards, and interface elements from JOINT and CJOINT cards.
+!! The elements lie between two facing surfaces, between a surface and a rigid base, or are given one by one.
 module joint_build
    use bulk_data, only: cjoint_card
    use deck_check, only: checked_deck
@@ -16,7 +16,7 @@ module joint_build
 
    public :: build_joints
 
-   !> Where what the cards name stands.
+   !> Tables to find the cards of a joint by their numbers.
    type :: joint_tables
       type(id_table_type) :: joint   !! the JOINT cards
       type(id_table_type) :: side    !! the sides of the JOINT cards, those of card j at 2 j - 1 and 2 j
@@ -37,14 +37,14 @@ contains
 
       i = 0
       if (id > 0) i = tables%pjoint%find(id)
-      if (i == 0) return ! said where the laws are checked
+      if (i == 0) return ! reported where the laws are checked
       associate (pjoint => deck%bulk%pjoint(i), law => joint%law)
          if (pjoint%p0_given) joint%p0 = pjoint%p0
          law%has_friction = pjoint%mu_given
          law%mu = pjoint%mu
          joint%n_reanalyses = pjoint%n_reanalyses
          k = tables%jnorm%find(pjoint%normal_law)
-         if (k > 0) then ! else said where PJOINT is checked
+         if (k > 0) then ! else reported where PJOINT is checked
             law%normal = deck%bulk%jnorm(k)%law
             joint%e_u_given = deck%bulk%jnorm(k)%e_u_given
          end if
@@ -56,9 +56,9 @@ contains
       end associate
    end subroutine resolve_laws
 
-   !> What JOINT takes from E of the bodies beside it: the unloading slope that the card leaves blank, the equivalent E of both,
-   !! 2 E1 E2/(E1 + E2), per unit length, on a rigid base E of the body. And a P0 above E is no pressure that they could bear: the joint
-   !! laws take the scale of rounding from P0, and would take the tension of an element for rounding.
+   !> Values of JOINT that depend on E of the adjacent bodies. A blank unloading slope becomes the equivalent E of both bodies,
+   !! 2 E1 E2/(E1 + E2), per unit length; on a rigid base E of the body. A P0 above E is an error: the bodies could not bear it, and the
+   !! rounding tolerance of the joint laws, which scales with P0, would hide the tension of an element.
    subroutine compare_with_bodies(deck, model, joint)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(in)    :: model
@@ -85,8 +85,8 @@ contains
          ': give about the mean pressure of the first increment')
    end subroutine compare_with_bodies
 
-   !> E of the bodies at END 1 or 2 of the interface elements of JOINT, if there are any: the mean of their elements at the nodes
-   !! there, areas of influence as weights, which the nodes of a list share out as its weights stand to each other [pressure].
+   !> E of the bodies at END 1 or 2 of the interface elements of JOINT, if there are any: the mean over the elements at the nodes,
+   !! weighted with the tributary areas, which are divided among the nodes of an end by their weights [pressure].
    pure subroutine find_modulus(model, joint, end, e, is_there)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
@@ -109,7 +109,7 @@ contains
             associate (elements => model%elements_at(model%first_at(nodes(k)):model%first_at(nodes(k) + 1) - 1))
                do j = 1, size(elements)
                   is_there = .true.
-                  if (model%element_property(elements(j)) == 0) cycle      ! said elsewhere
+                  if (model%element_property(elements(j)) == 0) cycle      ! reported elsewhere
                   weight = model%interface(i)%area*share(k)/size(elements)
                   total = total + weight
                   e = e + (model%properties(model%element_property(elements(j)))%e - e)*(weight/max(total, tiny(1.0_wp)))
@@ -119,7 +119,7 @@ contains
       end do
    end subroutine find_modulus
 
-   !> Fill the joints and interface elements of MODEL. CJOINT cards with the same PJOINT make up one joint.
+   !> Build the joints and interface elements of MODEL. CJOINT cards with the same PJOINT form one joint.
    subroutine build_joints(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -163,7 +163,7 @@ contains
       end do
    end subroutine build_joints
 
-   !> Put the interface elements of joint J behind the first N of the model's, which may have room for more.
+   !> Store the interface elements of joint J behind the first N of the model; the array may have spare room.
    subroutine add_elements(model, n, j, id, line, elements)
       type(model_type), intent(inout)        :: model
       integer, intent(inout)                 :: n
@@ -215,7 +215,7 @@ contains
       highest = highest + size(elements)
    end subroutine joint_elements
 
-   !> The surfaces of JOINT card J, SURFACE(2) = 0 where it names no SIDE2; both 0 where no joint can be made of them.
+   !> The surfaces of JOINT card J. SURFACE(2) = 0 where it names no SIDE2; both are 0 in case of an error.
    subroutine find_sides(deck, tables, j, model, surface)
       type(checked_deck), intent(in) :: deck
       type(joint_tables), intent(in) :: tables
@@ -255,7 +255,7 @@ contains
       end associate
    end subroutine find_sides
 
-   !> Whether bodies lie on both sides of some of SURFACE.
+   !> Whether bodies lie on both sides of any part of SURFACE.
    pure logical function is_shared(surface)
       type(surface_type), intent(in) :: surface
 
@@ -285,7 +285,7 @@ contains
       end do
    end subroutine cjoint_elements
 
-   !> The number of a joint of CJOINTs: that of its PJOINT, or where a JOINT has it already, the next that is free.
+   !> The number of a joint of CJOINTs: that of its PJOINT; if a JOINT has this number, the next free number.
    pure integer function group_number(deck, joints, law) result(number)
       type(checked_deck), intent(in)  :: deck
       type(id_table_type), intent(in) :: joints !! of the JOINT cards, by their ids
@@ -299,7 +299,7 @@ contains
          number = law + highest
          return
       end if
-      left = findloc(deck%bulk%pjoint%id, law, dim=1) ! behind the last number there is none: the free ones from 1 on, a law each
+      left = findloc(deck%bulk%pjoint%id, law, dim=1) ! numbers behind the last one are free; each law takes one, from 1 on
       number = 0
       do while (left > 0)
          number = number + 1

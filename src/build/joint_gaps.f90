@@ -1,14 +1,14 @@
-!> The initial gaps of the joints, from JGAP cards to the interface elements. Gaps given at scattered points of a plane are
-!! interpolated linearly: on the triangles of the points' Delaunay triangulation, or where all points lie on one line along it;
-!! outside, the value at the nearest place of the points' outline. Linear values are met exactly, and the interpolation is
-!! continuous.
+!> The initial gaps of the joints, from JGAP cards to the interface elements.
+!! Gaps at scattered points of a plane are interpolated linearly on the triangles of the Delaunay triangulation of the points; for
+!! collinear points along their line. Outside the convex hull the value at the nearest point of the hull holds. The interpolation is
+!! continuous and exact for linear values.
 !!
-!! The triangle around a place is found without the triangulation: lifted onto the paraboloid z = x**2 + y**2, it is the lowest one
-!! above the place. So from any triangle around the place the point farthest below its plane is exchanged for one of the corners,
-!! until there is none (the simplex method). Points on a grid make squares, of which both diagonals are as low: the paraboloid is a
-!! little oblique, in no direction that a grid would have, and one of them is lower everywhere. Where that makes no difference, in
-!! squares turned by half a radian, points count as lower by next to nothing, the first by most, every other by much less than
-!! the one before it (simulation of simplicity: Edelsbrunner and Muecke, ACM Transactions on Graphics 9 (1990) 66).
+!! The triangle around a place is found without the triangulation. With all points lifted onto the paraboloid z = x**2 + y**2, it is the
+!! lowest triangle above the place. Starting from any triangle around the place, the point farthest below its plane replaces one of
+!! the corners until no point is below (simplex method). For points on a grid both diagonals of a square are equally low. Therefore the
+!! paraboloid is slightly tilted, in a direction that no grid is likely to have, and one diagonal is lower everywhere. For squares for
+!! which the tilt makes no difference (turned by half a radian) points are lowered by infinitesimal amounts, the first by most, each
+!! next one by much less (simulation of simplicity: Edelsbrunner and Muecke, ACM Transactions on Graphics 9 (1990) 66).
 module joint_gaps
    use bulk_data, only: jgap_card
    use deck_check, only: checked_deck
@@ -22,28 +22,28 @@ module joint_gaps
 
    public :: build_gaps
 
-   real(wp), parameter :: rounding = 1.0e-9_wp               ! of the extent of the points: nearer ones are at one place
-   real(wp), parameter :: flat = 1.0e-13_wp                  ! of its square: a height that is none
-   real(wp), parameter :: oblique(2) = 1.0e-3_wp*[0.54_wp, 0.84_wp] ! cos, sin of 1: steepest at an angle of half of that
+   real(wp), parameter :: rounding = 1.0e-9_wp               ! of the extent of the points: nearer points coincide
+   real(wp), parameter :: flat = 1.0e-13_wp                  ! of the square of the extent: a smaller height is zero
+   real(wp), parameter :: oblique(2) = 1.0e-3_wp*[0.54_wp, 0.84_wp] ! cos, sin of 1: no difference for squares turned by 1/2
 
    type, public :: gap_table_type
       private
-      real(wp), allocatable :: x(:, :)         ! (2, n) about the centre, by the extent
+      real(wp), allocatable :: x(:, :)         ! (2, n) relative to the centre, divided by the extent
       real(wp), allocatable :: height(:)       ! (n) on the paraboloid
       real(wp), allocatable :: values(:)       ! (n)
-      integer, allocatable  :: outline(:)      ! corners of the convex hull, counter-clockwise; none: all on a line
+      integer, allocatable  :: outline(:)      ! corners of the convex hull, counter-clockwise; none: all points collinear
       real(wp) :: centre(2) = 0.0_wp, extent = 1.0_wp
-      real(wp) :: along(2) = 0.0_wp            ! the line, where they are on one; zero: a single point
+      real(wp) :: along(2) = 0.0_wp            ! direction of the line of collinear points; zero: a single point
    contains
       procedure :: build
       procedure :: value_at
    end type gap_table_type
 
-   real(wp), parameter :: touching = 1.0e-12_wp ! of the coordinates: what two faces are apart by less, they touch
+   real(wp), parameter :: touching = 1.0e-12_wp ! of the coordinates: faces with a smaller distance touch
 
 contains
 
-   !> The table of these VALUES at the points X(2, n). TWICE: two points at one place, 0: there are none; then it is not to be used.
+   !> The table of VALUES at the points X(2, n). TWICE: two coincident points, and the table must not be used; 0: there are none.
    pure subroutine build(self, x, values, twice)
       class(gap_table_type), intent(inout) :: self
       real(wp), intent(in)                 :: x(:, :), values(:)
@@ -74,8 +74,8 @@ contains
          call find_outline(self)
    end subroutine build
 
-   !> The corners of the convex hull, from the leftmost on: the next one has no point on its right. Points within ROUNDING of a side are on
-   !! it, and no corners: triangles of three of them would be none.
+   !> The corners of the convex hull, from the leftmost on: no point lies to the right of the line to the next corner. Points within
+   !! ROUNDING of a side lie on it and are no corners, because triangles of three such points would have no area.
    pure subroutine find_outline(self)
       class(gap_table_type), intent(inout) :: self
       real(wp) :: right
@@ -136,7 +136,7 @@ contains
       value = (1.0_wp - share)*self%values(before) + share*self%values(behind)
    end function value_on_line
 
-   !> A PLACE outside the outline moves to the nearest one on it.
+   !> Move a PLACE outside the convex hull to the nearest point of the hull.
    pure subroutine move_inside(self, place)
       class(gap_table_type), intent(in) :: self
       real(wp), intent(inout)           :: place(2)
@@ -161,7 +161,7 @@ contains
       if (outside) place = nearest
    end subroutine move_inside
 
-   !> The Delaunay triangle around PLACE, which is inside the outline: its CORNERS, and the WEIGHTS of their values there.
+   !> The Delaunay triangle around PLACE, which is inside the convex hull: its CORNERS, and the WEIGHTS of their values there.
    pure subroutine find_triangle(self, place, corners, weights)
       class(gap_table_type), intent(in) :: self
       real(wp), intent(in)              :: place(2)
@@ -206,8 +206,8 @@ contains
       weights = weights/sum(weights)
    end subroutine find_triangle
 
-   !> Whether point I, in the plane of the lifted CORNERS, in which they have these SHAREs, counts as below it: what the first of the
-   !! four is lower by decides. It is I itself, or a corner, with which the plane at I falls or rises.
+   !> Whether point I counts as below the plane of the lifted CORNERS if it lies in this plane, with these SHAREs in the corners. The
+   !! first of the four points decides, because it is lowered most: it is I itself, or a corner with which the plane at I falls or rises.
    pure logical function counts_as_below(i, corners, share)
       integer, intent(in)  :: i, corners(3)
       real(wp), intent(in) :: share(3)
@@ -217,7 +217,7 @@ contains
       counts_as_below = i < corners(k) .or. share(k) < 0.0_wp
    end function counts_as_below
 
-   !> The shares of three CORNERS(2, 3) in a PLACE: their weighted mean, with weights that add up to 1.
+   !> Barycentric coordinates of a PLACE with respect to three CORNERS(2, 3); their sum is 1.
    pure function shares(corners, place)
       real(wp), intent(in) :: corners(:, :), place(2)
       real(wp) :: shares(3), a(2), b(2), c(2)
@@ -265,7 +265,7 @@ contains
       end do
    end subroutine build_gaps
 
-   !> PLANE and TABLE: the gap follows from where in the joint an element is, x and y in the axes of the mean normal.
+   !> PLANE and TABLE: the gap is a function of the position x, y of an element in the axes of the mean normal.
    subroutine gaps_by_place(deck, card, joint, model)
       type(checked_deck), intent(in)  :: deck
       type(jgap_card), intent(in)     :: card
@@ -277,7 +277,7 @@ contains
       integer  :: i
       logical  :: ok
 
-      if (joint%last < joint%first) return ! said elsewhere
+      if (joint%last < joint%first) return ! reported elsewhere
       if (norm2(joint%normal) <= 0.0_wp) then
          call deck%field_error(card%line, 'KIND', trim(card%kind)//', but the normals of joint '//integer_text(joint%id)// &
                                ' point in all directions, so that it has no mean plane: expected CONST, NODES or TRUE')
@@ -285,7 +285,7 @@ contains
       end if
       axes = joint_axes(model, joint%normal)
       centroid = joint_centroid(model, joint)
-      if (model%axisymmetric) centroid(1) = 0.0_wp ! that of rings lies on the axis
+      if (model%axisymmetric) centroid(1) = 0.0_wp ! the centroid of a ring lies on the axis
       ok = .true.
       if (card%kind == 'TABLE') call start_table(deck, card, axes, centroid, model%dimension == 2, table, ok)
       if (card%kind == 'PLANE' .and. model%dimension == 2) then
@@ -308,19 +308,19 @@ contains
       end associate
    end subroutine gaps_by_place
 
-   !> The points of a TABLE in the plane of the joint; not OK where two are at one place there.
+   !> The points of a TABLE in the plane of the joint; OK is false where two points coincide in this plane.
    subroutine start_table(deck, card, axes, centroid, is_plane, table, ok)
       type(checked_deck), intent(in)      :: deck
       type(jgap_card), intent(in)         :: card
       real(wp), intent(in)                :: axes(3, 3), centroid(3)
-      logical, intent(in)                 :: is_plane !! x alone counts
+      logical, intent(in)                 :: is_plane !! only x is used
       type(gap_table_type), intent(inout) :: table
       logical, intent(out)                :: ok
       real(wp) :: x(2, size(card%gap))
       integer  :: twice(2)
 
       ok = size(card%gap) > 0
-      if (.not. ok) return ! said where the card is read
+      if (.not. ok) return ! reported where the card is read
       x = matmul(transpose(axes(:, :2)), card%x - spread(centroid, 2, size(card%gap)))
       if (is_plane) x(2, :) = 0.0_wp
       call table%build(x, card%gap, twice)
@@ -329,8 +329,8 @@ contains
          ' of the table coincides, seen along the normal of the joint, with point '//integer_text(twice(1)), called='X')
    end subroutine start_table
 
-   !> NODES: by node of SIDE1, zero where none is given. An element that hangs on several has their mean. A node on which none hangs, as
-   !! a corner of a flat face of six nodes, is on SIDE1 all the same. On the face of a shell the card names the nodes of the shell.
+   !> NODES: gaps of nodes of SIDE1, zero for a node that is not given. An element on several nodes has their mean. A node without
+   !! elements, such as a corner of a six-node face, is a node of SIDE1 too. For the face of a shell the card names the nodes of the shell.
    subroutine gaps_by_node(deck, card, joint, model)
       type(checked_deck), intent(in)  :: deck
       type(jgap_card), intent(in)     :: card
@@ -338,7 +338,7 @@ contains
       type(model_type), intent(inout) :: model
       real(wp), allocatable :: gap(:, :)
       integer, allocatable  :: given_at(:) ! 0: not on SIDE1, -1: not given
-      integer, allocatable  :: on_side(:)  ! the node itself, of a shell that of its face on SIDE1
+      integer, allocatable  :: on_side(:)  ! the node itself; of a shell its face node on SIDE1
       integer :: i, node
       character(:), allocatable :: words
 
@@ -382,7 +382,7 @@ contains
       end do
    end subroutine gaps_by_node
 
-   !> TRUE: the distance of the faces in the mesh along the normal, from end 1 to end 2.
+   !> TRUE: the distance of the faces in the mesh, along the normal from end 1 to end 2.
    subroutine true_gaps(deck, card, joint, model)
       type(checked_deck), intent(in)  :: deck
       type(jgap_card), intent(in)     :: card

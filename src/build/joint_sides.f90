@@ -1,6 +1,6 @@
-!> The interface elements of a JOINT card and their axes, along the joint and across it from node 1 to node 2: between two
-!! sides that match, by pairs of nodes; between sides that do not, by lists of nodes; between a surface and its twin or a rigid
-!! base. And the axes and the centroid of a joint as a whole.
+!> The interface elements of a JOINT card and their axes, and the axes and centroid of a joint.
+!! Sides with matching meshes are connected by pairs of nodes, other sides by lists of nodes with weights; one side alone is connected to
+!! its twin or to a rigid base. The normal points from node 1 to node 2.
 module joint_sides
    use bulk_data, only: fit_no, fit_yes
    use deck_check, only: checked_deck
@@ -20,12 +20,12 @@ module joint_sides
 
    public :: join_one_side, join_two_sides, joint_axes, outward, find_frame
 
-   ! of the largest moment of inertia, of that of the whole joint: a turn that moves no element
+   ! ratio of moments of inertia to the largest one of the joint below which a rotation moves no element
    real(wp), parameter, public :: straight = 1.0e-9_wp
 
 contains
 
-   !> The elements between a surface and its twin, where it was split, or a rigid base.
+   !> The elements between a surface and its twin, if the surface was split, or a rigid base.
    subroutine join_one_side(deck, j, model, surface, side, elements)
       type(checked_deck), intent(in)                       :: deck
       integer, intent(in)                                  :: j, surface
@@ -35,14 +35,14 @@ contains
       integer, allocatable :: kept(:)
       integer :: k
 
-      if (any(model%duplicate(side%node) > 0)) then ! without the nodes at which a split surface ends inside a body
+      if (any(model%duplicate(side%node) > 0)) then ! without the nodes of the edge of a split surface inside a body
          kept = pack([(k, k = 1, side%n)], model%duplicate(side%node) > 0)
          side = surface_node_list(size(kept), side%node(kept), side%area(kept), side%normal(:, kept))
       end if
       call pair_elements(deck, j, model, model%surfaces(surface), side, model%duplicate(side%node), elements)
    end subroutine join_one_side
 
-   !> The elements between two sides: pairs where every node has its partner and the card does not ask for a fit.
+   !> The elements between two sides: pairs if every node has a partner and the card does not request a projection.
    subroutine join_two_sides(deck, j, model, surface, side1, elements)
       type(checked_deck), intent(in)                       :: deck
       integer, intent(in)                                  :: j, surface(2)
@@ -75,8 +75,8 @@ contains
       end associate
    end subroutine join_two_sides
 
-   !> Elements between the nodes of SIDE and their partners, 0: a rigid base. Faces with mid-side nodes have theirs between these
-   !! alone, which hang on the corners too.
+   !> Elements between the nodes of SIDE and their partners, 0: a rigid base. Faces with mid-side nodes have elements at these nodes
+   !! alone, which are connected to the corners too.
    subroutine pair_elements(deck, j, model, surface, side, partner, elements)
       type(checked_deck), intent(in)                      :: deck
       integer, intent(in)                                 :: j
@@ -106,7 +106,8 @@ contains
       end do
    end subroutine pair_elements
 
-   !> SUMS over the faces of SURFACE, every node opposite its partner. What has none, at the tip of a split surface, is its own.
+   !> SUMS over the faces of SURFACE, every node opposite its partner. A node without a partner, at the edge of a split surface, is its own
+   !! partner.
    subroutine add_pairs(model, surface, side, partner, sums)
       type(model_type), intent(in)             :: model
       type(surface_type), intent(in)           :: surface
@@ -139,7 +140,7 @@ contains
       call sums%finish()
    end subroutine add_pairs
 
-   !> Elements of faces that do not match; how well they cover each other goes to joint J of MODEL.
+   !> Elements between sides that do not match; the coverage of the sides is stored in joint J of MODEL.
    subroutine fitted_elements(deck, j, model, surface, side1, elements)
       type(checked_deck), intent(in)                      :: deck
       integer, intent(in)                                 :: j, surface(2)
@@ -168,7 +169,7 @@ contains
       end associate
    end subroutine fitted_elements
 
-   !> The shortest distance between a node of one surface and one of the other [length].
+   !> The shortest distance between the nodes of two surfaces [length].
    pure real(wp) function nearest_nodes(model, surface) result(shortest)
       type(model_type), intent(in)   :: model
       integer, intent(in)            :: surface(2) !! of MODEL
@@ -186,7 +187,7 @@ contains
       end associate
    end function nearest_nodes
 
-   !> The elements that SUMS has at the nodes of SIDE, in their order.
+   !> The elements of SUMS at the nodes of SIDE, in their order.
    subroutine summed_elements(deck, j, model, side, sums, may_lack, elements)
       type(checked_deck), intent(in)                      :: deck
       integer, intent(in)                                 :: j
@@ -219,7 +220,7 @@ contains
       end do
    end subroutine summed_elements
 
-   !> SIDE1 of JOINT card J has no area at NODE.
+   !> Error: SIDE1 of JOINT card J has no area at NODE.
    subroutine no_area(deck, j, model, node, words)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: j, node
@@ -230,9 +231,9 @@ contains
                            ' has no area at node '//integer_text(model%node_id(node))//words)
    end subroutine no_area
 
-   !> Axes of an interface element with normal Z (unit): columns x, y, z, right-handed. In the plane x lies in the joint and y
-   !! out of the plane; x points towards +X (+Y where the joint stands upright). In space x is +X projected on the joint, or +Y
-   !! where the normal is within 25 degrees of X.
+   !> Axes of an interface element with normal Z (unit): columns x, y, z, right-handed. In the plane x is tangential to the joint and y is
+   !! normal to the plane; x points towards +X (+Y where the joint is vertical). In space x is the projection of +X onto the joint, or of
+   !! +Y where the normal is within 25 degrees of X.
    pure function joint_axes(model, z) result(axes)
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: z(3)
@@ -253,7 +254,7 @@ contains
    end function joint_axes
 
    !> The normal of a CJOINT in the sense from node 1 to node 2: out of the body at node 1, else into the body at node 2,
-   !! else as given. (The card gives the line; its sense follows from where the bodies lie.)
+   !! else as given. The card gives the line of the normal; the bodies give its sense.
    pure function outward(model, nodes, normal) result(z)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(2)
@@ -272,7 +273,7 @@ contains
       end do
    end function outward
 
-   !> +1 where the body at NODE lies in the direction of NORMAL, -1 where against it, 0 where it cannot be told.
+   !> +1 where the body at NODE lies in the direction of NORMAL, -1 where it lies opposite, 0 where neither holds.
    pure real(wp) function body_side(model, node, normal) result(side)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
@@ -291,8 +292,8 @@ contains
       if (abs(dot_product(to_body, normal)) > 0.05_wp*norm2(to_body)) side = sign(1.0_wp, dot_product(to_body, normal))
    end function body_side
 
-   !> Axes and centroid of JOINT. The axes are those that an interface element with the mean normal has; of a closed joint the
-   !! model's in space, in the plane z is +Y.
+   !> Axes and centroid of JOINT. The axes are those of an interface element with the mean normal; for a closed joint they are the
+   !! axes of the model in space, and z is +Y in the plane.
    pure function find_frame(model, joint) result(frame)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
@@ -301,12 +302,12 @@ contains
       real(wp) :: arm(3), inertia(3), normal(3)
       integer  :: i
 
-      normal = 0.0_wp ! mean by area, 1 long where the joint is plane
+      normal = 0.0_wp ! area-weighted mean, of length 1 for a plane joint
       do i = joint%first, joint%last
          normal = normal + model%interface(i)%area*model%interface(i)%axes(:, 3)/joint%area
       end do
       frame%faces_all_ways = norm2(normal) < closed_below
-      if (model%axisymmetric) normal(1) = 0.0_wp ! all round the ring it is the part along the axis
+      if (model%axisymmetric) normal(1) = 0.0_wp ! over the whole ring only the axial part remains
       frame%closed = norm2(normal) < closed_below
       if (frame%closed) then
          normal = 0.0_wp
@@ -324,7 +325,7 @@ contains
       frame%exists = .true.
       if (model%dimension == 2) frame%exists = [.true., .false., .true., .false., .true., .false.]
       if (model%axisymmetric) frame%exists = [.false., .false., .true., .false., .false., .false.]
-      if (frame%extent <= straight*norm2(frame%centroid)) frame%exists(4:) = .false. ! all in one place, but for rounding
+      if (frame%extent <= straight*norm2(frame%centroid)) frame%exists(4:) = .false. ! all elements at one place, to rounding
       frame%exists(4:) = frame%exists(4:) .and. inertia > straight*maxval(inertia)
    end function find_frame
 
