@@ -10,71 +10,71 @@ module branch_fit
 
    public :: scatter_of, find_turns, group_by_pressure, fit_loops, fit_points, fit_lines_only, fit_cubic, fit_cubic_in_pressure
 
-   !> One way down or up, lambda = LAMBDA + (p - P)/E_U about the middle of its points.
+   !> One line of unloading or reloading, lambda = LAMBDA + (p - P)/E_U, through the mean of its points.
    type, public :: loop_line
       integer  :: branch = 0, n_points = 0
       real(wp) :: p_low = 0.0_wp, p_high = 0.0_wp !! [pressure]
-      real(wp) :: lambda = 0.0_wp, p = 0.0_wp     !! means of its points [length], [pressure]
+      real(wp) :: lambda = 0.0_wp, p = 0.0_wp     !! means of the points [length], [pressure]
       real(wp) :: set = 0.0_wp                    !! lambda at p = 0 [length]
-      real(wp) :: e_u = 0.0_wp                    !! [pressure/length], 0: no rising line
+      real(wp) :: e_u = 0.0_wp                    !! [pressure/length], 0: no line with positive slope
    end type loop_line
 
    type, public :: loop_fit_type
       type(loop_line), allocatable :: lines(:)
       integer  :: n_points = 0
-      real(wp) :: e_u   = 0.0_wp  !! of all lines together [pressure/length], 0: none
-      real(wp) :: error = 0.0_wp  !! standard error of E_U, as a share of it
+      real(wp) :: e_u   = 0.0_wp  !! common slope of all lines [pressure/length], 0: none
+      real(wp) :: error = 0.0_wp  !! standard error of E_U relative to E_U
       real(wp) :: rms   = 0.0_wp  !! of lambda about lines of this slope [length]
       integer, allocatable :: line_of(:) !! (points) 0: loading, -1: no line
    end type loop_fit_type
 
-   real(wp), parameter :: rounding = 1.0e-13_wp ! share of a coefficient in tau below which it is set to zero
+   real(wp), parameter :: rounding = 1.0e-13_wp ! coefficients below this share of tau are set to zero
 
-   !> How a branch is to be fitted.
+   !> Options of a branch fit.
    type, public :: fit_choice
-      real(wp) :: p_tolerance  = 1.0e-3_wp  !! relative, of pressures that count as one
-      logical  :: one_step     = .false.    !! all points at once is wanted: what two steps lack is no fault
-      logical  :: one_pressure = .false.    !! of one pressure only: coefficients that do not depend on it
+      real(wp) :: p_tolerance  = 1.0e-3_wp  !! relative difference of pressures that count as equal
+      logical  :: one_step     = .false.    !! the one-step fit is wanted: what the two-step fit lacks is not an error
+      logical  :: one_pressure = .false.    !! for one pressure: coefficients independent of pressure
    end type fit_choice
 
    !> What the data lack for a fit.
    integer, parameter, public :: fault_none = 0, fault_one_pressure = 1, fault_few_points = 2, fault_dependent = 3
 
-   !> How far the points, or the coefficients of the cubics, lie off a fit.
+   !> Residual of the points, or of the coefficients of the cubics, about a fit.
    type, public :: residual_type
       real(wp) :: rms = 0.0_wp, largest = 0.0_wp
-      integer  :: at  = 0      !! the point or the pressure with the largest
+      integer  :: at  = 0      !! point or pressure with the largest residual
    end type residual_type
 
    !> A fitted branch. LINES are the straight lines of Fig. 2, a_k1 and a_k2 for k = 1, 2, 3.
    type, public :: branch_fit_type
-      integer :: n_points  = 0              !! 0: no data of this branch
+      integer :: n_points  = 0              !! 0: no data for this branch
       integer :: fault     = fault_none     !! what the data lack
-      integer :: fault_at  = 0              !! the pressure with too few points, of fault_few_points
+      integer :: fault_at  = 0              !! pressure with too few points, for fault_few_points
       logical :: from_points = .false.      !! false: the cubics were given
-      logical :: constant  = .false.        !! every run of a pressure has a constant term
-      logical :: two_step  = .false.        !! CUBICS and LINES are there
-      integer, allocatable  :: row(:)       !! (points) of the data
-      integer, allocatable  :: group(:)     !! (points) the pressure that each was taken at
+      logical :: constant  = .false.        !! every run at a pressure has a constant term
+      logical :: two_step  = .false.        !! CUBIC and LINES are set
+      integer, allocatable  :: row(:)       !! (points) row in the data
+      integer, allocatable  :: group(:)     !! (points) pressure group of each point
       real(wp), allocatable :: group_p(:)   !! (pressures)
       real(wp), allocatable :: cubic(:, :)  !! (3, pressures)
-      integer, allocatable  :: curve(:)     !! (points) the run at one pressure that each belongs to
-      integer, allocatable  :: curve_at(:)  !! (curves) its first point
-      real(wp), allocatable :: start(:)     !! (curves) constant term of its cubic [stress]
-      real(wp) :: lines(2, 3) = 0.0_wp      !! a line through the cubics' coefficients, term by term
-      real(wp) :: joint(2, 3) = 0.0_wp      !! all points at once
+      integer, allocatable  :: curve(:)     !! (points) run at one pressure to which each point belongs
+      integer, allocatable  :: curve_at(:)  !! (curves) first point
+      real(wp), allocatable :: start(:)     !! (curves) constant term of the cubic [stress]
+      real(wp) :: lines(2, 3) = 0.0_wp      !! a line through the coefficients of the cubics, term by term
+      real(wp) :: joint(2, 3) = 0.0_wp      !! fit to all points in one step
       type(residual_type) :: of_cubics, of_lines, of_joint !! of tau [stress]
-      type(residual_type) :: of_coefficients(3)            !! of the cubics' coefficients about LINES
+      type(residual_type) :: of_coefficients(3)            !! of the coefficients of the cubics about LINES
       real(wp) :: p_low = 0.0_wp, p_high = 0.0_wp          !! range of the data [pressure]
       real(wp) :: d_low = 0.0_wp, d_high = 0.0_wp          !! [length]
    end type branch_fit_type
 
 contains
 
-   !> How far a reading of a record, in which X and Y rise and fall together, may lie off by chance, as a share of the range of
-   !! each: the largest of N, sqrt(2 ln N) standard deviations; two of them may lie twice as far apart. The noise shows in the
-   !! distance of a reading from the chord between its neighbours, which is small on a smooth curve however unevenly it was read.
-   !! The median passes over the turns; for normal noise it is 0.6745 sqrt(3/2) standard deviations.
+   !> The largest random deviation of a reading in a record in which X and Y rise and fall together, as a share of the range of each:
+   !! sqrt(2 ln N) standard deviations for N readings; two readings may differ by twice as much. The distance of a reading from the chord
+   !! between its neighbours measures the noise: on a smooth curve it is small even for uneven readings. The median is insensitive to
+   !! the turning points; for normal noise it is 0.6745 sqrt(3/2) standard deviations.
    pure real(wp) function scatter_of(x, y) result(scatter)
       real(wp), intent(in) :: x(:), y(:) !! (readings)
       real(wp) :: distance(max(0, size(x) - 2)), a(2), chord(2), range(2), high, low, median
@@ -92,7 +92,7 @@ contains
       end do
       low = minval(distance)
       high = maxval(distance)
-      do i = 1, 60            ! to the median, of two the upper one: the number below is counted
+      do i = 1, 60            ! bisection for the median, of two the upper one: the number of values below is counted
          median = 0.5_wp*(low + high)
          if (2*count(distance <= median) < n - 2) then
             low = median
@@ -103,12 +103,12 @@ contains
       scatter = sqrt(2.0_wp*log(real(n, wp)))*high/(0.6745_wp*sqrt(1.5_wp))
    end function scatter_of
 
-   !> The readings at which U turns back by more than BAND: the last before it does.
+   !> The turning points of U: the last readings before U turns back by more than BAND.
    pure subroutine find_turns(u, band, turns)
       real(wp), intent(in)              :: u(:)
       real(wp), intent(in)              :: band     !! [u]
-      integer, allocatable, intent(out) :: turns(:) !! ascending; neither the first nor the last reading
-      integer :: high, i, low, way                  ! WAY: 1 rising, -1 falling, 0 not known yet
+      integer, allocatable, intent(out) :: turns(:) !! ascending, without the first and the last reading
+      integer :: high, i, low, way                  ! WAY: 1 rising, -1 falling, 0 unknown
 
       allocate (turns(0))
       high = 1
@@ -129,16 +129,16 @@ contains
       end do
    end subroutine find_turns
 
-   !> Lay lines of one slope through the runs that are not loading, each at its own height: lambda over p, because the pressure is
-   !! what the test sets and the deflection what it reads. Of one run alone its own slope shows how far they scatter.
+   !> Fit lines of one common slope, each with its own intercept, to the runs that are not loading: lambda over p, because the test
+   !! prescribes the pressure and measures the deflection. The slopes of the single runs show the scatter.
    subroutine fit_loops(p, lambda, branch, run, joined, fit)
       real(wp), intent(in) :: p(:), lambda(:)    !! (points) [pressure], [length]
       integer, intent(in)  :: branch(:), run(:)  !! (points)
-      logical, intent(in)  :: joined(:)          !! (points) the point before is the one that the test came from
+      logical, intent(in)  :: joined(:)          !! (points) the test came from the point before
       type(loop_fit_type), intent(out) :: fit
       integer, allocatable :: points(:)
       type(loop_line) :: line
-      real(wp) :: mean(2), sums(3), total(3)     ! of squares: p p, p lambda, lambda lambda about the means
+      real(wp) :: mean(2), sums(3), total(3)     ! sums of squares p p, p lambda, lambda lambda about the means
       integer  :: freedom, i, k
 
       allocate (fit%lines(0))
@@ -168,12 +168,12 @@ contains
       if (freedom > 0) fit%error = fit%rms*sqrt(fit%n_points/(freedom*total(1)))*fit%e_u
    end subroutine fit_loops
 
-   !> Fit a branch through test points: in two steps, a cubic for each pressure and then the lines of Fig. 2 through their
-   !! coefficients, and for comparison all points in one step. What the two steps lack is a fault of FIT unless the other is CHOSEN.
+   !> Fit a branch to test points in two steps, a cubic for each pressure and then the lines of Fig. 2 through the coefficients, and for
+   !! comparison in one step to all points. What the two steps lack is a fault of FIT unless the one-step fit is CHOSEN.
    subroutine fit_points(d, tau, p, run, constant, chosen, fit)
       real(wp), intent(in)               :: d(:), tau(:), p(:) !! (points) [length], [stress], [pressure]
-      integer, intent(in)                :: run(:)             !! (points) each of a pressure starts at a point of its own
-      logical, intent(in)                :: constant           !! runs have a constant term
+      integer, intent(in)                :: run(:)             !! (points) each run at a pressure starts at a point of its own
+      logical, intent(in)                :: constant           !! the runs have a constant term
       type(fit_choice), intent(in)       :: chosen
       type(branch_fit_type), intent(out) :: fit
       logical :: ok
@@ -189,7 +189,7 @@ contains
       call group_by_pressure(p, chosen%p_tolerance, fit%group, fit%group_p)
       allocate (fit%curve(size(run)), source=0)
       fit%curve_at = [integer ::]
-      do i = 1, size(run)              ! the runs of each pressure, in the order of their first points
+      do i = 1, size(run)              ! number the runs of each pressure in the order of their first points
          if (fit%curve(i) > 0) cycle
          fit%curve_at = [fit%curve_at, i]
          where (run == run(i) .and. fit%group == fit%group(i)) fit%curve = size(fit%curve_at)
@@ -197,7 +197,7 @@ contains
       allocate (fit%start(size(fit%curve_at)), source=0.0_wp)
       call fit_two_steps(d, tau, chosen%one_pressure, fit)
       if (.not. (fit%two_step .or. chosen%one_step)) return
-      fit%joint = fit%lines                ! of one pressure they are the same
+      fit%joint = fit%lines                ! for one pressure they are equal
       ok = size(fit%group_p) == 1 .and. fit%two_step
       if (.not. ok) call fit_cubic_in_pressure(d, tau, p, belongs(fit, [(k, k = 1, size(d))], [(k, k = 1, size(fit%start))]), &
                                                fit%joint, ok)
@@ -215,10 +215,10 @@ contains
       end associate
    end subroutine fit_points
 
-   !> Put points into groups of equal pressure. In ascending order of p a group reaches from its lowest p to
-   !! (1 + TOLERANCE) times that; its pressure is the mean of its points. Groups are numbered in ascending order of p.
+   !> Group points of equal pressure. In ascending order of p a group extends from its lowest p to (1 + TOLERANCE) times that; its pressure
+   !! is the mean of its points. Groups are numbered in ascending order of p.
    pure subroutine group_by_pressure(p, tolerance, group, group_p)
-      real(wp), intent(in)               :: p(:)       !! [pressure]; one below 0, an error elsewhere, stands for itself
+      real(wp), intent(in)               :: p(:)       !! [pressure]; a p below 0, reported elsewhere, forms a group of its own
       real(wp), intent(in)               :: tolerance  !! >= 0 [-]
       integer, allocatable, intent(out)  :: group(:)   !! (points) the group of each point
       real(wp), allocatable, intent(out) :: group_p(:) !! (groups) [pressure]
@@ -235,7 +235,7 @@ contains
       end do
    end subroutine group_by_pressure
 
-   !> A cubic for each pressure, then a line through each of their coefficients.
+   !> Fit a cubic for each pressure, then a line through each coefficient of the cubics.
    subroutine fit_two_steps(d, tau, one_pressure, fit)
       real(wp), intent(in)                 :: d(:), tau(:)
       logical, intent(in)                  :: one_pressure
@@ -259,7 +259,7 @@ contains
       call fit_coefficient_lines(one_pressure, fit)
    end subroutine fit_two_steps
 
-   !> Whether each of the POINTS belongs to each of the CURVES; without constant terms no curves are left.
+   !> Whether each of the POINTS belongs to each of the CURVES; without constant terms there are no curves.
    pure function belongs(fit, points, curves) result(matrix)
       type(branch_fit_type), intent(in) :: fit
       integer, intent(in)               :: points(:), curves(:)
@@ -270,7 +270,7 @@ contains
       matrix = spread(fit%curve(points), 2, n) == spread(curves(:n), 1, size(points))
    end function belongs
 
-   !> Fit the lines of Fig. 2 through published cubics; the range of d is not known from them.
+   !> Fit the lines of Fig. 2 to published cubics, which do not give the range of d.
    subroutine fit_lines_only(c, p, one_pressure, fit)
       real(wp), intent(in)               :: c(:, :) !! (3, cubics)
       real(wp), intent(in)               :: p(:)    !! (cubics) [pressure]
@@ -291,9 +291,9 @@ contains
       end do
    end subroutine fit_lines_only
 
-   !> a_k1 + a_k2 p through the coefficients of the cubics, all pressures counting alike.
+   !> Fit a_k1 + a_k2 p to the coefficients of the cubics; all pressures have equal weight.
    subroutine fit_coefficient_lines(one_pressure, fit)
-      logical, intent(in)                  :: one_pressure !! is enough: a_k2 = 0
+      logical, intent(in)                  :: one_pressure !! one pressure is enough: a_k2 = 0
       type(branch_fit_type), intent(inout) :: fit
       integer :: k
 
@@ -311,11 +311,11 @@ contains
       end do
    end subroutine fit_coefficient_lines
 
-   !> tau = START + C(1) d + C(2) d^2 + C(3) d^3 through the points of one pressure, every curve with a START of its own. OK is
-   !! false where the points do not fix it: fewer than three different d other than zero, or four on one curve with a start.
+   !> Fit tau = START + C(1) d + C(2) d^2 + C(3) d^3 to the points of one pressure, with a START for every curve. OK is false where the
+   !! points do not determine the cubic: fewer than three different nonzero d, or four on one curve with a start.
    subroutine fit_cubic(d, tau, belongs, c, start, ok)
       real(wp), intent(in)  :: d(:), tau(:)          !! (points) [length], [stress]
-      logical, intent(in)   :: belongs(:, :)         !! (points, curves); no curves: no START, as on the loading branch
+      logical, intent(in)   :: belongs(:, :)         !! (points, curves); no curves: START is zero, as on the loading branch
       real(wp), intent(out) :: c(3)
       real(wp), allocatable, intent(out) :: start(:) !! (curves) [stress]
       logical, intent(out)  :: ok
@@ -330,8 +330,9 @@ contains
       start = x(:n)
    end subroutine fit_cubic
 
-   !> All points of a branch at once: tau = sum over k of (LINES(1,k) + LINES(2,k) p) d^k, and a constant for every curve, because
-   !! every run of an unloading or reloading starts at a point of its own. OK is false where the points do not fix the coefficients.
+   !> Fit all points of a branch in one step: tau = sum over k of (LINES(1,k) + LINES(2,k) p) d^k, with a constant for every curve,
+   !! because every unloading or reloading run starts at a point of its own. OK is false where the points do not determine the
+   !! coefficients.
    subroutine fit_cubic_in_pressure(d, tau, p, belongs, lines, ok)
       real(wp), intent(in)  :: d(:), tau(:), p(:) !! (points) [length], [stress], [pressure]
       logical, intent(in)   :: belongs(:, :)      !! (points, curves)
@@ -351,7 +352,7 @@ contains
       lines(2, :) = x(4:6)
    end subroutine fit_cubic_in_pressure
 
-   !> d, d^2, d^3 of every point.
+   !> d, d^2 and d^3 of every point.
    pure function cubic_terms(d) result(terms)
       real(wp), intent(in) :: d(:)
       real(wp) :: terms(size(d), 3)
@@ -359,7 +360,7 @@ contains
       terms = reshape([d, d*d, d*(d*d)], [size(d), 3])
    end function cubic_terms
 
-   !> Set to zero what of a line (a_k1, a_k2) is rounding: a share of the stress far below its last digit.
+   !> Set the coefficients of a line (a_k1, a_k2) to zero where they are rounding: a share of the stress far below its last digit.
    pure subroutine drop_rounding(line, p, d_power, tau)
       real(wp), intent(inout) :: line(2)
       real(wp), intent(in)    :: p, d_power, tau !! largest p, d^k and |tau| of the data
@@ -367,7 +368,7 @@ contains
       where (abs(line)*[1.0_wp, p]*d_power <= rounding*tau) line = 0.0_wp
    end subroutine drop_rounding
 
-   !> Residual of tau about the law with LINES; where the branch has constants, each curve its own best.
+   !> Residual of tau about the law with LINES; where the branch has constants, each curve takes its best constant.
    pure function law_residual(d, tau, p, fit, lines) result(residual)
       real(wp), intent(in)              :: d(:), tau(:), p(:), lines(2, 3)
       type(branch_fit_type), intent(in) :: fit

@@ -21,7 +21,7 @@ module data_columns
    character(6), parameter :: stress_names(7) = [character(6) :: 'PA', 'KPA', 'MPA', 'GPA', 'BAR', 'PSI', 'KSI']
    real(wp), parameter     :: stresses(7) = [1.0_wp, 1.0e3_wp, 1.0e6_wp, 1.0e9_wp, 1.0e5_wp, lbf/inch**2, 1.0e3_wp*lbf/inch**2]
 
-   !> A unit of length and one of stress in SI units, and the words that the user has for them; values 0: none.
+   !> A unit of length and one of stress in SI units, and the user's names of them; values 0: none.
    type, public :: unit_system
       real(wp) :: length = 0.0_wp, stress = 0.0_wp
       character(:), allocatable :: length_name, stress_name
@@ -30,15 +30,15 @@ module data_columns
    !> The branches of the shear law.
    integer, parameter, public :: fit_load = 1, fit_unload = 2, fit_reload = 3
    character(6), parameter, public :: branch_words(3) = [character(6) :: 'LOAD', 'UNLOAD', 'RELOAD']
-   character(1), parameter, public :: branch_letters(3) = ['a', 'b', 'c'] !! of the coefficients, as in Eqs. (3b), (5), (6)
+   character(1), parameter, public :: branch_letters(3) = ['a', 'b', 'c'] !! letters of the coefficients in Eqs. (3b), (5), (6)
 
-   !> Columns that a file may have, each a power of stress times one of length, and the kinds of file that they make.
+   !> The columns of a file, each a power of stress times a power of length, and the kinds of file.
    integer, parameter, public :: column_d = 1, column_tau = 2, column_p = 3, column_lambda = 4, column_c(3) = [5, 6, 7], &
                                  column_branch = 8, column_run = 9, n_columns = 9
    character(6), parameter, public :: column_names(n_columns) = [character(6) :: 'D', 'TAU', 'P', 'LAMBDA', 'C1', 'C2', 'C3', &
                                                                  'BRANCH', 'RUN']
    character(6), parameter, public :: column_symbols(n_columns) = [character(6) :: 'd', 'tau', 'p', 'lambda', 'c1', 'c2', 'c3', &
-                                                                   'branch', 'run'] !! the same in running text
+                                                                   'branch', 'run'] !! the names in running text
    integer, parameter         :: stress_power(n_columns) = [0, 1, 1, 0, 1, 1, 1, 0, 0]
    integer, parameter         :: length_power(n_columns) = [1, 0, 0, 1, -1, -2, -3, 0, 0]
    integer, parameter, public :: data_shear = 1, data_normal = 2, data_cubics = 3
@@ -48,34 +48,34 @@ module data_columns
    character(*), parameter, public :: known_headers = 'expected a line with the names of the columns: '// &
       '''d tau p branch'', ''lambda p'' or ''c1 c2 c3 p branch'', or --columns with them'
 
-   !> How the command wants its files to be read.
+   !> The options of the command for reading its files.
    type, public :: reading_type
       type(unit_system) :: deck                 !! --units
-      character(:), allocatable :: columns      !! --columns: the header of every file, empty: it has its own
+      character(:), allocatable :: columns      !! --columns: the header of every file, empty: in the file
       logical :: decimal_comma = .false.        !! --decimal-comma
    end type reading_type
 
    type, public :: header_type
       integer :: line   = 0                     !! in the text of the file
-      integer :: part   = 0                     !! of the file that it begins, 0: no header yet
+      integer :: part   = 0                     !! part of the file that the header begins, 0: no header yet
       integer :: kind   = 0                     !! data_shear, data_normal or data_cubics
       integer :: holds  = 0                     !! sum of 2**column
-      logical :: decimal_comma = .false.        !! of the rows below it
-      integer, allocatable :: columns(:)        !! (entries of a row) 0: left out; of size 0: the header is wrong
-      character(16) :: units(n_columns) = ''    !! in the headings
-      real(wp)      :: factors(n_columns) = 1.0_wp !! from there to the units of the cards
+      logical :: decimal_comma = .false.        !! of the rows below the header
+      integer, allocatable :: columns(:)        !! (entries of a row) 0: ignored; of size 0: the header is wrong
+      character(16) :: units(n_columns) = ''    !! given in the headings
+      real(wp)      :: factors(n_columns) = 1.0_wp !! from the unit of the heading to the unit of the cards
    end type header_type
 
    character(*), parameter :: blanks = ' '//achar(9)
 
-   !> Where an entry stands in its line; an entry left out between two separators has LAST < FIRST.
+   !> Position of an entry in its line; an empty entry between two separators has LAST < FIRST.
    type, public :: entry_type
       integer :: first = 0, last = 0
    end type entry_type
 
 contains
 
-   !> `mm, kgf` or `um, MPa`: a unit of length, and one of force or stress; with a force the stress is force/length^2.
+   !> Read `mm, kgf` or `um, MPa`: a unit of length, and a unit of force or stress. With a force the stress is force/length^2.
    pure subroutine read_system(text, system, ok)
       character(*), intent(in)       :: text
       type(unit_system), intent(out) :: system
@@ -96,7 +96,7 @@ contains
       ok = system%length > 0.0_wp .and. system%stress > 0.0_wp
    end subroutine read_system
 
-   !> What UNIT is in SI units, 0 where it is no unit of stress or, with STRESS 0, of length.
+   !> UNIT in SI units, 0 where it is not a unit of stress or, with STRESS 0, of length.
    pure real(wp) function unit_value(unit, stress) result(value)
       character(*), intent(in) :: unit
       integer, intent(in)      :: stress
@@ -105,14 +105,14 @@ contains
       if (stress /= 0) value = stress_value(plain(unit))
    end function unit_value
 
-   !> Whether there is a unit of force with which LENGTH and STRESS [SI] are the units of a deck.
+   !> Whether a unit of force exists with which LENGTH and STRESS [SI] are consistent units of a deck.
    pure logical function has_force(length, stress)
       real(wp), intent(in) :: length, stress
 
       has_force = any(abs(forces - stress*length**2) <= 1.0e-9_wp*forces)
    end function has_force
 
-   !> A name of stress, or force/length2.
+   !> Read a name of stress, or force/length2.
    pure real(wp) function stress_value(word) result(value)
       character(*), intent(in) :: word
       integer :: slash, last
@@ -136,7 +136,7 @@ contains
       value = merge(values(max(1, k)), 0.0_wp, k > 0)
    end function table_value
 
-   !> UNIT in capitals without blanks and ^, the Greek mu as U and raised figures as others.
+   !> UNIT in capitals without blanks and ^; the Greek mu becomes U, superscripts become digits.
    pure function plain(unit) result(word)
       character(*), intent(in)  :: unit
       character(:), allocatable :: word
@@ -145,9 +145,9 @@ contains
       word = ''
       do k = 1, len(unit)
          select case (iachar(unit(k:k)))
-         case (178, 179)                  ! raised 2 and 3, the second byte of them in UTF-8
+         case (178, 179)                  ! superscripts 2 and 3, their second byte in UTF-8
             word = word//achar(iachar(unit(k:k)) - 128)
-         case (181, 188)                  ! the micro sign, and the second byte of the letter mu
+         case (181, 188)                  ! the micro sign and the Greek mu, their second byte
             word = word//'U'
          case (194, 206, iachar(' '), iachar('^'), 9)
             cycle
@@ -157,19 +157,19 @@ contains
       end do
    end function plain
 
-   !> The number of the branch called WORD (in capitals), 0 for any other word.
+   !> Number of the branch WORD (in capitals), 0 for any other word.
    pure integer function branch_number(word) result(branch)
       character(*), intent(in) :: word
 
       branch = findloc(branch_words == word, .true., 1)
    end function branch_number
 
-   !> Read the header LINE. A file may hold several, each for the rows below it, of one kind.
+   !> Read the header LINE. A file may have several headers of one kind, each for the rows below it.
    subroutine read_header(line, at, reading, header, errors)
       character(*), intent(in)             :: line
-      integer, intent(in)                  :: at      !! its place in the file, 0: it is from the command
+      integer, intent(in)                  :: at      !! line in the file, 0: from the command
       type(reading_type), intent(in)       :: reading
-      type(header_type), intent(inout)     :: header !! the one before, and now this one
+      type(header_type), intent(inout)     :: header !! the previous header, and then this one
       type(deck_error_list), intent(inout) :: errors
       type(entry_type), allocatable :: entries(:)
       character(:), allocatable     :: name, unit
@@ -218,7 +218,7 @@ contains
       header%holds = holds
    end subroutine read_header
 
-   !> The factors from the units of the data, those of the headings or of FILE, the line UNITS =, to those of the cards.
+   !> The factors from the units of the data, given in the headings or in the line UNITS = of FILE, to the units of the cards.
    subroutine set_factors(reading, file, header, errors)
       type(reading_type), intent(in)       :: reading
       type(unit_system), intent(in)        :: file
@@ -246,7 +246,7 @@ contains
       end do
    end subroutine set_factors
 
-   !> The unit of COLUMN in SYSTEM [SI], 0 where this is none.
+   !> The unit of COLUMN in SYSTEM [SI], 0 where it is unknown.
    pure real(wp) function unit_in(system, column) result(unit)
       type(unit_system), intent(in) :: system
       integer, intent(in)           :: column
@@ -255,7 +255,7 @@ contains
       if (system%length > 0.0_wp) unit = system%stress**stress_power(column)*system%length**length_power(column)
    end function unit_in
 
-   !> What without --units speaks against the units in the headings: two of stress, or none of force that goes with them.
+   !> Without --units, the error in the units of the headings: two units of stress, or no consistent unit of force.
    subroutine check_system(header, warnings)
       type(header_type), intent(in)        :: header
       type(deck_error_list), intent(inout) :: warnings
@@ -272,8 +272,8 @@ contains
          'both')
    end subroutine check_system
 
-   !> LINE up to its comment, which # or $ begins, without blanks and tabs at its end; double quotes, which spreadsheets put
-   !! around words, become blanks.
+   !> LINE up to its comment, # or $, without trailing blanks and tabs. Double quotes, which spreadsheets put around words, become
+   !! blanks.
    pure function data_part(line) result(words)
       character(*), intent(in)  :: line
       character(:), allocatable :: words
@@ -286,19 +286,19 @@ contains
       words = words(:verify(words, blanks, back=.true.))
    end function data_part
 
-   !> Cut LINE at blanks, tabs, commas and semicolons. Blanks around a separator go with it; nothing between two, or before the
-   !! first or behind the last, is an entry left out. What stands in brackets, and blanks before them, cuts nothing: `lambda [um]`
-   !! is one entry; nor does the DECIMAL_COMMA, one before a digit, which a line with semicolons has anyway.
+   !> Cut LINE at blanks, tabs, commas and semicolons. Blanks around a separator belong to it. An entry is empty between two separators,
+   !! before the first and after the last one. Text in brackets and the blanks before it do not separate: `lambda [um]` is one entry.
+   !! With DECIMAL_COMMA a comma before a digit does not separate, nor does it in a line with semicolons.
    pure subroutine split_entries(line, entries, decimal_comma)
       character(*), intent(in)                   :: line
       type(entry_type), allocatable, intent(out) :: entries(:)
       logical, intent(in)                        :: decimal_comma
       character(len(line)) :: open
       integer :: at, k, last
-      logical :: waits  ! a separator has been read and waits for the entry behind it
+      logical :: waits  ! a separator waits for the entry after it
 
       open = line
-      do          ! an x for all that stands in brackets and for the blanks between a name and its brackets
+      do          ! mark text in brackets, and blanks between a name and its brackets, by x
          at = scan(open, '[(')
          if (at == 0) exit
          last = min(at + scan(open(at:)//')', '])') - 1, len(line))
@@ -328,7 +328,7 @@ contains
 
    contains
 
-      !> The next place from FROM on that is not blank.
+      !> The next nonblank position from FROM on.
       pure integer function next(from)
          integer, intent(in) :: from
 
@@ -337,7 +337,7 @@ contains
 
    end subroutine split_entries
 
-   !> The NAME and the UNIT in an entry of a header, `lambda [um]` or `lambda(um)`; no brackets: no unit.
+   !> The NAME and the UNIT in an entry of a header, `lambda [um]` or `lambda(um)`; without brackets there is no unit.
    pure subroutine split_unit(entry, name, unit)
       character(*), intent(in)               :: entry
       character(:), allocatable, intent(out) :: name, unit
@@ -356,7 +356,7 @@ contains
       is_number = scan(word, '0123456789+-.,') == 1
    end function is_number
 
-   !> A number of the data or the command, which may do without the decimal point that cards need, or have a comma for it.
+   !> Read a number of the data or the command. Unlike on cards, the decimal point may be missing or be a comma.
    pure subroutine read_number(text, value, ok)
       character(*), intent(in) :: text
       real(wp), intent(out)    :: value

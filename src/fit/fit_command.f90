@@ -17,13 +17,13 @@ module fit_command
    integer, parameter :: largest_in_small_field = 99999999
 
    type, public :: fit_command_type
-      integer  :: id        = 1          !! --id: of the first file's card
+      integer  :: id        = 1          !! --id: of the card of the first file
       logical  :: small     = .false.    !! --small: fields of eight columns
       integer  :: only      = 0          !! --branch: the branch of the data to use, 0: all
-      integer  :: as        = 0          !! --as: the branch of the card that it becomes
+      integer  :: as        = 0          !! --as: the branch of the card that takes these data
       real(wp) :: d_max     = 0.0_wp     !! --dmax: DMAX of the card [length], 0: the largest d of the data
-      real(wp) :: noise     = 0.0_wp     !! --noise: share of the range of the readings that is noise, 0: to be found
-      logical  :: zero      = .false.    !! --zero: the first reading of a test is taken off all
+      real(wp) :: noise     = 0.0_wp     !! --noise: noise as a share of the range of the readings, 0: estimated
+      logical  :: zero      = .false.    !! --zero: subtract the first reading of a test from all its readings
       logical  :: unordered = .false.    !! --unordered: rows that do not name their branch are loading
       character(:), allocatable :: plot  !! --plot: a file for gnuplot, empty: none
       type(fit_choice)   :: fit          !! --p-tolerance, --joint-fit, --one-pressure
@@ -95,7 +95,7 @@ contains
    end function help_text
 
    !> Read the command. FINISHED is true where nothing is left to do: after --help and --version (STATUS 0), and after
-   !! a wrong command (STATUS 1, said on the standard error).
+   !! a wrong command (STATUS 1, with a message on the standard error).
    subroutine read_fit_command(command, finished, status)
       type(fit_command_type), intent(out) :: command
       logical, intent(out)                :: finished
@@ -169,7 +169,7 @@ contains
       end if
    end subroutine read_fit_command
 
-   !> Whether an output of the command would go to one of its data files, however that is named; then it is said.
+   !> Whether an output of the command is one of its data files under any name, with a message.
    logical function overwrites_data(command) result(overwrites)
       type(fit_command_type), intent(in) :: command
       integer :: i
@@ -189,7 +189,7 @@ contains
       end do
    end function overwrites_data
 
-   !> The VALUE behind an OPTION; empty where the command ends.
+   !> The VALUE after an OPTION; empty at the end of the command.
    subroutine read_value(option, value, command, ok)
       character(*), intent(in)              :: option, value
       type(fit_command_type), intent(inout) :: command

@@ -18,7 +18,7 @@ module fit_comments
 
 contains
 
-   !> Write the card of one surface with its comments. NAME is the data file, ID the card's.
+   !> Write the card of one surface with its comments. NAME is the data file, ID the id of the card.
    subroutine write_cards(name, data, command, id, fit, out)
       character(*), intent(in)              :: name
       type(test_data_type), intent(in)      :: data
@@ -35,7 +35,7 @@ contains
       do k = 1, n_columns
          if (data%unit_read(k) /= '') words = words//', '//trim(column_symbols(k))//' ['//trim(data%unit_read(k))//']'
       end do
-      if (command%reading%deck%length > 0.0_wp) then ! the cards are in units of their own
+      if (command%reading%deck%length > 0.0_wp) then ! the cards have units of their own
          if (words /= '') words = ', converted from'//words(2:)
          call comment(out, 'units', trim(data%unit(column_d))//', '//trim(data%unit(column_p))//words)
       else if (words /= '') then
@@ -79,7 +79,7 @@ contains
       call comment(out, 'data', points//', p '//range_text(fit%p_low, fit%p_high)//', lambda to '//real_text(fit%lambda_high))
       call comment(out, 'residual', 'of lambda: rms '//real_text(fit%rms)//', largest '//real_text(fit%largest)// &
                    ' at p = '//real_text(fit%p_largest))
-      associate (loops => fit%loops) ! the lines of unloading and reloading, none of which is part of c and m
+      associate (loops => fit%loops) ! the lines of unloading and reloading do not contribute to c and m
          if (size(loops%lines) == 0) return
          call comment(out, 'unload', 'E_u = '//real_text(loops%e_u)//', standard error '// &
                       real_text(0.01_wp*nint(1.0e4_wp*min(loops%error, 1.0e4_wp)))//' %, from '// &
@@ -123,7 +123,7 @@ contains
             call comment(out, 'closure', words)
          end associate
       end if
-      is_used = data%branch(:data%n) == 0      ! these were told as left out
+      is_used = data%branch(:data%n) == 0      ! rows without a branch have been reported as ignored
       do b = fit_load, fit_reload
          if (fit%branch(b)%n_points > 0) is_used(fit%branch(b)%row) = .true.
       end do
@@ -131,7 +131,7 @@ contains
       if (fit%has_loading .and. fit%d_max <= 0.0_wp) call comment(out, 'DMAX', 'left blank: the data do not show it')
    end subroutine describe_shear
 
-   !> Branch B of the card: the cubic of each pressure and the lines through them, of points also the fit in one step.
+   !> Write branch B of the card: the cubic of each pressure, the lines through them and, for test points, the one-step fit.
    subroutine describe_branch(data, fit, b, joint_fit, out)
       type(test_data_type), intent(in)      :: data
       type(surface_fit_type), intent(in)    :: fit
@@ -176,7 +176,7 @@ contains
 
    end subroutine describe_branch
 
-   !> The cubic of each pressure, the points of Fig. 2, with its constant where all points of a pressure share one.
+   !> Write the cubic of each pressure, the points of Fig. 2, with its constant where all points of a pressure share one.
    subroutine table_of_cubics(branch, b, out)
       type(branch_fit_type), intent(in)     :: branch
       integer, intent(in)                   :: b
@@ -198,7 +198,7 @@ contains
       end associate
    end subroutine table_of_cubics
 
-   !> The constant of each run, RUN and D being those of the points.
+   !> Write the constant of each run; RUN and D belong to the points.
    subroutine table_of_runs(branch, b, run, d, out)
       type(branch_fit_type), intent(in)     :: branch
       integer, intent(in)                   :: b, run(:)
@@ -217,7 +217,7 @@ contains
       end do
    end subroutine table_of_runs
 
-   !> a1 = a11 + a12 p and so on; WITH_SCATTER says how far the coefficients of the cubics lie off.
+   !> Write a1 = a11 + a12 p and so on; WITH_SCATTER adds the scatter of the coefficients of the cubics.
    subroutine lines_of_coefficients(branch, b, lines, with_scatter, out)
       type(branch_fit_type), intent(in)     :: branch
       integer, intent(in)                   :: b
@@ -255,7 +255,7 @@ contains
       words = real_text(low)//' to '//real_text(high)
    end function range_text
 
-   !> One comment line: a word in a column of its own, then the text.
+   !> Write one comment line: a word in its own column, then the text.
    subroutine comment(out, label, words)
       type(output_file_type), intent(inout) :: out
       character(*), intent(in)              :: label, words
@@ -265,7 +265,7 @@ contains
       call out%put('$ '//column//words)
    end subroutine comment
 
-   !> One row of a table.
+   !> Write one row of a table.
    subroutine comment_row(out, cells)
       type(output_file_type), intent(inout) :: out
       character(14), intent(in)             :: cells(:)

@@ -16,27 +16,26 @@ module fit_data
       integer :: kind = 0                        !! data_shear, data_normal or data_cubics
       integer :: n    = 0                        !! rows
       logical :: has_branch = .false.            !! the rows name their branches
-      logical :: has_run = .false.               !! they have numbers of runs
-      logical :: in_order = .false.              !! the rows of a test follow one another in time
-      logical :: is_record = .false.             !! and nothing else tells their branches
+      logical :: has_run = .false.               !! the rows have run numbers
+      logical :: in_order = .false.              !! the rows of a test are in the order of time
+      logical :: is_record = .false.             !! and the branches are known from the order only
       real(wp), allocatable :: value(:, :)       !! (column, row) in the units of the cards
       integer, allocatable  :: branch(:)         !! (row)
-      integer, allocatable  :: run(:)            !! (row) that stands for itself, 0: with all others of its branch and pressure
+      integer, allocatable  :: run(:)            !! (row) run of the row, 0: shared with all such rows of its branch and pressure
       logical, allocatable  :: joined(:)         !! (row) of a record: the test came to it from the row before
-      integer, allocatable  :: part(:)           !! (row) counted by headers
+      integer, allocatable  :: part(:)           !! (row) number of its header
       integer, allocatable  :: line(:)           !! (row) in TEXT
       integer, allocatable  :: place(:, :, :)    !! (2, column, row) first and last place in the line
-      character(16) :: unit(n_columns) = ''      !! of the values, empty: not known
+      character(16) :: unit(n_columns) = ''      !! of the values, empty: unknown
       character(16) :: unit_read(n_columns) = '' !! of the file
-      character(:), allocatable :: units         !! what stands behind UNITS =, empty: no such line
-      type(deck_error_list) :: warnings, notes   !! about the data as they came
+      character(:), allocatable :: units         !! text after UNITS =, empty: no such line
+      type(deck_error_list) :: warnings, notes   !! about the data
       type(deck_text_type)  :: text
    end type test_data_type
 
 contains
 
-   !> Read the file PATH, which messages call NAME. READABLE is false where it cannot be read; what is wrong in it
-   !! goes to ERRORS, all of it.
+   !> Read the file PATH, which messages call NAME. READABLE is false where the file cannot be read. All errors in it go to ERRORS.
    subroutine read_test_data(path, name, reading, data, errors, readable)
       character(*), intent(in)           :: path, name
       type(reading_type), intent(in)     :: reading
@@ -48,7 +47,7 @@ contains
       type(unit_system) :: system                ! of the line UNITS =
       character(:), allocatable :: line
       integer :: i, k
-      logical :: ok, above                       ! a header stands above, and no row yet below it
+      logical :: ok, above                       ! the line above is a header
 
       call read_deck_text(path, data%text, errors, readable)
       if (.not. readable) return
@@ -69,7 +68,7 @@ contains
          call split_entries(line, entries, header%decimal_comma .or. reading%decimal_comma)
          if (size(entries) == 0) cycle
          if (index(upper(adjustl(line)), 'UNITS') == 1 .and. index(line, '=') > 0) then
-            line = trim(adjustl(line(index(line, '=') + 1:))) ! anything, for the comments of the cards; for --units a SYSTEM
+            line = trim(adjustl(line(index(line, '=') + 1:))) ! any text for the comments of the cards; for --units a SYSTEM
             if (data%units /= '' .and. line /= data%units) &
                call errors%add(i, 'UNITS: '''//line//''', but above it was '''//data%units//'''')
             data%units = line
@@ -96,7 +95,7 @@ contains
       call keep_header(header, reading, data, errors)
    end subroutine read_test_data
 
-   !> What the rows below the last HEADER are.
+   !> Determine the kind of the rows below the last HEADER.
    subroutine keep_header(header, reading, data, errors)
       type(header_type), intent(in)        :: header
       type(reading_type), intent(in)       :: reading
@@ -119,7 +118,7 @@ contains
       end if
    end subroutine keep_header
 
-   !> One row of data.
+   !> Read one row of data.
    subroutine read_row(line, at, entries, header, data, errors)
       character(*), intent(in)             :: line
       integer, intent(in)                  :: at
@@ -151,7 +150,7 @@ contains
       end associate
    end subroutine read_row
 
-   !> The entry WORD in its COLUMN of the last row, to be multiplied by FACTOR.
+   !> Read the entry WORD in its COLUMN of the last row, to be multiplied by FACTOR.
    subroutine read_entry(word, column, factor, data, errors)
       character(*), intent(in)             :: word
       integer, intent(in)                  :: column
@@ -180,7 +179,7 @@ contains
                fault = ''''//word//''' is not a number'
             else if (abs(value) > 1.0e30_wp) then
                fault = ''''//word//''' is beyond 1E30'
-               value = 0.0_wp ! what follows can go on, and find its faults
+               value = 0.0_wp ! reading continues and finds the errors in the next entries
             end if
             value = value*factor
          end if

@@ -1,4 +1,4 @@
-!> Writes the outputs of jointfit besides the cards: errors, the summary line of each file, and a gnuplot script.
+!> Writes the outputs of jointfit besides the cards: errors, warnings and a gnuplot script; sets the exit status.
 !! The script plots the data and the fit of a surface: the test points, and lines through the fit at these points.
 module fit_output
    use c_library, only: end_run, tell_failed_writes
@@ -23,7 +23,7 @@ module fit_output
 
    integer, parameter :: status_unreadable = 1, status_data = 2, status_unwritten = 4
 
-   integer :: exit_status = 0 ! the highest so far
+   integer :: exit_status = 0 ! highest status so far
 
 contains
 
@@ -34,7 +34,7 @@ contains
       call complain_of_input(file, 'a file of test data')
    end subroutine report_unreadable_data
 
-   !> All errors of a data file.
+   !> Report all errors of a data file.
    subroutine report_data_errors(text, errors)
       type(deck_text_type), intent(in)  :: text
       type(deck_error_list), intent(in) :: errors
@@ -43,7 +43,7 @@ contains
       call print_errors(error_unit, 'DATA', 'no card written', text, errors)
    end subroutine report_data_errors
 
-   !> The warnings of a fit, and that there is no card for want of loading data.
+   !> Report the warnings of a fit, and a missing card where loading data are missing.
    subroutine report_fit(file, fit)
       type(input_argument), intent(in)   :: file
       type(surface_fit_type), intent(in) :: fit
@@ -60,7 +60,7 @@ contains
          ' other branches are written as comments; --branch '//word//' --as LOAD makes a card of '//word//' data'
    end subroutine report_fit
 
-   !> Begin the outputs of the run: OUT for the cards and, where the command wants it, the PLOT.
+   !> Begin the outputs of the run: OUT for the cards and, if the command asks for it, PLOT.
    subroutine begin_output(command, out, plot)
       type(fit_command_type), intent(in)    :: command
       type(output_file_type), intent(inout) :: out, plot
@@ -92,8 +92,8 @@ contains
       call end_run(max(exit_status, merge(0, status_unwritten, ok)))
    end subroutine end_fit
 
-   !> Add the picture of surface NUMBER of the command to OUT: p over lambda, tau over d, or of published cubics Fig. 2, their
-   !! coefficients over p.
+   !> Add the plot of surface NUMBER of the command to OUT: p over lambda, tau over d, or for published cubics Fig. 2, their coefficients
+   !! over p.
    subroutine write_plot(command, number, data, fit, out)
       type(fit_command_type), intent(in)    :: command
       integer, intent(in)                   :: number
@@ -141,7 +141,7 @@ contains
       call out%put('plot '//plots(3:))
    end subroutine write_plot
 
-   !> The points of loading and the power law, those of each way down or up and its line of slope E_u.
+   !> Plot the points of loading with the power law, and the points of each unloading or reloading line with its slope E_u.
    subroutine put_normal(data, fit, plots, out)
       type(test_data_type), intent(in)         :: data
       type(normal_fit_type), intent(in)        :: fit
@@ -165,7 +165,7 @@ contains
       end do
    end subroutine put_normal
 
-   !> The points of branch B of shear at each pressure and the law of the card, from the start of each run that suits it best.
+   !> Plot the points of branch B of shear at each pressure and the law of the card, with the best constant of each run.
    subroutine put_shear(data, fit, b, plots, out)
       type(test_data_type), intent(in)         :: data
       type(surface_fit_type), intent(in)       :: fit
@@ -191,11 +191,11 @@ contains
       end associate
    end subroutine put_shear
 
-   !> A block of points X, Y with the fit at each of them, FITTED_X and FITTED_Y, drawn in a LOOK, shape and colour. Blocks of one
-   !! TITLE one after the other have one entry in the key.
+   !> Add a block of points X, Y with the fit FITTED_X, FITTED_Y at each point, in a LOOK of shape and colour. Consecutive blocks of one
+   !! TITLE share an entry of the key.
    subroutine put_block(out, plots, title, look, x, y, fitted_x, fitted_y)
       type(output_file_type), intent(inout)    :: out
-      character(:), allocatable, intent(inout) :: plots !! the arguments of the command plot so far
+      character(:), allocatable, intent(inout) :: plots !! arguments of the plot command so far
       character(*), intent(in) :: title
       integer, intent(in)      :: look(2)
       real(wp), intent(in)     :: x(:), y(:), fitted_x(:), fitted_y(:)
@@ -220,7 +220,7 @@ contains
               ' using 3:4 with lines lw 2 dt '//integer_text(look(1))//colour//' notitle'
    end subroutine put_block
 
-   !> TEXT as gnuplot takes it as it stands.
+   !> TEXT quoted for gnuplot.
    pure function quoted(text) result(words)
       character(*), intent(in)  :: text
       character(:), allocatable :: words

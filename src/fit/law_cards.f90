@@ -13,9 +13,9 @@ module law_cards
 
 contains
 
-   !> Look at every fitted branch in the range of its data and, where all is well there, in what the card covers: p from 0
-   !! to PMAX, d to DMAX, and for unloading and reloading d below zero too, because these branches go on past zero to the
-   !! mirror of their point A. A branch is followed as the joint does: unloading with falling d, the others with rising d.
+   !> Check the slope of every fitted branch in the range of its data and, if it is positive there, in the range of the card: p from 0 to
+   !! PMAX, d to DMAX, and d below zero too for unloading and reloading, because these branches extend past zero to the mirror image of
+   !! their point A. A branch is followed as in the joint: unloading with decreasing d, the others with increasing d.
    subroutine check_slopes(fit)
       type(surface_fit_type), intent(inout) :: fit
       integer  :: b
@@ -41,7 +41,7 @@ contains
       end do
    end subroutine check_slopes
 
-   !> Whether branch B loses its slope for P between these two, on the WAY from one d to another; then a warning names the place.
+   !> Whether the slope of branch B becomes zero or negative for pressures between P(1) and P(2) and d from WAY(1) to WAY(2); then warn.
    logical function loses_slope(fit, b, p, way, range) result(lost)
       type(surface_fit_type), intent(inout) :: fit
       integer, intent(in)      :: b
@@ -54,14 +54,14 @@ contains
                                       real_text(p_lost)//', d = '//real_text(d_lost)//', '//range)
    end function loses_slope
 
-   !> On the way from d = FROM to d = TO, the first d at which dP/dd = sum over k of k (a_k1 + a_k2 p) d^(k-1) is no longer positive
-   !! for some p between P_LOW and P_HIGH. The slope is linear in p, so it is least at one end: two quadratics in d tell all.
+   !> From d = FROM to d = TO, find the first d at which dtau/dd = sum over k of k (a_k1 + a_k2 p) d^(k-1) is not positive for some p
+   !! between P_LOW and P_HIGH. The slope is linear in p, so its minimum is at P_LOW or P_HIGH: two quadratics in d decide.
    pure subroutine find_slope_loss(lines, p_low, p_high, from, to, found, p, d)
       real(wp), intent(in)  :: lines(2, 3)   !! a_k1 and a_k2 for k = 1, 2, 3
       real(wp), intent(in)  :: p_low, p_high !! [pressure]
-      real(wp), intent(in)  :: from, to      !! [length], TO = +-huge: without end
+      real(wp), intent(in)  :: from, to      !! [length], TO = +-huge: unbounded
       logical, intent(out)  :: found
-      real(wp), intent(out) :: p, d          !! the place, where found
+      real(wp), intent(out) :: p, d          !! the place, if FOUND
       real(wp) :: ends(2), place
       logical  :: lost
       integer  :: i
@@ -109,7 +109,7 @@ contains
       integer, intent(in)  :: id
       real(wp), intent(in) :: c, m  !! [length/pressure^m], [-]
       real(wp), intent(in) :: e_u   !! [pressure/length]
-      logical, intent(in)  :: small !! fields of 8 columns, else of 16
+      logical, intent(in)  :: small !! fields of 8 columns, otherwise 16
       character(80), allocatable :: lines(:)
       character(16) :: fields(8)
 
@@ -120,12 +120,12 @@ contains
       lines = card_lines('JNORM', fields, small)
    end function jnorm_card
 
-   !> JSHEAR SID A11 A12 A21 A22 A31 A32, the continuations B11 to B32, C11 to C32, and PMAX DMAX. A branch that is not
-   !! GIVEN leaves its continuation blank, which means as loading; so does a zero D_MAX its field.
+   !> JSHEAR SID A11 A12 A21 A22 A31 A32, the continuations B11 to B32, C11 to C32, and PMAX DMAX. The continuation of a branch that is
+   !! not GIVEN is blank, which means as loading. A zero D_MAX leaves its field blank.
    function jshear_card(id, coefficients, given, p_max, d_max, small) result(lines)
       integer, intent(in)  :: id
       real(wp), intent(in) :: coefficients(2, 3, 3) !! (., k, branch): a_k1 and a_k2 for load, unload, reload
-      logical, intent(in)  :: given(3)              !! the first is true
+      logical, intent(in)  :: given(3)              !! the first must be true
       real(wp), intent(in) :: p_max, d_max          !! tested range [pressure], [length]
       logical, intent(in)  :: small
       character(80), allocatable :: lines(:)
@@ -143,7 +143,7 @@ contains
       lines = card_lines('JSHEAR', fields, small)
    end function jshear_card
 
-   !> The continuation with the COEFFICIENTS of one branch alone.
+   !> The continuation with the COEFFICIENTS of one branch.
    function coefficient_line(coefficients, small) result(lines)
       real(wp), intent(in) :: coefficients(2, 3)
       logical, intent(in)  :: small
@@ -155,7 +155,7 @@ contains
       lines = card_lines('+', fields, small)
    end function coefficient_line
 
-   !> NUMBERS in all columns of a small field, all but one of a large one, so that they stand apart.
+   !> NUMBERS in all columns of a small field, or all but one of a large field, so that a blank separates them.
    function number_fields(numbers, small) result(fields)
       real(wp), intent(in) :: numbers(:)
       logical, intent(in)  :: small
@@ -167,8 +167,8 @@ contains
       end do
    end function number_fields
 
-   !> A card NAME (or + for a continuation) with its FIELDS, eight a line, in large field eight a pair of lines. Eight blank
-   !! ones are a lone +.
+   !> A card NAME (or + for a continuation) with its FIELDS, eight on a line, in large field eight on a pair of lines. Eight blank fields
+   !! are a single +.
    function card_lines(name, fields, small) result(lines)
       character(*), intent(in)  :: name
       character(16), intent(in) :: fields(:) !! (8, 16, ...)
@@ -195,7 +195,7 @@ contains
       end do
    end function card_lines
 
-   !> One line: HEAD in eight columns, then the FIELDS, WIDTH columns each.
+   !> One line: HEAD in eight columns, then the FIELDS, each WIDTH columns wide.
    pure function joined(head, fields, width) result(line)
       character(*), intent(in)  :: head
       character(16), intent(in) :: fields(:)
@@ -207,8 +207,8 @@ contains
       write (line, '(9a)') name, fields(:)(:width)
    end function joined
 
-   !> VALUE in at most WIDTH columns, as NASTRAN writes it: the nearest number that fits, as 0.0125, 260.8628 or, where that
-   !! is nearer, in the short form with an exponent, 1.2346-5. It always has a decimal point, and reads back by parse_real.
+   !> VALUE in at most WIDTH columns as in NASTRAN: the nearest number that fits, as 0.0125, 260.8628 or, where that is nearer, in the
+   !! short form with an exponent, 1.2346-5. It always has a decimal point, and parse_real reads it.
    function real_field_text(value, width) result(text)
       real(wp), intent(in)      :: value !! |value| below 1E99 and not below 1E-99, or zero
       integer, intent(in)       :: width !! 7 to 16
@@ -222,7 +222,7 @@ contains
       best = '0.0'
       least = huge(least)
       do k = 1, 2*width - 1
-         if (k <= width) then                ! a zero before the point where there is room, none where not
+         if (k <= width) then                ! a zero before the point if there is room
             if (abs(value) >= 1.0e16_wp) cycle
             write (layout, '(a, i0, a)') '(f0.', modulo(k, width), ')'
             write (entry, layout) value

@@ -20,25 +20,25 @@ module surface_fit
 
    public :: fit_surface, fit_normal, fit_power_law, fit_proportional
 
-   real(wp), parameter :: much = 0.05_wp ! of the largest reading: a residual that is warned of
+   real(wp), parameter :: much = 0.05_wp ! a residual above this share of the largest reading is reported
 
    type, public :: normal_fit_type
       real(wp) :: c = 0.0_wp, m = 0.0_wp           !! lambda = c p^m
       integer  :: n_points = 0
       real(wp) :: p_low = 0.0_wp, p_high = 0.0_wp  !! [pressure]
       real(wp) :: lambda_high = 0.0_wp             !! [length]
-      real(wp) :: rms = 0.0_wp, largest = 0.0_wp, p_largest = 0.0_wp !! residual of lambda [length], and where [pressure]
-      type(loop_fit_type) :: loops                 !! the lines of unloading and reloading
+      real(wp) :: rms = 0.0_wp, largest = 0.0_wp, p_largest = 0.0_wp !! residual of lambda [length], and its place [pressure]
+      type(loop_fit_type) :: loops                 !! lines of unloading and reloading
    end type normal_fit_type
 
    type, public :: surface_fit_type
-      integer :: kind = 0                          !! of the data: data_normal, or a shear law
-      type(branch_fit_type) :: branch(3)           !! of the card: load, unload, reload; n_points 0: no data
-      integer  :: source(3) = 0                    !! the branch of the data that each was fitted to
+      integer :: kind = 0                          !! data_normal, or a shear law
+      type(branch_fit_type) :: branch(3)           !! load, unload, reload of the card; n_points 0: no data
+      integer  :: source(3) = 0                    !! branch of the data used for each branch of the card
       real(wp) :: card(2, 3, 3) = 0.0_wp           !! (., k, branch): a_k1 and a_k2 for the card
-      logical  :: has_loading = .false.            !! false: there is no whole card
+      logical  :: has_loading = .false.            !! false: the card is incomplete
       real(wp) :: p_max = 0.0_wp                   !! range of the loading data [pressure]
-      real(wp) :: d_max = 0.0_wp                   !! [length], 0: not known
+      real(wp) :: d_max = 0.0_wp                   !! [length], 0: unknown
       type(loop_closure) :: closure                !! of the law on the card
       type(normal_fit_type) :: normal
       type(deck_error_list) :: warnings
@@ -46,11 +46,11 @@ module surface_fit
 
    integer, parameter  :: most_steps = 200, most_halvings = 60
    real(wp), parameter :: settled = 1.0e-14_wp   ! change of ln c and m in one step
-   real(wp), parameter :: m_rounding = 1.0e-9_wp ! an m above 1 by less is 1
+   real(wp), parameter :: m_rounding = 1.0e-9_wp ! an m above 1 by less counts as 1
 
 contains
 
-   !> Fit the law that DATA are about. What they lack goes to ERRORS.
+   !> Fit the law of the surface in DATA. Missing data go to ERRORS.
    subroutine fit_surface(data, command, fit, errors)
       type(test_data_type), intent(in)     :: data
       type(fit_command_type), intent(in)   :: command
@@ -77,7 +77,7 @@ contains
       largest = max(fit%normal%c, fit%normal%loops%e_u, maxval(abs(fit%card)), fit%p_max, fit%d_max)
       if (.not. largest <= largest_size) call errors%add(0, 'the law that fits these data has a number of '//real_text(largest)// &
          ', and a deck accepts at most '//real_text(largest_size)//': are the units right, and --dmax?')
-      positive = [fit%normal%c, fit%normal%loops%e_u, fit%p_max, fit%d_max] ! zero: none, its field is blank
+      positive = [fit%normal%c, fit%normal%loops%e_u, fit%p_max, fit%d_max] ! zero: not fitted, its field is blank
       smallest = minval(positive, mask=positive > 0.0_wp)
       if (smallest < smallest_size) call errors%add(0, 'the law that fits these data has a number of '//real_text(smallest)// &
          ', and a deck accepts none below '//real_text(smallest_size)//': are the units right?')
@@ -92,7 +92,7 @@ contains
          call fit%warnings%add(0, 'reloading misses point A by more than 5 % of tau_r: cycles under one load creep')
    end subroutine fit_surface
 
-   !> The branches of the shear law.
+   !> Fit the branches of the shear law.
    subroutine fit_shear(data, command, fit, errors)
       type(test_data_type), intent(in)      :: data
       type(fit_command_type), intent(in)    :: command
@@ -111,7 +111,7 @@ contains
       end if
       do b = fit_load, fit_reload
          if (count(data%branch(:data%n) == fit%source(b)) == 0) cycle
-         if (data%is_record .and. b /= fit_load) then      ! a record may hold a little of a branch
+         if (data%is_record .and. b /= fit_load) then      ! a record may contain a short part of a branch
             call fit_branch(data, command, fit%source(b), fit%branch(b), fit%warnings)
             if (fit%branch(b)%fault /= fault_none) fit%branch(b) = branch_fit_type()
          else
@@ -134,10 +134,10 @@ contains
       if (command%d_max > 0.0_wp) fit%d_max = command%d_max
    end subroutine fit_shear
 
-   !> Warn of a fit with readings that lie far off it.
+   !> Warn where readings lie far off the fit.
    subroutine check_residual(branch, reading, residual, largest, warnings)
       character(*), intent(in)             :: branch, reading
-      real(wp), intent(in)                 :: residual, largest !! off the law; of all readings
+      real(wp), intent(in)                 :: residual, largest !! largest deviation from the law; largest reading
       type(deck_error_list), intent(inout) :: warnings
       character(:), allocatable :: whose
 
@@ -148,7 +148,7 @@ contains
                         'of the largest '//reading//', '//real_text(largest))
    end subroutine check_residual
 
-   !> The branch of the card that the rows of branch SOURCE give.
+   !> Fit a branch of the card to the rows of branch SOURCE.
    subroutine fit_branch(data, command, source, fit, errors)
       type(test_data_type), intent(in)     :: data
       type(fit_command_type), intent(in)   :: command
@@ -198,8 +198,7 @@ contains
                          source /= fit_load, command%fit, fit)
       end subroutine fit_rows
 
-      !> Whether row I is where a reloading has come back to point A: it is a point of loading, and of reloading too where there are
-      !! few.
+      !> Whether reloading returns to point A at row I: it is a point of loading, and also of reloading where reloading has few points.
       logical function returns(i)
          integer, intent(in) :: i
          integer :: a
@@ -216,7 +215,7 @@ contains
 
    end subroutine fit_branch
 
-   !> The option that helps where measured pressures lie close to each other and count as different.
+   !> The option that helps where measured pressures are close to each other but count as different.
    function tolerance_help(fit) result(words)
       type(branch_fit_type), intent(in) :: fit
       character(:), allocatable :: words
@@ -227,9 +226,9 @@ contains
       end associate
    end function tolerance_help
 
-   !> Fit the power law to points of loading, m being 1 at most. What they lack goes to ERRORS, an m held at 1 to WARNINGS.
+   !> Fit the power law to points of loading, with m at most 1. Missing data go to ERRORS, an m held at 1 goes to WARNINGS.
    subroutine fit_normal(p, lambda, fit, errors, warnings)
-      real(wp), intent(in)                 :: p(:)      !! [pressure]; below 0, in the noise, it counts as 0
+      real(wp), intent(in)                 :: p(:)      !! [pressure]; noise below 0 counts as 0
       real(wp), intent(in)                 :: lambda(:) !! [length]
       type(normal_fit_type), intent(inout) :: fit
       type(deck_error_list), intent(inout) :: errors, warnings
@@ -264,16 +263,16 @@ contains
       slope = fit%p_high**(1.0_wp - fit%m)/(fit%m*fit%c)
       if (fit%loops%e_u <= 0.0_wp) then
          call warnings%add(0, 'lambda does not fall with p in unloading: EU is left blank')
-      else if (fit%loops%e_u < slope) then ! unloaded less steeply than loaded
+      else if (fit%loops%e_u < slope) then ! unloading is less steep than loading
          call warnings%add(0, 'E_u = '//real_text(fit%loops%e_u)//' is below the slope of the loading curve at p = '// &
                            real_text(fit%p_high)//', '//real_text(slope)//': the set would be negative')
       end if
    end subroutine fit_normal
 
-   !> The c and m that make the sum of (c p^m - lambda)^2 least. The straight line through ln lambda over ln p is the start;
-   !! then Gauss-Newton in lambda itself, a step that makes the sum larger being halved. Points with p <= 0 or lambda <= 0
-   !! have no logarithm: they are left out of the start, and with p <= 0 the law gives zero whatever c and m are.
-   !! OK is false where fewer than two different p > 0 have lambda > 0, or the steps do not settle.
+   !> The c and m that minimize the sum of (c p^m - lambda)^2. The start is the straight line through ln lambda over ln p. Gauss-Newton
+   !! steps in lambda follow; a step that increases the sum is halved. Points with p <= 0 or lambda <= 0 have no logarithm and are left
+   !! out of the start; for p <= 0 the law is zero for any c and m. OK is false where fewer than two different p > 0 have lambda > 0, or
+   !! the steps do not converge.
    subroutine fit_power_law(p, lambda, c, m, ok)
       real(wp), intent(in)  :: p(:)      !! [pressure]
       real(wp), intent(in)  :: lambda(:) !! [length]
@@ -291,7 +290,7 @@ contains
       if (.not. ok) return
       x = log(pack(p, above))
       y = log(pack(lambda, above))
-      mean = sum(x)/size(x)      ! at the mean of ln p the two unknowns hardly depend on each other
+      mean = sum(x)/size(x)      ! at the mean of ln p the two unknowns are almost independent
       call fit_line(x - mean, y, line, ok)
       if (.not. ok) return
       call gauss_newton(log(pack(p, p > 0.0_wp)) - mean, pack(lambda, p > 0.0_wp), line, ok)
@@ -299,7 +298,7 @@ contains
       c = exp(line(1) - m*mean)
    end subroutine fit_power_law
 
-   !> From the start Q, the Q that makes the sum of (exp(Q(1) + Q(2) x) - lambda)^2 least.
+   !> From the start Q, the Q that minimizes the sum of (exp(Q(1) + Q(2) x) - lambda)^2.
    subroutine gauss_newton(x, lambda, q, ok)
       real(wp), intent(in)    :: x(:), lambda(:)
       real(wp), intent(inout) :: q(2)
@@ -319,7 +318,7 @@ contains
             if (now <= before) exit
             step = 0.5_wp*step
          end do
-         if (now > before) return     ! no direction downhill is left: q is the least to rounding
+         if (now > before) return     ! no direction of descent is left: q is the minimum to rounding
          q = q + step
          before = now
          if (maxval(abs(step)) <= settled) return

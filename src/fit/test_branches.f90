@@ -15,29 +15,29 @@ module test_branches
 
    public :: find_branches, follow
 
-   real(wp), parameter :: least_band = 0.01_wp, most_band = 0.25_wp ! of noise, shares of the range
-   real(wp), parameter :: far = 0.1_wp         ! share of the range that is away from the first reading
-   integer, parameter  :: few = 3              ! rows in a run, on average, below which the order is hardly that of time
+   real(wp), parameter :: least_band = 0.01_wp, most_band = 0.25_wp ! of noise, as shares of the range
+   real(wp), parameter :: far = 0.1_wp         ! share of the range beyond which a reading is away from the first reading
+   integer, parameter  :: few = 3              ! mean number of rows in a run below which the rows are hardly in the order of time
 
-   integer, parameter  :: no_branch = 0        ! of a row that the law has no branch for
-   real(wp), parameter :: exact = 1.0e-6_wp    ! share of the stress, or of d, that tells readings apart
-   real(wp), parameter :: known = 1.5_wp       ! times the largest d of loading: how far its cubic tells where loading goes on
+   integer, parameter  :: no_branch = 0        ! for rows without a branch of the law
+   real(wp), parameter :: exact = 1.0e-6_wp    ! share of the stress, or of d, by which readings count as different
+   real(wp), parameter :: known = 1.5_wp       ! the loading cubic is trusted up to this multiple of the largest d of loading
 
-   !> The loading curve of a test as its points so far show it.
+   !> The loading curve of a test through its points so far.
    type :: curve_type
       logical  :: is_known = .false.
-      integer  :: n = 0                        ! points
-      real(wp) :: a(3) = 0.0_wp                ! coefficients of its cubic
-      real(wp) :: d = 0.0_wp                   ! of the last point [length]
-      real(wp) :: scatter = 0.0_wp             ! of its points [stress]
-      real(wp) :: least = 0.0_wp               ! what tells readings apart [stress]
+      integer  :: n = 0                        ! number of points
+      real(wp) :: a(3) = 0.0_wp                ! coefficients of the cubic
+      real(wp) :: d = 0.0_wp                   ! d of the last point [length]
+      real(wp) :: scatter = 0.0_wp             ! scatter of the points [stress]
+      real(wp) :: least = 0.0_wp               ! smallest difference between readings [stress]
    end type curve_type
 
 contains
 
-   !> Give every row of DATA its branch and its run where the file does not say them: by turning points where the rows are a
-   !! record in the order of time, by the direction of each run where the runs have numbers. First readings a little below zero
-   !! are taken off the others; what is too far below zero for noise, or in no order, goes to ERRORS.
+   !> Assign a branch and a run to every row of DATA where the file does not give them: by turning points where the rows are in the order
+   !! of time, by the direction of each run where the runs are numbered. A first reading slightly below zero is subtracted from the
+   !! others. Readings too far below zero for noise, and rows without an order, go to ERRORS.
    subroutine find_branches(data, command, errors)
       type(test_data_type), intent(inout)  :: data
       type(fit_command_type), intent(in)   :: command
@@ -85,9 +85,9 @@ contains
          band*range, [runs, maxval(test)], errors)
    end subroutine find_branches
 
-   !> The TEST that each row belongs to. A header begins one, another pressure of shear too, and so does a row that is back at
-   !! the first reading when the one before it was not: there a specimen starts anew. Rows that name their branches may stand in
-   !! any order, and runs with numbers come back to their pressure.
+   !> The TEST of each row. A header begins a test, and so does another pressure in shear. A row back at the first reading, after a row
+   !! away from it, begins the test of a new specimen. Rows with branches may be in any order, and numbered runs may return to
+   !! their pressure.
    subroutine separate_tests(data, p_tolerance, columns, range, band, test)
       type(test_data_type), intent(in)  :: data
       real(wp), intent(in)              :: p_tolerance, range(2), band
@@ -108,7 +108,7 @@ contains
          t = findloc([(data%part(first(k)) == data%part(i) .and. group(first(k)) == group(i), k = 1, n)], .true., 1, back=.true.)
          if (data%is_record .and. t < n) t = 0
          fresh = t == 0
-         if (data%in_order .and. .not. fresh) then ! how far the row before, and this one, lie from the first: shares of the range
+         if (data%in_order .and. .not. fresh) then ! distances of the row before, and of this row, from the first row: shares of the range
             away = [maxval(abs(data%value(columns, last(t)) - data%value(columns, first(t)))/range), &
                     maxval(abs(data%value(columns, i) - data%value(columns, first(t)))/range)]
             fresh = away(1) > far .and. away(2) <= band
@@ -123,8 +123,8 @@ contains
       end do
    end subroutine separate_tests
 
-   !> The ROWS of one test, in order, take their branches from the way U that it went, straight from START to START; of shear
-   !! what was loaded in the other sense is turned over.
+   !> Assign branches to the ROWS of one test, in order, from the path U, which is straight from START to START. In shear, readings of the
+   !! opposite sense of loading are reversed.
    subroutine take_branches(data, rows, u, starts)
       type(test_data_type), intent(inout) :: data
       integer, intent(in)  :: rows(:), starts(:)
@@ -151,21 +151,21 @@ contains
       end do
    end subroutine take_branches
 
-   !> The branch of every point of a test that goes straight along U between the points START, as the law has it: it loads;
-   !! turned back it unloads; turned again it reloads, up to where it meets the loading curve, and loads again beyond. In a test
-   !! that MIRRORS, unloading that meets the loading curve of the other SENSE is loading there. Without stresses, and where no
-   !! curve is known, it is met at the deflection where the last unloading left it, point A.
+   !> The branch of every point of a test that follows U in straight ways between the points STARTS. The test loads; turned back it
+   !! unloads; turned again it reloads until it meets the loading curve, and then loads. In a test that MIRRORS, unloading that meets
+   !! the loading curve of the other SENSE becomes loading. Without stresses, or without a known curve, the curve is met at point A, the
+   !! deflection at which the last unloading began.
    subroutine follow(forward, u, starts, mirrors, joined, branch, sense, tau)
       real(wp), intent(in) :: forward(:) !! d, or p of a normal test
-      real(wp), intent(in) :: u(:)       !! grows where the test loads
+      real(wp), intent(in) :: u(:)       !! increases where the test loads
       integer, intent(in)  :: starts(:)  !! first points of the straight ways
       logical, intent(in)  :: mirrors
-      logical, intent(in)  :: joined     !! a way begins at the last point of the one before, else at its own first one
+      logical, intent(in)  :: joined     !! a way begins at the last point of the way before, otherwise at its own first point
       integer, intent(out) :: branch(:)  !! fit_load, fit_unload, fit_reload, no_branch
       integer, intent(out) :: sense(:)   !! 1 or -1
       real(wp), intent(in), optional :: tau(:)
       type(curve_type) :: curve
-      real(wp) :: reached               ! deflection of point A, in the sense S; while the test loads the largest so far
+      real(wp) :: reached               ! deflection of point A, in the sense S; during loading the largest deflection so far
       integer  :: before, goal, i, joins, k, last, s, way
 
       s = 1
@@ -204,7 +204,7 @@ contains
 
    contains
 
-      !> The loading curve tau = a1 d + a2 d^2 + a3 d^3 as the first N points show it.
+      !> The loading curve tau = a1 d + a2 d^2 + a3 d^3 fitted to the first N points.
       type(curve_type) function loading_curve(n) result(curve)
          integer, intent(in) :: n
          integer :: points(n)
@@ -233,14 +233,14 @@ contains
       tau = d*(curve%a(1) + d*(curve%a(2) + d*curve%a(3)))
    end function cubic_at
 
-   !> Where a way back, from the point FIRST on, meets the loading CURVE that it goes to: behind the last point up to A that is off
-   !! the curve on the side from which the way comes to it; where that is the last one before A, JOINS stays what A makes it. Then
-   !! points beyond A that are still off the curve, not far from what is known of it, are on no branch of the law.
+   !> Where a return path from point FIRST on meets its loading CURVE: after the last point up to A that is off the curve on the side
+   !! of the path. Where that is the last point before A, JOINS keeps the value from A. Points beyond A that are still off the curve,
+   !! within its known range, then belong to no branch of the law.
    subroutine find_meeting(curve, d, tau, first, joins, branch)
       type(curve_type), intent(in) :: curve
-      real(wp), intent(in)         :: d(:), tau(:) !! in the sense of that curve
+      real(wp), intent(in)         :: d(:), tau(:) !! in the sense of the curve
       integer, intent(in)          :: first
-      integer, intent(inout)       :: joins        !! the first point of loading
+      integer, intent(inout)       :: joins        !! first point of loading
       integer, intent(inout)       :: branch(:)
       integer  :: i, last_off
       real(wp) :: off, side
@@ -270,8 +270,8 @@ contains
 
    contains
 
-      !> The first point behind LAST, before END, that is on the curve: of points in doubt, the first behind where the parabola
-      !! through what is off before them comes to it.
+      !> The first point after LAST and before END on the curve; of points in doubt, the first point after the intersection of the curve with
+      !! the parabola through the points before that are off the curve.
       integer function behind(last, end)
          integer, intent(in) :: last, end
          integer  :: points(last - first + 1), k
@@ -291,7 +291,8 @@ contains
 
    end subroutine find_meeting
 
-   !> How far a point at D may lie off the CURVE and be on it: three times what its points scatter, more where none is.
+   !> Largest distance from the CURVE at D of a point that counts as on it: three times the scatter of its points, more
+   !! beyond the last point.
    elemental real(wp) function doubt(curve, d)
       type(curve_type), intent(in) :: curve
       real(wp), intent(in)         :: d
@@ -299,13 +300,12 @@ contains
       doubt = curve%least + 3.0_wp*curve%scatter*max(1.0_wp, d/curve%d)**6
    end function doubt
 
-   !> Rows that name their branches and have no runs: each stretch of one branch at one pressure is a run, up to where d, of a
-   !! normal test p, turns back. Stretches of very few rows of shear are rows in no order: those of a branch and pressure are one
-   !! run.
+   !> Assign runs to rows that have branches but no runs. Each stretch of one branch at one pressure is a run, up to where d, or p of a
+   !! normal test, turns back. Very short stretches in shear mean rows without an order: those of one branch and pressure form one run.
    subroutine number_stretches(data, p_tolerance, noise)
       type(test_data_type), intent(inout) :: data
       real(wp), intent(in)                :: p_tolerance
-      real(wp), intent(in)                :: noise !! share of the range, 0: to be found
+      real(wp), intent(in)                :: noise !! share of the range, 0: estimated
       real(wp) :: band, scatter
       integer  :: column, first, i, last, n, parted(data%n), stretch(data%n)
       integer, allocatable :: turns(:)
@@ -327,7 +327,7 @@ contains
          first = 1
          if (band > most_band .and. noise <= 0.0_wp) first = data%n + 1
          n = 0
-         do while (first <= data%n)       ! parted where x turns back, and numbered anew
+         do while (first <= data%n)       ! split where x turns back, and renumbered
             last = first
             do while (last < data%n)
                if (stretch(last + 1) /= stretch(first)) exit
@@ -344,8 +344,8 @@ contains
       if (data%kind == data_normal .or. data%n >= few*stretch(data%n)) data%run(:data%n) = stretch
    end subroutine number_stretches
 
-   !> Where the first reading of a test is negative, by more than the SCATTER of readings and up to the BAND of noise, or ALWAYS,
-   !! take it off all its ROWS, COLUMNS(1) and (2) each by itself. Rows that name their branches begin with the first of loading.
+   !> Where the first reading of a test is negative, by more than the SCATTER of readings and at most the BAND of noise, or ALWAYS,
+   !! subtract it from all ROWS of the test, separately in COLUMNS(1) and (2). Rows with branches begin with the first loading row.
    subroutine take_off_offset(data, rows, columns, scatter, band, always)
       type(test_data_type), intent(inout) :: data
       integer, intent(in)  :: rows(:), columns(2)
@@ -366,7 +366,7 @@ contains
       end do
    end subroutine take_off_offset
 
-   !> What is further below zero than the BAND of noise, SHARE of the range: p, and d of rows that are named loading.
+   !> Report readings below zero by more than the BAND of noise, SHARE of the range: p, and d of rows given as loading.
    subroutine check_signs(data, share, band, errors)
       type(test_data_type), intent(in)     :: data
       real(wp), intent(in)                 :: share, band(2) !! of d and tau, or of lambda and p
@@ -395,7 +395,7 @@ contains
       end do
    end subroutine check_signs
 
-   !> Note how the record was cut, and say where it is hardly a record.
+   !> Note how the record was split, and warn where it hardly is a record.
    subroutine report_record(data, p_tolerance, columns, share, band, counts, errors)
       type(test_data_type), intent(inout)  :: data
       real(wp), intent(in)                 :: p_tolerance, share, band(2) !! SHARE of the range is the BAND of each column
