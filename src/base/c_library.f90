@@ -172,7 +172,7 @@ contains
       if (used < len(bytes, c_size_t)) bytes = bytes(:used)
    end subroutine read_all_bytes
 
-   !> Open the file PATH for reading. DESCRIPTOR is below zero where that fails.
+   !> Open the file PATH for reading. DESCRIPTOR is negative on failure.
    subroutine open_file(path, descriptor)
       character(*), intent(in) :: path
       integer, intent(out)     :: descriptor
@@ -307,7 +307,7 @@ contains
       kind = ibits(int(transfer(status(mode_at:mode_at + 1), 0_c_int16_t)), 12, 4)
    end function kind_of_file
 
-   !> Whether PATH is a plain file, links followed: no folder, device or pipe.
+   !> Whether PATH is a plain file, links followed: not a folder, device or pipe.
    logical function is_regular_file(path)
       character(*), intent(in) :: path
 

@@ -13,7 +13,7 @@ module lists
    type, public :: id_table_type
       private
       integer, allocatable :: ids(:)       ! ascending
-      integer, allocatable :: positions(:) ! positions(k) is where ids(k) stood
+      integer, allocatable :: positions(:) ! positions(k) is the position of ids(k)
       integer, allocatable :: direct(:)    ! direct(id) is the position of id, 0: none; only for dense numbers
    contains
       procedure :: build

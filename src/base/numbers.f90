@@ -24,7 +24,7 @@ module numbers
       real(wp) :: x(highest_degree) = 0.0_wp
    end type zero_list
 
-   real(wp), parameter :: singular = 1.0e-12_wp ! reciprocal condition number of the scaled columns below which the rank is deficient
+   real(wp), parameter :: singular = 1.0e-12_wp ! least reciprocal condition number of the scaled columns with full rank
 
    interface
       subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
@@ -66,7 +66,7 @@ contains
       end if
    end function first_largest
 
-   !> a x b.
+   !> Vector product a x b.
    pure function cross(a, b) result(product_of_them)
       real(wp), intent(in) :: a(3), b(3)
       real(wp) :: product_of_them(3)

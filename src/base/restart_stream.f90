@@ -5,7 +5,7 @@
 !!          17   the number of the layout [4]
 !!          21   16909060, which is 1, 2, 3, 4 byte by byte where the most significant comes first [4]
 !!          25   the version of the program that wrote it [16 letters]
-!!          41   the checksum of the deck with what it includes [8]
+!!          41   the checksum of the deck with its INCLUDE files [8]
 !!          49   the state: blocks of memory one behind the other, each with the number of its bytes before it [8]
 !!       n - 15  n, the bytes of the whole file [8]
 !!        n - 7  the checksum of all before [8]

@@ -70,7 +70,7 @@ contains
    pure subroutine write_integer(value, text, length)
       integer, intent(in)                   :: value
       character(integer_width), intent(out) :: text
-      integer, intent(out)                  :: length !! of what was written
+      integer, intent(out)                  :: length !! of the text
       integer(long) :: rest
       integer :: first
 
@@ -136,7 +136,7 @@ contains
    subroutine write_full(value, text, length)
       real(wp), intent(in)               :: value
       character(full_width), intent(out) :: text
-      integer, intent(out)               :: length !! of what was written
+      integer, intent(out)               :: length !! of the text
       character(full_width + 1) :: digits
 
       if (.not. ieee_is_finite(value)) then

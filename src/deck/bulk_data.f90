@@ -183,7 +183,7 @@ module bulk_data
       logical  :: is_moment = .false.
    end type force_card
 
-   integer, parameter, public :: of_edge = 1, of_face = 2, of_nodes = 3, of_marks = 4 !! what a pressure card names
+   integer, parameter, public :: of_edge = 1, of_face = 2, of_nodes = 3, of_marks = 4 !! kinds of pressure card, by the entity named
 
    !> PLOADE: the edge of element FIRST between its corners G1 and G2. PLOAD4: the face of element FIRST at G1 and G3 or G4, or the
    !! faces marked by the elements FIRST to LAST. PLOAD2: the faces marked by the elements of several RANGES. PLOAD: the face with the
@@ -274,7 +274,7 @@ module bulk_data
       integer :: line = 0, id = 0
    end type pmark_card
 
-   integer, parameter, public :: fit_auto = 1, fit_yes = 2, fit_no = 3 !! whether faces are fitted: where nodes do not match, always,
+   integer, parameter, public :: fit_auto = 1, fit_yes = 2, fit_no = 3 !! where faces are fitted: where nodes do not match, always,
                                                                        !! never
    type, public :: joint_card
       integer  :: line = 0, id = 0, law = 0, sides(2) = 0, fit = fit_auto
@@ -363,7 +363,7 @@ module bulk_data
    type, public :: bulk_data_type
       integer :: n_cards = 0                               !! number of cards of all kinds
       type(ignored_entries_type) :: ignored                       !! entries without effect, also of case control
-      type(parameters_type) :: parameters                  !! of PARAM
+      type(parameters_type) :: parameters
       type(grid_card), allocatable         :: grid(:)
       type(grid_card)                      :: grid_defaults !! CP, CD and PS of GRDSET
       type(system_card), allocatable       :: system(:)

@@ -32,7 +32,7 @@ module case_control
       logical :: carry = .false.
       logical :: average = .true.                        !! BACK: average two consecutive sets of results
       integer :: solver = solver_auto
-      real(wp) :: tolerance = newton_tolerance           !! NEWTON: unbalanced force relative to the largest load; BACK: change of pressures
+      real(wp) :: tolerance = newton_tolerance           !! NEWTON: unbalanced force over largest load; BACK: change of pressures
       integer :: restart = no_restart                    !! increments of a stage between restart files
       logical :: echo  = .true.
       logical :: echo_asked = .false.                    !! by ECHO: for any number of cards
@@ -42,7 +42,7 @@ module case_control
       integer :: model = 0, model_line = 0               !! MODEL, 0: not given
       type(number_set), allocatable :: sets(:)
       type(parameters_type) :: parameters                !! of PARAM
-      type(ignored_entries_type) :: ignored                     !! entries without effect
+      type(ignored_entries_type) :: ignored
       type(stage_type), allocatable :: stages(:)
    end type case_control_type
 

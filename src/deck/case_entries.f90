@@ -17,7 +17,7 @@ module case_entries
       'CARRY', 'AVERAGE', 'SOLVER', 'ECHO', 'RESTART', 'MASS', 'MODEL']
    character(11), parameter, public :: stage_keys(16) = [character(11) :: 'SPC', 'MPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', &
       'TEMPERATURE', 'WATCH', 'MODES', 'STIFFNESS', 'AMPLITUDE', 'BACKBONE', 'FREQUENCY', 'DLOAD', 'SDAMPING', 'RESPONSE']
-   character(11), parameter :: short_keys(3) = [character(11) :: 'TEMPERATURE', 'FREQUENCY', 'SDAMPING'] ! may be shortened to four letters
+   character(11), parameter :: short_keys(3) = [character(11) :: 'TEMPERATURE', 'FREQUENCY', 'SDAMPING'] ! four letters suffice
 
    !> A key with a number, and its line (0: not given).
    type, public :: set_reference
@@ -192,7 +192,7 @@ contains
       type(number_set), intent(in)         :: set
       integer, intent(in)                  :: numbers(:)
       logical, intent(out)                 :: are_in(:)
-      integer, allocatable, intent(out)    :: marks(:) !! their PMARK
+      integer, allocatable, intent(out)    :: marks(:) !! PMARK of its marked surfaces
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: word
       integer :: at, first, last, mark

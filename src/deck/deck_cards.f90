@@ -11,7 +11,7 @@ module deck_cards
    public :: read_card, add_field_error, card_name, is_continuation, check_first_field
 
    integer, parameter :: field_width = 32 !! longest entry of a field (free field only)
-   integer, parameter :: blank = iachar(' '), asterisk = iachar('*') ! character codes are compared inline, characters by a library call
+   integer, parameter :: blank = iachar(' '), asterisk = iachar('*') ! codes are compared inline, characters by a library call
 
    !> One entry of a card and its position.
    type, public :: card_field

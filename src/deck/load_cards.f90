@@ -262,7 +262,7 @@ contains
       gravity%spin_rate = two_pi*rate*direction
    end subroutine read_spin
 
-   !> LOAD: S (S1 L1 + S2 L2 + ...), the sets L being those of load cards other than LOAD.
+   !> LOAD: S (S1 L1 + S2 L2 + ...). The sets L hold load cards other than LOAD.
    subroutine read_load(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk

@@ -157,7 +157,7 @@ contains
    subroutine read_habit(entry, parameters, ignored, errors)
       type(entry_type), intent(in)           :: entry
       type(parameters_type), intent(inout)   :: parameters
-      type(ignored_entries_type), intent(inout)  :: ignored        !! entries without effect
+      type(ignored_entries_type), intent(inout)  :: ignored
       type(deck_error_list), intent(inout)   :: errors
       character(:), allocatable :: expected, name, value
       integer :: choice, comma

@@ -52,7 +52,7 @@ module stage_entries
       type(output_request) :: output
       type(limit_type), allocatable :: only(:) !! not allocated: tables of all nodes and elements
       type(limit_type), allocatable :: watch(:) !! nodes whose displacement the answer gives; not allocated: none
-      type(vibration_entries_type) :: vibration !! MODES and what goes with it
+      type(vibration_entries_type) :: vibration !! MODES, FREQUENCY and their options
    end type stage_type
 
 contains
@@ -116,12 +116,12 @@ contains
       end associate
    end subroutine read_stage_entry
 
-   !> OUTPUT = LAST, PLOT: words between commas.
+   !> OUTPUT = LAST, PLOT: words with commas.
    subroutine read_output(entry, stage, errors)
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
-      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N' ! may stand beside a level
+      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N' ! options beside a level
       character(:), allocatable :: rest, word
       integer :: comma, levels
       logical :: ok, twice

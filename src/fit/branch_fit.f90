@@ -220,7 +220,7 @@ contains
    pure subroutine group_by_pressure(p, tolerance, group, group_p)
       real(wp), intent(in)               :: p(:)       !! [pressure]; a p below 0, reported elsewhere, forms a group of its own
       real(wp), intent(in)               :: tolerance  !! >= 0 [-]
-      integer, allocatable, intent(out)  :: group(:)   !! (points) the group of each point
+      integer, allocatable, intent(out)  :: group(:)   !! (points)
       real(wp), allocatable, intent(out) :: group_p(:) !! (groups) [pressure]
       real(wp) :: lowest
       integer  :: n

@@ -108,7 +108,7 @@ contains
          t = findloc([(data%part(first(k)) == data%part(i) .and. group(first(k)) == group(i), k = 1, n)], .true., 1, back=.true.)
          if (data%is_record .and. t < n) t = 0
          fresh = t == 0
-         if (data%in_order .and. .not. fresh) then ! distances of the row before, and of this row, from the first row: shares of the range
+         if (data%in_order .and. .not. fresh) then ! distances of the row before and of this row from the first: shares of range
             away = [maxval(abs(data%value(columns, last(t)) - data%value(columns, first(t)))/range), &
                     maxval(abs(data%value(columns, i) - data%value(columns, first(t)))/range)]
             fresh = away(1) > far .and. away(2) <= band
@@ -270,8 +270,8 @@ contains
 
    contains
 
-      !> The first point after LAST and before END on the curve; of points in doubt, the first point after the intersection of the curve with
-      !! the parabola through the points before that are off the curve.
+      !> The first point after LAST and before END on the curve. Of points in doubt it is the first one after the intersection of the curve
+      !! with the parabola through the points before that are off the curve.
       integer function behind(last, end)
          integer, intent(in) :: last, end
          integer  :: points(last - first + 1), k

@@ -37,7 +37,7 @@ module distributed_solution
       logical  :: has_memory = .true.          !! MUMPS: for the factor
    end type distributed_solution_type
 
-   real(wp), parameter :: loosest = 1.0e-9_wp    !! largest residual of a solution, as a fraction of the load: rounding allows no less
+   real(wp), parameter :: loosest = 1.0e-9_wp    !! largest residual of a solution over the load: rounding allows no less
    integer, parameter  :: most_steps = 500
    integer, parameter, public :: no_limit = huge(1) !! no limit on the steps of a solution
    integer, parameter  :: lean_from = 600000     !! rows of a process, from which on the set-up of several takes a fifth less
@@ -84,7 +84,7 @@ contains
       call set_option('-jointfem_mg_levels_ksp_type', 'chebyshev')
       call set_option('-jointfem_mg_levels_pc_type', 'jacobi')
       call set_option('-jointfem_mg_levels_ksp_chebyshev_esteig', '0,0.05,0,1.1')
-      call set_option('-jointfem_pc_gamg_use_sa_esteig', '0') ! those bounds are of the stiffness from which the aggregates are built
+      call set_option('-jointfem_pc_gamg_use_sa_esteig', '0') ! those bounds are of the stiffness of the aggregates
       call set_option('-jointfem_pc_gamg_agg_nsmooths', '1')
       call set_option('-mat_product_clear', 'true') ! return the work space of matrix products at once
    end subroutine set_library_options

@@ -41,7 +41,7 @@ module petsc_solver
       type(factor_reuse_type) :: reuse            !! when to use an earlier preconditioner
       real(wp) :: pace = 0.0_wp                   !! steps per digit with a preconditioner of the present stiffness
       integer, allocatable  :: row(:)             !! (0:n) row of the matrix, from 1; row(0) is 0
-      real(wp), allocatable :: bodies(:, :, :)    !! (dimension, dimension, touched blocks) contributions of the bodies [force/length]
+      real(wp), allocatable :: bodies(:, :, :)    !! (dimension, dimension, touched blocks) of the bodies [force/length]
       logical :: is_own = .false.                 !! whether the preconditioner is of the present stiffness
       logical :: is_probed = .false.              !! whether a stiffness has been probed since the run or its history began
       real(wp), allocatable :: structure(:)       !! values of the touched blocks with the joints

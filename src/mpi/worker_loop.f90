@@ -18,7 +18,7 @@ module worker_loop
 
    public :: broadcast_command, serve, free_worker
 
-   real(wp), parameter :: entry_bytes = 30.0_wp !! measured memory of an entry of the matrix, with the coarser levels and their construction
+   real(wp), parameter :: entry_bytes = 30.0_wp !! measured memory of a matrix entry with its coarser levels and their set-up
 
    integer, parameter, public :: command_end = 0, command_take = 1, command_start = 2, command_touched = 3, command_finish = 4, &
                                  command_read = 5, command_write = 6, command_renew = 7, command_solve = 8, command_multiply = 9, &
@@ -57,7 +57,7 @@ contains
 
    !> Rank 0: broadcast the command WHAT with its WORDS; then do its own part.
    subroutine broadcast_command(what, words, values)
-      integer, intent(in)               :: what               !! order_*
+      integer, intent(in)               :: what               !! command_*
       integer, intent(in), optional     :: words(:)
       real(wp), intent(inout), optional :: values(:)          !! of rank 0: load and solution, touched blocks
       integer  :: head(2)
@@ -124,7 +124,7 @@ contains
          call write_touched(subdomain%dimension, values, stiffness)
       case (command_renew)
          call renew_preconditioner(subdomain, stiffness, solution)
-      case (command_solve)                                     ! words: digits; steps at most; 1, that it is noted, or 0
+      case (command_solve)                                     ! words: digits; most steps; 1: for later first guesses, 0
          call solve_distributed(words, stiffness, solution, values)
       case (command_diagonal)
          call read_diagonal(stiffness, values)
@@ -140,7 +140,7 @@ contains
          call multiply_by_matrix(stiffness, values)
       case (command_cut)                                       ! rank 0 sends, see mpi_backend
          if (rank /= 0) call receive_piece()
-      case (command_show)                                      ! likewise
+      case (command_show)                                      ! rank 0 sends, see mpi_backend
          if (rank /= 0) call write_received()
       end select
    end subroutine act

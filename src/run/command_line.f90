@@ -241,7 +241,7 @@ contains
       call move_alloc(more, decks)
    end subroutine add_deck
 
-   !> beam.bdf gives beam.out and beam.joint.csv. No two decks may write the same files, none may overwrite a deck.
+   !> Name the results: beam.bdf gives beam.out and beam.joint.csv. No two decks may write the same file, and no result may replace a deck.
    subroutine name_results(command, ok)
       type(command_type), intent(inout) :: command
       logical, intent(out)              :: ok

@@ -268,7 +268,7 @@ contains
       if (another_stage) another_stage = analysis%goes_on .or. analysis%stage < size(plan%stages)
    end function another_stage
 
-   !> Whether an increment of the stage is left.
+   !> Whether the stage has an increment left.
    pure logical function another_increment(run, plan, analysis)
       type(run_type), intent(in)        :: run
       type(stage_plan_type), intent(in) :: plan
