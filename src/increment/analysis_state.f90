@@ -1,4 +1,4 @@
-!> Everything that changes from increment to increment, and what all methods do with it alike.
+!> The state of the analysis, which changes from increment to increment, and operations on it common to all methods.
 module analysis_state
    use branch_starts, only: note_turns, turning_point
    use case_control, only: case_control_type, method_step, pressure_eq10
@@ -22,25 +22,25 @@ module analysis_state
    public :: start_analysis, all_held, interface_stiffness, reach, find_unbalanced, subtract_joint_forces, &
              element_force, tally_work, book_friction, record_iteration, note_largest, free_norm, force_noise, kind_on_branch
 
-   real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: what rounding may leave of the forces that joints are to balance
+   real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: the largest rounding error of forces that joints balance
 
    integer, parameter, public :: no_stiffness = 1, secant_stiffness = 2, tangent_stiffness = 3, e_u_stiffness = 4 !! k_n used
 
    !> Work done on one joint in the present stage [force x length].
    type, public :: joint_energy
-      real(wp) :: put_in(3)     = 0.0_wp            !! by shear, by normal forces, on friction: sum of the positive works
-      real(wp) :: given_back(3) = 0.0_wp            !! likewise of the negative ones, as a positive number
+      real(wp) :: put_in(3)     = 0.0_wp            !! by shear, by normal forces, on friction: sum of positive works
+      real(wp) :: given_back(3) = 0.0_wp            !! likewise, sum of negative works as a positive number
    end type joint_energy
 
    !> One re-analysis after the Coulomb check, or one iteration towards equilibrium, for the listing.
    type, public :: iteration_record
       real(wp) :: before = 0.0_wp, after = 0.0_wp   !! excess, or unbalanced force [force]; BACK: largest p, its change [pressure]
       real(wp) :: step = 1.0_wp                     !! length of the line search; BACK: largest deflection [length]
-      integer  :: changes = 0                       !! interface elements that slip, or that changed their branch
+      integer  :: changes = 0                       !! interface elements that slip or have changed their branch
       integer  :: part = 0                          !! NEWTON: which part of a divided increment; BACK: -1
    end type iteration_record
 
-   !> An element that slips, before a re-analysis and after it: points t_1 and t_1' of Fig. 5(b).
+   !> A slipping element before and after a re-analysis: points t_1 and t_1' of Fig. 5(b).
    type, public :: slip_record
       integer  :: reanalysis = 0, element = 0
       real(wp) :: delta(2, 2) = 0.0_wp              !! (direction, before and after) [length]
@@ -48,58 +48,57 @@ module analysis_state
       real(wp) :: limit(2) = 0.0_wp                 !! mu p before and after
    end type slip_record
 
-   !> What acts on the structure at one instant.
+   !> The loads and support movements at one instant.
    type, public :: load_state
-      real(wp), allocatable  :: load(:, :)           !! (dimension, n_nodes) what is not elastic in bolts and what warmth pushes included [force]
+      real(wp), allocatable  :: load(:, :)           !! (dimension, n_nodes) with plastic bolt forces and thermal forces [force]
       real(wp), allocatable  :: moved(:, :)          !! (dimension, n_nodes) displacements of held components [length]
       type(temperature_type) :: temperature
-      real(wp), allocatable  :: condensed_load(:, :) !! (dimension, retained) the load as retained nodes feel it: what acts on the others
-                                                     !! condensed, and what moved supports push included [force]
+      real(wp), allocatable  :: condensed_load(:, :) !! (dimension, retained) condensed load, forces of moved supports included [force]
    end type load_state
 
-   !> What the last increment has to tell: nothing that comes behind it depends on this.
+   !> The record of the last increment for output; no later result depends on it.
    type, public :: increment_record
       type(iteration_record), allocatable :: iterations(:)
       type(slip_record), allocatable      :: slips(:) !! where OUTPUT asks for them
       type(condensed_type)  :: condensed              !! [k_b] on the interface, where OUTPUT asks for it
       type(condition_type)  :: condition              !! of the stiffness that the increment used
-      integer, allocatable  :: kind(:)                !! of the normal stiffness that each interface element had
+      integer, allocatable  :: kind(:)                !! kind of the normal stiffness of each interface element
       integer  :: n_iterations = 0
       integer  :: n_removed = 0                       !! interface elements removed
-      integer  :: n_parts   = 1                       !! NEWTON: parts that it was divided into
-      logical  :: is_whole  = .true.                  !! ... or only to find the way: it was made as a whole from where they led
-      logical  :: ends_early = .false.                !! NEWTON cannot go on: this is the last state in equilibrium, there is one
-      logical  :: is_partial = .false.                !! ... and it is a part of the way into an increment
-      logical  :: is_settled = .true.                 !! BACK: whether the last secants agree with what they led to
+      integer  :: n_parts   = 1                       !! NEWTON: number of parts of the increment
+      logical  :: is_whole  = .true.                  !! ... and the whole increment was repeated from where the parts led
+      logical  :: ends_early = .false.                !! NEWTON has stopped: this is the last state in equilibrium
+      logical  :: is_partial = .false.                !! ... and it lies within an increment
+      logical  :: is_settled = .true.                 !! BACK: whether the last secants agree with their results
    end type increment_record
 
-   !> Displacements and forces over nodes are (dimension, n_nodes). The increments see those of the retained nodes alone, in arrays
-   !! (dimension, retained); recover_bodies completes them.
+   !> Displacements and forces over nodes are (dimension, n_nodes). The increments use those of the retained nodes only, in
+   !! arrays (dimension, retained); recover_bodies completes them.
    type, public :: analysis_type
       integer  :: stage = 0, increment = 0
-      logical  :: goes_on = .false.                 !! the stage has been taken up from a restart file in its midst
+      logical  :: goes_on = .false.                 !! the stage continues from a restart file
       real(wp) :: increment_fraction = 0.0_wp       !! of the stage's load change, this increment
-      real(wp) :: fraction = 0.0_wp                 !! of it, so far: exactly 1 at the end of the stage
+      real(wp) :: fraction = 0.0_wp                 !! sum of these so far: exactly 1 at the end of the stage
       type(load_state) :: before, after, now        !! at the start of the stage, at its end, in this increment
       integer, allocatable :: loaded(:)             !! nodes on which loads act in this stage
-      logical  :: is_moved = .false.                !! whether supports are out of their places in this stage
-      logical  :: moves = .false.                   !! whether they are moved in this increment
+      logical  :: is_moved = .false.                !! whether supports are displaced in this stage
+      logical  :: moves = .false.                   !! whether supports move in this increment
       ! as case control has them
       logical  :: carry = .false.
       logical  :: eq10 = .false.                    !! STEP: p on the loading curve by Eq. (10) as printed
-      logical  :: average = .true.                  !! BACK: of two consecutive sets of results
+      logical  :: average = .true.                  !! BACK: averages two consecutive sets of results
       real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced; BACK: of the
                                                     !! largest pressure by which the laws may differ from the secants
       real(wp) :: tolerance = 0.0_wp                !! the same as a force, for the largest load so far
-      logical  :: crosses_gaps = .false.            !! STEP: this increment is iterated, for gaps leave a body loose
-      logical  :: is_loose = .false.                !! interference has pushed a body away until nothing presses it any more
-      real(wp) :: loose_force = 0.0_wp              !! then p_av a_i of its joints: little of that is no force [force]
-      ! over all nodes, as recover_bodies found them last
+      logical  :: crosses_gaps = .false.            !! STEP: this increment is iterated because gaps leave a body loose
+      logical  :: is_loose = .false.                !! interference has pushed a body away until nothing presses it
+      real(wp) :: loose_force = 0.0_wp              !! then p_av a_i of its joints: a small part of it counts as zero [force]
+      ! over all nodes, from the last recover_bodies
       real(wp), allocatable :: all_u(:, :)          !! displacements [length]
       real(wp), allocatable :: all_unbalanced(:, :) !! applied - internal forces; on held components minus the reaction
       integer, allocatable  :: retained_index(:)    !! (n_nodes) of a node among the retained ones, 0: nowhere
       ! over retained nodes
-      logical, allocatable  :: held(:, :)           !! supported, or locked since
+      logical, allocatable  :: held(:, :)           !! supported or locked
       real(wp), allocatable :: change(:, :)         !! of the condensed load in this increment
       real(wp), allocatable :: move(:, :)           !! of supports in this increment [length]
       real(wp), allocatable :: body(:, :)           !! [k_b] {u}
@@ -107,26 +106,26 @@ module analysis_state
       real(wp), allocatable :: unbalanced(:, :)     !! condensed load - internal forces
       ! of bars and of the sections of solid bolts
       logical, allocatable  :: is_elastic(:)        !! of bars: no bolt, or locked
-      real(wp), allocatable :: pull(:)              !! of locked bolts: tension at the lengths of the model at rest, all of it at TREF [force]
+      real(wp), allocatable :: pull(:)              !! of locked bolts: tension at the lengths at rest and at TREF [force]
       logical, allocatable  :: is_locked(:)         !! of sections
       ! of interface elements and joints
       type(element_state), allocatable :: states(:)
-      real(wp), allocatable :: movement(:, :)       !! (3, n) of end 1 against end 2, in all, in the element's axes [length]
+      real(wp), allocatable :: movement(:, :)       !! (3, n) total, of end 1 relative to end 2, in element axes [length]
       real(wp), allocatable :: k(:, :)              !! (3, n) their stiffness (k_sx, k_sy, k_n) in the next increment
       integer, allocatable  :: next_kind(:)         !! of the normal stiffness in the next increment
-      type(element_state), allocatable :: exact(:)  !! STEP: the states by the exact laws along the same movements
+      type(element_state), allocatable :: exact(:)  !! STEP: states of the exact laws on the same movements
       type(turning_point), allocatable :: turns(:, :) !! (2, n) where the shear branches began
-      type(joint_energy), allocatable  :: energy(:) !! of the joints, in this stage
-      real(wp) :: largest_p = 0.0_wp                !! pressure or shear stress so far, anywhere: the measure of noise
+      type(joint_energy), allocatable  :: energy(:) !! of the joints in this stage
+      real(wp) :: largest_p = 0.0_wp                !! largest pressure or shear stress so far: the scale of rounding errors
       real(wp) :: largest_lambda = 0.0_wp           !! deflection so far, likewise
       real(wp) :: largest_load = 0.0_wp             !! on the structure or on the joints so far [force]
-      real(wp), allocatable :: kept(:, :)           !! of a backbone at the end of this stage what is done, a column a loop
+      real(wp), allocatable :: kept(:, :)           !! backbone at the end of this stage: the loops done, one per column
       type(increment_record) :: record
    end type analysis_type
 
 contains
 
-   !> A structure at rest without load.
+   !> Start from the structure at rest without load.
    subroutine start_analysis(model, system, control, analysis)
       type(model_type), intent(in)        :: model
       class(equation_system), intent(in)  :: system
@@ -159,7 +158,7 @@ contains
       if (control%method == method_step) allocate (analysis%exact, source=analysis%states)
    end subroutine start_analysis
 
-   !> Which components of all nodes are held now: supported, or locked.
+   !> Which components of all nodes are held: supported or locked.
    pure function all_held(model, analysis) result(held)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -172,7 +171,7 @@ contains
       end do
    end function all_held
 
-   !> NORM and SHEAR for every interface element: its branches after the last increment, its stiffness for the next one.
+   !> NORM and SHEAR for every interface element: its branches after the last increment and its stiffness for the next one.
    subroutine interface_stiffness(model, system, analysis, failure)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -216,8 +215,8 @@ contains
       if (branch == branch_open) kind = no_stiffness
    end function kind_on_branch
 
-   !> The structure reaches the displacements U, under which its bodies take the forces BODY. All methods commit both here, with what
-   !! follows from them: the movements of the interface elements.
+   !> Commit the displacements U, under which the bodies carry the forces BODY, and the resulting movements of the interface
+   !! elements. All methods commit here.
    subroutine reach(system, u, body, analysis)
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: u(:, :)    !! (dimension, retained) [length]
@@ -232,7 +231,7 @@ contains
       end do
    end subroutine reach
 
-   !> Force that an interface ELEMENT in this STATE carries, in global axes, as it acts on its end 2 or the base [force].
+   !> Force of an interface ELEMENT in this STATE on its end 2 or the base, in global axes [force].
    pure function element_force(element, state) result(force)
       type(interface_element), intent(in) :: element
       type(element_state), intent(in)     :: state
@@ -241,7 +240,7 @@ contains
       force = matmul(element%axes, [state%shear%tau*element%area, state%normal%sumf])
    end function element_force
 
-   !> Load minus the forces in bodies and joints on retained nodes: what the increment leaves unbalanced.
+   !> The unbalanced forces of the increment: load minus the forces in bodies and joints on retained nodes.
    subroutine find_unbalanced(system, analysis)
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
@@ -250,7 +249,7 @@ contains
       call subtract_joint_forces(system%interface, analysis%states, analysis%unbalanced)
    end subroutine find_unbalanced
 
-   !> Take the forces of interface ELEMENTS in these STATES from the nodal forces F.
+   !> Subtract the forces of interface ELEMENTS in these STATES from the nodal forces F.
    pure subroutine subtract_joint_forces(elements, states, f)
       type(interface_element), intent(in) :: elements(:)
       type(element_state), intent(in)     :: states(:)
@@ -262,7 +261,7 @@ contains
       end do
    end subroutine subtract_joint_forces
 
-   !> Euclidean norm of nodal forces F over the components that are not HELD [force]; the largest number where they leave all measure.
+   !> Euclidean norm of nodal forces F over the components that are not HELD [force]; huge where the norm overflows.
    pure real(wp) function free_norm(f, held) result(norm)
       real(wp), intent(in) :: f(:, :)    !! (dimension, nodes)
       logical, intent(in)  :: held(:, :) !! likewise
@@ -280,7 +279,7 @@ contains
       norm = largest*sqrt(norm)
    end function free_norm
 
-   !> What rounding leaves of the forces in the bodies under the displacements U, at most: they are differences of large numbers [force].
+   !> Bound of the rounding error of the forces in the bodies under U; these are differences of large numbers [force].
    pure real(wp) function force_noise(system, u) result(noise)
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: u(:, :) !! [length]
@@ -297,7 +296,7 @@ contains
       energy%given_back = energy%given_back + max(0.0_wp, -work)
    end subroutine tally_work
 
-   !> WORK of what has been put in by shear was done on friction [force x length].
+   !> Book WORK of the work put in by shear as work on friction [force x length].
    pure subroutine book_friction(energy, work)
       type(joint_energy), intent(inout) :: energy
       real(wp), intent(in)              :: work
@@ -305,7 +304,7 @@ contains
       energy%put_in = energy%put_in + [-work, 0.0_wp, work]
    end subroutine book_friction
 
-   !> Keep the largest pressure and deflection that there have been.
+   !> Update the largest pressure and deflection so far.
    pure subroutine note_largest(analysis)
       type(analysis_type), intent(inout) :: analysis
       integer :: k
@@ -321,7 +320,7 @@ contains
       end do
    end subroutine note_largest
 
-   !> Note an iteration for the listing, and tell of it on the terminal.
+   !> Record an iteration for the listing, and report it on the terminal.
    subroutine record_iteration(analysis, iteration)
       type(analysis_type), intent(inout) :: analysis
       type(iteration_record), intent(in) :: iteration

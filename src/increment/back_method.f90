@@ -1,6 +1,6 @@
-!> METHOD = BACK, after Back, Burdekin and Cowley: the whole load at once with the secants of the laws at the last deflections,
-!! p(lambda) a_i/lambda, which converge in oscillations; two consecutive sets of results averaged damp these, until they settle.
-!! Loading only.
+!> METHOD = BACK, after Back, Burdekin and Cowley: the whole load in one step, with secants of the laws. Loading only. The
+!! secants p(lambda) a_i/lambda are taken at the last deflections. The iterations oscillate. The average of two consecutive sets
+!! of results damps the oscillation until the results settle.
 !!
 !!     p |                                 *    On the law (*) the load stands at o. The secant 0-1 of a deflection beyond it bears the
 !!       |                              1       load at 2, the secant of the deflection 2 bears it at 1 again: so for m = 1/2, on and
@@ -27,22 +27,22 @@ module back_method
 
    public :: back_increment
 
-   integer, parameter  :: most_averages = 1000 ! iterations that average
-   integer, parameter  :: most_shown = 24      ! iterations that do not: as many as the listing shows
-   real(wp), parameter :: rounding = 1.0e-12_wp ! of the deflections: by what it changes a pressure TOL asks for no less
+   integer, parameter  :: most_averages = 1000 ! iterations with averaging
+   integer, parameter  :: most_shown = 24      ! iterations without averaging: as many as the listing shows
+   real(wp), parameter :: rounding = 1.0e-12_wp ! of the deflections; TOL is at least the resulting change of pressure
 
-   !> The interface elements in one iteration, n of them.
+   !> The n interface elements in one iteration.
    type :: iterate_type
-      real(wp), allocatable :: taken(:, :)        ! (3, n) deflections that the secants are taken at: x, y, lambda
-      real(wp), allocatable :: deflection(:, :)   ! (3, n) that they lead to
-      real(wp), allocatable :: change(:)          ! (n) largest change of a stress of the laws between the two [pressure]
+      real(wp), allocatable :: taken(:, :)        ! (3, n) deflections of the secants: x, y, lambda
+      real(wp), allocatable :: deflection(:, :)   ! (3, n) resulting deflections
+      real(wp), allocatable :: change(:)          ! (n) largest change of a stress of the laws between both [pressure]
       real(wp), allocatable :: k_int(:, :, :)     ! (3, 3, n) stiffness, in joint axes
    end type iterate_type
 
 contains
 
-   !> The whole load in one go: secants, a solution, what it says of the secants, until they agree. Where AVERAGE = NO they need
-   !! not: then the last iteration that the listing shows is the result.
+   !> Apply the whole load: secants and solution in turn until they agree. With AVERAGE = NO agreement is not required: the last
+   !! iteration that the listing shows is the result.
    subroutine back_increment(model, plan, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
@@ -94,7 +94,7 @@ contains
       call find_unbalanced(system, analysis)
    end subroutine back_increment
 
-   !> The load FELT and what the secants pull at gaps: they begin where these are closed, k_n (closing - g).
+   !> The load FELT plus the forces of secants with gaps: a secant starts where its gap is closed, k_n (closing - g).
    pure function load_of_secants(system, felt, now) result(load)
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: felt(:, :) !! (dimension, retained) [force]
@@ -110,8 +110,8 @@ contains
       end do
    end function load_of_secants
 
-   !> What the solution moves, the LARGEST_P of the laws there [pressure], and by how much the stresses of the laws differ from
-   !! those where the secants were taken.
+   !> Read from the solution the movements, the LARGEST_P of the laws there [pressure], and the difference of their stresses
+   !! from those at the last secants.
    subroutine read_off(model, system, analysis, now, largest_p)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -135,8 +135,8 @@ contains
       end do
    end subroutine read_off
 
-   !> Whether the secants agree with what they led to: by TOL of the largest pressure, and no better than the slope of the law makes of
-   !! the rounding of its deflections.
+   !> Whether the secants agree with the results: within TOL of the largest pressure, or within the rounding of the deflections
+   !! times the slope of the law.
    pure logical function has_settled(model, system, analysis, now, largest_p)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -157,7 +157,7 @@ contains
       has_settled = all(now%change <= left)
    end function has_settled
 
-   !> The states of the elements as the last solution has them.
+   !> Store the states of the elements from the last solution.
    subroutine store(model, now, analysis)
       type(model_type), intent(in)       :: model
       type(iterate_type), intent(in)     :: now

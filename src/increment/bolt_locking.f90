@@ -1,6 +1,7 @@
-!> Bolts. A CROD in the stage that tightens it is its preload, a pair of forces that grows with the increments; from the end of
-!! that stage on it is an elastic bar, locked at the length that it then has. In a solid bolt the preload is a force on the
-!! overlap g at its section; from the end of that stage on g is held as it then is.
+!> Bolts: the preload while a bolt is tightened, the locked bolt afterwards, and the tension.
+!! A CROD in the stage that tightens it is its preload, a pair of forces that grows with the increments. From the end of that
+!! stage on the CROD is an elastic bar, locked at its length at that time. In a solid bolt the preload is a force on the overlap
+!! g at its pretension section. From the end of that stage on g is held.
 module bolt_locking
    use analysis_state, only: analysis_type
    use bar_elements, only: add_pull, bar_elongation, thermal_pull
@@ -15,8 +16,8 @@ module bolt_locking
 
 contains
 
-   !> Lock the bolts that the stage just completed has tightened: the part of the force of bars that is not elastic becomes a load,
-   !! and the overlap of solids a displacement that is prescribed as it is.
+   !> Lock the bolts that the completed stage has tightened. The plastic part of the bar forces becomes a load, and the overlap
+   !! of solid bolts a prescribed displacement.
    subroutine lock_bolts(model, system, analysis)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -29,7 +30,7 @@ contains
             analysis%is_elastic(i) = .true.
             analysis%pull(i) = bar%preload - bar%stiffness*elongation_now(model, analysis, i)
             call add_pull(model, i, analysis%pull(i) - bar%preload, analysis%now%load)
-            analysis%pull(i) = analysis%pull(i) - thermal_pull(bar, analysis%now%temperature) ! which is among the loads from here on
+            analysis%pull(i) = analysis%pull(i) - thermal_pull(bar, analysis%now%temperature) ! the loads contain it from now on
             call add_bar(model, i, system)
          end associate
       end do
@@ -45,8 +46,7 @@ contains
       end do
    end subroutine lock_bolts
 
-   !> An analysis has been taken up from a restart file: its bolts that are locked become so in the equations, in the order in which
-   !! they did, so that every digit of these is the same.
+   !> Lock the bolts of an analysis from a restart file in the equations, in the original order, so that every digit is the same.
    subroutine lock_again(model, analysis, system)
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
@@ -65,7 +65,7 @@ contains
       end do
    end subroutine lock_again
 
-   !> How much longer bar I is now [length].
+   !> Present elongation of bar I [length].
    pure real(wp) function elongation_now(model, analysis, i) result(elongation)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -75,7 +75,7 @@ contains
                                                                  analysis%u))
    end function elongation_now
 
-   !> Overlap g at the section of solid bolt I now [length].
+   !> Present overlap g at the pretension section of solid bolt I [length].
    pure real(wp) function overlap_now(model, analysis, i) result(overlap)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -84,7 +84,7 @@ contains
       overlap = analysis%u(1, analysis%retained_index(model%sections(i)%node))
    end function overlap_now
 
-   !> Tension of bar I now [force].
+   !> Present tension of bar I [force].
    pure real(wp) function bar_tension(model, analysis, i) result(tension)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -101,7 +101,7 @@ contains
       end associate
    end function bar_tension
 
-   !> Tension of solid bolt I now: the force in its bodies that does work on its overlap, less the share of the loads [force].
+   !> Present tension of solid bolt I: the force in its bodies that does work on its overlap, less the part of the loads [force].
    pure real(wp) function section_tension(model, analysis, i) result(tension)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis

@@ -1,5 +1,5 @@
-!> Where the shear branches of the interface elements began: (delta, tau) of the last turn, kept for the listing alone. A branch of
-!! unloading or reloading is shifted so that it passes through it (b0 and c0 of section 4.3).
+!> The points (delta, tau) at which the shear branches of the interface elements began, for the listing only. A branch of
+!! unloading or reloading is shifted so that it passes through this point (b0 and c0 of section 4.3).
 module branch_starts
    use branch_cubic, only: cubic_value
    use joint_laws, only: element_state
@@ -11,7 +11,7 @@ module branch_starts
 
    public :: note_turns, branch_shift
 
-   !> One direction of one element.
+   !> One direction of one interface element.
    type, public :: turning_point
       integer  :: branch = branch_load          !! that began there
       integer, private :: filler = 0            ! as in normal_state
@@ -20,8 +20,8 @@ module branch_starts
 
 contains
 
-   !> Note in TURNS(2, n) the branches that have begun with the last movement of the elements in these STATES: before it they were
-   !! where the branch begins.
+   !> Note in TURNS(2, n) the branches that began with the last movement of the elements in these STATES. A branch begins at the
+   !! point before the movement.
    pure subroutine note_turns(states, turns)
       type(element_state), intent(in)    :: states(:)
       type(turning_point), intent(inout) :: turns(:, :)
@@ -37,7 +37,7 @@ contains
       end do
    end subroutine note_turns
 
-   !> b0 or c0: by how much the curve of the branch of STATE under the pressure P is shifted to pass through the point TURN where
+   !> b0 or c0: the shift by which the curve of the branch of STATE under the pressure P passes through the point TURN, where
    !! the branch began; zero on the loading curve [pressure].
    pure real(wp) function branch_shift(law, state, p, turn) result(shift)
       type(shear_law), intent(in)     :: law

@@ -1,5 +1,5 @@
-!> [k_b] condensed on the unknowns of the joints, whatever the solver, for the listing of a small model: with it an increment can
-!! be done by hand.
+!> The stiffness [k_b] condensed on the joint unknowns, with any solver, for the listing of a small model. With it an increment
+!! can be done by hand.
 module condensed_interface
    use blas_lapack, only: dpotrf, dtrsm
    use equation_solver, only: equation_system
@@ -13,11 +13,11 @@ module condensed_interface
 
    public :: condense_on_joints
 
-   integer, parameter :: most_unknowns = 40    ! that a page can show
-   integer, parameter :: most_equations = 3000 ! that are condensed as a full matrix
+   integer, parameter :: most_unknowns = 40    ! limit of a page
+   integer, parameter :: most_equations = 3000 ! limit of the condensation as a full matrix
 
    type, public :: condensed_type
-      character(:), allocatable :: problem        !! why there is none, in words; '': there is
+      character(:), allocatable :: problem        !! reason why there is no matrix; '': there is one
       integer, allocatable  :: node(:)            !! (n) positions, joint after joint, side 1 before side 2
       integer, allocatable  :: direction(:)       !! (n) 1, 2, 3
       real(wp), allocatable :: k(:, :)            !! (n, n) [force/length]
@@ -26,8 +26,8 @@ module condensed_interface
 
 contains
 
-   !> [k_b] and the loads LOAD_BEFORE and LOAD_AFTER, as retained nodes feel them, on the free unknowns of the joints:
-   !! K_jj - K_jg K_gg^-1 K_gj and f_j - K_jg K_gg^-1 f_g, g the other unknowns, with the Cholesky factor of K_gg.
+   !> [k_b] and the condensed loads LOAD_BEFORE and LOAD_AFTER on the free joint unknowns: K_jj - K_jg K_gg^-1 K_gj and f_j -
+   !! K_jg K_gg^-1 f_g, g the other unknowns, with the Cholesky factor of K_gg.
    subroutine condense_on_joints(model, system, load_before, load_after, condensed)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -69,12 +69,12 @@ contains
       condensed%load = load(:n, :) - matmul(transpose(k(n + 1:, :n)), load(n + 1:, :))
    end subroutine condense_on_joints
 
-   !> The equations of the JOINTS, joint after joint, side 1 before side 2, node after node, and those that are GONE.
+   !> The equations of the JOINTS, joint after joint, side 1 before side 2, node after node, and the condensed ones, GONE.
    pure subroutine find_unknowns(model, system, joints, gone)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       integer, allocatable, intent(out)  :: joints(:), gone(:)
-      logical :: is_open(system%n) ! solved for, and not listed so far
+      logical :: is_open(system%n) ! solved for and not yet listed
       integer :: d, end, equation, i, j, k
 
       is_open = .false.
@@ -118,7 +118,7 @@ contains
       end do
    end subroutine form_matrix
 
-   !> What of the LOAD on retained nodes acts in the equations in ORDER.
+   !> The LOAD on retained nodes at the equations in ORDER.
    pure function loads_on(system, order, load) result(f)
       class(equation_system), intent(in) :: system
       integer, intent(in)                :: order(:)

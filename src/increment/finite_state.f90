@@ -1,5 +1,5 @@
-!> The one place where the state that an increment has reached is tested: what leaves all measure never gets into a result, and is
-!! said with where it happened first.
+!> The test of the state after an increment for values that are not finite or beyond all bounds. No such value gets into a
+!! result; the message names the first place.
 module finite_state
    use analysis_state, only: analysis_type, force_noise, precise
    use equations, only: equation_system
@@ -18,8 +18,8 @@ module finite_state
 
 contains
 
-   !> FAILURE names the first load, displacement, interface element, bolt, joint or force out of balance of the increment just completed
-   !! that is no finite number, or beyond all measure. The displacements of all nodes are those recovered last.
+   !> FAILURE names the first load, displacement, interface element, bolt, joint or unbalanced force of the completed increment
+   !! that is not finite or beyond all bounds. The displacements of all nodes are those of the last recovery.
    subroutine check_state(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
@@ -40,7 +40,7 @@ contains
 
    contains
 
-      !> An ARRAY over NODES.
+      !> Test an ARRAY over NODES.
       subroutine check_nodes(noun, array, nodes)
          character(*), intent(in) :: noun
          real(wp), intent(in)     :: array(:, :) !! (dimension, nodes)
@@ -55,7 +55,7 @@ contains
          end do
       end subroutine check_nodes
 
-      !> The interface elements, and the energies of the joints.
+      !> Test the interface elements and the energies of the joints.
       subroutine check_joints()
          integer :: j, k
 
@@ -80,7 +80,7 @@ contains
          end do
       end subroutine check_joints
 
-      !> WHAT has these VALUES.
+      !> Test the VALUES of WHAT.
       subroutine check(what, values)
          character(*), intent(in) :: what
          real(wp), intent(in)     :: values(:)
@@ -94,8 +94,9 @@ contains
 
    end subroutine check_state
 
-   !> FAILURE says that rounding alone leaves no small part of the forces that the joints bear: soft joints under stiff bodies, or
-   !! bodies that have moved far. What moved supports take along and what interference has pushed away bears nothing.
+   !> FAILURE states that the rounding error is not small compared with the joint forces: soft joints under stiff bodies, or
+   !! bodies that have moved far. Bodies that moved supports carry along or that interference has pushed away carry no force,
+   !! and are not tested.
    subroutine check_precision(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan

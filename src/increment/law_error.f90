@@ -1,8 +1,7 @@
-!> How far STEP is from its own laws: beside its states the exact laws are followed along the same movements, increment by increment.
-!! In the normal direction it is A_i B_i of Fig. 3, the distance of the deflections at one pressure; in shear that of the stresses at
-!! one deflection.
-!!
-!! Tangent stiffness of the interface elements in the state that the last increment has left, whatever the method.
+!> The distance of STEP from its own laws, and the tangent stiffness of interface elements for any method.
+!! The exact laws are followed along the movements of STEP, increment by increment. In the normal direction the distance is A_i
+!! B_i of Fig. 3, the difference of the deflections at one pressure. In shear it is the difference of the stresses at one
+!! deflection.
 module law_error
    use analysis_state, only: analysis_type
    use case_control, only: method_back, method_newton
@@ -16,19 +15,19 @@ module law_error
 
    public :: follow_laws, normal_distance, shear_distance, tangents_now
 
-   real(wp), parameter :: noise = 1.0e-9_wp !! of the largest value so far: nothing is measured by less
+   real(wp), parameter :: noise = 1.0e-9_wp !! of the largest value so far: the least scale of a difference
 
-   !> The element of a joint that is farthest from its law.
+   !> The element of a joint with the largest distance from its law.
    type, public :: distance_type
       logical  :: is_there = .false.           !! whether the joint has any such deflection or stress
       integer  :: element = 0, direction = 3
-      real(wp) :: relative = 0.0_wp            !! |actual - by_law| of the largest one of the joint
+      real(wp) :: relative = 0.0_wp            !! |actual - by_law| relative to the largest value of the joint
       real(wp) :: actual = 0.0_wp, by_law = 0.0_wp !! lambda [length] or tau [pressure]
    end type distance_type
 
 contains
 
-   !> Follow the laws along the increment just completed; nothing where the method is not STEP.
+   !> Follow the exact laws along the completed increment; nothing where the method is not STEP.
    pure subroutine follow_laws(model, analysis)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(inout) :: analysis
@@ -45,7 +44,7 @@ contains
       end do
    end subroutine follow_laws
 
-   !> Where joint J is farthest from its normal law: lambda from that of the law at the same pressure.
+   !> The largest distance of joint J from its normal law: lambda from that of the law at the same pressure.
    pure type(distance_type) function normal_distance(model, analysis, j) result(farthest)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -64,8 +63,8 @@ contains
       end associate
    end function normal_distance
 
-   !> lambda of the law of interface element I at its computed pressure. Where that is zero, the law has none at any lambda below the
-   !! one at which its branch ends [length].
+   !> lambda of the law of interface element I at its computed pressure [length]. At zero pressure the law holds for any lambda
+   !! below the end of its branch.
    pure real(wp) function deflection_of_law(model, analysis, i) result(by_law)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -78,7 +77,7 @@ contains
       if (.not. p > 0.0_wp) by_law = min(by_law, analysis%states(i)%normal%lambda)
    end function deflection_of_law
 
-   !> Likewise from its shear laws, tau from that of the law at the same deflection, in the direction where that is most.
+   !> The largest distance of joint J from its shear laws: tau from that of the law at the same deflection, over both directions.
    pure type(distance_type) function shear_distance(model, analysis, j) result(farthest)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -99,8 +98,8 @@ contains
       end associate
    end function shear_distance
 
-   !> The largest difference between ACTUAL and BY_LAW, measured by LARGEST if that is above FLOOR; of values that rounding alone
-   !! tells apart the first counts.
+   !> Update the largest difference between ACTUAL and BY_LAW, relative to LARGEST if that is above FLOOR. Of values that are
+   !! equal but for rounding the first counts.
    pure type(distance_type) function distance_of(actual, by_law, largest, floor) result(farthest)
       real(wp), intent(in) :: actual(:), by_law(:), largest, floor
       integer  :: i
@@ -118,8 +117,9 @@ contains
       farthest%by_law = by_law(farthest%element)
    end function distance_of
 
-   !> (3, n): k_sx, k_sy, k_n of every interface element [force/length]. STEP: those of its next increment; NEWTON: those of the
-   !! equilibrium; BACK: the slopes of the loading curves where its secants end. None along the joint where the element slips.
+   !> (3, n): k_sx, k_sy, k_n of every interface element [force/length]. STEP: those of its next increment. NEWTON: those at
+   !! equilibrium. BACK: the slopes of the loading curves at the ends of its secants. A slipping element has no tangential
+   !! stiffness.
    pure function tangents_now(model, analysis, method) result(k)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis

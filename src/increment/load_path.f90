@@ -1,4 +1,4 @@
-!> The way of the load: from stage to stage, from increment to increment, and what it does to all nodes of the bodies.
+!> The load path: from stage to stage, from increment to increment, and the recovery of displacements and forces of the bodies.
 module load_path
    use analysis_state, only: all_held, analysis_type, joint_energy, load_state, subtract_joint_forces
    use bar_elements, only: add_bar_forces, add_pull, add_thermal_pulls
@@ -17,8 +17,8 @@ module load_path
 
 contains
 
-   !> The next stage begins where the last one ended; the joint remembers, and bolts that the last one has tightened are locked. A stage
-   !! that is taken up in its midst just goes on.
+   !> Start the next stage from the end of the last one: the joint keeps its history, and bolts tightened in the last stage are
+   !! locked. A stage that was restarted within continues.
    subroutine start_stage(model, system, analysis)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(inout) :: system
@@ -34,7 +34,7 @@ contains
       analysis%stage = stage
       analysis%increment = 0
       analysis%fraction = 0.0_wp
-      if (stage > 1) analysis%energy = joint_energy() ! the first stage has what interference has put in before
+      if (stage > 1) analysis%energy = joint_energy() ! the first stage keeps the work of interference
       analysis%before = analysis%now
       analysis%after%load = 0.0_wp
       analysis%after%moved = 0.0_wp
@@ -70,7 +70,7 @@ contains
       call forces_in_bodies(system, analysis%u, analysis%body)
    end subroutine start_stage
 
-   !> The structure as the next stage finds it, its load held: bolts locked, the load the same before and after.
+   !> Prepare the structure for the next stage under constant load: lock bolts, set the load before and after to the same.
    subroutine hold_load(model, system, analysis)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -87,7 +87,7 @@ contains
       call forces_in_bodies(system, analysis%u, analysis%body)
    end subroutine hold_load
 
-   !> What retained unknowns feel of the load AT an instant, where held ones are moved.
+   !> Condense the load and the prescribed displacements AT an instant on the retained nodes.
    subroutine condense(model, system, is_elastic, at)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -98,7 +98,7 @@ contains
                          at%condensed_load)
    end subroutine condense
 
-   !> Forces that bodies and elastic bars need to have MOVED what has no equation, the others at rest.
+   !> Forces of bodies and elastic bars when held components are MOVED and all others are fixed.
    function forces_of(model, system, is_elastic, moved) result(f)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -114,7 +114,7 @@ contains
       end if
    end function forces_of
 
-   !> F of bodies and elastic bars under the displacements U of all nodes.
+   !> Forces F of bodies and elastic bars under the displacements U of all nodes.
    subroutine all_forces(model, is_elastic, u, f)
       type(model_type), intent(in) :: model
       logical, intent(in)          :: is_elastic(:)
@@ -125,7 +125,7 @@ contains
       call add_bar_forces(model, is_elastic, u, f)
    end subroutine all_forces
 
-   !> {dF} of the next increment: its share of the stage's load change, and what is unbalanced where CARRY asks for it.
+   !> {dF} of the next increment: its share of the stage's load change, plus the unbalanced forces where CARRY asks for them.
    subroutine start_increment(plan, system, analysis)
       type(stage_plan_type), intent(in)  :: plan
       class(equation_system), intent(in) :: system
@@ -159,8 +159,8 @@ contains
       analysis%record%is_whole = .true.
    end subroutine start_increment
 
-   !> The increment could not be made, but all of it up to what is LEFT: the loads and movements that this state bears. Where nothing
-   !! of it was made the increment before is the last.
+   !> Set the loads and movements of an increment that ended early, with LEFT of it still to do. Where none of it was done, the
+   !! last increment is the one before.
    pure subroutine go_back(plan, left, analysis)
       type(stage_plan_type), intent(in)  :: plan
       real(wp), intent(in)               :: left     !! of the increment [-], > 0
@@ -177,7 +177,7 @@ contains
       analysis%record%ends_early = analysis%increment > 0 .or. analysis%stage > 1
    end subroutine go_back
 
-   !> The load on all nodes, so far as the stage is done.
+   !> The load on all nodes at the present fraction of the stage.
    pure subroutine load_nodes(analysis)
       type(analysis_type), intent(inout) :: analysis
 
@@ -186,7 +186,7 @@ contains
       end associate
    end subroutine load_nodes
 
-   !> What is BEFORE at the beginning of the stage and AFTER at its end, where FRACTION of it is done.
+   !> Interpolate from BEFORE, at the beginning of the stage, to AFTER, at its end, at FRACTION.
    elemental real(wp) function between(fraction, before, after)
       real(wp), intent(in) :: fraction, before, after
 
@@ -194,8 +194,8 @@ contains
       if (fraction >= 1.0_wp) between = after
    end function between
 
-   !> Displacements of all nodes, and what is unbalanced on them, from the elements themselves, in global axes: on held components
-   !! minus the reaction.
+   !> Displacements and unbalanced forces of all nodes, from the elements themselves, in global axes; on held components minus
+   !! the reaction.
    subroutine recover_bodies(model, system, analysis)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -210,8 +210,8 @@ contains
       analysis%unbalanced = felt(:, system%retained)
    end subroutine recover_bodies
 
-   !> The unknowns Q of all nodes, and what is UNBALANCED on them in global axes, for the unknowns U of retained nodes under the LOAD
-   !! on all nodes, supports being MOVED, the joints as they are.
+   !> The unknowns Q of all nodes and the UNBALANCED forces on them in global axes, for the unknowns U of retained nodes under
+   !! the LOAD on all nodes, with supports MOVED and the present joint forces.
    subroutine recover(model, system, analysis, load, moved, u, q, unbalanced)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -229,7 +229,7 @@ contains
       call subtract_joint_forces(model%interface, analysis%states, unbalanced)
    end subroutine recover
 
-   !> What the supports take under the displacements U of retained nodes, so much of the increment being LEFT [force].
+   !> Support forces under the displacements U of retained nodes, with LEFT of the increment still to do [force].
    real(wp) function support_force(model, system, analysis, u, left) result(force)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system

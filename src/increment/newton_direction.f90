@@ -1,4 +1,4 @@
-!> The direction of an iteration of METHOD = NEWTON, and what an attempt at an increment is.
+!> The search direction of an iteration of METHOD = NEWTON, and the data of an attempt at an increment.
 module newton_direction
    use analysis_state, only: analysis_type
    use equations, only: solve_coupled, equation_system, form_structure_stiffness, solve_equations
@@ -13,28 +13,28 @@ module newton_direction
 
    public :: find_direction, check_lifted, loose_joint
 
-   integer, parameter  :: digits = 6                  ! of a direction: the next one corrects it
-   real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: what the matrix has where an element has none
-   real(wp), parameter :: far = 1.0e3_wp               ! times the last direction: nothing holds the body
+   integer, parameter  :: digits = 6                  ! of a direction: the next iteration corrects it
+   real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: substitute for zero stiffness of an element
+   real(wp), parameter :: far = 1.0e3_wp               ! times the last direction: the body is not held
 
-   !> One attempt at a part of the increment: what it has to reach, and how it ended.
+   !> One attempt at a part of the increment: its goal and its outcome.
    type, public :: attempt_type
       character(:), allocatable :: where          !! stage and increment, for messages
-      real(wp) :: left = 0.0_wp                   !! of the increment, when it is reached [-]
-      real(wp) :: left_over = 1.0_wp              !! of it, where no part of that could be made [-]
-      real(wp), allocatable :: load(:, :)         !! (dimension, retained), then [force]
-      real(wp), allocatable :: move(:, :)         !! of held components, that is still to be made, likewise [length]
-      integer, allocatable  :: flips(:)           !! changes of branch, by interface element
-      real(wp) :: growth = 0.0_wp                 !! this increment over the last one of the stage, 0: there is none that goes on
-      logical :: seats = .false.                  !! interference at rest, there is no load
-      real(wp) :: seat_force = 0.0_wp             !! then what counts as one: p_av on the elements pressed [force]
-      integer :: loose = 0                        !! a joint that is open or slips all over at its end, 0: none
-      logical :: slides = .false.                 !! it is, and somewhere the friction limit is reached
-      logical :: searches = .false.               !! along the tangents of the laws themselves, by line search
-      integer :: worst(2) = 0                     !! node and direction that are farthest from balance at its end
-      logical :: imprecise = .false.              !! rounding in the bodies is no small part of the load
-      logical :: settled = .false.                !! no element has begun or ended to slip in the last iteration
-      logical :: floats = .false.                 !! nothing but friction holds a body: it stays held
+      real(wp) :: left = 0.0_wp                   !! fraction of the increment left at the goal [-]
+      real(wp) :: left_over = 1.0_wp              !! of it, where no part of the increment was possible [-]
+      real(wp), allocatable :: load(:, :)         !! (dimension, retained) at the goal [force]
+      real(wp), allocatable :: move(:, :)         !! likewise, movement of held components still to do [length]
+      integer, allocatable  :: flips(:)           !! changes of branch of each interface element
+      real(wp) :: growth = 0.0_wp                 !! ratio to the last increment of the stage, 0: not its continuation
+      logical :: seats = .false.                  !! interference at rest without load
+      real(wp) :: seat_force = 0.0_wp             !! then the reference force: p_av on the pressed elements [force]
+      integer :: loose = 0                        !! a joint that is open or slips entirely at the end, 0: none
+      logical :: slides = .false.                 !! ... and the friction limit is reached somewhere
+      logical :: searches = .false.               !! line search along the tangents of the laws themselves
+      integer :: worst(2) = 0                     !! node and direction of the largest residual at the end
+      logical :: imprecise = .false.              !! rounding in the bodies is not small compared with the load
+      logical :: settled = .false.                !! no element has begun or stopped slipping in the last iteration
+      logical :: floats = .false.                 !! only friction holds a body, which stays held
       real(wp) :: length = 0.0_wp                 !! of the last direction [length]
       logical :: converged = .false.
       type(failure_type) :: trouble               !! a matrix that could not be factorised
@@ -42,21 +42,21 @@ module newton_direction
 
 contains
 
-   !> The DIRECTION that balances what the straight LAWS leave as RESIDUAL. A joint that slips at all nodes is held by its elastic stiffness
-   !! at first: nodes that turn back are found so, when no tangent tells of them. When no node turns any more its tangent counts, which
-   !! squares the residual, unless nothing else holds the body in the direction of its movement.
+   !> The DIRECTION that balances the RESIDUAL of the straight LAWS. A joint that slips at all nodes first has its elastic
+   !! stiffness: this finds nodes that turn back, which no tangent shows. When no node turns back any more, the tangent is used,
+   !! which gives quadratic convergence, unless nothing else holds the body in its direction of movement.
    subroutine find_direction(model, residual, analysis, system, attempt, laws, direction)
       type(model_type), intent(in)            :: model
       real(wp), intent(in)                    :: residual(:, :)
       type(analysis_type), intent(inout)      :: analysis
       class(equation_system), intent(inout)   :: system
       type(attempt_type), intent(inout)       :: attempt
-      type(straight_laws_type), intent(inout) :: laws !! their tangents become those of the equations solved
+      type(straight_laws_type), intent(inout) :: laws !! their tangents become those of the solved equations
       real(wp), intent(inout)                 :: direction(:, :)
       real(wp) :: tangent(3, 3, size(laws%states))
       logical  :: is_loose
 
-      direction = 0.0_wp ! what it is where the equations cannot be solved
+      direction = 0.0_wp ! result where the equations cannot be solved
       is_loose = loose_joint(model, laws%states) > 0
       tangent = laws%tangent
       call solve_laws(model, residual, is_loose .and. (attempt%floats .or. .not. attempt%settled), analysis, system, attempt, &
@@ -69,10 +69,10 @@ contains
       attempt%length = norm2(direction)
    end subroutine find_direction
 
-   !> The DIRECTION under the TANGENTs of the joints, which become those of the equations solved. The factorised matrix has the
-   !! symmetric part of them, shifted where an eigenvalue is below zero (an element that slips has one where its two
-   !! shear laws differ), with a little where an element has no stiffness; what it lacks is brought in by solve_coupled.
-   !! HOLDS: no element slips.
+   !> The DIRECTION under the TANGENTs of the joints, which become those of the solved equations. The factorised matrix has the
+   !! symmetric part of the tangents. This part is shifted where an eigenvalue is negative (a slipping element has one where its
+   !! two shear laws differ), and has a small stiffness where an element has none. solve_coupled adds the remaining part. HOLDS:
+   !! no element slips.
    subroutine solve_laws(model, residual, holds, analysis, system, attempt, tangent, direction)
       type(model_type), intent(in)          :: model
       real(wp), intent(in)                  :: residual(:, :)
@@ -114,8 +114,8 @@ contains
       end associate
    end subroutine solve_laws
 
-   !> Supports that are moved have opened joints all over, from the branches BEFORE: what they have lifted off must be held without
-   !! these joints. The little stiffness that open elements have in find_direction hides what is not.
+   !> Check bodies that moved supports have lifted off, by opening joints entirely, from the branches BEFORE: such a body must
+   !! be held without these joints. The small stiffness of open elements in find_direction hides a loose body.
    subroutine check_lifted(model, before, analysis, where, system, failure)
       type(model_type), intent(in)          :: model
       integer, intent(in)                   :: before(:) !! branches of all interface elements in the normal direction
@@ -147,7 +147,7 @@ contains
       call form_structure_stiffness(model, matrix, where, system, failure, one_solution=.true.)
    end subroutine check_lifted
 
-   !> The first joint whose elements all are open or slip in STATES, 0 for none.
+   !> The first joint whose elements are all open or slip in STATES, 0 for none.
    pure integer function loose_joint(model, states) result(joint)
       type(model_type), intent(in)    :: model
       type(element_state), intent(in) :: states(:)

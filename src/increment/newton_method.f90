@@ -1,6 +1,7 @@
-!> METHOD = NEWTON: every increment iterated to equilibrium with the exact branch laws, by full steps under the tangents of straight_laws; the
-!! states of the joints are committed only at equilibrium. An increment that does not converge is divided; where its parts lead to, it
-!! is made once more as a whole, so that the answer does not depend on how it was divided.
+!> METHOD = NEWTON: each increment is iterated to equilibrium with the exact branch laws. The iterations take full steps under
+!! the tangents of straight_laws. The states of the joints are committed only at equilibrium. An increment that does not
+!! converge is divided. The whole increment is then repeated from the result of its parts, so that the answer does not depend on
+!! the division.
 module newton_method
    use analysis_state, only: all_held, analysis_type, force_noise, free_norm, iteration_record, precise, record_iteration
    use equations, only: equation_system, forces_in_bodies
@@ -27,27 +28,27 @@ module newton_method
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
    integer, parameter  :: most_iterations = 60
-   integer, parameter  :: patience = 8                ! iterations that must leave less than as many before them have
-   real(wp), parameter :: progress = 0.9_wp            ! of it: what counts as less
+   integer, parameter  :: patience = 8                ! iterations that must leave less than the same number before them
+   real(wp), parameter :: progress = 0.9_wp            ! of it: the required reduction
    integer, parameter  :: most_halvings = 12
-   real(wp), parameter :: far_below = 1.0e-3_wp        ! TOL: what is left there is not worth another iteration
-   real(wp), parameter :: half = 0.5_wp                ! of what the load leaves unbalanced: more than that is no good guess
+   real(wp), parameter :: far_below = 1.0e-3_wp        ! of TOL: below it another iteration is not worth while
+   real(wp), parameter :: half = 0.5_wp                ! of the residual of the load: a guess that leaves more is poor
    real(wp), parameter :: loose_end = 1.0e-2_wp, tight_end = 1.0e-4_wp, least_tolerance = 1.0e-12_wp ! what a direction may leave
-   real(wp), parameter :: away = 100.0_wp              ! times what was unbalanced at first: iterations lead away
-   real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: what interference presses by less, it does not press
+   real(wp), parameter :: away = 100.0_wp              ! times the initial residual: the iterations diverge
+   real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: an interference pressure below it counts as none
 
-   !> How the iterations of an attempt go.
+   !> The course of the iterations of an attempt.
    type :: progress_type
       integer  :: iteration = 0
-      real(wp) :: sizes(0:most_iterations) = 0.0_wp !! what is unbalanced [force]
-      integer  :: circles = 0                       !! iterations that have not left half of it
-      real(wp) :: load_size = 0.0_wp                !! what that is measured by [force]
-      real(wp) :: noise = 0.0_wp                    !! what rounding leaves of the forces in the bodies now [force]
-      real(wp) :: spoilt = 0.0_wp                   !! the largest of that since they were computed [force]
+      real(wp) :: sizes(0:most_iterations) = 0.0_wp !! residuals [force]
+      integer  :: circles = 0                       !! iterations that did not halve the residual
+      real(wp) :: load_size = 0.0_wp                !! reference force of the residuals [force]
+      real(wp) :: noise = 0.0_wp                    !! present rounding error of the forces in the bodies [force]
+      real(wp) :: spoilt = 0.0_wp                   !! its largest value since these forces were computed [force]
       real(wp) :: travel = 0.0_wp                   !! of the supports or anything, at the beginning [length]
       logical  :: moves = .false.                   !! the next iteration moves supports
-      logical  :: carried = .false.                 !! bodies only go with supports, and nothing bears a force
-      logical  :: ends = .false.                    !! there is no point in going on
+      logical  :: carried = .false.                 !! bodies only move with supports, and no force acts
+      logical  :: ends = .false.                    !! no further iteration
    end type progress_type
 
 contains
@@ -95,12 +96,12 @@ contains
 
       call newton_increment(model, plan, analysis, system, failure)
       call free_idle_joints(model, analysis)
-      analysis%record%n_iterations = 0 ! these are no re-analyses
+      analysis%record%n_iterations = 0 ! these are not re-analyses
    end subroutine cross_gaps
 
-   !> Interference presses before any load: the equilibrium of the structure at rest without load becomes the state that STEP and
-   !! NEWTON start from. Nothing where no joint has a negative gap. Where nothing presses in it, bodies have been pushed away from all that
-   !! held them, and how far is chance: then the structure stays at rest, and the interference comes with the first load.
+   !> Interference presses before any load: the equilibrium at rest becomes the initial state of STEP and NEWTON. Nothing is
+   !! done where no joint has a negative gap. If nothing presses at equilibrium, interference has pushed bodies away from all
+   !! supports by an arbitrary distance. Then the structure stays at rest, and the interference acts with the first load.
    subroutine seat_joints(model, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(analysis_type), intent(inout)   :: analysis !! at rest
@@ -120,7 +121,7 @@ contains
       if (allocated(analysis%exact)) analysis%exact = analysis%states
    end subroutine seat_joints
 
-   !> The equilibrium of the structure under nothing but interference.
+   !> The equilibrium of the structure under interference alone.
    subroutine press_apart(model, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(analysis_type), intent(inout)   :: analysis
@@ -136,7 +137,7 @@ contains
       call free_idle_joints(model, analysis)
    end subroutine press_apart
 
-   !> Where interference has pushed a body away until it presses no more, its joint has never been pressed, and the body is loose.
+   !> Where interference has pushed a body away until nothing presses, mark its joint as never pressed and the body as loose.
    subroutine free_idle_joints(model, analysis)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(inout) :: analysis
@@ -148,12 +149,12 @@ contains
          if (.not. is_idle(model, analysis, j)) cycle
          associate (elements => model%interface(model%joints(j)%first:model%joints(j)%last), &
                     states => analysis%states(model%joints(j)%first:model%joints(j)%last)%normal)
-            do i = model%joints(j)%first, model%joints(j)%last ! how far they have slid under next to no pressure is chance
+            do i = model%joints(j)%first, model%joints(j)%last ! their sliding under almost no pressure is arbitrary
                analysis%states(i)%shear = shear_state()
                analysis%states(i)%origin = analysis%movement(:2, i)
             end do
             if (.not. any(elements%gap < 0.0_wp)) cycle
-            states = at_rest(states%p_av, -states%lambda) ! behind what is left of the gap
+            states = at_rest(states%p_av, -states%lambda) ! with the remaining gap
             states%gap = elements%gap
             analysis%is_loose = .true.
             analysis%loose_force = norm2([analysis%loose_force, states%p_av*elements%area])
@@ -161,7 +162,7 @@ contains
       end do
    end subroutine free_idle_joints
 
-   !> Whether JOINT has never borne a force worth the name.
+   !> Whether JOINT has never carried a significant force.
    pure logical function is_idle(model, analysis, joint)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -173,7 +174,7 @@ contains
       end associate
    end function is_idle
 
-   !> Go from equilibrium to equilibrium by ATTEMPTs, each committed where it converges and divided where it does not.
+   !> Go from equilibrium to equilibrium by ATTEMPTs: commit an attempt that converges, divide one that does not.
    subroutine find_equilibrium(model, analysis, system, attempt, failure)
       type(model_type), intent(in)         :: model
       type(analysis_type), intent(inout)   :: analysis
@@ -203,7 +204,7 @@ contains
          else
             attempt%left_over = 1.0_wp - done
             if (attempt%trouble%raised) then
-               call failure%raise(attempt%trouble%message) ! a mechanism says more than any iteration
+               call failure%raise(attempt%trouble%message) ! a mechanism explains more than any iteration
             else
                call give_up(model, analysis, attempt, failure)
             end if
@@ -215,16 +216,16 @@ contains
       analysis%record%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
    end subroutine find_equilibrium
 
-   !> An ATTEMPT to where so much of the increment is LEFT: by straight laws, from where the last increment leads to if it goes on, else
-   !! from the committed state; where these go round in circles, by a line search along the tangents; once more with the
-   !! joints held where one has slipped all over.
+   !> An ATTEMPT up to the point where LEFT of the increment remains. Straight laws start from the extrapolated last increment
+   !! if this one continues it, otherwise from the committed state. If they cycle, a line search along the tangents follows. If
+   !! a joint has slipped entirely, the attempt is repeated with the joints held.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout)    :: analysis
       real(wp), intent(in)                  :: left
       type(attempt_type), intent(inout)     :: attempt
-      real(wp), intent(in), optional        :: from(:, :) !! (dimension, retained) displacements to iterate from, supports moved [length]
+      real(wp), intent(in), optional        :: from(:, :) !! (dimension, retained) initial displacements, supports moved [length]
       integer :: i
 
       do i = merge(0, 1, attempt%growth > 0.0_wp), 3
@@ -238,8 +239,8 @@ contains
       end do
    end subroutine try_part
 
-   !> An increment that was divided is made once more, as a whole, from the START and the displacements that its parts have led to: the laws
-   !! remember the way, and rounding decides into which parts an increment is divided. Where this does not converge, the parts stand.
+   !> Repeat a divided increment as a whole, from the START and the displacements that its parts have reached: the laws depend
+   !! on the path, and rounding decides on the division. If the whole does not converge, the parts stand.
    subroutine make_whole(model, system, start, analysis, attempt)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -260,7 +261,7 @@ contains
       end if
    end subroutine make_whole
 
-   !> The next ATTEMPT goes to where so much of the increment, or of the interference, is LEFT.
+   !> Prepare the next ATTEMPT, up to the point where LEFT of the increment, or of the interference, remains.
    subroutine start_attempt(model, system, analysis, left, attempt)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -281,14 +282,14 @@ contains
       attempt%trouble = none
    end subroutine start_attempt
 
-   !> Iterations of ATTEMPT from the committed state, or from a guess, none where it is a poor one; converged, they are committed. The
-   !! first one moves the supports.
+   !> Iterate ATTEMPT from the committed state or from a guess, which is dropped if poor; commit a converged trial. The first
+   !! iteration moves the supports.
    subroutine iterate(model, system, analysis, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout)    :: analysis
       type(attempt_type), intent(inout)     :: attempt
-      real(wp), intent(in), optional        :: from(:, :) !! the first trial, where it is not the committed state
+      real(wp), intent(in), optional        :: from(:, :) !! the first trial, if not the committed state
       type(trial_type), allocatable :: now, next
       type(straight_laws_type) :: laws
       type(progress_type)      :: way
@@ -345,8 +346,8 @@ contains
       call commit(model, system, now, analysis)
    end subroutine iterate
 
-   !> NOW goes on from the committed state as the last increment went, as far as the work of the unbalanced forces falls: under a load that
-   !! goes on, elements go on on their branches, and slide on. FOUND: less is unbalanced there.
+   !> Extrapolate NOW from the committed state along the last increment as far as the work of the unbalanced forces falls: under
+   !! a continued load, elements continue on their branches and in their sliding. FOUND: the residual is smaller there.
    subroutine extrapolate(model, system, analysis, attempt, way, now, next, found)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(in)    :: system
@@ -370,7 +371,7 @@ contains
       call swap(now, next)
    end subroutine extrapolate
 
-   !> The supports have been moved, to the displacements U: what they take is a load here.
+   !> The supports have been moved, to the displacements U: the support forces become the reference load.
    subroutine note_move(model, system, u, analysis, attempt, way)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -386,9 +387,9 @@ contains
       way%load_size = analysis%tolerance/analysis%load_tolerance
    end subroutine note_move
 
-   !> What a direction may leave of the unbalanced forces, as a share, where the trials so far have left these SIZES: little of what Newton's
-   !! method leaves, whose error is squared from one iteration to the next, but no less than is ENOUGH. Early in an increment that is much where a
-   !! factorisation is DEAR. Source: Eisenstat, Walker, SIAM J. Sci. Comput. 17 (1996) 16-32, choice 2.
+   !> The forcing term: the relative residual that a direction may leave, after trials with residuals SIZES. It is a small part
+   !! of the residual of Newton's method, whose error is squared in each iteration, but not below ENOUGH. Early in an increment
+   !! it is large where a factorisation is DEAR. Source: Eisenstat, Walker, SIAM J. Sci. Comput. 17 (1996) 16-32, choice 2.
    pure real(wp) function tolerance_of(sizes, enough, dear) result(tolerance)
       real(wp), intent(in) :: sizes(0:) !! [force]
       real(wp), intent(in) :: enough    !! [force]
@@ -403,9 +404,9 @@ contains
       tolerance = max(tolerance, min(tight_end, 0.1_wp*enough/max(sizes(n), tiny(1.0_wp))), least_tolerance)
    end function tolerance_of
 
-   !> Whether the trial NOW is in equilibrium, or iterations lead nowhere. Forces in the bodies are differences of large numbers: what rounding
-   !! leaves of them is no residual, and where it is no small part of the load, a body has moved away and nothing is in
-   !! equilibrium, unless it only goes with supports that are moved, and nothing bears a force.
+   !> Whether the trial NOW is in equilibrium, or the iterations fail. Forces in the bodies are differences of large numbers:
+   !! their rounding error does not count as residual. Where this error is not small compared with the load, a body has moved
+   !! away and there is no equilibrium, unless the body only moves with supports and no force acts.
    subroutine judge(model, system, iteration, analysis, attempt, way, now)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -416,11 +417,11 @@ contains
       type(trial_type), intent(inout)    :: now
       real(wp) :: pressed, rounding
 
-      if (attempt%seats) then ! what the joints press into the bodies is the load
+      if (attempt%seats) then ! the joint pressures on the bodies are the load
          pressed = free_norm(now%body, analysis%held)
          way%load_size = max(pressed, attempt%seat_force)
          analysis%tolerance = analysis%load_tolerance*way%load_size
-         if (pressed <= idle*attempt%seat_force) analysis%tolerance = idle*attempt%seat_force ! the bodies have made way
+         if (pressed <= idle*attempt%seat_force) analysis%tolerance = idle*attempt%seat_force ! the bodies have separated
       end if
       way%noise = force_noise(system, now%u)
       call renew_forces(model, system, analysis, attempt, way%noise, way%spoilt, now)
@@ -435,7 +436,7 @@ contains
       way%iteration = iteration
    end subroutine judge
 
-   !> Straight laws for the next iteration, from NEXT. Iterations that go round in a circle leave it with other rho.
+   !> Set the straight laws for the next iteration, from NEXT. Iterations that cycle get another rho.
    subroutine renew_laws(model, system, analysis, next, unbalanced, attempt, way, laws)
       type(model_type), intent(in)            :: model
       class(equation_system), intent(in)      :: system
@@ -463,7 +464,7 @@ contains
       end associate
    end subroutine renew_laws
 
-   !> Note an iteration from NOW to NEXT for the listing, and which elements have changed their branch.
+   !> Record an iteration from NOW to NEXT for the listing, and the changes of branch.
    subroutine note_iteration(now, next, step, analysis, attempt)
       type(trial_type), intent(in)       :: now, next
       real(wp), intent(in)               :: step
@@ -477,7 +478,7 @@ contains
                                              part=analysis%record%n_parts + 1))
    end subroutine note_iteration
 
-   !> How ATTEMPT has ended, at the trial NOW.
+   !> Record the end of ATTEMPT at the trial NOW.
    subroutine note_end(model, system, now, way, analysis, attempt)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -498,8 +499,8 @@ contains
       if (attempt%seats) analysis%tolerance = analysis%load_tolerance*way%load_size
    end subroutine note_end
 
-   !> Whether iterations that have left forces of these SIZES lead nowhere: the last of them have left hardly less than those before, or
-   !! they leave far more than there was. A number of iterations would not do, for rounding decides which of them is the last.
+   !> Whether iterations with residuals SIZES fail: the last of them hardly reduce the residual, or they diverge. A fixed number
+   !! of iterations would not do: rounding would decide which of them is the last.
    pure logical function leads_nowhere(sizes)
       real(wp), intent(in) :: sizes(:) !! [force]
       integer :: n
@@ -513,14 +514,14 @@ contains
                                          progress*minval(sizes(n - 2*patience + 1:n - patience))
    end function leads_nowhere
 
-   !> Forces in the bodies are summed up from step to step. Where a trial has been far away, what rounding left of them there is no longer
-   !! small beside the NOISE here: they are computed anew.
+   !> Recompute the forces in the bodies, which are summed from step to step. After a distant trial their rounding error is no
+   !! longer small compared with the NOISE at the present trial.
    subroutine renew_forces(model, system, analysis, attempt, noise, spoilt, now)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(in)    :: analysis
       type(attempt_type), intent(in)     :: attempt
-      real(wp), intent(in)               :: noise  !! what rounding leaves of them at NOW [force]
+      real(wp), intent(in)               :: noise  !! rounding error at NOW [force]
       real(wp), intent(inout)            :: spoilt !! the largest since they were computed
       type(trial_type), intent(inout)    :: now
 
@@ -531,13 +532,13 @@ contains
       spoilt = noise
    end subroutine renew_forces
 
-   !> One iteration more from NOW, which has converged: it squares what TOL has left, so that the state does not depend on the way
-   !! to it, which rounding rules. It counts where it leaves less.
+   !> One iteration more from the converged NOW. It squares the residual that TOL has left, so that the state does not depend on
+   !! the path of the iterations, which rounding influences. It is accepted where it reduces the residual.
    subroutine refine(model, system, analysis, attempt, now, next)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout)    :: analysis
-      type(attempt_type), intent(inout)     :: attempt !! whose trouble, if this iteration has any, does not count
+      type(attempt_type), intent(inout)     :: attempt !! a failure of this iteration does not count
       type(trial_type), allocatable, intent(inout) :: now, next
       real(wp), allocatable    :: direction(:, :)
       type(straight_laws_type) :: laws
@@ -553,8 +554,7 @@ contains
       call swap(now, next)
    end subroutine refine
 
-   !> No part of the increment is small enough: say why, as far as it can be told, and which element changed its branch most
-   !! often.
+   !> No part of the increment is small enough: report the cause as far as known, and the element with the most changes of branch.
    subroutine give_up(model, analysis, attempt, failure)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis

@@ -1,4 +1,4 @@
-!> A trial of METHOD = NEWTON: displacements, joints, what is unbalanced; how it becomes the state.
+!> A trial of METHOD = NEWTON: displacements, joint states and residual; the step, the line search and the commit.
 module newton_trial
    use analysis_state, only: analysis_type, free_norm, kind_on_branch, reach, subtract_joint_forces, tally_work
    use equations, only: equation_system, forces_in_bodies
@@ -12,10 +12,10 @@ module newton_trial
 
    public :: start_trial, evaluate, swap, take_step, search, commit
 
-   real(wp), parameter :: longest = 10.0_wp           ! line search: a step is lengthened by no more at once
-   real(wp), parameter :: enough = 0.8_wp             ! line search: the unbalanced work falls to this share or is searched
+   real(wp), parameter :: longest = 10.0_wp           ! line search: largest extension of a step at once
+   real(wp), parameter :: enough = 0.8_wp             ! line search: a step with more of the unbalanced work left is searched
 
-   !> A trial: displacements, the joints that follow from them, and what is out of balance. Arrays over nodes are those of the
+   !> A trial: displacements, the joint states that follow from them, and the residual. Arrays over nodes are those of the
    !! retained ones.
    type, public :: trial_type
       real(wp), allocatable :: u(:, :), body(:, :)    ! (dimension, retained) displacements, forces in the bodies
@@ -51,7 +51,7 @@ contains
       call move_alloc(c, b)
    end subroutine swap
 
-   !> Joints and residual of TRIAL, whose displacements and body forces are set.
+   !> Joint states and residual of TRIAL, whose displacements and body forces are set.
    subroutine evaluate(model, system, load, analysis, trial)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -71,7 +71,7 @@ contains
       trial%size = free_norm(trial%residual, analysis%held)
    end subroutine evaluate
 
-   !> NEXT is the trial to which DIRECTION leads from NOW.
+   !> Step from NOW along DIRECTION to NEXT.
    subroutine take_step(model, system, load, analysis, now, direction, next)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -86,9 +86,9 @@ contains
       call evaluate(model, system, load, analysis, next)
    end subroutine take_step
 
-   !> Line search: the step along DIRECTION at which the unbalanced forces do (next to) no work on it any more. While that work falls, but
-   !! hardly, the step is lengthened: secants of a first pressure far above the real one are too stiff. Where it does not change its
-   !! sign and does not fall either, there is a kink on the way: the step is halved until the forces fall.
+   !> Line search: the step along DIRECTION at which the work of the unbalanced forces on it (almost) vanishes. The step is
+   !! extended while that work falls slowly: secants of an initial pressure far above the real one are too stiff. If the work
+   !! neither changes sign nor falls, the path has a kink: the step is halved until the forces fall.
    subroutine search(model, system, load, analysis, now, direction, next, step)
       type(model_type), intent(in)      :: model
       class(equation_system), intent(in) :: system
@@ -161,13 +161,13 @@ contains
          next%u = now%u + alpha*direction
          next%body = now%body + alpha*body
          call evaluate(model, system, load, analysis, next)
-         g_alpha = -sign(sqrt(huge(1.0_wp)), g_0)          ! far too long
+         g_alpha = -sign(sqrt(huge(1.0_wp)), g_0)          ! far too long a step
          if (next%size < huge(1.0_wp)) g_alpha = sum(next%residual*direction, mask=.not. analysis%held)
       end subroutine try
 
    end subroutine search
 
-   !> The trial is in equilibrium: it becomes the state of the structure.
+   !> Commit the trial, which is in equilibrium, as the state of the structure.
    subroutine commit(model, system, trial, analysis)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system

@@ -1,4 +1,4 @@
-!> METHOD = STEP, the step-wise tangent-stiffness method: one routine a box of the flow chart (Fig. 6a).
+!> METHOD = STEP, the step-wise tangent-stiffness method: one routine for each box of the flow chart (Fig. 6a).
 module step_method
    use analysis_state, only: analysis_type, book_friction, iteration_record, reach, record_iteration, slip_record, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
@@ -46,7 +46,8 @@ contains
       call decide_on(trouble, analysis, failure)
    end subroutine structure_stiffness
 
-   !> TROUBLE with the stiffness is a failure, unless open gaps leave bodies loose: then this increment goes across them.
+   !> TROUBLE with the stiffness is a failure, unless open gaps leave bodies loose: then this increment is iterated across the
+   !! gaps.
    subroutine decide_on(trouble, analysis, failure)
       type(failure_type), intent(in)     :: trouble
       type(analysis_type), intent(inout) :: analysis
@@ -56,7 +57,7 @@ contains
       if (trouble%raised .and. .not. analysis%crosses_gaps) failure = trouble
    end subroutine decide_on
 
-   !> {du} from [k_s] {du} = {dF}; across gaps, to equilibrium by NEWTON, which leaves nothing to accumulate.
+   !> {du} from [k_s] {du} = {dF}; across gaps by NEWTON, to equilibrium, with nothing to accumulate.
    subroutine solve_increment(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
@@ -99,8 +100,8 @@ contains
       call add_displacements(model, system, analysis%change, analysis)
    end subroutine accumulate
 
-   !> Add {du}, the answer of the structure to the forces F, and what it does to the interface elements at the stiffness of this
-   !! increment. Of F the bodies take what these do not: [k_b] {du} = F - sum of [k_int] {du}.
+   !> Add {du}, the displacements under the forces F, and the resulting forces of the interface elements at the stiffness of
+   !! this increment. The bodies carry the rest of F: [k_b] {du} = F - sum of [k_int] {du}.
    subroutine add_displacements(model, system, f, analysis)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -130,12 +131,12 @@ contains
          call tally_work(analysis%energy(model%interface(i)%joint), work)
          call add_force(system%interface(i), -analysis%k(:, i)*movement, body)
       end do
-      if (size(system%locked) > 0) call forces_in_bodies(system, u, body) ! a locked unknown takes more than F
+      if (size(system%locked) > 0) call forces_in_bodies(system, u, body) ! a locked unknown carries more than F
       call reach(system, u, body, analysis)
    end subroutine add_displacements
 
-   !> Coulomb limit (section 4.4): where |tau| > mu p, the element is relieved of the excess, which is applied at its two ends,
-   !! and the structure is analysed again with the same stiffness, NREAN times.
+   !> Coulomb limit (section 4.4): where |tau| > mu p, the element is relieved of the excess. The excess is applied at its two
+   !! ends, and the structure is analysed again with the same stiffness, NREAN times.
    subroutine limit_friction(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
@@ -173,7 +174,7 @@ contains
          ' in its tangential direction: the joint slips as a whole')
    end subroutine limit_friction
 
-   !> Note the elements that re-analysis number REANALYSIS relieves, as they are before it: of many the first, and the last one in
+   !> Record the elements that re-analysis number REANALYSIS relieves, before it: the first re-analyses, and the last one in
    !! place of those between.
    subroutine note_slipping(model, reanalysis, excess, analysis)
       type(model_type), intent(in)       :: model
@@ -195,7 +196,7 @@ contains
       end do
    end subroutine note_slipping
 
-   !> The same elements after it.
+   !> Record the same elements after the re-analysis.
    pure subroutine note_relieved(model, analysis)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(inout) :: analysis
@@ -238,8 +239,8 @@ contains
       end do
    end subroutine find_excess
 
-   !> Relieve the elements whose joints ask for re-analysis number REANALYSIS of their excess; RELIEF are the nodal forces that it
-   !! becomes, AGAIN whether there are any. NREAN = -1 goes on as long as any excess is left.
+   !> Relieve the elements whose joints ask for re-analysis number REANALYSIS of their excess. RELIEF are the resulting nodal
+   !! forces; AGAIN tells whether there are any. NREAN = -1 continues as long as any excess is left.
    subroutine release(model, system, reanalysis, excess, analysis, relief, again)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system

@@ -1,11 +1,13 @@
-!> Where METHOD = NEWTON takes its tangents. An iteration replaces the law of every interface element by a straight one through a point of its
-!! graph, and solves the structure for these. Above the movement m that comes out the graph may have a kink behind it, past which its force
-!! is a thousand times that of the straight law. So the next point is not the one above m. It is where the element would come to
-!! rest if the structure around it had the stiffness rho: where the line f + rho m = constant through (m, f) of the straight law
-!! meets the graph. With a large rho that is the point of the same movement, with a small one that of the same force; whichever side a kink
-!! is come to from, it is not overshot. An element that comes to rest on the same side of the movement twice running is held by too large
-!! a rho: it gets a smaller one until it turns back. The answer does not depend on rho. Source: resolvent of a monotone graph (Rockafellar, SIAM J. Control
-!! Optim. 14 (1976) 877-898), used on rigid joints by Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375.
+!> The straight laws from which METHOD = NEWTON takes its tangents, one for each interface element.
+!! An iteration replaces the law of every interface element by a straight line through a point of its graph, and solves the
+!! structure with these lines. The solution gives a movement m. A kink of the graph may lie between the last point and m, and
+!! the force beyond it may be a thousand times that of the straight line. The next point is therefore not the point of the graph
+!! at m. It is the point at which the element would come to rest if the surrounding structure had the stiffness rho: the
+!! intersection of the graph and the line f + rho m = constant through (m, f) of the straight law. A large rho gives the point
+!! of equal movement, a small rho the point of equal force. A kink is not overshot from either side. If an element comes to rest
+!! on the same side of the movement twice in succession, its rho is too large: rho is reduced until the element turns back. The
+!! answer does not depend on rho. Source: resolvent of a monotone graph (Rockafellar, SIAM J. Control Optim. 14 (1976) 877-898),
+!! used on rigid joints by Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375.
 module straight_laws
    use analysis_state, only: analysis_type
    use equation_solver, only: equation_system
@@ -25,9 +27,9 @@ module straight_laws
 
    integer, parameter  :: most_steps = 40
    real(wp), parameter :: near  = 1.0e-6_wp !! of the force: a point on the graph
-   real(wp), parameter :: right = 0.1_wp    !! of it: how far a straight law may be wrong to have crossed no kink
-   real(wp), parameter :: least_rho = 1.0e-3_wp !! of what it is at first
-   real(wp), parameter :: most  = 3.0_wp    !! times what was unbalanced: the force that a movement may become
+   real(wp), parameter :: right = 0.1_wp    !! of it: error up to which a straight law has crossed no kink
+   real(wp), parameter :: least_rho = 1.0e-3_wp !! relative to the initial rho
+   real(wp), parameter :: most  = 3.0_wp    !! times the residual: limit of the force of a movement
 
    !> The straight laws of all interface elements, in their axes: f = force + tangent (m - point).
    type, public :: straight_laws_type
@@ -36,14 +38,15 @@ module straight_laws
       real(wp), allocatable :: tangent(:, :, :)     !! (3, 3, n) [force/length]
       type(element_state), allocatable :: states(:) !! (n) there
       real(wp), allocatable :: shift(:, :)          !! (3, n) from the last movement to the point [length]
-      real(wp), allocatable :: rho(:)               !! (n) as a multiple of what it is at first
+      real(wp), allocatable :: rho(:)               !! (n) relative to the initial rho
    end type straight_laws_type
 
 contains
 
-   !> The straight laws for the first iteration from NOW, the committed state. Which way an element goes is not known yet. On its
-   !! own first loading it has the secants of Eq. (9); ELASTIC: one that was pressed before has the stiffer side of its kink, that
-   !! of unloading, as the elastic predictor of plasticity has it. The elements of a joint that bears nothing and has gaps are taken for closed.
+   !> The straight laws for the first iteration from NOW, the committed state. The direction of movement of an element is not
+   !! yet known. An element on its first loading has the secants of Eq. (9). ELASTIC: an element that was pressed before has the
+   !! stiffer side of its kink, that of unloading, like the elastic predictor of plasticity. The elements of a joint without
+   !! pressure and with gaps are taken as closed.
    subroutine first_laws(model, system, analysis, now, elastic, laws)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(in)    :: system
@@ -95,8 +98,8 @@ contains
       end do
    end subroutine laws_at
 
-   !> The straight laws for the next iteration, NOW being what those before have led to, with so much UNBALANCED under them [force].
-   !! SOFTER: rho as a multiple of the first stiffness of an element; FLIPS: elements that began or ended to slip.
+   !> The straight laws for the next iteration, from the result NOW of the last ones with the residual UNBALANCED [force].
+   !! SOFTER: rho relative to the first stiffness of an element; FLIPS: elements that have begun or stopped slipping.
    subroutine next_laws(model, system, analysis, now, unbalanced, softer, laws, flips)
       type(model_type), intent(in)            :: model
       class(equation_system), intent(in)      :: system
@@ -136,7 +139,7 @@ contains
       end do
    end subroutine next_laws
 
-   !> What is unbalanced at NOW under the LOAD by the straight LAWS in place of the joints' own, on retained nodes [force].
+   !> The residual at NOW under the LOAD with the straight LAWS in place of the joints' own, on retained nodes [force].
    function residual_of(system, load, now, laws) result(residual)
       class(equation_system), intent(in)   :: system
       real(wp), intent(in)                 :: load(:, :)
@@ -165,7 +168,7 @@ contains
       end associate
    end function bears_nothing
 
-   !> The force that an element in this STATE carries, in its axes [force].
+   !> The force of an element in this STATE, in its axes [force].
    pure function force_of(area, state) result(force)
       real(wp), intent(in)            :: area
       type(element_state), intent(in) :: state
@@ -184,9 +187,9 @@ contains
       k = rest_stiffness(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, analysis%states(i)%normal%p_av)
    end function stiffness_at_rest
 
-   !> The movement at which an element would come to rest: that of the point of its graph, from the state BEFORE, on the line of slope -RHO
-   !! through MOVEMENT and FORCE of its straight law. The normal direction is independent of the others and comes first; an
-   !! element that slips stays where it is if it slips there in the same direction.
+   !> The movement at which an element would come to rest: that of the point of its graph, from the state BEFORE, on the line of
+   !! slope -RHO through MOVEMENT and FORCE of its straight law. The normal direction is independent of the others and comes
+   !! first. A slipping element stays at its point if it slips there in the same direction.
    function point_of_rest(law, area, before, movement, force, rho) result(point)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area        !! a_i [length^2]
@@ -232,7 +235,7 @@ contains
          slope = max(0.0_wp, area*slope)
       end subroutine shear_force
 
-      !> POINT and T in direction I: Newton's method within bounds, from the state before, for t grows with the movement.
+      !> POINT and T in direction I by Newton's method within bounds, from the state before; t increases with the movement.
       subroutine find_shear_rest(i)
          integer, intent(in) :: i
          real(wp) :: bounds(2), excess, slope, start
@@ -255,8 +258,8 @@ contains
 
    end function point_of_rest
 
-   !> lambda with a p(lambda) + rho lambda = GOAL on the graph of the exact normal law from the state BEFORE [length]: open, on the line
-   !! of slope E_u, or, past point A, on the loading curve, where p is between what half the goal and what all of it would make.
+   !> lambda with a p(lambda) + rho lambda = GOAL on the graph of the exact normal law from the state BEFORE [length]: open, on
+   !! the line of slope E_u, or, past point A, on the loading curve, with p between the values for half and for all of the goal.
    pure real(wp) function normal_rest(law, area, before, goal, rho) result(lambda)
       type(normal_law), intent(in)   :: law
       real(wp), intent(in)           :: area   !! a_i [length^2]

@@ -15,7 +15,7 @@ module joint_laws
    public :: back_stiffness, loading_work
 
    real(wp), parameter :: slip_margin = 1.0e-9_wp ! of the limit: rounding does not cause slip
-   real(wp), parameter, public :: flag_margin = 1.0e-7_wp  !! of the limit: the remainder after a relief is no slip in the next increment
+   real(wp), parameter, public :: flag_margin = 1.0e-7_wp  !! of it: the remainder of a relief is no slip in the next increment
    real(wp), parameter, public :: rest_margin = -1.0e-6_wp !! of the limit: settled secants are at the limit to which they are cut
 
    type, public :: joint_law
