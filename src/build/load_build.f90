@@ -1,5 +1,5 @@
-!> Loads: which forces act, and which displacements are prescribed, at the end of every stage. FORCE, FORCE1 and FORCE2 are
-!! vectors in global axes; MOMENT acts on the rotations of reference nodes.
+!> Loads at the end of every stage: nodal forces and prescribed displacements.
+!! FORCE, FORCE1 and FORCE2 are vectors in global axes; MOMENT acts on rotations.
 module load_build
    use body_loads, only: add_beam_loads, add_gravity, check_beam_loads, check_gravity
    use bulk_data, only: force_card
@@ -23,8 +23,8 @@ module load_build
 
 contains
 
-   !> FORCE(:, i) is that of card I in global axes on NODE(i) of the model, of a moment on the node of rotations [force]; zero where
-   !! the card is in error.
+   !> Nodal forces of the cards: FORCE(:, i) of card I in global axes acts on NODE(i); of a moment on the node of rotations [force]. It is
+   !! zero where the card is in error.
    subroutine find_nodal_forces(deck, model, node, force)
       type(checked_deck), intent(in)     :: deck
       type(model_type), intent(in)       :: model
@@ -57,7 +57,7 @@ contains
       end do
    end subroutine find_nodal_forces
 
-   !> A MOMENT acts on the rotations of NODE, which takes their node's place: FORCE becomes the moment by their arm.
+   !> A MOMENT acts on the rotations of NODE: NODE becomes the node of rotations, FORCE the moment divided by their arm.
    subroutine onto_rotations(deck, model, card, node, force)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -87,7 +87,7 @@ contains
       call check_felt(deck, model, card, node, axes, force)
    end subroutine onto_rotations
 
-   !> A FORCE on NODE, a reference node, must move something: not act along a component that was left out and depends on nothing.
+   !> Error: a FORCE on a reference NODE along a component that was left out and depends on nothing, so that it moves nothing.
    subroutine check_felt(deck, model, card, node, axes, force)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -109,7 +109,7 @@ contains
       end do
    end subroutine check_felt
 
-   !> Whether NODE does not move along DIRECTION whatever the unknowns are.
+   !> Whether NODE has no movement along DIRECTION for any value of the unknowns.
    pure logical function is_idle(model, node, direction)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
@@ -121,7 +121,7 @@ contains
       end associate
    end function is_idle
 
-   !> FORCE of a FORCE1, along a line between two nodes, or of a FORCE2, across two such lines.
+   !> FORCE of a FORCE1, along a line between two nodes, or of a FORCE2, perpendicular to two such lines.
    subroutine along_lines(deck, model, card, force)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -148,11 +148,11 @@ contains
       end if
    end subroutine along_lines
 
-   !> The total load at the end of each stage, and the amplitude of the load that oscillates about it.
+   !> The total load at the end of each stage, and the amplitude of its oscillating load.
    subroutine build_loads(deck, model, oscillating)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
-      type(stage_load_type), allocatable, intent(out) :: oscillating(:) !! (stages) DLOAD, nothing where none is given
+      type(stage_load_type), allocatable, intent(out) :: oscillating(:) !! (stages) DLOAD; empty where none is given
       type(pressed_side), allocatable :: pressed(:)
       integer, allocatable  :: node(:)     ! of the cards of nodal forces
       real(wp), allocatable :: force(:, :) ! likewise
@@ -177,7 +177,7 @@ contains
 
    contains
 
-      !> Add to LOADS the load set, or the sum of sets, that the entry KEY of case control asks for.
+      !> Add to LOADS the load set, or the combination of sets, that the entry KEY of case control names.
       subroutine add_case(reference, key, loads)
          type(set_reference), intent(in)      :: reference
          character(*), intent(in)             :: key
@@ -201,11 +201,11 @@ contains
 
    end subroutine build_loads
 
-   !> Add FACTOR times everything of SET to LOADS: nodal forces one by one, distributed loads summed up at every node.
+   !> Add FACTOR times all loads of SET to LOADS: nodal forces one by one, distributed loads as sums per node.
    subroutine add_set(deck, model, nodal, force, pressed, set, factor, loads)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
-      integer, intent(in)                  :: nodal(:)    !! (cards of nodal forces) the nodes on which they act
+      integer, intent(in)                  :: nodal(:)    !! (cards of nodal forces) the loaded nodes
       real(wp), intent(in)                 :: force(:, :) !! (3, likewise), in global axes [force]
       type(pressed_side), intent(in)       :: pressed(:)
       integer, intent(in)                  :: set
@@ -221,7 +221,7 @@ contains
          call add_moves(deck, model, set, factor, loads)
          if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set) .and. &
              all(bulk%beam_load%set /= set)) return
-         if (deck%errors%any()) return ! elements may be what nothing can be spread over
+         if (deck%errors%any()) return ! elements in error may have no area or volume
          allocate (spread_out(3, model%n_nodes), source=0.0_wp)
          do i = 1, size(pressed)
             if (bulk%pressure(pressed(i)%card)%set == set) call add_pressure(model, pressed(i), factor, spread_out)
@@ -244,7 +244,7 @@ contains
       end do
    end subroutine add_set
 
-   !> A FORCE at NODE, at the end of the list.
+   !> Append a FORCE at NODE.
    subroutine add_force(node, force, loads)
       integer, intent(in)                  :: node
       real(wp), intent(in)                 :: force(3)
@@ -277,7 +277,7 @@ contains
       end do
    end subroutine add_surface_pressure
 
-   !> Nodal forces of a total force spread evenly over the area of a surface.
+   !> Nodal forces of a total force distributed uniformly over the area of a surface.
    pure subroutine add_surface_force(model, surface, total, force)
       type(model_type), intent(in)   :: model
       type(surface_type), intent(in) :: surface

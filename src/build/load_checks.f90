@@ -1,4 +1,4 @@
-!> Load cards against the model: nodes, surfaces and sets that are there, directions that the model has.
+!> Checks of load cards against the model: missing nodes, surfaces and sets, directions that the model does not have.
 module load_checks
    use bulk_data, only: bulk_data_type, has_component
    use deck_check, only: checked_deck
@@ -13,12 +13,12 @@ module load_checks
 
    public :: check_load_cards, check_plane, has_set
 
-   character(*), parameter :: others = 'PLOAD4, PLOADE, PLOAD, PLOAD1, PLOAD2, PLOADM, FORCEM, GRAV or SPCD' ! than FORCE, of a load set
-   character(*), parameter, public :: nor_others = ', nor a '//others                 !! behind `there is no FORCE`
+   character(*), parameter :: others = 'PLOAD4, PLOADE, PLOAD, PLOAD1, PLOAD2, PLOADM, FORCEM, GRAV or SPCD' ! the other load cards
+   character(*), parameter, public :: nor_others = ', nor a '//others                 !! behind the text `there is no FORCE`
 
 contains
 
-   !> Loads of surfaces, SPCD and LOAD; what does not fit goes to ERRORS.
+   !> Check loads on surfaces, SPCD and LOAD; add errors to the deck.
    subroutine check_load_cards(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -28,7 +28,7 @@ contains
       call check_combinations(deck)
    end subroutine check_load_cards
 
-   !> Whether some load card is of SET.
+   !> Whether any load card belongs to SET.
    pure logical function has_set(bulk, set)
       type(bulk_data_type), intent(in) :: bulk
       integer, intent(in)              :: set
@@ -37,14 +37,14 @@ contains
                 any(bulk%gravity%set == set) .or. any(bulk%displacement%set == set) .or. any(bulk%beam_load%set == set)
    end function has_set
 
-   !> A plane model has no direction z; the card on LINE has its component of VECTOR in N3, unless it is turned or goes along nodes.
+   !> Error: a z component of VECTOR in a plane model. It stands in N3 of the card on LINE, unless TURNED or ALONG.
    subroutine check_plane(deck, model, line, vector, along, turned)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
       integer, intent(in)            :: line
       real(wp), intent(in)           :: vector(3) !! in global axes
-      logical, intent(in), optional  :: along     !! it is that from node to node, which may have no field N3; false
-      logical, intent(in), optional  :: turned    !! it is given in system CID; false
+      logical, intent(in), optional  :: along     !! whether it is the vector between two nodes, without field N3; default false
+      logical, intent(in), optional  :: turned    !! whether it is given in system CID; default false
       real(wp), parameter :: rounding = 1.0e-12_wp
       character(:), allocatable :: field
 
@@ -63,7 +63,7 @@ contains
       end if
    end subroutine check_plane
 
-   !> PLOADM and FORCEM act on surfaces that are there; a pressure, on one that has one body alone.
+   !> Errors of PLOADM and FORCEM: missing surfaces, and a pressure on a surface with bodies on both sides.
    subroutine check_surface_loads(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -87,7 +87,7 @@ contains
       end do
    end subroutine check_surface_loads
 
-   !> SPCD moves components that are held.
+   !> Error: an SPCD on a component that is not supported.
    subroutine check_displacements(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -125,7 +125,7 @@ contains
       is_supported = held(place%d)
    end function is_supported
 
-   !> LOAD cards combine sets that are there.
+   !> Error: a LOAD card that combines missing sets.
    subroutine check_combinations(deck)
       type(checked_deck), intent(in) :: deck
       character(:), allocatable :: name

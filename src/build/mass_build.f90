@@ -1,4 +1,4 @@
-!> Masses: CONM2 and CMASS2 at nodes, how elements have theirs, and whether there is any mass where the structure shall oscillate.
+!> Masses: CONM2 and CMASS2 at nodes, consistent or lumped element masses, a check for bodies without mass.
 module mass_build
    use bulk_data, only: mass_card
    use deck_check, only: checked_deck
@@ -14,8 +14,8 @@ module mass_build
 
 contains
 
-   !> Fill the masses of MODEL, PARAM WTMASS on them, and how elements have theirs. A CONM2 stands at a node that some element holds; one
-   !! with an offset is its mass at a node of its own, that stands off, and its inertia at G.
+   !> Fill the nodal masses of MODEL, times PARAM WTMASS, and set lumped or consistent element masses. The node of a card must belong to
+   !! an element. A CONM2 with an offset has its mass at a node of its own, at the offset, and its inertia about its centre of mass.
    subroutine build_masses(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -54,7 +54,7 @@ contains
                'node of an RBE2, RBE3 or RBAR')
             model%masses(n)%mass = 0.0_wp
             n = n + 1
-            n_off = n_off + 1 ! their nodes are the first that stand off others
+            n_off = n_off + 1 ! nodes of masses with offset are the first face nodes
             model%masses(n)%node = model%faces(n_off)%node
             model%masses(n)%mass = deck%bulk%parameters%mass_factor*card%mass
          end associate
@@ -62,7 +62,7 @@ contains
       model%masses = model%masses(:n)
    end subroutine build_masses
 
-   !> MASS of CARD, a CMASS2, along a component of its node; of a rotation it is a moment of inertia.
+   !> The directed MASS of CARD, a CMASS2, along a component of its node; for a rotation the moment of inertia about its axis.
    subroutine set_direction(deck, model, card, mass)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
@@ -85,8 +85,8 @@ contains
       if (card%component > 3) mass%inertia = along
    end subroutine set_direction
 
-   !> The INERTIA of CARD about its node, turned from its system into global axes [force x time^2 x length]: I11, I22, I33 on the
-   !! diagonal, -I21, -I31, -I32 beside it, I21 the integral of x_1 x_2 over the mass.
+   !> The INERTIA of CARD about its node, transformed from its system to global axes [force x time^2 x length]: I11, I22, I33 on the
+   !! diagonal, -I21, -I31, -I32 off it; I21 is the integral of x_1 x_2 over the mass.
    subroutine find_inertia(deck, model, card, x, inertia)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -109,7 +109,7 @@ contains
       if (ok) inertia = matmul(axes, matmul(inertia, transpose(axes)))
    end subroutine find_inertia
 
-   !> Whether no turning has an energy below zero: no minor on the diagonal is, rounding aside.
+   !> Whether A is positive semidefinite: no principal minor is negative, to rounding.
    pure logical function is_inertia(a)
       real(wp), intent(in) :: a(3, 3) !! symmetric
       real(wp), parameter :: rounding = 1.0e-12_wp
@@ -128,10 +128,10 @@ contains
                    + b(1, 3)*(b(1, 2)*b(2, 3) - b(2, 2)*b(1, 3)) >= -rounding
    end function is_inertia
 
-   !> Where the deck asks for MODES, every body has a mass, its own or at one of its nodes or in a bar on it.
+   !> Error if the deck asks for MODES: a body without mass of its own, at its nodes, or in a bar connected to it.
    subroutine check_mass(deck, model)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model !! its parts are found, bolts among what connects
+      type(model_type), intent(in)   :: model !! with parts in which bolts connect bodies
       logical, allocatable :: has_mass(:)     ! (parts)
       integer :: e, i, line
 
@@ -159,7 +159,7 @@ contains
             if (has_mass(part)) cycle
             call deck%errors%add(line, 'MODES: the body of element '//integer_text(model%element_id(e))// &
                                  ' has no mass; give RHO on its MAT1, or a CONM2 on it')
-            has_mass(part) = .true. ! said
+            has_mass(part) = .true. ! reported
          end associate
       end do
    end subroutine check_mass

@@ -1,6 +1,6 @@
-!> The mesh of the model: nodes, bodies and marked sides, from the mesh cards and the block generators to positions. Whether
-!! the nodes that cards of loads, supports and masses name are there is asked before anything else is made of these cards, so
-!! that it is said of a deck whose mesh is faulty too.
+!> The mesh of the model: nodes, bodies and marked sides, from mesh cards and block generators to positions.
+!! The nodes that cards of loads, supports and masses name are checked before anything else is built from these cards, so that missing
+!! nodes are reported for a deck with mesh errors too.
 module mesh_build
    use block_mesh, only: block_type, generate_block
    use bulk_data, only: element_card
@@ -29,15 +29,15 @@ module mesh_build
       integer :: mark = 0                  !! PMARK id
       integer :: id = 0                    !! of the edge or face, 0: of a block
       integer :: corners = 0               !! 2, 3 or 4
-      integer :: n_nodes = 0               !! of the mark: corners, and mid-side nodes where it is of second order
+      integer :: n_nodes = 0               !! corners, and mid-side nodes if the mark is second-order
       integer :: line = 0                  !! of its card
-      integer :: of_block = 0              !! k: the mark stands in Sk of a block; 0: in PID of an edge or face
+      integer :: of_block = 0              !! k: the mark is that of side Sk of a block; 0: PID of an edge or face
       integer :: nodes(max_side_nodes) = 0 !! 0 for a mid-side node left blank
    end type marked_side
 
 contains
 
-   !> Fill the mesh part of MODEL; SIDES are the marked sides found on the way.
+   !> Build the mesh of MODEL; SIDES are the marked sides.
    subroutine build_mesh(deck, model, sides)
       type(checked_deck), intent(inout) :: deck
       type(model_type), intent(inout)   :: model
@@ -72,8 +72,8 @@ contains
       call collect_sides(deck, blocks, raw, position, model, sides)
    end subroutine build_mesh
 
-   !> Whether a deck without solids is one of the plane whatever X3 its nodes have: it has a PAXIS, a BLOCK2, or a PSHELL and none with the
-   !! material of bending.
+   !> Whether a deck without solids is plane, whatever X3 of its nodes: it has a PAXIS or a BLOCK2, or it has PSHELL and none of them has a
+   !! bending material.
    pure logical function is_plane(deck)
       type(checked_deck), intent(in) :: deck
 
@@ -83,7 +83,7 @@ contains
       end associate
    end function is_plane
 
-   !> MODEL of case control says what the model is, where the deck does not say otherwise.
+   !> Set the kind of model from the entry MODEL of case control, if the deck does not contradict it.
    subroutine take_model(deck, has_solids, model)
       type(checked_deck), intent(in)  :: deck
       logical, intent(in)             :: has_solids
@@ -106,7 +106,7 @@ contains
       end associate
    end subroutine take_model
 
-   !> A plane model lies in x-y, an axisymmetric one besides in x >= 0.
+   !> Errors: a node outside the x-y plane in a plane model, or with x < 0 in an axisymmetric one.
    subroutine check_nodes(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -119,7 +119,7 @@ contains
          if (node == 0) cycle
          x = model%x(:, node)
          associate (grid => deck%bulk%grid(i))
-            if (grid%cp <= 0) x = grid%x ! of a number given twice there is one node
+            if (grid%cp <= 0) x = grid%x ! a number given twice has one node
             if (abs(x(3)) > 0.0_wp) call deck%field_error(grid%line, trim(merge('CP', 'X3', grid%cp > 0)), &
                trim(merge('puts the node out of the plane', 'not zero                      ', grid%cp > 0))// &
                ', but a plane model lies in x-y')
@@ -135,7 +135,7 @@ contains
       end do
    end subroutine check_nodes
 
-   !> CBAR and CROD edges in the plane, faces of solids from the cards of plane elements, and the marked sides of blocks.
+   !> Marked sides: CBAR and CROD edges in the plane, faces of solids from cards of plane elements, and sides of blocks.
    subroutine collect_sides(deck, blocks, raw, position, model, sides)
       type(checked_deck), intent(in)  :: deck
       type(block_type), intent(in)    :: blocks(:)
@@ -180,7 +180,7 @@ contains
 
    contains
 
-      !> The side that a CARD marks, with so many nodes.
+      !> Append the side that a CARD marks.
       subroutine add_card(card, corners, n_nodes)
          type(element_card), intent(in) :: card
          integer, intent(in)            :: corners, n_nodes
@@ -192,8 +192,8 @@ contains
 
    end subroutine collect_sides
 
-   !> Say of every card of FORCE, MOMENT, SPC, SPC1, SPCD and CONM2 which of its nodes are not there. A number that could not be read
-   !! is 0, and nothing is said of it again.
+   !> Report the missing nodes of every FORCE, MOMENT, SPC, SPC1, SPCD and CONM2. A number that could not be read is 0 and is not
+   !! reported again.
    subroutine check_named_nodes(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model !! its nodes
@@ -211,7 +211,7 @@ contains
          associate (card => deck%bulk%support(i))
             if (card%surface > 0) cycle
             do k = 1, size(card%first)
-               if (card%first(k) /= card%last(k)) cycle ! of G1 THRU G2 those that are there
+               if (card%first(k) /= card%last(k)) cycle ! G1 THRU G2 means the nodes that exist
                if (is_missing(card%first(k))) &
                   call deck%field_error(card%line, card%at(k), there_is_no(card%first(k)), called='G')
             end do
@@ -231,7 +231,7 @@ contains
 
    contains
 
-      !> Whether node ID is named and not there.
+      !> Whether node ID is named and missing.
       pure logical function is_missing(id)
          integer, intent(in) :: id
 

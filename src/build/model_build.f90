@@ -1,5 +1,5 @@
-!> From a deck to the structure that is solved: the order of all that is built. The bodies of a model and its parts, bodies and
-!! nodes that bars and bolts connect, are found here; joints connect nothing.
+!> From a deck to the model that is solved: the sequence of all build steps, and the parts of the model.
+!! Bodies, and parts (bodies and nodes that bars and bolts connect), are found here; joints do not connect parts.
 module model_build
    use case_control, only: method_step
    use deck_check, only: checked_deck
@@ -36,8 +36,8 @@ module model_build
 
 contains
 
-   !> Which BODY each element belongs to, in the order of their first elements: elements are of one body that nodes connect, and the
-   !! halves of a solid bolt.
+   !> The BODY of each element, numbered in the order of their first elements. Elements that share nodes, and the halves of a solid bolt,
+   !! form one body.
    pure subroutine find_bodies(model, body, n_bodies)
       type(model_type), intent(in) :: model
       integer, intent(out)         :: body(:) !! (n_elements)
@@ -61,10 +61,10 @@ contains
       end do
    end subroutine find_bodies
 
-   !> Number the connected bodies (a node without a body is a part of its own). What depends on others is one with them.
+   !> Number the connected parts. A node without a body is a part of its own; a dependent node belongs to the part of its masters.
    pure subroutine find_parts(model, with_bolts)
       type(model_type), intent(inout) :: model
-      logical, intent(in)             :: with_bolts !! whether bolts connect bodies as other bars do
+      logical, intent(in)             :: with_bolts !! whether bolts connect bodies, as other bars do
       integer, allocatable :: parent(:)
       integer :: k, node, root
 
@@ -103,7 +103,7 @@ contains
       end do
    end subroutine find_parts
 
-   !> The nodes of every element are one part. Behind the section of a solid bolt the node of the section stands for those that it cuts.
+   !> Join the nodes of every element. For an element behind a pretension section the section node replaces the nodes that are cut.
    pure subroutine join_elements(model, parent)
       type(model_type), intent(in) :: model
       integer, intent(inout)       :: parent(:)
@@ -117,7 +117,7 @@ contains
       end do
    end subroutine join_elements
 
-   !> Corner I of element E, or what stands for it behind a section.
+   !> Corner I of element E, or the section node that replaces it.
    pure integer function uncut(model, e, i) result(corner)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e, i
@@ -127,9 +127,9 @@ contains
       if (model%node_section(corner) == model%element_section(e)) corner = section_node(model, e)
    end function uncut
 
-   !> Build MODEL and the PLAN of its stages from DECK; what does not fit together goes to ERRORS, and then neither
-   !! is fit to be solved. Of a faulty mesh nothing further is made: areas, fits and loads of it would be of numbers that nobody
-   !! gave. Errors that do not depend on each other are found together.
+   !> Build MODEL and the PLAN of its stages from DECK; inconsistencies are added to ERRORS, and then neither may be solved. After
+   !! mesh errors nothing else is built, because areas, projections and loads would rest on wrong numbers. Errors that do not depend on
+   !! each other are found together.
    subroutine build_model(deck, model, plan, errors)
       type(deck_type), intent(in), target          :: deck
       type(model_type), intent(out)                :: model
@@ -143,7 +143,7 @@ contains
 
       if (.not. deck%is_whole) return
       call checked%start(deck, errors)
-      ! what the cards say of each other, the load history, the mesh
+      ! consistency of the cards, load history, mesh
       call checked%check_ids()
       call plan_stages(deck, plan, errors)
       call build_mesh(checked, model, sides)
@@ -153,7 +153,7 @@ contains
       call build_surfaces(checked, sides, model)
       if (checked%mesh_is_faulty()) return
       call name_surface_nodes(checked, model)
-      ! what stands on the mesh: each is put together whatever is wrong with the others
+      ! data on the mesh: each kind is built even if another one has errors
       call split_shared_surfaces(checked, model)
       call find_ties(checked, model, ties)
       call build_shell_faces(checked, model)
@@ -179,15 +179,15 @@ contains
       call plan_vibrations(checked, model, oscillating, plan)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
       if (errors%any()) return
-      ! what all of it together does
-      call find_parts(model, .false.)          ! bolts that are being tightened connect nothing yet
+      ! checks and results that need the whole model
+      call find_parts(model, .false.)          ! bolts that are being tightened do not connect parts yet
       call find_determinate_joints(model)
       call find_first_pressures(plan%stages(1)%fractions(1), deck%control%method /= method_step, model, errors)
       if (any(model%bars%bolt > 0) .or. n_sections(model) > 0) then
          call find_parts(model, .true.)
          call find_determinate_joints(model)
       end if
-      do j = 1, size(model%joints)            ! whose normals are as they stay
+      do j = 1, size(model%joints)            ! the normals are final now
          model%joints(j)%frame = find_frame(model, model%joints(j))
       end do
       call check_mass(checked, model)

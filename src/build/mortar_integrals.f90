@@ -1,9 +1,9 @@
-!> The interface elements of faces that do not match: what each has of the area of a face of SIDE1, and on which nodes of both
-!! sides it hangs. They come from integrals of shape functions over what faces of SIDE2 cover of the face, and are added up
-!! over the faces at a node, each with its area as weight. The areas of influence of a face's nodes, the integrals of the N_k,
-!! are shared out among its elements. Edges and linear faces have an element at every node. Faces with mid-side nodes have
-!! elements at these alone, because the areas of the corners are zero or negative (0 and 1/3 of the triangle with 6 nodes;
-!! -1/12 and 1/3 of the quadrilateral with 8).
+!> Mortar projection for faces that do not match: tributary areas, nodes and weights of the interface elements.
+!! Integrals of shape functions over the covered part of each face of SIDE1 give the weights on the nodes of both sides. They are summed
+!! over the faces at a node, weighted with the area of the face. The tributary areas of the nodes of a face, the integrals of the N_k,
+!! are divided among its elements. Edges and linear faces have an element at every node. Faces with mid-side nodes have elements at these
+!! nodes only, because the tributary areas of the corners are zero or negative (0 and 1/3 of the triangle with 6 nodes; -1/12 and 1/3 of
+!! the quadrilateral with 8).
 module mortar_integrals
    use element_kinds, only: max_nodes, max_side_nodes
    use element_mapping, only: two_pi
@@ -16,7 +16,7 @@ module mortar_integrals
 
    public :: start_integrals, add_overlap, fit_face, whole_shares, partial_shares
 
-   !> A face of SIDE1 with what makes lengths areas: thickness, or twice pi and the distance from the axis.
+   !> A face of SIDE1, with the thickness or 2 pi r that converts lengths to areas.
    type, public :: own_face
       type(face_frame) :: frame
       type(seen_face)  :: seen
@@ -25,41 +25,41 @@ module mortar_integrals
       real(wp) :: reach = 0.0_wp             !! of the search along the normal, either sense [length]
    end type own_face
 
-   !> The integrals; N_k of the own face, N_j of those opposite.
+   !> The integrals; N_k of the face of SIDE1, N_j of the opposite faces.
    type, public :: cover_integrals
-      real(wp) :: seen = 0.0_wp                                     !! what is covered, as seen: in the plane of the face
+      real(wp) :: seen = 0.0_wp                                     !! covered area, projected onto the plane of the face
       real(wp) :: farthest = 0.0_wp                                 !! largest distance of the faces [length]
       real(wp) :: area(max_side_nodes) = 0.0_wp                     !! of N_k [length^2]
       real(wp) :: normal(3, max_side_nodes) = 0.0_wp                !! of N_k n, in global axes [length^2]
       real(wp) :: own(max_side_nodes, max_side_nodes) = 0.0_wp      !! of N_k N_k' [length^2]
-      integer  :: n = 0                                             !! nodes opposite
+      integer  :: n = 0                                             !! number of opposite nodes
       integer, allocatable  :: node(:)                              !! (room) their positions
       real(wp), allocatable :: opposite(:, :)                       !! (max_side_nodes, room) of N_k N_j [length^2]
    end type cover_integrals
 
-   !> What a face gives to the element at each of its nodes; nothing but zeros where there is none.
+   !> The contribution of a face to the element at each of its nodes; zero at a node without an element.
    type, public :: face_part
-      integer  :: n = 0                                                   !! nodes
+      integer  :: n = 0                                                   !! number of nodes
       real(wp) :: area(max_side_nodes) = 0.0_wp                           !! [length^2]
       real(wp) :: normal(3, max_side_nodes) = 0.0_wp                      !! area times normal [length^2]
       real(wp) :: own(max_side_nodes, max_side_nodes) = 0.0_wp            !! (element, node k) area times weight [length^2]
       real(wp), allocatable :: opposite(:, :)                             !! (max_side_nodes, nodes opposite) likewise
    end type face_part
 
-   real(wp), parameter :: least_weight = 1.0e-12_wp !! what is less is rounding: such a node is no part of an end
-   real(wp), parameter :: least_area = 1.0e-12_wp   !! of the faces at an element: what is less is none
+   real(wp), parameter :: least_weight = 1.0e-12_wp !! a smaller weight is rounding: its node is not connected
+   real(wp), parameter :: least_area = 1.0e-12_wp   !! of the area of the faces at an element: a smaller area is zero
 
-   !> The sums for the elements at the nodes of a side.
+   !> The sums of the interface elements at the nodes of a side.
    type, public :: interface_sums_type
       integer :: n_nodes = 0                        !! of the model
       real(wp), allocatable :: area(:)              !! (elements) [length^2]
       real(wp), allocatable :: normal(:, :)         !! (3, elements) area times normal
       real(wp), allocatable :: around(:)            !! (elements) area of all faces at the element
-      integer :: n = 0                              !! entries: a node, a weight and whose they are
+      integer :: n = 0                              !! number of entries: a node, a weight and the element
       integer, allocatable  :: owner(:)             !! (room) element
-      integer, allocatable  :: key(:)               !! (room) the node; of end 2 with n_nodes on top
+      integer, allocatable  :: key(:)               !! (room) the node; for end 2 plus n_nodes
       real(wp), allocatable :: weight(:)            !! (room) times the area of the face
-      integer, allocatable  :: first(:), entry(:)   !! those of element i: entry(first(i):first(i + 1) - 1)
+      integer, allocatable  :: first(:), entry(:)   !! the entries of element i: entry(first(i):first(i + 1) - 1)
    contains
       procedure :: start
       procedure :: add_face
@@ -71,7 +71,7 @@ module mortar_integrals
 
 contains
 
-   !> All integrals zero; the room stays.
+   !> Set all integrals to zero; keep the room.
    pure subroutine start_integrals(integrals)
       type(cover_integrals), intent(inout) :: integrals
 
@@ -84,13 +84,13 @@ contains
       if (.not. allocated(integrals%node)) allocate (integrals%node(0), integrals%opposite(max_side_nodes, 0))
    end subroutine start_integrals
 
-   !> Add what the face OPPOSITE, seen in the frame of FACE, covers of it: a point is covered where the faces are no farther apart
-   !! than the reach, along the normal of FACE.
+   !> Add the integrals over the part of FACE that the face OPPOSITE, given in the frame of FACE, covers. A point is covered where the
+   !! distance of the faces along the normal of FACE is at most the reach.
    pure subroutine add_overlap(face, opposite, nodes, points, integrals)
       type(own_face), intent(in)           :: face
       type(seen_face), intent(in)          :: opposite
       integer, intent(in)                  :: nodes(:)   !! of OPPOSITE
-      type(plane_points), intent(inout)    :: points     !! room to work in
+      type(plane_points), intent(inout)    :: points     !! work space
       type(cover_integrals), intent(inout) :: integrals
       real(wp) :: n_1(max_nodes), n_2(max_nodes), x_1(3), x_2(3), point_1(3), point_2(3), surface(3), weight
       integer  :: column(size(nodes)), i, j
@@ -126,7 +126,7 @@ contains
       end associate
    end subroutine add_overlap
 
-   !> Where the integrals with the shape functions of these NODES of SIDE2 stand; nodes that are new get places, with zeros.
+   !> The columns of these NODES of SIDE2 in the integrals; new nodes get new columns of zeros.
    pure subroutine find_columns(nodes, integrals, column)
       integer, intent(in)                  :: nodes(:)
       type(cover_integrals), intent(inout) :: integrals
@@ -152,10 +152,10 @@ contains
       end do
    end subroutine find_columns
 
-   !> PART from the INTEGRALS over a face with N nodes. A whole face: the displacements u2 of SIDE2 under it are fitted by least
-   !! squares, u2_k = sum of (M^-1)_kl times the integral of N_l u2, M that of N_k N_l; so that SIDE2, where it moves as the
-   !! functions of the face do, is taken exactly, and a node over its partner hangs on that alone. A face partly covered: means
-   !! of the displacements of both sides over what is covered, with the functions phi_i of the elements as weights.
+   !> PART from the INTEGRALS over a face with N nodes. A fully covered face: the displacements u2 of SIDE2 are fitted by least squares,
+   !! u2_k = sum of (M^-1)_kl times the integral of N_l u2, where M is the integral of N_k N_l. The fit is exact where the shape functions
+   !! of the face represent u2, and a node opposite its partner is connected to the partner only. A partly covered face: the displacements
+   !! of both sides are averaged over the covered part, with the functions phi_i of the elements as weights.
    pure subroutine fit_face(dimension, n, is_whole, integrals, part)
       integer, intent(in)               :: dimension, n
       logical, intent(in)               :: is_whole
@@ -205,7 +205,7 @@ contains
       end do
    end subroutine solve_symmetric
 
-   !> How many of the N nodes of a face are corners: the first ones.
+   !> The number of corners among the N nodes of a face; they come first.
    pure integer function n_corners(dimension, n)
       integer, intent(in) :: dimension !! of the model: 2, edges, or 3, faces
       integer, intent(in) :: n
@@ -215,8 +215,8 @@ contains
       if (n > 4) n_corners = n/2
    end function n_corners
 
-   !> Shares of a whole face: SHARE(i, k) is what the element at node i has of the area, the movement and the normal of node k.
-   !! Elements at mid-side nodes have half of each corner beside them.
+   !> Shares of a fully covered face: SHARE(i, k) is the share of the element at node i in area, movement and normal of node k.
+   !! An element at a mid-side node has half of each adjacent corner.
    pure function whole_shares(dimension, n) result(share)
       integer, intent(in) :: dimension !! of the model: 2, edges, or 3, faces
       integer, intent(in) :: n         !! nodes of the face
@@ -236,10 +236,10 @@ contains
       end do
    end function whole_shares
 
-   !> Shares of a face of which only a part is covered: the element at node i has the function phi_i = sum of SHARE(i, k) N_k, none
-   !! of which is negative on the face: N_i itself where that is linear; ((1-s)/2)^2, ((1+s)/2)^2 and (1-s^2)/2 on an edge with three
-   !! nodes; (L1+L2)/2 of the sides of a triangle, (1-eta)/4 and so on of a quadrilateral. A sum of N_k, because all of them are
-   !! polynomials that the N_k represent; the shares are their values at the nodes.
+   !> Shares of a partly covered face: the element at node i has the function phi_i = sum of SHARE(i, k) N_k, which is nowhere negative on
+   !! the face: N_i itself on a linear face; ((1-s)/2)^2, ((1+s)/2)^2 and (1-s^2)/2 on an edge with three nodes; (L1+L2)/2 for the sides of
+   !! a triangle, (1-eta)/4 and so on for a quadrilateral. The N_k represent these polynomials exactly; the shares are the values at the
+   !! nodes.
    pure function partial_shares(dimension, n) result(share)
       integer, intent(in) :: dimension, n !! as above
       real(wp) :: share(max_side_nodes, max_side_nodes)
@@ -254,10 +254,10 @@ contains
       if (n == corners) return
       do k = 1, corners
          next = modulo(k, corners) + 1
-         if (corners == 3) then              ! (L1 + L2)/2: 1/2 at its corners and between them, 1/4 on the other two sides
+         if (corners == 3) then              ! (L1 + L2)/2: 1/2 on its side and at the ends of it, 1/4 on the other two sides
             share(4:6, corners + k) = 0.25_wp
             share(corners + k, corners + k) = 0.5_wp
-         else                                ! (1 - eta)/4: 1/2 on its side, 1/4 on those beside it, 0 on the opposite one
+         else                                ! (1 - eta)/4: 1/2 on its side, 1/4 on the adjacent ones, 0 on the opposite one
             share(5:8, corners + k) = 0.25_wp
             share(corners + k, corners + k) = 0.5_wp
             share(corners + modulo(k + 1, 4) + 1, corners + k) = 0.0_wp
@@ -265,7 +265,7 @@ contains
       end do
    end function partial_shares
 
-   !> Nothing yet for N elements of a model with so many nodes.
+   !> Empty sums for N elements of a model with N_NODES nodes.
    pure subroutine start(self, n, n_nodes)
       class(interface_sums_type), intent(inout) :: self
       integer, intent(in)                       :: n, n_nodes
@@ -277,7 +277,7 @@ contains
       allocate (self%owner(0), self%key(0), self%weight(0))
    end subroutine start
 
-   !> Add what a face gives to the elements at its nodes.
+   !> Add the contribution of a face to the elements at its nodes.
    pure subroutine add_face(self, elements, own, opposite, part)
       class(interface_sums_type), intent(inout) :: self
       integer, intent(in)         :: elements(:) !! at its nodes, 0: none
@@ -300,7 +300,6 @@ contains
       end do
    end subroutine add_face
 
-   !> Add one entry.
    pure subroutine add_entry(self, owner, key, weight)
       type(interface_sums_type), intent(inout) :: self
       integer, intent(in)  :: owner, key
@@ -324,7 +323,7 @@ contains
       self%weight(self%n) = weight
    end subroutine add_entry
 
-   !> All faces are there.
+   !> Close the sums after the last face: sort the entries by element.
    pure subroutine finish(self)
       class(interface_sums_type), intent(inout) :: self
 
@@ -339,7 +338,7 @@ contains
       has_area = self%area(i) > least_area*self%around(i)
    end function has_area
 
-   !> Whether the area of element I is zero but for rounding: at a corner on the axis, and far from what is covered of a face.
+   !> Whether the area of element I is zero to rounding: at a corner on the axis, or far from the covered part of a face.
    elemental logical function has_none(self, i)
       class(interface_sums_type), intent(in) :: self
       integer, intent(in)                    :: i
@@ -347,7 +346,7 @@ contains
       has_none = abs(self%area(i)) <= least_area*self%around(i)
    end function has_none
 
-   !> Hang ELEMENT on the nodes that the faces at I gave it, each once, those of an end in ascending order.
+   !> Connect ELEMENT to the nodes of its entries at I, each once, the nodes of an end in ascending order.
    pure subroutine hang(self, i, element)
       class(interface_sums_type), intent(in) :: self
       integer, intent(in)                    :: i       !! has_area(i)
@@ -385,7 +384,7 @@ contains
       element%area = self%area(i)
    end subroutine hang
 
-   !> The weights of an end without what is rounding, so that their sum is 1 but for its own rounding.
+   !> Drop the weights of an end that are rounding, and scale the others to the sum 1.
    pure subroutine make_whole(weight)
       real(wp), intent(inout) :: weight(:)
       integer :: largest

@@ -1,7 +1,7 @@
-!> Nodes: GRID cards and those of generated blocks, in the order of their numbers. Mid-side nodes of second-order elements that
-!! cards leave blank are put at the middle of their edge, one for all elements that share it; all elements at an edge must have
-!! the same node there, or none. Nodes that no card gives stand behind those of the deck: they keep unknowns that are no
-!! displacements of points.
+!> Nodes from GRID cards and block generators in ascending order, mid-side nodes, and nodes for other unknowns.
+!! A mid-side node that cards leave blank is placed at the middle of its edge, one for all elements that share the edge. All elements at
+!! an edge must have the same mid-side node, or none. Nodes that no card gives follow the nodes of the deck; their unknowns are
+!! not displacements of points.
 module node_build
    use block_mesh, only: block_type
    use coordinate_systems, only: coordinate_system
@@ -18,7 +18,7 @@ module node_build
 
    public :: collect_nodes, order_nodes, append_nodes, find_nodes, fill_mid_sides, append_unknowns, append_rotations
 
-   !> Nodes as they come, before they are put in order, and which of them a block's places are.
+   !> Nodes before sorting, and the nodes of each block.
    type, public :: raw_nodes
       integer :: n = 0
       integer, allocatable  :: id(:), line(:)
@@ -29,15 +29,15 @@ module node_build
 
    integer, parameter, public :: blank_node = -1   !! in element_nodes, until fill_mid_sides: left blank on the card
 
-   !> The edges of all elements, element by element: one that several elements share stands here as often.
+   !> The edges of all elements, element by element; a shared edge occurs once per element.
    type :: edge_list
       integer :: n = 0
       integer, allocatable :: ends(:, :)     ! (2, n) corners, the lower position first
       integer, allocatable :: element(:)     ! (n)
       integer, allocatable :: place(:)       ! (n) of its mid-side node in element_nodes(:, element); 0: a linear element
       integer, allocatable :: first(:)       ! (n) the first edge between the same corners
-      integer, allocatable :: namer(:)       ! (n) of that first one: the first of them that names its mid-side node, else the first
-   end type edge_list                        ! that is of second order, else itself
+      integer, allocatable :: namer(:)       ! (n) at that first edge: the first edge that names the mid-side node, else the first
+   end type edge_list                        ! second-order one, else itself
 
 contains
 
@@ -76,7 +76,7 @@ contains
       call deck%report_repeated('node', raw%id(:n), raw%line(:n), n_cards=size(deck%bulk%grid))
    end subroutine collect_nodes
 
-   !> Where block B is welded to an earlier one, PLACES(k) is the raw node at X(:, k) of that block, else 0.
+   !> PLACES(k) is the node of the earlier block at X(:, k) to which block B is welded there, else 0.
    subroutine weld_block(deck, blocks, b, raw, places)
       type(checked_deck), intent(in) :: deck
       type(block_type), intent(in)   :: blocks(:)
@@ -111,7 +111,7 @@ contains
       if (all(places == 0)) call deck%field_error(blocks(b)%line, 'WELD', 'the two blocks have no node in common')
    end subroutine weld_block
 
-   !> The NODES of X that lie within REACH of the box round OTHERS: of two blocks side by side those of one face alone.
+   !> The NODES of X within REACH of the box around OTHERS: for two adjacent blocks those of one face only.
    pure subroutine nodes_near(x, others, reach, nodes)
       real(wp), intent(in)              :: x(:, :), others(:, :) !! (3, n) [length]
       real(wp), intent(in)              :: reach                 !! [length]
@@ -143,8 +143,8 @@ contains
       call model%node_table%build(model%node_id)
    end subroutine order_nodes
 
-   !> Append nodes at X to those of MODEL, numbered behind the highest; the table of numbers has them too. What would pass the largest
-   !! number that there is has that.
+   !> Append nodes at X to MODEL, numbered from the highest number on, and enter them in the table of numbers. Numbers stop at the
+   !! largest integer.
    subroutine append_nodes(model, x)
       type(model_type), intent(inout) :: model
       real(wp), intent(in)            :: x(:, :) !! (3, new nodes) [length]
@@ -166,7 +166,7 @@ contains
       end associate
    end subroutine append_nodes
 
-   !> The highest number that a node of MODEL has, those of NODEAT included.
+   !> The highest node number of MODEL, with those of NODEAT.
    pure integer function highest_number(model)
       type(model_type), intent(in) :: model
 
@@ -174,8 +174,8 @@ contains
       if (allocated(model%placed)) highest_number = max(highest_number, maxval([0, model%placed%id]))
    end function highest_number
 
-   !> The NODES of the model with the numbers ID, which a card of an element, edge or interface element names from its data field
-   !! FIRST on; 0, and an error, where there is none. An id of 0 is no node: a field that is blank or could not be read.
+   !> The NODES with the numbers ID, which an element, edge or interface element card names from data field FIRST on; 0, and an error,
+   !! for a missing node. An ID of 0 is a field that is blank or could not be read; it gives 0 without an error.
    subroutine find_nodes(deck, line, id, model, nodes, first)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line     !! of the card
@@ -195,9 +195,9 @@ contains
       end do
    end subroutine find_nodes
 
-   !> Put nodes at the middle of the edges whose mid-side node is blank: the one that another element names there, else a new one,
-   !! numbered behind all nodes that there are, in the order of the elements. Elements that share an edge and differ in what they
-   !! have at its middle are errors.
+   !> Place nodes at the middle of the edges with a blank mid-side node: the node that another element names there, else a new node,
+   !! numbered behind all others in the order of the elements. Error: elements that share an edge but not its mid-side
+   !! node.
    subroutine fill_mid_sides(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -221,10 +221,10 @@ contains
       model%n_filled = n_new
       model%first_filled = model%n_nodes + 1
       if (n_new > 0) call place_nodes(deck, model, edges, n_new)
-      where (model%element_nodes == blank_node) model%element_nodes = 0 ! of edges whose corners are in error
+      where (model%element_nodes == blank_node) model%element_nodes = 0 ! of edges with missing corners
    end subroutine fill_mid_sides
 
-   !> The edges of all elements, those without their corners left out.
+   !> The edges of all elements, without edges with missing corners.
    pure subroutine list_edges(model, edges)
       type(model_type), intent(in) :: model
       type(edge_list), intent(out) :: edges
@@ -236,7 +236,7 @@ contains
          associate (kind => element_table(model%element_kind(e)))
             do k = 1, kind%n_edges
                ends = model%element_nodes(kind%edges(:, k), e)
-               if (any(ends == 0)) cycle ! said already
+               if (any(ends == 0)) cycle ! reported already
                edges%n = edges%n + 1
                edges%ends(:, edges%n) = [minval(ends), maxval(ends)]
                edges%element(edges%n) = e
@@ -246,7 +246,7 @@ contains
       end do
    end subroutine list_edges
 
-   !> Which edges lie between the same corners, and who names the node there.
+   !> Find the edges between the same corners, and the one that names the mid-side node.
    pure subroutine match_edges(model, edges)
       type(model_type), intent(in)   :: model
       type(edge_list), intent(inout) :: edges
@@ -273,7 +273,7 @@ contains
 
    contains
 
-      !> What edge I says about its middle: 2 names a node, 1 leaves it to be filled, 0 has none.
+      !> Rank of edge I: 2 it names a mid-side node, 1 the node is blank, 0 it has none.
       pure integer function weight(i)
          integer, intent(in) :: i
 
@@ -283,7 +283,7 @@ contains
 
    end subroutine match_edges
 
-   !> The mid-side node of edge I: 0 where there is none, or where that which the card names is not there, blank_node where blank.
+   !> The mid-side node of edge I: 0 where it has none or the named node is missing, blank_node where it is blank.
    pure integer function node_at(model, edges, i) result(node)
       type(model_type), intent(in) :: model
       type(edge_list), intent(in)  :: edges
@@ -293,7 +293,7 @@ contains
       if (edges%place(i) > 0) node = model%element_nodes(edges%place(i), edges%element(i))
    end function node_at
 
-   !> All elements at an edge have one node at its middle, or none has; an element is named once.
+   !> Error: elements at an edge with different mid-side nodes, or with and without one; each element is reported once.
    subroutine check_orders(deck, model, edges)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -326,7 +326,7 @@ contains
       end do
    end subroutine check_orders
 
-   !> Put the N_NEW nodes that elements have behind those of MODEL at the middle of their edges.
+   !> Append the N_NEW mid-edge nodes of elements to MODEL.
    subroutine place_nodes(deck, model, edges, n_new)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -350,8 +350,8 @@ contains
       call append_nodes(model, x)
    end subroutine place_nodes
 
-   !> Append a node for each of the rotations of MODEL: at its point, with the elements of this where shells or beams have it, free in what
-   !! the model has of rotations.
+   !> Append a node for each of the rotations of MODEL, at its point, with the elements of the point if these have rotations. Its
+   !! components are free where the model has such a rotation.
    subroutine append_rotations(model)
       type(model_type), intent(inout) :: model
       integer, allocatable :: elements(:), n_elements(:), points(:)
@@ -370,8 +370,8 @@ contains
       call append_unknowns(model, points, n_elements, elements, held)
    end subroutine append_rotations
 
-   !> Append nodes for unknowns that are no displacements of points, one at each of the POINTS: with so many of the ELEMENTS in turn,
-   !! HELD in components that are no unknowns. Their number is 0.
+   !> Append nodes for unknowns that are not displacements of points, one at each of POINTS: N_ELEMENTS of the ELEMENTS in turn belong to
+   !! each node, and components that are no unknowns are HELD. The number of these nodes is 0.
    subroutine append_unknowns(model, points, n_elements, elements, held)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: points(:), n_elements(:), elements(:)

@@ -1,5 +1,4 @@
-!> Which nodes of the two sides of a joint face each other. Of sides that do not match, the faces of SIDE2 that cover a face of
-!! SIDE1 are found, and what the interface elements at its nodes hang on is fitted.
+!> Pairs of facing nodes for matching sides of a joint, and the search of facing faces for the mortar projection.
 module node_pairing
    use element_kinds, only: max_side_nodes
    use face_overlap, only: face_frame, in_frame, make_frame, plane_points, seen_area
@@ -18,37 +17,37 @@ module node_pairing
    real(wp), parameter :: default_tolerance = 1.0e-3_wp ! of the shortest edge of SIDE1
    real(wp), parameter, public :: facing = -0.5_wp      !! cosine of the normals of two sides that face each other, at most
 
-   !> Why there are no pairs: the field of the JOINT card and what is wrong; no words: there are.
+   !> The reason why there are no pairs: field of the JOINT card and text; no text: all nodes have partners.
    type, public :: pairing_fault
-      logical :: in_tolerance = .false.                 !! TOL may be wrong, else SIDE2
+      logical :: in_tolerance = .false.                 !! the error is reported for TOL, else for SIDE2
       character(:), allocatable :: words
    end type pairing_fault
 
-   real(wp), parameter :: twice = 1.01_wp     ! share above which faces lie behind one another
+   real(wp), parameter :: twice = 1.01_wp     ! covered share above which faces lie behind one another
 
    real(wp), parameter, public :: default_reach = 0.1_wp !! of the longest side of a face of SIDE1
 
-   !> How well SIDE2 covers SIDE1, face by face.
+   !> Coverage of SIDE1 by SIDE2, face by face.
    type, public :: side_cover
-      type(joint_cover) :: cover             !! on the whole
+      type(joint_cover) :: cover             !! of the whole side
       logical  :: is_any = .false.           !! whether anything is covered
       integer  :: double = 0                 !! a face of SIDE1 that is covered twice, 0: none
-      real(wp) :: double_share = 0.0_wp      !! how often
-      real(wp) :: reach = 0.0_wp             !! largest of the search [length]
-      logical, allocatable :: partly(:)      !! (nodes of SIDE1) at a face that is covered in part
+      real(wp) :: double_share = 0.0_wp      !! its covered share
+      real(wp) :: reach = 0.0_wp             !! largest reach of the search [length]
+      logical, allocatable :: partly(:)      !! (nodes of SIDE1) at a face that is partly covered
    end type side_cover
 
-   !> The faces of SIDE2 as the search needs them.
+   !> The faces of SIDE2 for the search.
    type :: opposite_faces
       type(spatial_search_type) :: boxes
       real(wp), allocatable :: normal(:, :)  ! (3, n) at their centres
-      real(wp), allocatable :: area(:)       ! (n) as seen at right angles
-      logical, allocatable  :: covers(:)     ! (n) something of SIDE1
+      real(wp), allocatable :: area(:)       ! (n) area projected along their normals
+      logical, allocatable  :: covers(:)     ! (n) whether it covers any part of SIDE1
    end type opposite_faces
 
 contains
 
-   !> For every node of side 1 the node of side 2 at the same place.
+   !> For every node of side 1 the coincident node of side 2.
    subroutine pair_nodes(model, surface, side1, side2, tol, partner, fault)
       type(model_type), intent(in)        :: model
       integer, intent(in)                 :: surface(2)   !! of the model
@@ -121,12 +120,12 @@ contains
       end do
    end function shortest_edge
 
-   !> Whether corners have corners for partners, and nodes between corners such nodes.
+   !> Whether corners have corners as partners, and mid-side nodes have mid-side nodes.
    pure logical function same_order(model, surface, side1, partner)
       type(model_type), intent(in)        :: model
       integer, intent(in)                 :: surface(2)
       type(surface_node_list), intent(in) :: side1
-      integer, intent(in)                 :: partner(:) !! of its nodes, each another one
+      integer, intent(in)                 :: partner(:) !! of its nodes, all different
       type(id_table_type) :: between(2)
       integer :: k
 
@@ -136,7 +135,7 @@ contains
       same_order = all([(between(1)%find(side1%node(k)) > 0 .eqv. between(2)%find(partner(k)) > 0, k = 1, side1%n)])
    end function same_order
 
-   !> The nodes of SURFACE that are no corners, as often as they have sides.
+   !> The mid-side nodes of SURFACE, each once per side.
    pure function nodes_between(surface) result(nodes)
       type(surface_type), intent(in) :: surface
       integer, allocatable :: nodes(:)
@@ -145,7 +144,7 @@ contains
       nodes = [(surface%nodes(surface%corners(k) + 1:surface%n_nodes(k), k), k = 1, surface%n)]
    end function nodes_between
 
-   !> What the elements at the NODES of SIDE1 hang on. REACH: the search along the normal, 0: the default.
+   !> The mortar projection of the elements at the NODES of SIDE1. REACH of the search along the normal, 0: the default.
    subroutine fit_side(model, side1, side2, nodes, reach, sums, found)
       type(model_type), intent(in)             :: model
       type(surface_type), intent(in)           :: side1, side2
@@ -204,7 +203,7 @@ contains
                          /max(1, sum([(n_parts(model%dimension, side2%n_nodes(s)), s = 1, side2%n)], mask=opposite%covers))
    end subroutine fit_side
 
-   !> As how many linear edges, or triangles, a face with N nodes counts where the fineness of meshes is compared.
+   !> The number of linear edges or triangles that a face with N nodes counts for when mesh sizes are compared.
    pure integer function n_parts(dimension, n)
       integer, intent(in) :: dimension, n
 
@@ -259,7 +258,7 @@ contains
       face%reach = merge(reach, default_reach*longest, reach > 0.0_wp)
    end subroutine look_at
 
-   !> INTEGRALS over what SIDE2 covers of FACE.
+   !> INTEGRALS over the part of FACE that SIDE2 covers.
    subroutine cover_face(model, side2, face, opposite, near, points, integrals)
       type(model_type), intent(in)         :: model
       type(surface_type), intent(in)       :: side2

@@ -1,5 +1,5 @@
-!> Nodes that the deck names by place or surface: new reference nodes of RBE2M and RBE3M at the centroid of a marked surface, and NODEAT,
-!! another number for the node nearest to a place.
+!> Nodes defined by position or surface: reference nodes of RBE2M and RBE3M, and NODEAT.
+!! A new reference node lies at the centroid of its marked surface. NODEAT is another number for the node nearest to a position.
 module placed_nodes
    use block_mesh, only: block_type
    use deck_check, only: checked_deck
@@ -17,8 +17,8 @@ module placed_nodes
 
 contains
 
-   !> Append to RAW the reference nodes that RBE2M and RBE3M leave to the program: each at the centroid of its surface, numbered behind
-   !! all numbers of nodes that the deck has.
+   !> Append to RAW the reference nodes of RBE2M and RBE3M that name none: each at the centroid of its surface, numbered from the
+   !! highest node number of the deck on.
    subroutine add_reference_nodes(deck, blocks, raw)
       type(checked_deck), intent(inout) :: deck
       type(block_type), intent(in)      :: blocks(:)
@@ -53,7 +53,7 @@ contains
       end do
    end subroutine add_reference_nodes
 
-   !> The SIDES with the mark SURFACE, as raw nodes: their corners, or all nodes that cards name; 0 behind the last.
+   !> The SIDES with the mark SURFACE, as raw nodes: their corners, or all nodes on the cards; 0 behind the last.
    subroutine list_sides(deck, blocks, raw, table, surface, corners_only, sides)
       type(checked_deck), intent(in)    :: deck
       type(block_type), intent(in)      :: blocks(:)
@@ -104,7 +104,7 @@ contains
          m = 0
          do k = 1, min(size(nodes), 8)
             if (nodes(k) <= 0) cycle
-            if (table%find(nodes(k)) == 0) cycle ! said elsewhere
+            if (table%find(nodes(k)) == 0) cycle ! reported elsewhere
             m = m + 1
             sides(m, n) = table%find(nodes(k))
          end do
@@ -112,7 +112,7 @@ contains
 
    end subroutine list_sides
 
-   !> The centroid of SIDES, edges by their length, triangles and quadrilaterals by their area; of sides without one the mean of the nodes.
+   !> The centroid of SIDES, weighted by length of edges or area of faces; the mean of the nodes where the total is zero.
    pure function centroid(x, sides)
       real(wp), intent(in) :: x(:, :)     !! (3, nodes) [length]
       integer, intent(in)  :: sides(:, :) !! (8, n) nodes, 0 behind the last
@@ -139,8 +139,8 @@ contains
       if (total > 0.0_wp) centroid = centroid/total
    end function centroid
 
-   !> The nodes that NODEAT cards name: numbers that find the node nearest to their place from now on. Of nodes equally near it is the
-   !! reference node of an RBE2M or RBE3M that has none of the deck, else the one with the lowest number.
+   !> The nodes of NODEAT cards: the number of a card becomes a number of the node nearest to its position. Of equally near nodes the
+   !! new reference node of an RBE2M or RBE3M is taken, else the node with the lowest number.
    subroutine find_places(deck, blocks, raw, position, model)
       type(checked_deck), intent(in)  :: deck
       type(block_type), intent(in)    :: blocks(:)

@@ -1,4 +1,4 @@
-!> PLOAD4, PLOADE, PLOAD and PLOAD2: which sides of which elements a card presses on, found by their corners, and the nodal forces.
+!> PLOAD4, PLOADE, PLOAD and PLOAD2: the loaded sides, found by their corners or elements, and their nodal forces.
 module pressure_loads
    use bulk_data, only: of_face, of_marks, of_nodes, pressure_card
    use deck_check, only: checked_deck
@@ -16,28 +16,28 @@ module pressure_loads
 
    public :: find_face, own_corner, find_pressed_sides, add_pressure
 
-   !> A face, and how corners that name it go round it.
+   !> A face that a card names by its corners, and the order of these corners on it.
    type, public :: named_face
-      integer :: element = 0, side = 0       !! 0: there is no such face
-      integer :: first = 0                   !! position of the first corner on the side
-      logical :: outward = .false.           !! the right hand round the corners points out of the element
+      integer :: element = 0, side = 0       !! 0: no such face
+      integer :: first = 0                   !! position of the first named corner on the side
+      logical :: outward = .false.           !! the right-hand normal of the named corners points out of the element
    end type named_face
 
    !> Where the pressure of a card acts.
    type, public :: pressed_side
       integer  :: card = 0                    !! among the pressure cards
-      integer  :: element = 0, side = 0       !! side 0: the face of a shell, from behind its normal
+      integer  :: element = 0, side = 0       !! side 0: the face of a shell, loaded against its normal
       real(wp) :: p(4) = 0.0_wp               !! at the corners of the side, in its order; positive into the body [pressure]
-      real(wp) :: direction(3) = 0.0_wp       !! of a traction P, unit; zero: along the normal
+      real(wp) :: direction(3) = 0.0_wp       !! unit direction of a traction P; zero: along the normal
    end type pressed_side
 
 contains
 
-   !> The FACE whose corners have the numbers ID, in either sense. None, and a PROBLEM, where there is none, or where bodies lie on
-   !! both sides and forces on their nodes would be those of both.
+   !> The FACE whose corners have the numbers ID, in either sense. There is none, and a PROBLEM, where the face is missing, or where bodies
+   !! lie on both sides, because forces on its nodes would act on both.
    subroutine find_face(model, id, face, problem)
       type(model_type), intent(in)           :: model
-      integer, intent(in)                    :: id(:)  !! 3 or 4 corners, going round
+      integer, intent(in)                    :: id(:)  !! 3 or 4 corners in cyclic order
       type(named_face), intent(out)          :: face
       character(:), allocatable, intent(out) :: problem
       type(named_face) :: tried
@@ -67,7 +67,7 @@ contains
       end if
    end subroutine find_face
 
-   !> Side S of element E where ID are its corners, else none; side 0: the face of a shell.
+   !> Side S of element E if ID are its corners, else none; side 0: the face of a shell.
    pure subroutine compare_corners(model, e, s, id, face)
       type(model_type), intent(in)  :: model
       integer, intent(in)           :: e, s, id(:)
@@ -89,11 +89,11 @@ contains
       end associate
       if (any(place == 0)) return
       outward = all(place == cshift([(k, k = 1, size(id))], place(1) - 1))
-      if (.not. outward .and. any(place /= cshift([(k, k = size(id), 1, -1)], size(id) - place(1)))) return ! not going round
+      if (.not. outward .and. any(place /= cshift([(k, k = size(id), 1, -1)], size(id) - place(1)))) return ! not in cyclic order
       face = named_face(e, s, place(1), outward)
    end subroutine compare_corners
 
-   !> Which corner of element E node ID is, the twin of a split node too; 0: none.
+   !> The corner of element E with number ID or with the twin of this node; 0: none.
    pure integer function own_corner(model, e, id) result(corner)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e, id
@@ -119,7 +119,7 @@ contains
       end do
    end function list_of_numbers
 
-   !> The sides that PLOAD4, PLOADE, PLOAD and PLOAD2 cards press on; none of a card in error.
+   !> The sides that PLOAD4, PLOADE, PLOAD and PLOAD2 cards load, without cards in error.
    subroutine find_pressed_sides(deck, model, pressed)
       type(checked_deck), intent(in)               :: deck
       type(model_type), intent(in)                 :: model
@@ -129,7 +129,7 @@ contains
       logical :: names_shell
 
       allocate (pressed(size(deck%bulk%pressure)))
-      if (size(pressed) == 0) return ! else there is always room for twice as many
+      if (size(pressed) == 0) return ! append doubles the room
       call elements%build(model%element_id)
       call faces%build(pack(deck%bulk%element%id, is_face(model, deck%bulk%element)))
       n = 0
@@ -157,7 +157,7 @@ contains
                   trim(element_table(model%element_kind(e))%card)// &
                   trim(merge(': PLOAD4 is for faces of solids', ': PLOADE is for plane edges    ', card%kind == of_face)))
             else if (any(corners_of(model, e) == 0)) then
-               cycle ! said already
+               cycle ! reported already
             else if (card%corners(1) == 0) then
                if (card%kind == of_face) call deck%field_error(card%line, 'G1', 'blank, expected a corner of the face')
             else
@@ -168,7 +168,7 @@ contains
       pressed = pressed(:n)
    end subroutine find_pressed_sides
 
-   !> One more pressed side.
+   !> Append a side; the room is doubled when it is full.
    pure subroutine append(side, pressed, n)
       type(pressed_side), intent(in)                 :: side
       type(pressed_side), allocatable, intent(inout) :: pressed(:)
@@ -179,7 +179,7 @@ contains
       pressed(n) = side
    end subroutine append
 
-   !> Where the direction of the PLOAD4 I points; zero where it has none.
+   !> The direction of the PLOAD4 I; zero where it has none.
    subroutine find_direction(deck, model, i, direction)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -194,8 +194,8 @@ contains
       end associate
    end subroutine find_direction
 
-   !> PLOAD4 or PLOAD2 I on faces that elements mark, of the numbers from RANGE(1) to RANGE(2) in data field AT: along the normals of
-   !! these elements, the right hand round their corners, or along its direction.
+   !> PLOAD4 or PLOAD2 I on faces that elements mark, with numbers from RANGE(1) to RANGE(2) in data field AT. The pressure acts along the
+   !! right-hand normals of these elements, or along the direction of the card.
    subroutine press_on_marked(deck, model, i, at, range, pressed, n)
       type(checked_deck), intent(in)                 :: deck
       type(model_type), intent(in)                   :: model
@@ -251,7 +251,7 @@ contains
       end associate
    end subroutine press_on_marked
 
-   !> PLOAD4 or PLOAD2 I on the shells with the numbers from RANGE(1) to RANGE(2): along their normals, or along its direction.
+   !> PLOAD4 or PLOAD2 I on the shells with numbers from RANGE(1) to RANGE(2), along their normals or the direction of the card.
    subroutine press_on_shells(deck, model, i, range, pressed, n, any_shell)
       type(checked_deck), intent(in)                 :: deck
       type(model_type), intent(in)                   :: model
@@ -278,7 +278,7 @@ contains
       end associate
    end subroutine press_on_shells
 
-   !> PLOAD I, on the face with its corners.
+   !> PLOAD I, on the face with the corners on the card.
    subroutine press_on_corners(deck, model, i, pressed, n)
       type(checked_deck), intent(in)                 :: deck
       type(model_type), intent(in)                   :: model
@@ -289,7 +289,7 @@ contains
       character(:), allocatable :: problem
 
       associate (card => deck%bulk%pressure(i))
-         if (any(card%corners(:3) == 0)) return ! said already
+         if (any(card%corners(:3) == 0)) return ! reported already
          call find_face(model, card%corners(:merge(4, 3, card%corners(4) > 0)), face, problem)
          if (problem /= '') then
             call deck%field_error(card%line, 'G1', problem)
@@ -307,7 +307,7 @@ contains
       call deck%field_error(card%line, 'P4', 'a triangular face has no fourth corner, expected a blank or P1')
    end subroutine no_fourth_corner
 
-   !> PLOAD4 or PLOADE I, on the side of element E that it names by corners.
+   !> PLOAD4 or PLOADE I, on the side of element E with the corners on the card.
    subroutine press_on_side(deck, model, i, e, pressed, n)
       type(checked_deck), intent(in)                 :: deck
       type(model_type), intent(in)                   :: model
@@ -334,7 +334,7 @@ contains
       end associate
    end subroutine press_on_side
 
-   !> The SIDE of element E that the CARD names by its corners, 0 and an error for none; FIRST is the position of G1 on it.
+   !> The SIDE of element E with the corners on the CARD; 0, and an error, for none. FIRST is the position of G1 on the side.
    subroutine find_side(deck, model, card, e, side, first)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(in)    :: model
@@ -362,7 +362,7 @@ contains
             associate (own => kind%side_nodes(:kind%side_corners(side), side))
                if (all(own /= corner(1))) cycle
                select case (kind%linear)
-               case (kind_tetra4)            ! G4 is the corner that the face does not have
+               case (kind_tetra4)            ! G4 is the corner opposite to the face
                   fits = corner(2) > 0 .and. all(own /= corner(2))
                case (kind_hexa8, kind_penta6)
                   if (size(own) == 3) then
@@ -393,8 +393,8 @@ contains
       call deck%field_error(card%line, 'G1', 'no side of element '//integer_text(card%first)//' has these corners; '//expected)
    end subroutine find_side
 
-   !> Add to FORCE the nodal forces of FACTOR times the pressure on one side, in the middle between two corners their mean.
-   !! Errors: none. Source: side_forces.
+   !> Add to FORCE the nodal forces of FACTOR times the pressure on one side; a mid-side node has the mean of the adjacent corners.
+   !! Source: side_forces.
    pure subroutine add_pressure(model, pressed, factor, force)
       type(model_type), intent(in)   :: model
       type(pressed_side), intent(in) :: pressed

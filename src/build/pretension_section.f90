@@ -1,4 +1,4 @@
-!> Solid bolts: BOLT cards that name a marked surface inside a body, the section at which it is cut.
+!> Pretension sections of solid bolts: BOLT cards that name a marked surface inside a body, at which it is cut.
 module pretension_section
    use bulk_data, only: bolt_card
    use deck_check, only: checked_deck
@@ -15,11 +15,11 @@ module pretension_section
 
    public :: build_sections
 
-   real(wp), parameter :: even = 1.0e-3_wp  ! of its size: how far the nodes of a section may lie out of its plane
+   real(wp), parameter :: even = 1.0e-3_wp  ! of its size: largest distance of the nodes of a section from its plane
 
 contains
 
-   !> Fill the sections of MODEL and append their nodes.
+   !> Build the pretension sections of MODEL and append their nodes.
    subroutine build_sections(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -37,7 +37,7 @@ contains
          call build_section(deck, deck%bulk%bolt(i), k, model)
       end do
       if (any(model%sections%point == 0)) return ! there are errors
-      do k = 1, n ! their nodes stand behind all others, with the elements behind the section
+      do k = 1, n ! the section nodes follow all others, with the elements behind the section
          behind = pack([(e, e = 1, model%n_elements)], model%element_section == k)
          call append_unknowns(model, [model%sections(k)%point], [size(behind)], behind, &
                               [.false., spread(.true., 1, model%dimension - 1)])
@@ -45,7 +45,7 @@ contains
       end do
    end subroutine build_sections
 
-   !> Section K from its CARD: which way it faces, and which elements are behind it.
+   !> Section K from its CARD: its direction, and the elements behind it.
    subroutine build_section(deck, card, k, model)
       type(checked_deck), intent(in)  :: deck
       type(bolt_card), intent(in)     :: card
@@ -62,7 +62,7 @@ contains
       call find_stage(deck, card, model%sections(k)%stage)
       call find_surface(deck, card%line, 'PMARK', card%surface, model, s)
       if (s == 0) return
-      if (model%surfaces(s)%n == 0) return ! said already
+      if (model%surfaces(s)%n == 0) return ! reported already
       fault = ''
       if (model%surfaces(s)%was_split) then
          fault = 'is split by a JOINT: a bolt is cut at a surface inside its body'
@@ -70,7 +70,7 @@ contains
          fault = 'lies on the outside of a body: expected elements on both sides of it'
       else
          call face_as_the_first(model, s, model%sections(k))
-         if (model%sections(k)%area <= 0.0_wp) return ! a body without its property: said already
+         if (model%sections(k)%area <= 0.0_wp) return ! a body without property: reported already
          model%sections(k)%strength = model%properties(model%element_property(model%surfaces(s)%element(1)))%strength
          call surface_nodes(model, model%surfaces(s), list)
          allocate (centroid, source=matmul(model%x(:, list%node), list%area)/sum(list%area))
@@ -80,7 +80,7 @@ contains
       if (fault /= '') call deck%field_error(card%line, 'PMARK', 'surface '//integer_text(card%surface)//' '//fault)
    end subroutine build_section
 
-   !> Turn the sides of surface S round that face against its first; their mean normal gives SECTION its direction and area.
+   !> Reverse the sides of surface S that face against the first one; the mean normal gives direction and area of SECTION.
    pure subroutine face_as_the_first(model, s, section)
       type(model_type), intent(inout)   :: model
       integer, intent(in)               :: s
@@ -105,7 +105,7 @@ contains
       section%direction = -total/max(norm2(total), tiny(1.0_wp))
    end subroutine face_as_the_first
 
-   !> Why a surface with the nodes of LIST is no plane section; empty where it is one.
+   !> The reason why a surface with the nodes of LIST is no plane section; empty where it is plane.
    pure function not_flat(model, section, list, centroid) result(fault)
       type(model_type), intent(in)        :: model
       type(section_type), intent(in)      :: section
@@ -129,7 +129,7 @@ contains
       end do
    end function not_flat
 
-   !> The elements behind section K, which is surface S: at each node those that hang together with the
+   !> The elements behind section K, which is surface S: at each node the elements that are connected to the
    !! back of a side without crossing the surface.
    subroutine find_elements_behind(model, s, k, fault)
       type(model_type), intent(inout)        :: model

@@ -1,6 +1,6 @@
-!> Rigid elements and equations: RBE2, RBAR, RBE3, their kin on marked surfaces, and the MPC of the case control as sums over components
-!! of other nodes, which take the place of the dependent ones. Reference nodes of RBE2 have rotations, and those of RBE3 whose rotations
-!! the card asks for. A model of revolution has none: a ring that stays one moves along its axis alone.
+!> Constraint equations of rigid elements (RBE2, RBAR, RBE3, RBE2M, RBE3M) and of the MPC of case control.
+!! Reference nodes of RBE2 have rotations, and those of RBE3 if the card names rotations. An axisymmetric model has none, because the
+!! rigid-body motion of a ring is axial only.
 module rigid_elements
    use bulk_data, only: equation_card, has_component, rigid_card
    use constraint_equations, only: add_dependence, add_term, check_dependences, dependence_list, eliminate, mean_motion, solve_for
@@ -20,15 +20,15 @@ module rigid_elements
 
 contains
 
-   !> Make of the rigid elements and equations of DECK couplings of MODEL, whose supports and displacement systems are known.
-   !! Errors: nodes that are not there or split, components that are none, and those of check_dependences.
+   !> Couple MODEL by the rigid elements and equations of DECK; supports and displacement systems must be known.
+   !! Errors: missing or split nodes, components that do not exist, and the errors of check_dependences.
    subroutine build_dependents(deck, ties, model)
       type(checked_deck), intent(in)  :: deck
-      type(tie_type), intent(in)      :: ties(:) !! of its SHELLTO cards
+      type(tie_type), intent(in)      :: ties(:) !! from SHELLTO cards
       type(model_type), intent(inout) :: model
       type(dependence_list) :: list
-      logical, allocatable  :: without(:) ! nodes of these cards that no element holds
-      integer, allocatable  :: active(:)  ! sets of equations
+      logical, allocatable  :: without(:) ! nodes of these cards without elements
+      integer, allocatable  :: active(:)  ! active sets of equations
       integer :: i, set
 
       set = 0
@@ -62,8 +62,8 @@ contains
       if (.not. deck%errors%any()) call eliminate(list, without, model)
    end subroutine build_dependents
 
-   !> The nodes of RBE2M and RBE3M are those of their surface: of RBE3M with their areas of influence as weights, so that what acts on the
-   !! reference node is spread evenly over the area; of RBE2M without GN, which may be one of them.
+   !> The nodes of RBE2M and RBE3M from their surface. RBE3M uses the tributary areas as weights, so that a load on the reference node is
+   !! distributed uniformly over the area. RBE2M excludes GN, which may lie on the surface.
    subroutine name_surface_nodes(deck, model)
       type(checked_deck), intent(inout) :: deck
       type(model_type), intent(in)      :: model
@@ -77,7 +77,7 @@ contains
             call find_surface(deck, card%line, 'PID', card%surface, model, surface)
             if (surface == 0) cycle
             call surface_nodes(model, model%surfaces(surface), list)
-            if (card%is_mean) then ! mid-side nodes alone have an area on triangles of second order
+            if (card%is_mean) then ! on second-order triangles only mid-side nodes have an area
                counts = abs(list%area) > 1.0e-12_wp*maxval(abs(list%area))
             else
                counts = model%node_id(list%node) /= card%node
@@ -90,7 +90,7 @@ contains
       end do
    end subroutine name_surface_nodes
 
-   !> The dependences of an RBE2: the components CM of its nodes are those of a rigid body that moves with GN, {u} + theta x arm.
+   !> The constraint equations of an RBE2: components CM of its nodes follow the rigid-body motion of GN, {u} + theta x arm.
    subroutine add_rigid(deck, card, model, list, without)
       type(checked_deck), intent(in)       :: deck
       type(rigid_card), intent(in)         :: card
@@ -106,7 +106,7 @@ contains
          integer_text(model%dimension), called='CM')
       do k = 1, size(card%nodes)
          call find_node(deck, card%line, card%at(k), card%nodes(k), model, without, node)
-         if (node == 0 .and. card%surface > 0) return ! one of a surface stands for all
+         if (node == 0 .and. card%surface > 0) return ! one error for all nodes of the surface
          if (node == 0 .or. point == 0) cycle
          if (node == point) then
             call deck%field_error(card%line, card%at(k), 'node '//integer_text(card%node)//' is the independent node GN; '// &
@@ -132,7 +132,7 @@ contains
 
    contains
 
-      !> Whether the card names rotations, and a dependent node has some.
+      !> Whether the card names rotations, and any dependent node has rotations.
       logical function turn_others()
          integer :: c, i
 
@@ -140,7 +140,7 @@ contains
                        any([(rotation_at(model, max(1, model%node_table%find(card%nodes(i)))) > 0, i = 1, size(card%nodes))])
       end function turn_others
 
-      !> Rotations of a dependent NODE that has them are those of the body.
+      !> The rotations of a dependent NODE, if it has any, equal those of the rigid body.
       subroutine add_rotations(node, at)
          integer, intent(in) :: node, at
          type(component_place) :: own_place, place
@@ -164,7 +164,7 @@ contains
 
    end subroutine add_rigid
 
-   !> The dependence of an MPC where it is ACTIVE.
+   !> The constraint equation of an MPC if its set is ACTIVE.
    subroutine add_equation(deck, card, active, model, list, without)
       type(checked_deck), intent(in)       :: deck
       type(equation_card), intent(in)      :: card
@@ -196,7 +196,7 @@ contains
       end do
    end subroutine add_equation
 
-   !> Whether COMPONENTS name no displacement of MODEL.
+   !> Whether COMPONENTS contain no displacement of MODEL.
    pure logical function no_displacement(model, components)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: components
@@ -205,8 +205,8 @@ contains
       no_displacement = components > 0 .and. .not. any([(has_component(components, d), d = 1, model%dimension)])
    end function no_displacement
 
-   !> The NODE with the number ID, which data field FIELD of the card on LINE names; 0, and an error, where there is none, or
-   !! where a joint split it. A node that no element holds is WITHOUT.
+   !> The NODE with the number ID in data field FIELD of the card on LINE; 0, and an error, for a missing node, or one that a joint
+   !! split. A node that belongs to no element is WITHOUT.
    subroutine find_node(deck, line, field, id, model, without, node)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line, field, id
@@ -228,7 +228,7 @@ contains
       end if
    end subroutine find_node
 
-   !> The dependences of an RBE3: the components REFC of its node are the weighted mean of those of its nodes.
+   !> The constraint equations of an RBE3: components REFC of its node are the weighted mean of those of its nodes.
    subroutine add_mean(deck, card, model, list, without)
       type(checked_deck), intent(in)       :: deck
       type(rigid_card), intent(in)         :: card
@@ -243,7 +243,7 @@ contains
       call find_node(deck, card%line, card%node_at, card%node, model, without, point)
       do i = 1, size(card%nodes)
          call find_node(deck, card%line, card%at(i), card%nodes(i), model, without, nodes(i))
-         if (nodes(i) == 0 .and. card%surface > 0) return ! one of a surface stands for all
+         if (nodes(i) == 0 .and. card%surface > 0) return ! one error for all nodes of the surface
       end do
       if (no_displacement(model, card%components) .and. .not. has_component(card%components, 6)) &
          call deck%field_error(card%line, 'REFC', 'contains no component of the nodes of this model')
@@ -272,8 +272,8 @@ contains
       if (allocated(card%um_nodes)) call exchange(deck, card, model, before + 1, list)
    end subroutine add_mean
 
-   !> With UM other components depend than REFC: those that the pairs name, in place of what items FIRST and on of LIST are of.
-   !! Errors: nodes and components that are not those of the card, not as many as REFC has, and equations that do not give them.
+   !> UM of an RBE3: the named components depend instead of those of the equations of LIST from FIRST on, which are REFC.
+   !! Errors: nodes or components that are not on the card, a number of components other than that of REFC, singular equations.
    subroutine exchange(deck, card, model, first, list)
       type(checked_deck), intent(in)       :: deck
       type(rigid_card), intent(in)         :: card
@@ -296,7 +296,7 @@ contains
             n = n + 1
             places(n) = place_of_component(model, model%node_table%find(card%um_nodes(k)), digit)
             at(n) = card%um_at(k)
-            if (places(n)%node == 0) n = n - 1 ! of a plane model those out of it
+            if (places(n)%node == 0) n = n - 1 ! out-of-plane components of a plane model
          end do
       end do
       ok = n == list%n - first + 1
@@ -308,7 +308,7 @@ contains
          'components that constrain the reference node as REFC does', called='UM')
    end subroutine exchange
 
-   !> What of displacement and rotation in global axes the component DIGIT of POINT is.
+   !> The displacement and rotation in global axes that component DIGIT of POINT measures.
    pure function direction_of(model, point, digit) result(direction)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: point, digit
@@ -322,7 +322,7 @@ contains
       if (model%axisymmetric) direction([1, 3, 4, 5, 6]) = 0.0_wp
    end function direction_of
 
-   !> [T] of mean_motion for the NODES of CARD; on a ring, whose rotation does not count, from their displacements along the axis.
+   !> [T] of mean_motion for the NODES of CARD; in an axisymmetric model from axial displacements only.
    subroutine motion_of_mean(model, card, point, nodes, t, determined)
       type(model_type), intent(in) :: model
       type(rigid_card), intent(in) :: card
@@ -345,8 +345,8 @@ contains
       call mean_motion(r, axes, used, card%weight, t, determined)
    end subroutine motion_of_mean
 
-   !> The means are of displacements: C names some. Rotations in C are left out, as nodes of bodies have none; those of a reference node
-   !! would count.
+   !> Error: C without a displacement, because the mean is one of displacements. Rotations in C are ignored, as nodes of bodies have none;
+   !! a rotation that a node has is an error.
    subroutine check_directions(deck, card, model)
       type(checked_deck), intent(in) :: deck
       type(rigid_card), intent(in)   :: card
@@ -354,7 +354,7 @@ contains
       integer :: digit, i
 
       do i = 1, size(card%nodes)
-         if (card%directions(i) == 0) cycle ! said already
+         if (card%directions(i) == 0) cycle ! reported already
          if (any([(place_of_rotation(i, digit), digit = 4, 6)])) then
             call deck%field_error(card%line, card%at(i), 'its components C, '//integer_text(card%directions(i))// &
                ', are rotations too, which this node has, as the reference node of a rigid element; expected C of 1 to 3', &
@@ -369,7 +369,7 @@ contains
 
    contains
 
-      !> Whether C of node K names the rotation DIGIT, and the node has it.
+      !> Whether C of node K names the rotation DIGIT and the node has it.
       logical function place_of_rotation(k, digit)
          integer, intent(in) :: k, digit
          type(component_place) :: place

@@ -1,7 +1,8 @@
-!> The faces of shells. A marked surface of shells is not their mean plane: it lies half a thickness off it, on the side to which the
-!! normals of the mark's elements point; a marked edge of shells is as wide as they are thick, and is cut into strips. The nodes of such sides stand off the
-!! nodes of the shells by a rigid lever r and have no unknowns of their own: u + theta x r. All that stands on surfaces, joints, gaps,
-!! pressure, takes them as it takes other nodes. So do masses beside their nodes.
+!> Nodes on the faces and edges of shells, at rigid levers from the nodes of the shells.
+!! A marked surface of shells lies half a thickness off their mean plane, on the side to which the normals of the marking elements point.
+!! A marked edge of shells is as wide as the thickness and is cut into strips. The nodes of such sides have rigid levers r from the nodes of
+!! the shells and no unknowns of their own: u + theta x r. Joints, gaps and pressure use them as they use other nodes. Masses with an offset
+!! have such nodes too.
 module shell_faces
    use coordinate_systems, only: directions_at
    use deck_check, only: checked_deck
@@ -19,11 +20,11 @@ module shell_faces
 
    public :: build_shell_faces, couple_shell_faces
 
-   integer, parameter :: strips = 8 ! over the thickness at an edge: of even strips nodes have 1 + 2/strips^2 of the moment of inertia
+   integer, parameter :: strips = 8 ! over the thickness at an edge: equal strips overestimate the inertia by 2/strips^2
 
 contains
 
-   !> Put the sides of surfaces that are of shells onto nodes of their own.
+   !> Give the sides of shells in marked surfaces nodes of their own.
    subroutine build_shell_faces(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -47,7 +48,7 @@ contains
       if (size(faces) > 0) call append_faces(model, faces)
    end subroutine build_shell_faces
 
-   !> The centres of mass of CONM2 with an offset stand off their nodes as faces do off shells.
+   !> The centres of mass of CONM2 with an offset have rigid levers from their nodes, as faces of shells have.
    subroutine stand_masses_off(deck, model, faces)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -62,14 +63,14 @@ contains
             if (node == 0 .or. all(abs(card%offset) <= 0.0_wp)) cycle
             faces = [faces, face_node_type(point=node, lever=card%offset)]
             system = findloc(model%systems%id, card%system, dim=1)
-            if (card%system == 0 .or. system == 0) cycle ! a system that is not there is an error of the inertia
+            if (card%system == 0 .or. system == 0) cycle ! a missing system is an error of find_inertia
             call directions_at(model%systems(system), model%x(:, node), axes, ok)
             if (ok) faces(size(faces))%lever = matmul(axes, card%offset)
          end associate
       end do
    end subroutine stand_masses_off
 
-   !> Give the sides of SURFACE that are of shells nodes among FACES, the mean of what its sides have there.
+   !> Give the sides of SURFACE that belong to shells nodes among FACES; a shared node has the mean lever of its sides.
    subroutine stand_off(model, surface, faces)
       type(model_type), intent(in)      :: model
       type(surface_type), intent(inout) :: surface
@@ -125,7 +126,7 @@ contains
                   t*(real(line, wp)/strips - 0.5_wp)
       end function height
 
-      !> The node AT of the side stands off NODE by LEVER, on this line of strips.
+      !> AT is the face node that stands off NODE on LINE of the strips; add LEVER to its mean.
       subroutine take(line, node, lever, at)
          integer, intent(in)    :: line, node
          real(wp), intent(in)   :: lever(3)
@@ -145,8 +146,7 @@ contains
 
    end subroutine stand_off
 
-   !> Every edge of SURFACE stands in it as many times as there are strips over the thickness, with minus the number of the strip behind
-   !! its two nodes.
+   !> Repeat every edge of SURFACE once per strip over the thickness; minus the number of the strip follows its two nodes.
    pure subroutine cut_edges(surface)
       type(surface_type), intent(inout) :: surface
       integer, allocatable :: from(:), strip(:)
@@ -170,7 +170,7 @@ contains
       where (surface%corners == 2) surface%nodes(3, :) = -strip
    end subroutine cut_edges
 
-   !> Append the nodes of FACES behind those of the deck: with the elements of the nodes that they stand off, for their material.
+   !> Append the nodes of FACES behind those of the deck, with the elements of the shell nodes, which give their material.
    subroutine append_faces(model, faces)
       type(model_type), intent(inout)  :: model
       type(face_node_type), intent(in) :: faces(:)
@@ -195,7 +195,7 @@ contains
       end do
    end subroutine append_faces
 
-   !> The nodes of the faces move with the nodes that they stand off, and with what these move with.
+   !> Couple the face nodes to the nodes from which they stand off, or to the masters of these.
    subroutine couple_shell_faces(model)
       type(model_type), intent(inout) :: model
       real(wp), allocatable :: t(:, :, :)
@@ -223,7 +223,7 @@ contains
 
    contains
 
-      !> The face moves by MATRIX times the displacement of NODE.
+      !> Add the part MATRIX times the displacement of NODE to the face node.
       subroutine add(node, matrix)
          integer, intent(in)  :: node
          real(wp), intent(in) :: matrix(:, :)

@@ -1,8 +1,9 @@
 !> Shells tied to solids without a joint, SHELLTO: the nodes of a marked edge of shells move with a marked face.
 !!
 !! Each side of the edge gives its two nodes three points of the footprint of the shell on the face: half a thickness above and below the
-!! node, and as far along the edge. They move with the face by its shape functions; the node has the rigid motion that comes nearest to
-!! theirs (mean_motion), so its rotations are those of the face over the thickness, and what the shell bears goes to the face in balance.
+!! node, and as far along the edge. The shape functions of the face move these points; the node has the rigid-body motion that fits them
+!! best (mean_motion). Its rotations are therefore those of the face over the thickness, and its forces and moments act on the face in
+!! equilibrium.
 module shell_ties
    use constraint_equations, only: add_dependence, add_term, dependence_list, mean_motion
    use deck_check, only: checked_deck
@@ -20,12 +21,12 @@ module shell_ties
 
    public :: add_ties, find_ties
 
-   integer, parameter :: most_points = 24 !! of a node: three of each side of the edge there
+   integer, parameter :: most_points = 24 !! of a node: three for each side of the edge at it
 
-   !> A node of a shell and the points of a face that it moves with.
+   !> A node of a shell and the points of a face to which it is tied.
    type, public :: tie_type
       integer  :: line = 0, node = 0
-      integer  :: n = 0                                 !! points
+      integer  :: n = 0                                 !! number of points
       real(wp) :: arm(3, most_points) = 0.0_wp          !! of the points from the node [length]
       integer  :: at(8, most_points) = 0                !! nodes of the face at the points, 0 behind the last
       real(wp) :: share(8, most_points) = 0.0_wp           !! shape functions of the face there [-]
@@ -33,8 +34,8 @@ module shell_ties
 
 contains
 
-   !> The TIES of all SHELLTO cards, before edges of shells are cut into strips. Errors: surfaces that are no edge of shells, no faces of
-   !! solids, or farther away than the shell is thick.
+   !> The TIES of all SHELLTO cards, before edges of shells are cut into strips. Errors: surfaces that are not an edge of shells and a face
+   !! of solids, or whose distance exceeds the thickness of the shell.
    subroutine find_ties(deck, model, ties)
       type(checked_deck), intent(in)           :: deck
       type(model_type), intent(in)             :: model
@@ -44,7 +45,7 @@ contains
       allocate (ties(0))
       do i = 1, size(deck%bulk%tie)
          associate (card => deck%bulk%tie(i))
-            if (any(card%surfaces == 0)) cycle ! said already
+            if (any(card%surfaces == 0)) cycle ! reported already
             call find_surface(deck, card%line, 'PID1', card%surfaces(1), model, edge)
             call find_surface(deck, card%line, 'PID2', card%surfaces(2), model, face)
             if (edge == 0 .or. face == 0) cycle
@@ -63,7 +64,7 @@ contains
       end do
    end subroutine find_ties
 
-   !> Add to TIES those of the nodes of the edge SIDE to the face BASE, which a card on LINE ties.
+   !> Add the ties of the nodes of the edge SIDE to the face BASE, for a card on LINE.
    subroutine tie(deck, model, line, side, base, ties)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(in)    :: model
@@ -115,7 +116,7 @@ contains
       ties = [ties, own(:n)]
    end subroutine tie
 
-   !> One more point of OWN, at this ARM from its node: the nearest of BASE, whose sides have the FRAMES, and how far it MISSES that.
+   !> Add to OWN the point of BASE, whose sides have FRAMES, nearest to the position at ARM from its node; MISS is the distance.
    pure subroutine hang(model, base, frames, arm, own, miss)
       type(model_type), intent(in)   :: model
       type(surface_type), intent(in) :: base
@@ -156,7 +157,7 @@ contains
       end do
    end subroutine hang
 
-   !> The dependences of TIES: all six components of their nodes.
+   !> The constraint equations of TIES, for all six components of their nodes.
    subroutine add_ties(model, ties, list)
       type(model_type), intent(in)         :: model
       type(tie_type), intent(in)           :: ties(:)

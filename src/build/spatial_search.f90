@@ -1,6 +1,6 @@
-!> Points and boxes found by position: a tree of bounding volumes, so that the few of n that one looks for are found in log n steps. A
-!! stretch of the tree is halved where its points, or the centres of its boxes, extend most; the box about all of a stretch stands with
-!! its middle.
+!> Search of points and boxes by position in a tree of bounding volumes, in log n steps.
+!! Each section of the tree is halved along the axis of its largest extent of points or box centres. The box around a section is stored
+!! with its middle.
 !! Source: Bentley, Multidimensional binary search trees used for associative searching, Comm. ACM 18 (1975) 509-517; Clark,
 !! Hierarchical geometric models for visible surface algorithms, Comm. ACM 19 (1976) 547-554.
 module spatial_search
@@ -12,8 +12,8 @@ module spatial_search
    type, public :: spatial_search_type
       private
       real(wp), allocatable :: box(:, :, :)    ! (3, 2, n) least and greatest coordinates, in the order of the tree
-      real(wp), allocatable :: around(:, :, :) ! (3, 2, n) those of all boxes of the stretch with this middle
-      integer, allocatable  :: number(:)       ! (n) which of the boxes given each is
+      real(wp), allocatable :: around(:, :, :) ! (3, 2, n) bounding boxes of the sections with this middle
+      integer, allocatable  :: number(:)       ! (n) input number of each box
    contains
       procedure, private :: build_points, build_boxes
       generic :: build => build_points, build_boxes
@@ -21,11 +21,11 @@ module spatial_search
       procedure :: list_meeting
    end type spatial_search_type
 
-   integer, parameter :: first_undivided = 8 ! stretches no longer than this are not divided
+   integer, parameter :: first_undivided = 8 ! sections of at most this length are not divided
 
 contains
 
-   !> Take the POINTS(3, n).
+   !> Build the tree of POINTS(3, n).
    pure subroutine build_points(self, points)
       class(spatial_search_type), intent(inout) :: self
       real(wp), intent(in) :: points(:, :)
@@ -33,7 +33,7 @@ contains
       call self%build_boxes(reshape(spread(points, 2, 2), [3, 2, size(points, 2)]))
    end subroutine build_points
 
-   !> Take the BOXES(3, 2, n), least and greatest coordinates.
+   !> Build the tree of BOXES(3, 2, n), lower and upper coordinates.
    pure subroutine build_boxes(self, boxes)
       class(spatial_search_type), intent(inout) :: self
       real(wp), intent(in) :: boxes(:, :, :)
@@ -49,7 +49,7 @@ contains
       if (size(self%number) > 0) call surround(self, 1, size(self%number), whole)
    end subroutine build_boxes
 
-   !> Put a stretch of POINTS, and their NUMBERs, in the order of the tree.
+   !> Sort a section of POINTS, with their NUMBERs, into the order of the tree.
    pure recursive subroutine divide(points, number)
       real(wp), intent(inout) :: points(:, :) !! (3, n)
       integer, intent(inout)  :: number(:)    !! (n)
@@ -63,7 +63,7 @@ contains
       call divide(points(:, middle + 1:), number(middle + 1:))
    end subroutine divide
 
-   !> Exchange POINTS until none before MIDDLE lies beyond it along AXIS, and none behind it lies before it.
+   !> Exchange POINTS until none before MIDDLE has a larger coordinate along AXIS, and none behind it a smaller one.
    !! Source: Hoare's FIND; Wirth, Algorithms + Data Structures = Programs, section 2.3.4.
    pure subroutine select_middle(axis, middle, points, number)
       integer, intent(in)     :: axis, middle
@@ -102,7 +102,7 @@ contains
       end do
    end subroutine select_middle
 
-   !> The box AROUND the boxes FIRST to LAST of the tree, kept with its middle.
+   !> The bounding box AROUND the boxes FIRST to LAST of the tree, stored with its middle.
    pure recursive subroutine surround(self, first, last, around)
       type(spatial_search_type), intent(inout) :: self
       integer, intent(in)   :: first, last
@@ -125,20 +125,20 @@ contains
       self%around(:, :, middle) = around
    end subroutine surround
 
-   !> The point nearest to X within REACH; 0 where there is none. Of points at the same distance the first.
+   !> The point nearest to X within REACH, 0: none; of equally near points the first.
    pure subroutine nearest(self, x, reach, point, distance)
       class(spatial_search_type), intent(in) :: self
       real(wp), intent(in)  :: x(3), reach
       integer, intent(out)  :: point
-      real(wp), intent(out) :: distance !! huge where there is none
+      real(wp), intent(out) :: distance !! huge without a point
 
       point = 0
       distance = huge(1.0_wp)
       if (size(self%number) > 0) call find_nearer(self, 1, size(self%number), x, reach, point, distance)
    end subroutine nearest
 
-   !> Look for a point nearer than DISTANCE, or as near and before POINT, among the points FIRST to LAST of the tree, in the nearer half
-   !! first.
+   !> Find among the points FIRST to LAST of the tree one nearer than DISTANCE, or equally near and before POINT; the nearer half is
+   !! searched first.
    pure recursive subroutine find_nearer(self, first, last, x, reach, point, distance)
       type(spatial_search_type), intent(in) :: self
       integer, intent(in)     :: first, last
@@ -152,7 +152,7 @@ contains
       middle = first + (last - first)/2
       is_divided = last - first >= first_undivided
       do i = merge(middle, first, is_divided), merge(middle, last, is_divided)
-         if (gap(self%box(:, :, i), x) > min(distance, reach)) cycle ! costs less than the distance
+         if (gap(self%box(:, :, i), x) > min(distance, reach)) cycle ! cheaper than the distance
          candidate = norm2(self%box(:, 1, i) - x)
          if (candidate > reach .or. candidate > distance) cycle
          if (candidate >= distance .and. self%number(i) > point) cycle
@@ -170,25 +170,25 @@ contains
       end do
    end subroutine find_nearer
 
-   !> How far X is outside BOX along the axis where it is farthest: no point of the box is nearer.
+   !> Largest distance of X from BOX along any axis, a lower bound of the distance of its points.
    pure real(wp) function gap(box, x)
       real(wp), intent(in) :: box(3, 2), x(3)
 
       gap = max(0.0_wp, box(1, 1) - x(1), x(1) - box(1, 2), box(2, 1) - x(2), x(2) - box(2, 2), box(3, 1) - x(3), x(3) - box(3, 2))
    end function gap
 
-   !> The boxes that meet the box from LOW to HIGH, borders count: FOUND(:N).
+   !> The boxes FOUND(:N) that meet the box from LOW to HIGH, borders included.
    pure subroutine list_meeting(self, low, high, found, n)
       class(spatial_search_type), intent(in) :: self
       real(wp), intent(in)                   :: low(3), high(3)
-      integer, allocatable, intent(inout)    :: found(:) !! made longer where it is too short
+      integer, allocatable, intent(inout)    :: found(:) !! enlarged if necessary
       integer, intent(out)                   :: n
 
       n = 0
       if (size(self%number) > 0) call add_meeting(self, 1, size(self%number), low, high, found, n)
    end subroutine list_meeting
 
-   !> Add to FOUND(:N) those of the boxes FIRST to LAST of the tree that meet the box from LOW to HIGH.
+   !> Add to FOUND(:N) the boxes FIRST to LAST of the tree that meet the box from LOW to HIGH.
    pure recursive subroutine add_meeting(self, first, last, low, high, found, n)
       type(spatial_search_type), intent(in) :: self
       integer, intent(in)                   :: first, last
@@ -211,7 +211,7 @@ contains
       if (is_divided) call add_meeting(self, middle + 1, last, low, high, found, n)
    end subroutine add_meeting
 
-   !> Whether BOX and that from LOW to HIGH have a point in common.
+   !> Whether BOX meets the box from LOW to HIGH.
    pure logical function meet(box, low, high)
       real(wp), intent(in) :: box(3, 2), low(3), high(3)
 

@@ -1,5 +1,5 @@
-!> Bars and springs: CROD with PROD, CONROD, and the BOLT cards that tighten some of them; CELAS1, CELAS2 and CBUSH as bars of the
-!! model, one a direction, behind the bars themselves.
+!> Bars of CROD and CONROD, BOLT cards of bars, and springs of CELAS1, CELAS2 and CBUSH.
+!! A spring is stored as a bar of the model, one per direction; springs follow the bars.
 module spring_build
    use bulk_data, only: bolt_card, edge_card, edge_crod, prod_card, spring_card
    use deck_check, only: checked_deck
@@ -63,12 +63,12 @@ contains
 
    contains
 
-      !> The bar that is the axial part of a beam with a BOLT; the beam has its mass.
+      !> The bar for the axial force of a beam with a BOLT; the mass stays with the beam.
       subroutine add_cut_beam(edge)
          type(edge_card), intent(in) :: edge
 
          associate (property => deck%bulk%beam_property(findloc(deck%bulk%beam_property%id, edge%property, dim=1)))
-            if (all(deck%bulk%mat1%id /= property%material)) return ! said already
+            if (all(deck%bulk%mat1%id /= property%material)) return ! reported already
             n = n + 1
             model%bars(n)%id = edge%id
             model%bars(n)%nodes = [model%node_table%find(edge%nodes(1)), model%node_table%find(edge%nodes(2))]
@@ -80,7 +80,7 @@ contains
 
    end subroutine build_bars
 
-   !> The stiffness and mass of BAR, whose card is on LINE and whose nodes are known, with the section of PROD.
+   !> The stiffness and mass of BAR with the section of PROD; its card is on LINE, its nodes are known.
    subroutine build_bar(deck, line, prod, model, bar)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line
@@ -114,7 +114,7 @@ contains
          integer_text(bar%id)//': in an axisymmetric model bars stand along y; their area is that of all round the ring')
    end subroutine build_bar
 
-   !> The BOLT of a bar: which one it is, and in which stage it is tightened.
+   !> Assign the BOLT of CARD to its bar, with the stage that tightens it.
    subroutine tighten(deck, card, model)
       type(checked_deck), intent(in)  :: deck
       type(bolt_card), intent(in)     :: card
@@ -138,7 +138,7 @@ contains
       end associate
    end subroutine tighten
 
-   !> Position of the STAGE in which the bolt of CARD is tightened; 0: it is not there.
+   !> Position of the STAGE that tightens the bolt of CARD; 0: it is missing.
    subroutine find_stage(deck, card, stage)
       type(checked_deck), intent(in) :: deck
       type(bolt_card), intent(in)    :: card
@@ -170,7 +170,7 @@ contains
       model%bars = bars(:n)
    end subroutine build_springs
 
-   !> The springs of one CARD, behind the first N of BARS.
+   !> Append the springs of one CARD to BARS(:N).
    subroutine build_spring(deck, card, model, bars, n)
       type(checked_deck), intent(in)  :: deck
       type(spring_card), intent(in)   :: card
@@ -198,12 +198,12 @@ contains
             if (nodes(k) == 0) cycle
             if (card%components(k) == 3 .and. model%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
                'a plane model has no component 3')
-            if (all(card%components(k) /= [1, 2, model%dimension, 4, 5, 6])) return ! said
+            if (all(card%components(k) /= [1, 2, model%dimension, 4, 5, 6])) return ! reported
             directions(:, k) = direction_of(model, nodes(k), card%components(k) - merge(3, 0, card%components(k) > 3))
          end do
          k = merge(1, 2, card%nodes(1) > 0) ! the first node that is not the ground
          if (any(nodes == 0 .and. card%nodes > 0) .or. all(card%nodes == 0)) return
-         if (k == 1) directions(:, :2) = -directions(:, :2) ! NASTRAN's force is k (u_1 - u_2)
+         if (k == 1) directions(:, :2) = -directions(:, :2) ! the force of NASTRAN is k (u_1 - u_2)
          if (k == 2) nodes = nodes([2, 1])
          if (k == 2) directions(:, 1) = directions(:, 2)
          if (card%components(k) > 3) then
@@ -216,7 +216,7 @@ contains
 
    contains
 
-      !> A spring between rotations about AXES, unit: between the nodes of these, whose components are rotations times an arm.
+      !> A spring between rotations about AXES, unit, and the nodes of these rotations, whose components are rotations times an arm.
       subroutine add_rotational(component, k_axis, axes)
          integer, intent(in)  :: component
          real(wp), intent(in) :: k_axis, axes(3, 2)
@@ -225,7 +225,7 @@ contains
 
          turned = 0
          along = 0.0_wp
-         if (model%dimension == 2 .and. component /= 6) return ! turns nothing in the plane
+         if (model%dimension == 2 .and. component /= 6) return ! no rotation in the plane
          do end = 1, 2
             if (nodes(end) == 0) cycle
             if (rotation_at(model, nodes(end)) == 0) then
@@ -262,7 +262,7 @@ contains
 
    end subroutine build_spring
 
-   !> The stiffness of the spring of CARD, the first one of a CELAS, and its structural damping.
+   !> The stiffness of the spring of CARD (for a CELAS in the first component), and its structural damping.
    subroutine find_stiffness(deck, card, stiffness, damping)
       type(checked_deck), intent(in) :: deck
       type(spring_card), intent(in)  :: card
@@ -286,8 +286,8 @@ contains
       end associate
    end subroutine find_stiffness
 
-   !> The axes of a CBUSH at its first node: of its system; without one, along the line between its nodes where it has K1 alone, and
-   !! global where they stand in one place.
+   !> The axes of a CBUSH at its first node: those of its system; without a system, the line between its nodes if it has K1 alone, and
+   !! global axes if the nodes coincide.
    subroutine find_axes(deck, card, model, nodes, stiffness, directions, ok)
       type(checked_deck), intent(in) :: deck
       type(spring_card), intent(in)  :: card

@@ -1,6 +1,5 @@
-!> The stages of the load history and the fractions of their increments, as case control and JINCR cards give them; and what is
-!! asked about the oscillation of the structure after a stage: which modes, the response to a load that oscillates, the damping
-!! that a table gives.
+!> Stages of the load history, fractions of their increments, and requests for the vibration after a stage.
+!! Case control and JINCR cards give them: modes, response to an oscillating load, and the damping of a table.
 module stage_plan
    use bulk_data, only: freq4_card, tabdmp1_card
    use case_control, only: method_back, method_newton
@@ -16,41 +15,41 @@ module stage_plan
              factorisations_of, shows_bodies
 
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping
-   real(wp), parameter :: same_frequency = 1.0e-9_wp ! of the largest: what is nearer is one
+   real(wp), parameter :: same_frequency = 1.0e-9_wp ! of the largest: nearer frequencies are equal
 
-   !> The answer to a load that oscillates, by superposition of the modes.
+   !> The response to an oscillating load by modal superposition.
    type, public :: response_plan
       real(wp), allocatable :: frequencies(:) !! ascending, those of FREQ1 [1/time]
       type(freq4_card), allocatable :: spreads(:) !! n odd, spread = 0 where it is 1
-      integer, allocatable  :: nodes(:)       !! positions of the nodes whose amplitude and phase are asked
+      integer, allocatable  :: nodes(:)       !! positions of the nodes whose amplitude and phase are requested
       real(wp), allocatable :: force(:, :)    !! (3, n_nodes) amplitude of the load [force]
-      type(tabdmp1_card), allocatable :: damping !! not allocated: the joints' own loss factors
-      logical :: is_structural = .false.      !! KDAMP = -1: it is structural damping
+      type(tabdmp1_card), allocatable :: damping !! not allocated: the loss factors of the joints
+      logical :: is_structural = .false.      !! KDAMP = -1: as structural damping
    end type response_plan
 
-   !> BACKBONE of a stage: the mode that is followed through loops of growing amplitude.
+   !> BACKBONE of a stage: one mode is followed through loops of increasing amplitude.
    type, public :: backbone_plan
       integer  :: mode = 0                    !! its number in the table of frequencies
       real(wp), allocatable :: amplitudes(:)  !! ascending [length]
-      integer  :: cycles = 0                  !! loops at most, beyond the second
+      integer  :: cycles = 0                  !! largest number of loops after the second
       integer  :: increments = 0              !! from rest to a turning point
       real(wp) :: tolerance = 0.0_wp          !! of the loss [-]
-      integer  :: node = 0                    !! position of the node whose displacement they are, 0: of the one that moves most
+      integer  :: node = 0                    !! position of the node whose displacement is the amplitude, 0: the node that moves most
    end type backbone_plan
 
    !> MODES of a stage.
    type, public :: vibration_plan_type
       integer  :: id = 0                      !! of the EIGRL
-      logical  :: free = .false.              !! the supports are let go
-      integer  :: most = 0                    !! modes, from the lowest of the range on; 0: all of the range, which has an end
+      logical  :: free = .false.              !! without supports
+      integer  :: most = 0                    !! number of modes from the lowest of the range on; 0: all up to its end
       logical  :: has_lowest = .false., has_highest = .false.
       real(wp) :: lowest = 0.0_wp             !! V1, > 0 where the range has a beginning [1/time]
       real(wp) :: highest = 0.0_wp            !! V2 [1/time]
-      logical  :: unit_mass = .true.          !! shapes have generalised mass 1; else largest component 1
+      logical  :: unit_mass = .true.          !! shapes have generalised mass 1; else their largest component is 1
       logical  :: on_loading = .false.        !! STIFFNESS = LOAD
       real(wp) :: amplitude = 0.0_wp          !! largest displacement for the loss factors of the joints [length]; 0: none
-      real(wp) :: damping = 0.0_wp            !! PARAM G, structural damping of everything [-]
-      logical  :: has_losses = .false.        !! modes have loss factors: by an amplitude, PARAM G or GE
+      real(wp) :: damping = 0.0_wp            !! PARAM G, structural damping of the whole structure [-]
+      logical  :: has_losses = .false.        !! modes have loss factors: from an amplitude, PARAM G or GE
       type(backbone_plan), allocatable :: backbone
       type(response_plan), allocatable :: response
    end type vibration_plan_type
@@ -59,11 +58,11 @@ module stage_plan
       integer :: id = 0
       character(:), allocatable :: label
       type(output_request) :: output
-      logical, allocatable :: shown(:)      !! nodes that its tables are limited to; not allocated: all
+      logical, allocatable :: shown(:)      !! nodes to which its tables are limited; not allocated: all
       integer, allocatable :: watched(:)    !! positions of the nodes of WATCH; not allocated: none
-      character(:), allocatable :: shown_words !! of that, behind a title
-      real(wp), allocatable :: fractions(:)    !! of the stage's load change, one an increment, sum 1
-      type(vibration_plan_type), allocatable :: vibration !! at its end; not allocated: none is asked
+      character(:), allocatable :: shown_words !! text of this limit, behind a title
+      real(wp), allocatable :: fractions(:)    !! of the load change of the stage, one per increment, sum 1
+      type(vibration_plan_type), allocatable :: vibration !! after the stage; not allocated: not requested
    end type planned_stage
 
    type, public :: stage_plan_type
@@ -72,19 +71,19 @@ module stage_plan
 
 contains
 
-   !> Structural damping g [-] at FREQUENCY, as NASTRAN looks TABDMP1 up: straight lines between the points, before and behind them
-   !! those of the two outermost; where the value jumps, the mean. G: g = value; CRIT: g = 2 value; Q: g = 1/value. A line that is
-   !! prolonged ends at no damping (G, CRIT) or at critical damping, or the least Q given (Q): damping has a sign.
+   !> Structural damping g [-] at FREQUENCY, by the rules of NASTRAN for TABDMP1: linear interpolation, extrapolation of the first and the
+   !! last line, the mean at a jump. G: g = value; CRIT: g = 2 value; Q: g = 1/value. An extrapolated line is limited at zero damping (G,
+   !! CRIT), or at critical damping or the smallest Q given (Q), because damping must not be negative.
    !! Source: MSC Nastran Quick Reference Guide, TABDMP1, remarks.
    pure real(wp) function loss_at(table, frequency) result(g)
-      type(tabdmp1_card), intent(in) :: table !! two points or more; where a frequency stands twice the value jumps
+      type(tabdmp1_card), intent(in) :: table !! two points or more; the value jumps at a repeated frequency
       real(wp), intent(in)           :: frequency !! [1/time]
       real(wp) :: value
       integer  :: k, n
 
       n = size(table%frequency)
       associate (f => table%frequency, v => table%value)
-         k = min(max(count(f <= frequency), 1), n - 1) ! the point before, but never the last
+         k = min(max(count(f <= frequency), 1), n - 1) ! the point before, but not the last
          if (k > 1 .and. abs(f(k) - frequency) <= 0.0_wp) then
             value = v(k)
             if (abs(f(k - 1) - frequency) <= 0.0_wp) value = 0.5_wp*(v(k - 1) + v(k))
@@ -102,8 +101,8 @@ contains
       end associate
    end function loss_at
 
-   !> The frequencies of PLAN, ascending, each once, those about the MODES, whose frequencies ascend, among them [1/time]. A motion
-   !! without strain has nothing to spread about.
+   !> The frequencies of PLAN, with those spread about the MODES (ascending frequencies): ascending, each once [1/time]. A rigid-body
+   !! mode has no spread.
    pure function asked_frequencies(plan, modes) result(f)
       type(response_plan), intent(in) :: plan
       real(wp), intent(in)            :: modes(:) !! [1/time]
@@ -123,7 +122,7 @@ contains
       end do
    end function asked_frequencies
 
-   !> Two ascending lists as one, each frequency once.
+   !> Merge two ascending lists, each frequency once.
    pure function merged(a, b) result(f)
       real(wp), intent(in)  :: a(:), b(:)
       real(wp), allocatable :: f(:)
@@ -148,7 +147,7 @@ contains
       if (size(c) > 1) f = pack(c, [.true., c(2:) - c(:size(c) - 1) > same_frequency*c(size(c))])
    end function merged
 
-   !> A stage without INCR takes its load in one increment, and so does METHOD = BACK.
+   !> Plan the stages. A stage without INCR has one increment; so has METHOD = BACK.
    subroutine plan_stages(deck, plan, errors)
       type(deck_type), intent(in)          :: deck
       type(stage_plan_type), intent(out)   :: plan
@@ -174,7 +173,7 @@ contains
       end do
    end subroutine plan_stages
 
-   !> Whether natural modes are asked for after any stage.
+   !> Whether natural modes are requested after any stage.
    pure logical function any_modes(plan)
       type(stage_plan_type), intent(in) :: plan
       integer :: s
@@ -182,7 +181,7 @@ contains
       any_modes = any([(allocated(plan%stages(s)%vibration), s = 1, size(plan%stages))])
    end function any_modes
 
-   !> Whether a backbone is asked for after any stage.
+   !> Whether a backbone is requested after any stage.
    pure logical function any_backbone(plan)
       type(stage_plan_type), intent(in) :: plan
       integer :: s
@@ -193,7 +192,7 @@ contains
       end do
    end function any_backbone
 
-   !> Whether the answer of any stage gives the movement of nodes.
+   !> Whether a response with movements of nodes is requested after any stage.
    pure logical function any_watched(plan)
       type(stage_plan_type), intent(in) :: plan
       integer :: s
@@ -201,7 +200,7 @@ contains
       any_watched = any([(allocated(plan%stages(s)%watched), s = 1, size(plan%stages))])
    end function any_watched
 
-   !> Whether the response to an oscillating load is asked for after any stage.
+   !> Whether the response to an oscillating load is requested after any stage.
    pure logical function any_response(plan)
       type(stage_plan_type), intent(in) :: plan
       integer :: s
@@ -212,7 +211,7 @@ contains
       end do
    end function any_response
 
-   !> 'stage 2, increment 7', for messages.
+   !> Text such as 'stage 2, increment 7', for messages.
    pure function where_in_plan(plan, stage, increment) result(words)
       type(stage_plan_type), intent(in) :: plan
       integer, intent(in)               :: stage, increment
@@ -221,7 +220,7 @@ contains
       words = 'stage '//integer_text(plan%stages(stage)%id)//', increment '//integer_text(increment)
    end function where_in_plan
 
-   !> How often the stiffness of the structure will be factorised, as a guess that orderings are chosen by.
+   !> Estimated number of factorisations, for the choice of an ordering.
    pure integer function factorisations_of(plan, method) result(n)
       type(stage_plan_type), intent(in) :: plan
       integer, intent(in)               :: method !! of case control
@@ -233,7 +232,7 @@ contains
       end do
       if (method == method_newton) n = 6*n
       if (method == method_back) n = 40*n
-      do s = 1, size(plan%stages) ! two loops and the way to them, some three iterations an increment, three trials an amplitude
+      do s = 1, size(plan%stages) ! two loops and the start, about three iterations per increment, three trials per amplitude
          if (.not. allocated(plan%stages(s)%vibration)) cycle
          if (.not. allocated(plan%stages(s)%vibration%backbone)) cycle
          associate (backbone => plan%stages(s)%vibration%backbone)

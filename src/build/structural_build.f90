@@ -1,5 +1,5 @@
-!> Shells and beams from their cards: what they are made of, how beams lie and hang on their nodes; and the rotations of nodes, those of
-!! shells and beams and those of reference nodes.
+!> Shells and beams from their cards: sections and geometry, and the rotation nodes of the model.
+!! Nodes of shells and beams and reference nodes have rotations.
 module structural_build
    use beam_element, only: beam_axes, beam_length
    use bulk_data, only: edge_card, edge_crod, has_component, property_card, rigid_card
@@ -19,7 +19,7 @@ module structural_build
 
 contains
 
-   !> Whether EDGE is a beam: a CBAR or CBEAM with the id of a section, which no PMARK has.
+   !> Whether EDGE is a beam: a CBAR or CBEAM whose id is that of a section and of no PMARK.
    pure logical function is_beam_edge(deck, edge)
       type(checked_deck), intent(in) :: deck
       type(edge_card), intent(in)    :: edge
@@ -37,8 +37,8 @@ contains
       if (is_cut_beam) is_cut_beam = any(deck%bulk%bolt%element == edge%id)
    end function is_cut_beam
 
-   !> Give rotations to the nodes of shells and beams, and to the reference nodes of rigid elements: a node for them each, behind those of
-   !! the deck. A model of revolution has none. Nodes that are not there are for others to name.
+   !> Give a node of rotations, behind the nodes of the deck, to each node of shells and beams and each reference node of rigid elements.
+   !! An axisymmetric model has none. Missing nodes are reported elsewhere.
    subroutine build_rotations(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -61,7 +61,7 @@ contains
             model%rotation_of(node) = n
          end associate
       end do
-      do i = 1, size(deck%rigid) ! the end of a rigid bar that no element holds
+      do i = 1, size(deck%rigid) ! an end of an RBAR without elements
          associate (card => deck%rigid(i))
             if (card%is_mean .or. card%surface > 0 .or. size(card%nodes) /= 1) cycle
             if (.not. any([(has_component(card%components, node), node = 4, 6)])) cycle
@@ -78,7 +78,7 @@ contains
       do e = 1, model%n_elements
          if (.not. has_rotations(model, e)) cycle
          associate (nodes => corners_of(model, e))
-            if (any(nodes == 0)) cycle ! said already
+            if (any(nodes == 0)) cycle ! reported already
             do i = 1, size(nodes)
                square(nodes(i)) = square(nodes(i)) + sum((model%x(:, nodes) - spread(model%x(:, nodes(i)), 2, size(nodes)))**2)
                count_of(nodes(i)) = count_of(nodes(i)) + size(nodes) - 1
@@ -124,7 +124,7 @@ contains
       end do
    end subroutine leave_out_idle
 
-   !> Rotations in space are counted along the axes of their node.
+   !> The rotations of a node in space are about the axes of its displacement system.
    subroutine turn_rotations(model)
       type(model_type), intent(inout) :: model
       integer :: k
@@ -139,7 +139,7 @@ contains
       end do
    end subroutine turn_rotations
 
-   !> Whether the reference node of CARD has rotations that the model knows.
+   !> Whether the reference node of CARD has rotations.
    pure logical function turns(model, card)
       type(model_type), intent(in) :: model
       type(rigid_card), intent(in) :: card
@@ -148,7 +148,7 @@ contains
       if (model%dimension == 3) turns = turns .or. has_component(card%components, 4) .or. has_component(card%components, 5)
    end function turns
 
-   !> Root mean square of the distances of the nodes of CARD from POINT; 1 where they lie there [length].
+   !> Root mean square of the distances of the nodes of CARD from POINT; 1 where this is zero [length].
    pure real(wp) function arm_of(model, point, card) result(arm)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: point
@@ -167,7 +167,7 @@ contains
       if (arm <= 0.0_wp) arm = 1.0_wp
    end function arm_of
 
-   !> Fill the shells of MODEL, and give its beams their places.
+   !> Build the shells of MODEL, and set the positions of its beams.
    subroutine build_shells(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -185,7 +185,7 @@ contains
       allocate (model%structural%place(model%n_elements), source=0)
       allocate (of_property(size(model%properties)))
       do i = 1, size(deck%bulk%pshell)
-         if (model%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! they come first
+         if (model%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! shell properties come first
       end do
       call plates%build([(deck%bulk%element(deck%bulk%plate(i)%element)%id, i = 1, size(deck%bulk%plate))])
       n = 0
@@ -209,7 +209,7 @@ contains
       end do
    end subroutine build_shells
 
-   !> Fill the beams of MODEL, whose displacement systems are known.
+   !> Build the beams of MODEL; displacement systems must be known.
    subroutine build_beams(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -249,7 +249,7 @@ contains
 
    contains
 
-      !> Which MAT1 has this ID; 0: blank, or an error where the field is not that of MID1, of which it is said already.
+      !> The MAT1 with this ID; 0: blank, or missing. A missing MID1 is reported elsewhere.
       integer function material_of(id, field) result(k)
          integer, intent(in) :: id
          character(*), intent(in), optional :: field
@@ -262,7 +262,7 @@ contains
 
    end subroutine find_shell
 
-   !> The law of beam E, from its CARD, and whether it has a length and a plane 1.
+   !> The law of beam E from its CARD. Errors: a beam without length, or without plane 1.
    subroutine build_beam(deck, card, model, e)
       type(checked_deck), intent(in)  :: deck
       type(edge_card), intent(in)     :: card
@@ -271,7 +271,7 @@ contains
       real(wp) :: x(3, 2)
       integer  :: c, end, k, other
 
-      if (any(model%element_nodes(:2, e) == 0)) return ! said already
+      if (any(model%element_nodes(:2, e) == 0)) return ! reported already
       x = model%x(:, model%element_nodes(:2, e))
       associate (law => model%structural%beams(model%structural%place(e)), property => model%properties(model%element_property(e)))
          k = findloc(deck%bulk%beam_property%id, card%property, dim=1)
@@ -309,7 +309,7 @@ contains
                   'blank: where plane 1 of the beam lies is not given; expected a vector X1, X2, X3 or a node G0')
                return
             end if
-            law%orientation = [x(2, 1) - x(2, 2), x(1, 2) - x(1, 1), 0.0_wp] ! plane 1 is that of the model
+            law%orientation = [x(2, 1) - x(2, 2), x(1, 2) - x(1, 1), 0.0_wp] ! plane 1 is the plane of the model
          end if
          if (all(abs(beam_axes(law, x)) <= 0.0_wp)) call deck%field_error(card%line, 'X1', &
             'the orientation of the beam lies along it, and gives no plane 1; expected a direction across the beam')

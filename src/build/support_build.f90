@@ -1,5 +1,6 @@
-!> Supports: which components of which nodes are held, and which are moved: by SPCD, a total at the end of a stage among its
-!! loads, and by D of SPC, which stays from the end of the first stage on. SPCADD and MPCADD sum up sets.
+!> Supports from SPC, SPC1, SPCM and PS of GRID, and their prescribed displacements.
+!! SPCD gives a total at the end of a stage, among its loads. D of SPC holds from the end of the first stage on. SPCADD and
+!! MPCADD combine sets.
 module support_build
    use bulk_data, only: has_component, set_sum_card, support_card
    use deck_cards, only: card_name
@@ -20,7 +21,7 @@ module support_build
 
 contains
 
-   !> Nodes that some element holds, and the components that the SPC set of case control and PS of GRID support.
+   !> The nodes with elements, and the components that the SPC set of case control and PS of GRID support.
    subroutine build_supports(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -62,7 +63,7 @@ contains
          call deck%errors%add(set_line, 'SPC: there is no SPC, SPC1, SPCM or SPCADD with set '//integer_text(set))
    end subroutine build_supports
 
-   !> The sets of supports that hold: that of case control, or those of its SPCADD.
+   !> The active sets of supports: that of case control, or those of its SPCADD.
    pure function support_sets(deck) result(sets)
       type(checked_deck), intent(in) :: deck
       integer, allocatable :: sets(:)
@@ -73,7 +74,7 @@ contains
       sets = summed_sets(deck%bulk%support_sum, set)
    end function support_sets
 
-   !> Check one support card, and hold its nodes where it is of the ACTIVE set.
+   !> Check one support card, and apply it if its set is ACTIVE.
    subroutine apply_support(deck, support, active, model)
       type(checked_deck), intent(in)  :: deck
       type(support_card), intent(in)  :: support
@@ -99,10 +100,10 @@ contains
             if (node > 0 .and. active) call hold(model, node, support%components)
             cycle
          end if
-         ! G1 THRU G2: the nodes that are there, as in NASTRAN; there must be one
-         any_node = support%last(k) < support%first(k) ! said already
+         ! G1 THRU G2 means the nodes that exist, as in NASTRAN; at least one must exist
+         any_node = support%last(k) < support%first(k) ! reported already
          do node = first_not_below(model%node_id(:n_points(model)), support%first(k)), n_points(model)
-            if (model%node_id(node) < support%first(k)) exit ! the last of all
+            if (model%node_id(node) < support%first(k)) exit ! the last node
             if (model%node_id(node) > support%last(k)) exit
             any_node = .true.
             if (active) call hold(model, node, support%components)
@@ -112,7 +113,7 @@ contains
       end do
    end subroutine apply_support
 
-   !> Hold NODE in COMPONENTS, those of rotations where it has any; what a node does not have (3 to 5 in the plane) is held anyway.
+   !> Hold COMPONENTS of NODE, rotations if it has any. Components that a node does not have (3 to 5 in the plane) are held anyway.
    subroutine hold(model, node, components)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: node, components
@@ -128,7 +129,7 @@ contains
       end do
    end subroutine hold
 
-   !> What is held from here on is of GROUP: of the last one where both are PS of GRID, or SPC cards of one set.
+   !> Open GROUP for the supports that follow; PS of GRID, and SPC cards of one set, join the last group of their kind.
    subroutine open_group(group, model)
       type(support_group), intent(in) :: group
       type(model_type), intent(inout) :: model
@@ -141,7 +142,7 @@ contains
       model%support_groups = [model%support_groups, group]
    end subroutine open_group
 
-   !> Add FACTOR times what the SPCD cards of load set SET move to LOADS.
+   !> Add FACTOR times the displacements of the SPCD cards of load set SET to LOADS.
    subroutine add_moves(deck, model, set, factor, loads)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
@@ -157,7 +158,7 @@ contains
       end do
    end subroutine add_moves
 
-   !> The COMPONENTS of the node with number ID move by VALUE, and by SHARE of what they did in LOADS.
+   !> Set the displacement of COMPONENTS of node ID in LOADS to SHARE of its former value plus VALUE.
    pure subroutine move(model, id, components, share, value, loads)
       type(model_type), intent(in)         :: model
       integer, intent(in)                  :: id, components
@@ -175,8 +176,8 @@ contains
       end do
    end subroutine move
 
-   !> What SPC cards with D ask for at the end of a stage with load set SET: LOADS, without movements so far, moves the components
-   !! that they hold to D, but for those that an SPCD among these loads names.
+   !> Add D of SPC cards to LOADS, the end of a stage with load set SET and no displacements so far. A component that an SPCD of these loads
+   !! names is left out.
    subroutine keep_moved(deck, model, set, loads)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
@@ -204,12 +205,12 @@ contains
       end do
    end subroutine keep_moved
 
-   !> Errors: D of a component that the node does not have, and two SPC that hold a component at different D.
+   !> Errors: D of a component that the node does not have, and two SPC cards with different D of a component.
    subroutine check_kept(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
       type(component_place) :: places(most_places)
-      integer, allocatable :: holding(:), by(:, :) ! which card moves a component, 0: none
+      integer, allocatable :: holding(:), by(:, :) ! the card that moves a component, 0: none
       integer :: d, i, node, other
 
       if (all(abs(deck%bulk%support%value) <= 0.0_wp)) return
@@ -219,7 +220,7 @@ contains
          associate (card => deck%bulk%support(i))
             if (abs(card%value) <= 0.0_wp) cycle
             node = model%node_table%find(card%first(1))
-            if (node == 0) cycle ! said already
+            if (node == 0) cycle ! reported already
             do d = 1, 6
                if (.not. has_component(card%components, d)) cycle
                places = places_of(model, node, d)
@@ -227,7 +228,7 @@ contains
                   call deck%field_error(card%line, card%at(1) + 1, named(d, card%first(1))// &
                      ' does not exist, so that D cannot move it; expected 1 to '//integer_text(model%dimension), called='C')
                else if (any(holding == card%set)) then
-                  other = by(places(1)%d, places(1)%node) ! a twin has what the node has
+                  other = by(places(1)%d, places(1)%node) ! a twin has the same components
                   by(places(1)%d, places(1)%node) = i
                   if (other == 0) cycle
                   if (abs(deck%bulk%support(other)%value - card%value) > 0.0_wp) call deck%field_error(card%line, &
@@ -249,7 +250,7 @@ contains
 
    end subroutine check_kept
 
-   !> Where the COMPONENTS of NODE stand, those that it has first, then places of no node; of a split node those of its twin too.
+   !> The places of COMPONENTS of NODE, existing ones first, then places of node 0; for a split node also those of its twin.
    pure function places_of(model, node, components) result(places)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node, components
@@ -272,7 +273,7 @@ contains
       end do
    end function places_of
 
-   !> The sets that SET means: itself, or those of the SUMS with this number.
+   !> The sets that SET stands for: itself, or the sets of the SUMS with this number.
    pure function summed_sets(sums, set) result(sets)
       type(set_sum_card), intent(in) :: sums(:)
       integer, intent(in)            :: set !! 0: none
@@ -285,8 +286,8 @@ contains
       end do
    end function summed_sets
 
-   !> The SUMS, cards called NAME, are of sets that are there, and have numbers of their own. OWN are the sets of the cards CALLED so
-   !! that may be summed up.
+   !> Errors of SUMS, cards called NAME: missing sets, and a number that is also one of a set. OWN are the sets of the cards CALLED so
+   !! that may be combined.
    subroutine check_sums(deck, name, sums, own, called)
       type(checked_deck), intent(in) :: deck
       character(*), intent(in)       :: name, called

@@ -1,4 +1,4 @@
-!> Marked surfaces: which body elements their sides belong to, which way they face, the areas of their nodes.
+!> Marked surfaces: the body elements and the orientation of their sides, and the tributary areas of their nodes.
 module surface_build
    use deck_check, only: checked_deck
    use element_kinds, only: element_table, max_side_nodes
@@ -18,19 +18,19 @@ module surface_build
    type, public :: surface_node_list
       integer :: n = 0
       integer, allocatable  :: node(:)      !! (n) positions
-      real(wp), allocatable :: area(:)      !! (n) areas of influence a_i [length^2]
+      real(wp), allocatable :: area(:)      !! (n) tributary areas a_i [length^2]
       real(wp), allocatable :: normal(:, :) !! (3, n) unit normals out of the body
    end type surface_node_list
 
 contains
 
-   !> One surface for every PMARK card, with the sides that name it.
+   !> One surface per PMARK card, with the sides that name it.
    subroutine build_surfaces(deck, sides, model)
       type(checked_deck), intent(in)  :: deck
       type(marked_side), intent(in)   :: sides(:)
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: marks
-      integer, allocatable :: surface(:), first(:), members(:), said(:) ! marks that are missing
+      integer, allocatable :: surface(:), first(:), members(:), said(:) ! said: missing marks
       integer :: i, k, most_nodes
 
       most_nodes = 2*(model%dimension - 1)                     ! of a side
@@ -51,11 +51,11 @@ contains
             allocate (this%element(n), this%other(n), this%line(n), this%corners(n), this%n_nodes(n))
             do i = first(k), first(k + 1) - 1
                associate (side => sides(members(i)))
-                  if (all(side%nodes(:side%corners) > 0)) call add_side(deck, side, model, this) ! else said already
+                  if (all(side%nodes(:side%corners) > 0)) call add_side(deck, side, model, this) ! else reported already
                end associate
             end do
             call check_repeated(deck, model, this)
-            if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! the last: a number given twice, said elsewhere
+            if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! a number given twice is reported elsewhere
             call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%id)//' has no '// &
                trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
                ' or side of a block with this PID'//gmsh_words())
@@ -64,7 +64,7 @@ contains
 
    contains
 
-      !> Why a mesh of Gmsh may lack the face.
+      !> Text: why a mesh of Gmsh may lack the face.
       function gmsh_words() result(words)
          character(:), allocatable :: words
          integer :: f
@@ -78,7 +78,7 @@ contains
 
    end subroutine build_surfaces
 
-   !> Which SURFACE of MODEL the FIELD of the card on LINE names by its ID; 0, and an error, where there is none.
+   !> The SURFACE of MODEL with this ID, in FIELD of the card on LINE; 0, and an error, for a missing surface.
    subroutine find_surface(deck, line, field, id, model, surface)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line, id
@@ -90,7 +90,7 @@ contains
       if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id))
    end subroutine find_surface
 
-   !> There is no PMARK with the mark of SIDE, which N sides have. A face of solids may be meant to be something else.
+   !> Error: the mark of SIDE, which N sides have, has no PMARK. The card may be meant as an element, not as a face of solids.
    subroutine report_missing(deck, side, n)
       type(checked_deck), intent(in) :: deck
       type(marked_side), intent(in)  :: side
@@ -109,8 +109,8 @@ contains
       end if
    end subroutine report_missing
 
-   !> Add SIDE to its surface, in the order of the element that it belongs to: of two the one that has it in the sense of its
-   !! card, the other is then behind it.
+   !> Add SIDE to its surface, in the node order of its element. Of two elements the side belongs to the one with the order of the card; the
+   !! other element is behind it.
    subroutine add_side(deck, side, model, surface)
       type(checked_deck), intent(in)    :: deck
       type(marked_side), intent(in)     :: side
@@ -127,7 +127,7 @@ contains
       associate (nodes => side%nodes(:side%corners))
          do j = model%first_at(nodes(1)), model%first_at(nodes(1) + 1) - 1
             e = model%elements_at(j)
-            if (e == owner) cycle ! a corner that stands on the card twice
+            if (e == owner) cycle ! a corner that is repeated on the card
             call side_of_element(model, e, nodes, at, same_sense)
             if (at < 0) cycle
             found = e
@@ -143,13 +143,13 @@ contains
             call deck%errors%add(side%line, 'the '//side_name(model, nodes)//' is no side of a body element')
             return
          end if
-         own = nodes ! of the face of a shell, on the side of the mark
+         own = nodes ! of the face of a shell on the marked side
       end associate
       if (own_side > 0) then
          associate (kind => element_table(model%element_kind(owner)))
             own = model%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner)
          end associate
-         if (any(own == 0)) return ! said already
+         if (any(own == 0)) return ! reported already
          call check_mark(deck, side, model, owner, own)
       end if
       surface%n = surface%n + 1
@@ -161,8 +161,8 @@ contains
       surface%other(surface%n) = other
    end subroutine add_side
 
-   !> The mid-side nodes of SIDE, where it has any, are those of the side, with the nodes OWN, of element E. Gmsh writes that of an
-   !! edge as X1 of a CBAR.
+   !> Error: mid-side nodes of SIDE other than OWN, those of the side of element E. Gmsh writes the mid-side node of an edge as X1 of a
+   !! CBAR.
    subroutine check_mark(deck, side, model, e, own)
       type(checked_deck), intent(in) :: deck
       type(marked_side), intent(in)  :: side
@@ -182,10 +182,10 @@ contains
          return
       end if
       do k = 1, side%n_nodes - m
-         if (side%nodes(m + k) == 0) cycle ! blank: that of the element; or said already
+         if (side%nodes(m + k) == 0) cycle ! blank: the node of the element; or reported already
          a = findloc(own(:m), side%nodes(k), dim=1)
          b = findloc(own(:m), side%nodes(modulo(k, m) + 1), dim=1)
-         place = merge(a, b, modulo(a, m) + 1 == b) ! the mark may go round the other way
+         place = merge(a, b, modulo(a, m) + 1 == b) ! the mark may have the opposite sense
          if (m == 2) place = 1
          mid = own(m + place)
          if (mid == side%nodes(m + k)) cycle
@@ -204,7 +204,7 @@ contains
 
    end subroutine check_mark
 
-   !> A side in words, by its nodes.
+   !> Text that names a side by its nodes.
    pure function side_name(model, nodes) result(words)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
@@ -219,8 +219,8 @@ contains
       end do
    end function side_name
 
-   !> Which SIDE of element E has the corners NODES, in any order; 0: the face of a shell; -1: none. SAME_SENSE: its own order goes round
-   !! them as they stand.
+   !> The SIDE of element E with the corners NODES, in any order; 0: the face of a shell; -1: none. SAME_SENSE: NODES have the cyclic order
+   !! of the element.
    pure subroutine side_of_element(model, e, nodes, side, same_sense)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e, nodes(:)
@@ -259,7 +259,7 @@ contains
       side = -1
    end subroutine side_of_element
 
-   !> No side stands twice on a surface: its area would count twice.
+   !> Error: a side that occurs twice in a surface, so that its area would count twice.
    subroutine check_repeated(deck, model, surface)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -286,7 +286,7 @@ contains
       end do
    end subroutine check_repeated
 
-   !> Areas of influence of the nodes of side S of SURFACE, a_i = integral of N_i over it [length^2] (section 4.1).
+   !> Tributary areas of the nodes of side S of SURFACE, a_i = integral of N_i over the side [length^2] (section 4.1).
    pure subroutine side_influence(model, surface, s, area, normal)
       type(model_type), intent(in)   :: model
       type(surface_type), intent(in) :: surface
@@ -299,7 +299,7 @@ contains
       area = 0.0_wp
       normal = 0.0_wp
       n = surface%n_nodes(s)
-      if (model%element_property(surface%element(s)) == 0) return ! said already
+      if (model%element_property(surface%element(s)) == 0) return ! reported already
       associate (property => model%properties(model%element_property(surface%element(s))), &
                  x => model%x(:model%dimension, surface%nodes(:n, s)))
          call side_areas(property%state, property%thickness, x, area)
@@ -308,8 +308,8 @@ contains
       normal(:model%dimension, :n) = force(:, :n)
    end subroutine side_influence
 
-   !> The nodes of SURFACE with their areas of influence, the sum over the sides at a node, and their normals, the mean of the
-   !! sides' by area.
+   !> The nodes of SURFACE with their tributary areas, summed over the sides at a node, and their normals, the mean of the sides
+   !! weighted by area.
    pure subroutine surface_nodes(model, surface, list)
       type(model_type), intent(in)         :: model
       type(surface_type), intent(in)       :: surface
@@ -325,7 +325,7 @@ contains
       allocate (list%normal(3, list%n), source=0.0_wp)
       do s = 1, surface%n
          call side_influence(model, surface, s, area, normal)
-         if (model%dimension == 3 .and. surface%n_nodes(s) > surface%corners(s)) & ! that of a corner may be zero or turned round
+         if (model%dimension == 3 .and. surface%n_nodes(s) > surface%corners(s)) & ! that of a corner may be zero or reversed
             normal = spread(sum(normal, dim=2), 2, max_side_nodes)
          do k = 1, surface%n_nodes(s)
             node = place%find(surface%nodes(k, s))

@@ -1,6 +1,5 @@
-!> The sides of a marked surface as neighbours: which stand at a node, turned so that all face the same way, and which body
-!! elements lie behind them. Where bodies lie on both sides of a surface that carries a joint and share its nodes, the nodes
-!! are doubled, so that interface elements can stand between them.
+!> Topology of marked surfaces: sides at each node, consistent orientation, elements behind, and split surfaces.
+!! If bodies on both sides of a surface with a joint share its nodes, the nodes are doubled to make room for interface elements.
 module surface_sides
    use deck_check, only: checked_deck
    use element_kinds, only: element_table
@@ -16,14 +15,14 @@ module surface_sides
 
    !> The sides of a surface at every node of it: side(first(k):first(k + 1) - 1) at node(k).
    type, public :: side_list
-      integer :: n = 0                             !! nodes
+      integer :: n = 0                             !! number of nodes
       integer, allocatable :: node(:)              !! (n) positions in the model, ascending
       integer, allocatable :: first(:)             !! (n + 1)
       integer, allocatable :: side(:)
-      type(id_table_type), private :: place        ! of a node in NODE
+      type(id_table_type), private :: place        ! position of a node in NODE
    end type side_list
 
-   !> Some elements.
+   !> A list of elements.
    type :: element_list
       integer, allocatable :: element(:)
    end type element_list
@@ -57,7 +56,7 @@ contains
       call list_owners(at%n, places, at%first, at%side)
    end subroutine list_sides
 
-   !> Turn SIDE of SURFACE round: it is then a side of the element that was behind it.
+   !> Reverse SIDE of SURFACE: it becomes a side of the element behind it.
    pure subroutine turn_side(surface, side)
       type(surface_type), intent(inout) :: surface
       integer, intent(in)               :: side
@@ -66,15 +65,15 @@ contains
       m = surface%corners(side)
       associate (nodes => surface%nodes(:, side))
          nodes(:m) = nodes(m:1:-1)
-         if (surface%n_nodes(side) == 2*m) nodes(m + 1:2*m - 1) = nodes(2*m - 1:m + 1:-1) ! the last lies between the last and the first
+         if (surface%n_nodes(side) == 2*m) nodes(m + 1:2*m - 1) = nodes(2*m - 1:m + 1:-1) ! the last one closes the ring
       end associate
       element = surface%element(side)
       surface%element(side) = surface%other(side)
       surface%other(side) = element
    end subroutine turn_side
 
-   !> Turn sides of SURFACE round so that neighbours go on where the others end: the same body side on the left of all edges,
-   !! inside all faces.
+   !> Reverse sides of SURFACE until neighbours have a consistent orientation: the same body on the left of all edges, inside all
+   !! faces.
    pure subroutine face_one_way(surface, at)
       type(surface_type), intent(inout) :: surface
       type(side_list), intent(in)       :: at !! of SURFACE
@@ -113,8 +112,8 @@ contains
       end do
    end subroutine face_one_way
 
-   !> How side OTHER shares what begins at corner K of SIDE (in the plane this node, of a face the rim to the next corner): 0 not
-   !! at all, 1 in the same sense, which is wrong for neighbours, -1 in the opposite one.
+   !> How side OTHER shares corner K of SIDE (in the plane the node, of a face the edge to the next corner): 0 not shared,
+   !! 1 shared in the same sense, which is inconsistent, -1 in the opposite sense.
    pure integer function common_sense(surface, side, k, other) result(sense)
       type(surface_type), intent(in) :: surface
       integer, intent(in)            :: side, k, other
@@ -124,7 +123,7 @@ contains
       at = findloc(surface%nodes(:n, other), surface%nodes(k, side), dim=1)
       sense = 0
       if (n == 2) then
-         sense = merge(1, -1, at == k) ! both begin, or both end here
+         sense = merge(1, -1, at == k) ! both begin here, or both end here
       else
          next = surface%nodes(modulo(k, surface%corners(side)) + 1, side)
          if (surface%nodes(modulo(at, n) + 1, other) == next) sense = 1
@@ -132,8 +131,8 @@ contains
       end if
    end function common_sense
 
-   !> The elements BEHIND surface S at node K of it: those that hang together with the back of one of its sides there without
-   !! crossing the surface. None where they hang together with the front too.
+   !> The elements BEHIND surface S at its node K: those connected to the back of a side at this node without crossing the
+   !! surface. None if they are also connected to the front.
    pure subroutine elements_behind(model, s, at, k, behind)
       type(model_type), intent(in)      :: model
       integer, intent(in)               :: s
@@ -161,7 +160,7 @@ contains
          end do
       end do
       more = .true.
-      do while (more)                        ! spread over common sides that are not of the surface
+      do while (more)                        ! spread over common sides that do not belong to the surface
          more = .false.
          do i = 1, n
             if (group(i) /= 0) cycle
@@ -181,7 +180,7 @@ contains
       if (.not. is_tip) behind(:) = pack(around, group == 2)
    end subroutine elements_behind
 
-   !> Whether elements A and B share a side at node PLACE of surface S that is not of it.
+   !> Whether elements A and B share a side at node PLACE of surface S that does not belong to S.
    pure logical function common_side(model, s, at, place, a, b)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: s, place, a, b
@@ -189,7 +188,7 @@ contains
       integer :: common(size(model%element_nodes, 1)), i, k, n
 
       n = 0
-      do k = 1, element_table(model%element_kind(a))%n_corners ! elements at an edge alone share its mid-side node too
+      do k = 1, element_table(model%element_kind(a))%n_corners ! elements that share only an edge also share its mid-edge node
          if (all(model%element_nodes(:, b) /= model%element_nodes(k, a))) cycle
          n = n + 1
          common(n) = model%element_nodes(k, a)
@@ -204,7 +203,7 @@ contains
    end function common_side
 
    !> Split the shared surfaces that JOINT cards name as SIDE1 without a SIDE2. The elements on the left of the
-   !! surface's edges, or inside its faces, keep the nodes; those behind get the twins, numbered from the highest node number on.
+   !! edges, or inside the faces, keep the nodes; those behind get the twins, numbered from the highest node number on.
    subroutine split_shared_surfaces(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -248,7 +247,7 @@ contains
       call move_other_surfaces(model)
    end subroutine split_shared_surfaces
 
-   !> Give the elements behind surface S twins of its nodes, behind the N_TWINS that there are. They are no nodes of the model yet.
+   !> Give the elements behind surface S twins of its nodes, numbered behind N_DUPLICATES earlier twins. The model gets these nodes later.
    subroutine split_surface(model, s, n_duplicates)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: s
@@ -260,11 +259,11 @@ contains
       call list_sides(model%surfaces(s), at)
       call face_one_way(model%surfaces(s), at)
       allocate (behind(at%n))
-      do k = 1, at%n                          ! the whole nodes are needed until all is known
+      do k = 1, at%n                          ! unsplit nodes are needed until all elements behind are known
          call elements_behind(model, s, at, k, behind(k)%element)
       end do
       do k = 1, at%n
-         if (size(behind(k)%element) == 0) cycle ! the surface ends inside a body here: the tip stays whole
+         if (size(behind(k)%element) == 0) cycle ! the edge of the surface inside a body is not split
          n_duplicates = n_duplicates + 1
          model%duplicate(at%node(k)) = model%n_nodes + n_duplicates
          do i = 1, size(behind(k)%element)
@@ -277,7 +276,7 @@ contains
       model%surfaces(s)%was_split = .true.
    end subroutine split_surface
 
-   !> Sides of the surfaces that were not split follow their elements.
+   !> Update the sides of surfaces that were not split: their nodes follow their elements.
    pure subroutine move_other_surfaces(model)
       type(model_type), intent(inout) :: model
       integer :: i, k, s, twin

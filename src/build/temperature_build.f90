@@ -1,4 +1,4 @@
-!> Temperatures from TEMP, TEMPD and TEMPP1: how warm nodes and shells are at the end of every stage.
+!> Temperatures of nodes and shells at the end of every stage, from TEMP, TEMPD and TEMPP1.
 module temperature_build
    use deck_check, only: checked_deck
    use element_kinds, only: element_table
@@ -13,7 +13,7 @@ module temperature_build
 
 contains
 
-   !> Of every stage that names a set of TEMP and TEMPD cards the temperatures of all nodes, in its load of MODEL.
+   !> The nodal temperatures of every stage that names a set of TEMP and TEMPD cards, in its load of MODEL.
    subroutine build_temperatures(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -52,12 +52,12 @@ contains
       end do
    end subroutine build_temperatures
 
-   !> TEMP cards name nodes that are there, each once a set; a set has one TEMPD.
+   !> Errors of TEMP: missing nodes, a node named twice in a set; and two TEMPD of one set.
    subroutine check_nodes(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
       integer :: i, k, node
-      integer, allocatable :: last(:) ! (nodes) card that named it last
+      integer, allocatable :: last(:) ! (nodes) last card that named the node
 
       allocate (last(model%n_nodes), source=0)
       do i = 1, size(deck%bulk%temperature)
@@ -85,8 +85,8 @@ contains
       end do
    end subroutine check_nodes
 
-   !> The temperatures AT all nodes in SET, and which are GIVEN: by TEMP, else by TEMPD; the twin of a node of a split surface has
-   !! the same, a node on the face of a shell that of the shell, a node put at the middle of an edge the mean of its ends.
+   !> The temperatures AT all nodes in SET, and whether they are GIVEN: by TEMP, else by TEMPD. The twin of a node of a split surface and
+   !! the face node of a shell have the temperature of their node, an added mid-edge node has the mean of the ends.
    subroutine fill_in(deck, model, set, at, given)
       type(checked_deck), intent(in)    :: deck
       type(model_type), intent(in)      :: model
@@ -141,19 +141,19 @@ contains
       end do
    end subroutine fill_in
 
-   !> Every TEMPP1 names shells, each of them once a set.
+   !> Errors of TEMPP1: missing shells, and a shell named twice in a set.
    subroutine check_plates(deck, model, elements)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(in)    :: model
       type(id_table_type), intent(in) :: elements !! numbers of all
       integer :: i, k, twice
-      integer, allocatable :: set_of(:) ! (elements) set of the card that named it last
+      integer, allocatable :: set_of(:) ! (elements) set of the last card that named the element
 
       allocate (set_of(model%n_elements), source=0)
       do i = 1, size(deck%bulk%plate_temperature)
          associate (card => deck%bulk%plate_temperature(i))
             do k = 1, size(card%ranges%first)
-               if (card%ranges%first(k) == 0) cycle ! said already
+               if (card%ranges%first(k) == 0) cycle ! reported already
                associate (named => plates_of(model, elements, card%ranges%first(k), card%ranges%last(k)))
                   twice = findloc(set_of(named), card%set, dim=1)
                   if (size(named) == 0) then
@@ -187,7 +187,7 @@ contains
       named = pack(named, [(is_shell(model, named(e)), e = 1, size(named))])
    end function plates_of
 
-   !> The shells of SET that TEMPP1 warms. Nodes that have no temperature but that of such shells get it, and are GIVEN then.
+   !> Temperatures of the shells of SET from TEMPP1. Nodes that have no other temperature get that of these shells, and are then GIVEN.
    subroutine warm_plates(deck, model, elements, set, temperature, given)
       type(checked_deck), intent(in)        :: deck
       type(model_type), intent(in)          :: model
@@ -224,7 +224,7 @@ contains
       end do
    end subroutine warm_plates
 
-   !> Every node of a body or of a bar has a temperature in stage S.
+   !> Error: a node of a body or bar without a temperature in stage S.
    subroutine check_whole(deck, model, s, given)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model

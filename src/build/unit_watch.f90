@@ -1,5 +1,6 @@
-!> Whether a deck is in one system of units: by the speed of a wave along a rod, sqrt(E/RHO), which is some thousand m/s in every
-!! solid; by gravity, which is 9.81 m/s2; and by the largest stress, which no solid bears from a fiftieth of E on.
+!> Checks for mixed units: by the wave speed of materials, by gravity, and by the largest stress.
+!! The wave speed of a rod, sqrt(E/RHO), is of the order of 1000 m/s in every solid; gravity is 9.81 m/s2; no solid bears a stress of
+!! E/50.
 module unit_watch
    use deck_input, only: deck_type
    use kinds, only: wp
@@ -12,19 +13,19 @@ module unit_watch
    real(wp), parameter :: slowest = 100.0_wp, fastest = 20000.0_wp ! of waves in solids, rubber to diamond [m/s]
    real(wp), parameter :: usual = 5000.0_wp                        ! of metals [m/s]
    character(2), parameter :: lengths(3) = ['MM', 'M ', 'IN']
-   real(wp), parameter :: metres(3) = [1.0e-3_wp, 1.0_wp, 0.0254_wp] ! of these; time is in seconds, or in milliseconds with mm
-   real(wp), parameter :: gravity(4) = [9810.0_wp, 9.81_wp, 386.1_wp, 0.00981_wp] ! in these, and in mm and milliseconds
+   real(wp), parameter :: metres(3) = [1.0e-3_wp, 1.0_wp, 0.0254_wp] ! of these units; time is in seconds, or in milliseconds with mm
+   real(wp), parameter :: gravity(4) = [9810.0_wp, 9.81_wp, 386.1_wp, 0.00981_wp] ! in these units, and in mm and milliseconds
    integer, parameter  :: gravity_unit(4) = [1, 2, 3, 1]
-   real(wp), parameter :: least_g = 0.5_wp, most_g = 10.0_wp       ! of gravity: what GRAV may mean
-   real(wp), parameter :: most_strained = 0.02_wp                  ! of E: stresses of solids are below
-   ! what densities are given in by mistake in a deck of mm and N, and what they must be multiplied by
+   real(wp), parameter :: least_g = 0.5_wp, most_g = 10.0_wp       ! of gravity: range of GRAV
+   real(wp), parameter :: most_strained = 0.02_wp                  ! of E: limit of stresses in solids
+   ! wrong units of density in a deck of mm and N, and the factors that convert them
    character(6), parameter :: mistakes(2) = ['kg/m3 ', 'g/cm3 ']
    real(wp), parameter :: remedies(2) = [1.0e-12_wp, 1.0e-9_wp]
 
 contains
 
-   !> The first MAT1 of DECK whose wave speed is that of no solid in any usual system of units, UNITS = given or not, in words with
-   !! a guess; '' where there is none.
+   !> A warning for the first MAT1 of DECK whose wave speed is not that of a solid, in UNITS or else in any usual system, with a
+   !! guess of the mistake; '' where there is none.
    pure function unit_words(deck) result(words)
       type(deck_type), intent(in) :: deck
       character(:), allocatable   :: words
@@ -56,7 +57,7 @@ contains
       end do
    end function unit_words
 
-   !> What is to be said of a GRAV of the acceleration A in a deck of LENGTH_UNIT; '' where it may be gravity, or 1, which a LOAD multiplies.
+   !> A warning for a GRAV of acceleration A in a deck of LENGTH_UNIT; '' for gravity, or for 1, which a LOAD multiplies.
    pure function gravity_words(a, length_unit) result(words)
       real(wp), intent(in)      :: a
       character(*), intent(in)  :: length_unit
@@ -70,7 +71,7 @@ contains
       words = 'GRAV of'//number(a)//' is not gravity; in mm and s that is 9810, in m and s 9.81, in inches and s 386.1'
    end function gravity_words
 
-   !> What is to be said of a structure whose largest von Mises stress is STRAINED times E.
+   !> A warning for a structure whose largest von Mises stress is STRAINED times E.
    pure function stress_words(strained) result(words)
       real(wp), intent(in)      :: strained !! [-]
       character(:), allocatable :: words
@@ -80,14 +81,14 @@ contains
          ' of E, more than solids bear elastically; are loads, lengths and E in one system of units?'
    end function stress_words
 
-   !> Whether a SPEED is that of waves in solids.
+   !> Whether SPEED is a wave speed in solids.
    elemental logical function is_usual(speed)
       real(wp), intent(in) :: speed !! [m/s]
 
       is_usual = speed >= slowest .and. speed <= fastest
    end function is_usual
 
-   !> ' 7.850E-09'
+   !> Text such as ' 7.850E-09'.
    pure function number(value) result(text)
       real(wp), intent(in)      :: value
       character(:), allocatable :: text

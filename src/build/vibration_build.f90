@@ -1,6 +1,6 @@
-!> What case control asks of the oscillation after each stage, put together: the range of EIGRL, the frequencies of FREQ1 and
-!! FREQ4, the load, the damping, the nodes; and the nodes that the tables of a stage are limited to, where OUTPUT names sets or
-!! marked surfaces.
+!> Requests of case control for the vibration after each stage, and the nodes to which tables are limited.
+!! Requests are the range of EIGRL, the frequencies of FREQ1 and FREQ4, load, damping and nodes. OUTPUT may limit the tables of a stage
+!! to sets of nodes or marked surfaces.
 module vibration_build
    use bulk_data, only: freq1_card
    use case_entries, only: find_set, limit_type, number_set, numbers_in_set
@@ -20,7 +20,7 @@ module vibration_build
 
 contains
 
-   !> Fill the vibration of the stages of PLAN that have MODES.
+   !> Plan the vibration of the stages with MODES.
    subroutine plan_vibrations(deck, model, oscillating, plan)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
@@ -37,7 +37,7 @@ contains
             if (asked%backbone%id > 0) call plan_backbone(deck, model, asked, plan%stages(s)%vibration)
             if (asked%frequency%id == 0) cycle
             if (asked%damping%id == 0 .and. .not. plan%stages(s)%vibration%has_losses .and. asked%frequency%line /= undamped) then
-               undamped = asked%frequency%line ! once of an entry that stands above all stages
+               undamped = asked%frequency%line ! one warning for an entry above all stages
                call deck%errors%add(undamped, 'FREQUENCY: expected damping: SDAMPING, AMPLITUDE for the loss factors of the '// &
                   'joints, PARAM G, or GE on a MAT1; without it peaks are unbounded')
             end if
@@ -47,8 +47,8 @@ contains
       end do
    end subroutine plan_vibrations
 
-   !> MODES of one stage. How many where ND is blank: the lowest one, or with V2 all up to it, as in NASTRAN. Nothing oscillates
-   !! below zero, so that a V1 of zero and less is none.
+   !> MODES of one stage. A blank ND means the lowest mode, or with V2 all modes up to it, as in NASTRAN. Frequencies are not
+   !! negative, so that V1 <= 0 is no limit.
    subroutine plan_modes(deck, model, asked, vibration)
       type(checked_deck), intent(in)           :: deck
       type(model_type), intent(in)             :: model
@@ -78,7 +78,7 @@ contains
       end associate
    end subroutine plan_modes
 
-   !> BACKBONE of one stage: the amplitudes ascending.
+   !> BACKBONE of one stage, with ascending amplitudes.
    subroutine plan_backbone(deck, model, asked, vibration)
       type(checked_deck), intent(in)           :: deck
       type(model_type), intent(in)             :: model
@@ -115,7 +115,7 @@ contains
       vibration%backbone = backbone
    end subroutine plan_backbone
 
-   !> Whether materials, or PARAM G, have structural damping.
+   !> Whether materials or PARAM G have structural damping.
    pure logical function is_damped(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -176,7 +176,7 @@ contains
       end do
    end function merged_frequencies
 
-   !> Fill SHOWN of the stages of PLAN that are limited, and WATCHED of those that have WATCH.
+   !> Set SHOWN of the limited stages of PLAN, and WATCHED of the stages with WATCH.
    subroutine find_shown_nodes(deck, model, plan, errors)
       type(deck_type), intent(in)          :: deck
       type(model_type), intent(in)         :: model
@@ -204,7 +204,7 @@ contains
       end do
    end subroutine find_shown_nodes
 
-   !> Which nodes of MODEL the entry KEY of case control names by its LIMITS. What is not there goes to ERRORS.
+   !> The nodes of MODEL that entry KEY of case control names by its LIMITS; missing sets and surfaces are added to ERRORS.
    subroutine find_limited_nodes(sets, model, key, limits, are_named, errors)
       type(number_set), allocatable, intent(in) :: sets(:) !! of case control; not allocated: none
       type(model_type), intent(in)         :: model
@@ -230,7 +230,7 @@ contains
       end do
    end subroutine find_limited_nodes
 
-   !> The nodes of SET are named too: those of its numbers, of NODEAT also, and those of the marked surfaces that it names.
+   !> Add the nodes of SET: its numbers, those of NODEAT included, and the nodes of the marked surfaces that it names.
    subroutine find_set_nodes(set, model, are_named, errors)
       type(number_set), intent(in)         :: set
       type(model_type), intent(in)         :: model
