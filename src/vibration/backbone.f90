@@ -1,7 +1,7 @@
-!> BACKBONE: frequency and loss factor of a mode as they change with its amplitude, about the state at the end of a stage. The amplitude is
-!! the displacement that the mode has at the node that moves most, or at the node asked for, q |phi|; for every amplitude the load
-!! alpha [M] {phi} is sought under which the loop reaches it. With a load that oscillates, of which the mode feels F = phi^T {F}, the mode
-!! alone answers by the amplitude q at two frequencies, (F/q)^2 = (omega_r^2 - omega^2)^2 + (eta omega_r^2)^2, omega_r and eta those of q.
+!> BACKBONE: frequency and loss factor of a mode over its amplitude, about the state at the end of a stage. The amplitude is the
+!! displacement q |phi| of the mode at the node that moves most, or at a given node. For every amplitude the load alpha [M]
+!! {phi} is sought under which the loop reaches it. Under an oscillating load with the modal force F = phi^T {F}, the mode alone
+!! has the amplitude q at two frequencies, (F/q)^2 = (omega_r^2 - omega^2)^2 + (eta omega_r^2)^2, omega_r and eta those of q.
 module backbone
    use analysis_state, only: analysis_type
    use element_mapping, only: two_pi
@@ -20,7 +20,7 @@ module backbone
    public :: find_backbone
 
    abstract interface
-      !> Keep what ANALYSIS has of the loops found so far.
+      !> Keep the loops found so far in ANALYSIS.
       subroutine keep_loops(system, analysis)
          import :: analysis_type, equation_system
          class(equation_system), allocatable, intent(inout) :: system
@@ -28,9 +28,9 @@ module backbone
       end subroutine keep_loops
    end interface
 
-   real(wp), parameter :: reached = 1.0e-7_wp       ! of an amplitude: nearer none is sought
-   real(wp), parameter :: same = 1.0e-12_wp         ! of alpha: the loop jumps between two that are as near
-   real(wp), parameter :: near_limit = 1.0e-4_wp    ! of alpha: so near the largest load that is borne is known
+   real(wp), parameter :: reached = 1.0e-7_wp       ! of an amplitude: tolerance of the search
+   real(wp), parameter :: same = 1.0e-12_wp         ! of alpha: the loop jumps between two loads this close
+   real(wp), parameter :: near_limit = 1.0e-4_wp    ! of alpha: precision of the largest load that is carried
    integer, parameter  :: most_trials = 60
    integer, parameter  :: steps = 20                ! of the response between two amplitudes
 
@@ -38,23 +38,23 @@ module backbone
       integer  :: mode = 0                          !! number in the table of frequencies
       real(wp) :: omega_squared = 0.0_wp            !! of the mode [1/time^2]
       real(wp) :: peak = 0.0_wp                     !! |phi| at the node whose displacement the amplitude is
-      integer  :: node = 0                          !! its position
+      integer  :: node = 0                          !! position of the node
       type(loop_type), allocatable :: loops(:)      !! in the order of their amplitudes
-      character(:), allocatable    :: problem       !! why there is none, or not up to the largest amplitude; '': there is
-      logical  :: is_limited = .false.              !! the last loop is under the largest load that the structure bears
+      character(:), allocatable    :: problem       !! why there is no backbone, or none up to the largest amplitude; '': there is
+      logical  :: is_limited = .false.              !! the last loop is under the largest load that the structure carries
       real(wp), allocatable :: answers(:, :)        !! (amplitude, frequency below, phase there, frequency above, phase there; n): the
                                                     !! response of the mode alone [length, 1/time, degrees]; frequency < 0: none
    end type backbone_type
 
-   !> A load and the amplitude to which it leads.
+   !> A load and the resulting amplitude.
    type :: trial_type
       real(wp) :: alpha = 0.0_wp, amplitude = 0.0_wp
    end type trial_type
 
 contains
 
-   !> The backbone that PLAN asks for, but for the loops that ANALYSIS has kept; KEEP is told of each that is found. FAILURE where the
-   !! state at the end of the stage is not in equilibrium.
+   !> The backbone of PLAN, continued from the loops that ANALYSIS has kept; KEEP is called with each loop found. FAILURE where
+   !! the state at the end of the stage is not in equilibrium.
    subroutine find_backbone(model, plan, analysis, system, modes, keep, found, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
@@ -96,7 +96,7 @@ contains
       end associate
    end subroutine find_backbone
 
-   !> What a restart file keeps of LOOP, all that is printed; and a loop of these NUMBERS.
+   !> The printed numbers of LOOP, for a restart file; and a loop of these NUMBERS.
    pure function numbers_of(loop) result(numbers)
       type(loop_type), intent(in) :: loop
       real(wp), allocatable :: numbers(:)
@@ -114,7 +114,7 @@ contains
                        way=reshape(numbers(11 + n_joints:), [2, (size(numbers) - 10 - n_joints)/2]))
    end function taken_up
 
-   !> The mode that is WANTED among MODES, and the node whose displacement is the amplitude.
+   !> The mode WANTED among MODES, and the node whose displacement is the amplitude.
    subroutine choose_mode(model, modes, wanted, found)
       type(model_type), intent(in)       :: model
       type(modes_type), intent(in)       :: modes
@@ -141,8 +141,9 @@ contains
       end associate
    end subroutine choose_mode
 
-   !> The LOOP of this AMPLITUDE, by secants over the load, within what has been found too little and too much. A load that is not borne is
-   !! too much; where there is no room left below it the loop of the largest load that is borne is the last, if it adds one.
+   !> The LOOP of this AMPLITUDE, by secants over the load, bracketed by loads found too small and too large. A load that the
+   !! structure does not carry is too large. Where no load remains below it, the last loop is that of the largest load carried,
+   !! if it adds one.
    subroutine reach_amplitude(model, wanted, amplitude, push, found, loop)
       type(model_type), intent(in)       :: model
       type(backbone_plan), intent(in)    :: wanted
@@ -196,7 +197,7 @@ contains
       if (.not. refused%raised) loop = next
    end subroutine reach_amplitude
 
-   !> NOW becomes the next trial: by the secant through it and the one BEFORE, within LOW and HIGH.
+   !> The next trial NOW, by the secant through NOW and BEFORE, within LOW and HIGH.
    pure subroutine next_trial(amplitude, low, high, before, now)
       real(wp), intent(in)            :: amplitude
       type(trial_type), intent(in)    :: low, high
@@ -214,8 +215,8 @@ contains
       now%alpha = alpha
    end subroutine next_trial
 
-   !> The response of the mode alone, which feels FORCE, at every amplitude of FOUND and between them (linearly over log q); LOSS is what
-   !! it loses beside the joints. Where both frequencies meet is the resonance, which has a row of its own.
+   !> The response of the mode alone to the modal force FORCE, at every amplitude of FOUND and between these (linear over log
+   !! q); LOSS is the loss factor without the joints. The two frequencies meet at resonance, which has a row of its own.
    subroutine find_answers(force, loss, found)
       real(wp), intent(in)               :: force, loss
       type(backbone_type), intent(inout) :: found
@@ -251,7 +252,7 @@ contains
 
    contains
 
-      !> The ROW of the amplitude W of the way from loop A to B; EXCESS: of F/q above what damping takes at resonance.
+      !> The ROW of the amplitude at fraction W from loop A to B; EXCESS: F/q less the damping force at resonance.
       pure subroutine answer(a, b, w, row, excess)
          type(loop_type), intent(in) :: a, b
          real(wp), intent(in)        :: w

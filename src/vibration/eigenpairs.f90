@@ -1,6 +1,7 @@
-!> Eigenpairs of [k] {x} = lambda [m] {x} above a shift sigma, from the factor of [k] - sigma [m] that a solver has. Spectral
-!! transformation: ([k] - sigma [m])^-1 [m] {x} = nu {x}, nu = 1/(lambda - sigma); the eigenvalues next above sigma are the largest nu,
-!! which the Lanczos method finds first. Small structures, and those of which most modes are wanted, are solved as a whole.
+!> Eigenpairs of [k] {x} = lambda [m] {x} above a shift sigma, from the factor of [k] - sigma [m] of a solver. Spectral
+!! transformation: ([k] - sigma [m])^-1 [m] {x} = nu {x}, nu = 1/(lambda - sigma). The eigenvalues next above sigma have the
+!! largest nu, which the Lanczos method finds first. Small structures, and those of which most modes are wanted, are solved in
+!! full.
 !! Source: Ericsson, Ruhe, Math. Comp. 35 (1980) 1251-1268; Lehoucq, Sorensen, Yang, ARPACK Users' Guide, SIAM 1998, section 3.2.
 module eigenpairs
    use blas_lapack, only: dsygv
@@ -29,7 +30,7 @@ module eigenpairs
          real(wp), intent(inout)     :: resid(n), v(ldv, ncv), workd(3*n), workl(lworkl)
       end subroutine dsaupd
 
-      !> The eigenvalues D and, where RVEC, eigenvectors Z that dsaupd has come to; what follows SIGMA is as dsaupd left it.
+      !> The eigenvalues D and, where RVEC, eigenvectors Z from dsaupd; the arguments after SIGMA are those of dsaupd.
       subroutine dseupd(rvec, howmny, select, d, z, ldz, sigma, bmat, n, which, nev, tol, resid, ncv, v, ldv, iparam, ipntr, &
                         workd, workl, lworkl, info)
          import :: wp
@@ -44,13 +45,13 @@ module eigenpairs
       end subroutine dseupd
    end interface
 
-   integer, parameter  :: small = 150                !! unknowns of a structure that is solved as a whole
+   integer, parameter  :: small = 150                !! unknowns of a structure that is solved in full
    integer, parameter  :: most_restarts = 500
    integer, parameter  :: worth_threads = 20000      !! unknowns
-   integer, parameter  :: zero_vector = -9, exhausted = -9999 ! as ARPACK says it: there are no more vectors with mass
-   integer, parameter  :: tired = 1                           ! likewise: not so many in so many restarts, perhaps there are no more
-   real(wp), parameter :: tolerance = 1.0e-13_wp     ! of nu, of what Lanczos estimates its error
-   real(wp), parameter :: finite = 1.0e-12_wp        ! of the largest nu: what is below has no mass to speak of
+   integer, parameter  :: zero_vector = -9, exhausted = -9999 ! codes of ARPACK: no more vectors with mass
+   integer, parameter  :: tired = 1                           ! likewise: restarts used up, perhaps there are no more
+   real(wp), parameter :: tolerance = 1.0e-13_wp     ! of nu: the error estimate of Lanczos
+   real(wp), parameter :: finite = 1.0e-12_wp        ! of the largest nu: smaller values have no significant mass
 
 contains
 
@@ -62,8 +63,8 @@ contains
       needs_all = system%n <= small .or. n > system%n/2
    end function needs_all
 
-   !> The N eigenvalues LAMBDA next above the shift of SYSTEM, ascending, and their vectors X, x^T [m] x = 1; fewer where there are not
-   !! so many. Where N is all unknowns, the shift has to be below all of them.
+   !> The N eigenvalues LAMBDA next above the shift of SYSTEM, ascending, and their vectors X, x^T [m] x = 1; fewer where fewer
+   !! exist. Where N is the number of unknowns, the shift must be below all eigenvalues.
    subroutine find_eigenpairs(model, mass, system, n, lambda, x, failure)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
@@ -80,7 +81,7 @@ contains
          call iterate(model, mass, system, n, lambda, x, failure)
       end if
       if (failure%raised) return
-      do i = 2, size(lambda) ! few, and nearly in order
+      do i = 2, size(lambda) ! few, and almost sorted
          do k = i, 2, -1
             if (lambda(k) >= lambda(k - 1)) exit
             lambda([k - 1, k]) = lambda([k, k - 1])
@@ -123,7 +124,7 @@ contains
       x = m(:, system%n:first:-1)/spread(sqrt(nu(system%n:first:-1)), 1, system%n) ! x^T ([k] - sigma [m]) x was 1
    end subroutine solve_whole
 
-   !> The N next above the shift by ARPACK; where fewer vectors have mass it says so, and has found a basis of all of these.
+   !> The N next above the shift by ARPACK. Where fewer vectors have mass, ARPACK reports it and has found a basis of all of them.
    subroutine iterate(model, mass, system, n, lambda, x, failure)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
@@ -148,7 +149,7 @@ contains
       parameters = 0
       parameters([1, 3, 7]) = [1, most_restarts, 3]
       ido = 0
-      info = 1 ! the start vector is given: every run is the same
+      info = 1 ! given start vector: every run is the same
       do
          call dsaupd(ido, 'G', system%n, 'LA', n, tolerance, residual, columns, v, system%n, parameters, places, work, small_work, &
                      size(small_work), info)
@@ -166,7 +167,7 @@ contains
          call solve_in_subspace(model, mass, system, v(:, :parameters(5)), lambda, x, failure)
          return
       end if
-      if (info == tired .and. parameters(5) == 0 .and. system%shift > 0.0_wp) info = 0 ! all may be below
+      if (info == tired .and. parameters(5) == 0 .and. system%shift > 0.0_wp) info = 0 ! all may be below the shift
       if (parameters(5) > 0 .and. (info == 0 .or. info == tired)) &
          call dseupd(.true., 'A', chosen, lambda, x, system%n, system%shift, 'G', system%n, 'LA', n, tolerance, residual, columns, &
                      v, system%n, parameters, places, work, small_work, size(small_work), info)
@@ -180,8 +181,8 @@ contains
       x = x(:, above)
    end subroutine iterate
 
-   !> All finite eigenvalues above the shift where the vectors V are a basis of all that have mass, v_i^T [m] v_j = 1 or 0: of the small
-   !! symmetric matrix V^T [m] ([k] - sigma [m])^-1 [m] V.
+   !> All finite eigenvalues above the shift, from a basis V of all vectors with mass, v_i^T [m] v_j = 1 or 0: those of the
+   !! small symmetric matrix V^T [m] ([k] - sigma [m])^-1 [m] V.
    subroutine solve_in_subspace(model, mass, system, v, lambda, x, failure)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
@@ -216,7 +217,7 @@ contains
       x = matmul(v, t(:, n:n - i + 1:-1))
    end subroutine solve_in_subspace
 
-   !> X becomes [m] X on the equations; locked ones take no part.
+   !> Replace X by [m] X on the equations; zero where locked.
    subroutine times_mass(model, mass, system, x)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
@@ -230,7 +231,7 @@ contains
       x = on_equations(model, system, f)
    end subroutine times_mass
 
-   !> What the equations feel of the forces F on all nodes; nothing where locked.
+   !> Condense the forces F on all nodes to the equations; zero where locked.
    function on_equations(model, system, f) result(x)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system

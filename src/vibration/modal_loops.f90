@@ -1,12 +1,14 @@
-!> Quasi-static modal analysis: the structure, held at the load of the end of a stage, under alpha [M] {phi}, phi a natural mode of
-!! generalised mass 1. Between alpha and -alpha it goes through loops, iterated to equilibrium by NEWTON; all on copies, what goes on from
-!! the stage is left as it is. In the modal coordinate q = phi^T [M] (u - u_0) the last loop gives
+!> Quasi-static modal analysis: loops of the structure under alpha [M] {phi}, phi a natural mode.
+!! The structure is held at the load of the end of a stage; phi has generalised mass 1. Between alpha and -alpha the structure
+!! goes through loops, which NEWTON iterates to equilibrium. The loops use copies: the state of the stage is not changed. In the
+!! modal coordinate q = phi^T [M] (u - u_0) the last loop gives
 !!
-!!    omega^2 = (alpha_+ - alpha_-)/(q_+ - q_-)     zeta = D/(2 pi omega^2 q^2), q = (q_+ - q_-)/2, D what the joints keep of the loop
+!!    omega^2 = (alpha_+ - alpha_-)/(q_+ - q_-)     zeta = D/(2 pi omega^2 q^2), q = (q_+ - q_-)/2, D the loss of the joints
 !!
-!! D is summed over the elements by the exact work of their laws, so that it needs no fine steps; without that of the forces at rest, which
-!! a closed loop does not have: preloads times what rounding leaves open would drown small loops. What lies inside condensed bodies has its
-!! share in q: K_gg^-1 of its forces, which is linear in alpha, so that an increment costs no recovery.
+!! D is the sum over the elements of the exact work of their laws and needs no fine steps. The work of the forces at rest is
+!! left out: it is zero over a closed loop, but preloads times the remaining gap of rounding would exceed small loops. Unknowns
+!! inside condensed bodies contribute to q: K_gg^-1 of their forces, which is linear in alpha, so that an increment costs no
+!! recovery.
 !! Source: H. Festjens, G. Chevallier, J.-L. Dion, A numerical quasi-static method for the identification of frictional dissipation in
 !! bolted joints, ASME DETC 2012-70583 and Int. J. Solids Struct. 2013; R. M. Lacayo, M. S. Allen, Mech. Syst. Signal Process. 118 (2019)
 !! 133-157; E. Jewell, M. S. Allen, I. Zare, M. Wall, J. Sound Vib. 479 (2020) 115376.
@@ -30,24 +32,24 @@ module modal_loops
 
    public :: start_push, run_loops
 
-   real(wp), parameter :: settled = 0.01_wp          ! of the area of a loop: less is no change
+   real(wp), parameter :: settled = 0.01_wp          ! of the area of a loop: a smaller change is none
    real(wp), parameter :: no_area = 1.0e-9_wp        ! of alpha q: rounding
-   real(wp), parameter :: negligible = 1.0e-6_wp     ! likewise: areas so small need not settle
-   real(wp), parameter :: per_part = 0.03_wp         ! of the tolerance: what one part of a loop may have of it
-   real(wp), parameter :: finest_step = 1.0e-7_wp    ! of alpha: it is not halved
-   real(wp), parameter :: coarsest_step = 0.125_wp   ! likewise: it is, for elements may slip for a while and stick again within it
+   real(wp), parameter :: negligible = 1.0e-6_wp     ! likewise: smaller areas need not settle
+   real(wp), parameter :: per_part = 0.03_wp         ! of the tolerance: share of one part of a loop
+   real(wp), parameter :: finest_step = 1.0e-7_wp    ! of alpha: a smaller step is not halved
+   real(wp), parameter :: coarsest_step = 0.125_wp   ! likewise: a larger one is, for elements may slip and stick within it
    real(wp), parameter :: exact = 1.0e-10_wp         ! TOL at most
-   real(wp), parameter :: finest = 1.0e-13_wp        ! TOL beside the load that is held
+   real(wp), parameter :: finest = 1.0e-13_wp        ! limit of TOL relative to the held load
 
-   !> What the loops of one mode start from.
+   !> The initial data of the loops of one mode.
    type, public :: push_type
       real(wp), allocatable :: phi(:, :)             !! (dimension, n_nodes) generalised mass 1
       real(wp), allocatable :: force(:, :)           !! [M] {phi} on all nodes
-      real(wp), allocatable :: condensed(:, :)       !! of it what retained nodes feel
-      real(wp) :: inside = 0.0_wp                    !! q of the inside of the bodies, retained nodes at rest, for alpha = 1
-      type(analysis_type)   :: rest                  !! the copy of the state, in equilibrium
+      real(wp), allocatable :: condensed(:, :)       !! the same condensed on the retained nodes
+      real(wp) :: inside = 0.0_wp                    !! q of the interior of the bodies, retained nodes fixed, for alpha = 1
+      type(analysis_type)   :: rest                  !! copy of the state, in equilibrium
       real(wp), allocatable :: borne(:, :)           !! (3, n) forces of the interface elements there, in their axes
-      real(wp) :: finest_work = 0.0_wp               !! increments are halved until that makes less difference; 0: they are not
+      real(wp) :: finest_work = 0.0_wp               !! increments are halved until the work changes by less; 0: not halved
       type(stage_plan_type) :: plan
       type(mass_matrix_type) :: mass
       class(equation_system), allocatable :: system
@@ -56,22 +58,22 @@ module modal_loops
    !> The last loop under one alpha.
    type, public :: loop_type
       real(wp) :: alpha = 0.0_wp
-      real(wp) :: q = 0.0_wp                         !! half of what lies between the turning points
-      real(wp) :: omega_squared = 0.0_wp             !! by their secant [1/time^2]
+      real(wp) :: q = 0.0_wp                         !! half the distance between the turning points
+      real(wp) :: omega_squared = 0.0_wp             !! from the secant of the turning points [1/time^2]
       real(wp) :: loss = 0.0_wp                      !! loss factor, 2 zeta [-]
-      real(wp) :: centre = 0.0_wp, gap = 0.0_wp      !! its middle, and what it lacks to be closed, both by q [-]
-      real(wp) :: distortion = 0.0_wp                !! share of the movement that is not phi, norm of [M] [-]
+      real(wp) :: centre = 0.0_wp, gap = 0.0_wp      !! its middle, and its gap, both over q [-]
+      real(wp) :: distortion = 0.0_wp                !! part of the movement orthogonal to phi, norm of [M] [-]
       real(wp) :: slipping = 0.0_wp, open = 0.0_wp   !! shares of the interface elements, at any time of the loop [-]
       integer  :: n_loops = 0
-      real(wp), allocatable :: lost(:)               !! (elements) of D [force x length]
-      real(wp), allocatable :: shares(:)             !! (joints) likewise [-]
+      real(wp), allocatable :: lost(:)               !! (elements) contributions to D [force x length]
+      real(wp), allocatable :: shares(:)             !! (joints) shares of D [-]
       real(wp), allocatable :: way(:, :)             !! (2, increments) alpha, q
       logical, allocatable  :: has_slipped(:), has_opened(:)
    end type loop_type
 
 contains
 
-   !> A copy of ANALYSIS and SYSTEM, the load held, in equilibrium; the force of the mode whose shape is PHI.
+   !> Copy ANALYSIS and SYSTEM under constant load, in equilibrium, and form the modal force of the shape PHI.
    subroutine start_push(model, plan, analysis, system, phi, push, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
@@ -112,7 +114,7 @@ contains
       end do
    end subroutine start_push
 
-   !> From alpha = ENDS(1) to ENDS(2) in N increments; what the joints do on the way goes to LOOP.
+   !> Go from alpha = ENDS(1) to ENDS(2) in N increments; LOOP collects the work of the joints.
    subroutine swing(model, push, ends, n, now, loop, failure)
       type(model_type), intent(in)       :: model
       type(push_type), intent(inout)     :: push
@@ -140,8 +142,9 @@ contains
       end do
    end subroutine swing
 
-   !> As one increment from alpha = ENDS(1) to ENDS(2), under which the joints would take the work WHOLE on straight paths; halved until
-   !! that makes no difference. What is left of it falls by four from halving to halving, of which a third is taken off.
+   !> Go from alpha = ENDS(1) to ENDS(2), where the joints would take the work WHOLE on straight paths, as one increment. The
+   !! increment is halved until halving has no effect. The remaining error falls by four in each halving; a third of the last
+   !! difference is subtracted.
    recursive subroutine follow(model, push, ends, whole, now, loop, failure)
       type(model_type), intent(in)       :: model
       type(push_type), intent(inout)     :: push
@@ -172,7 +175,7 @@ contains
       end if
    end subroutine follow
 
-   !> Nothing of LOOP is done, from ALPHA and Q on.
+   !> Clear LOOP, to begin at ALPHA and Q.
    pure subroutine clear(model, alpha, q, loop)
       type(model_type), intent(in)   :: model
       real(wp), intent(in)           :: alpha, q
@@ -184,7 +187,7 @@ contains
       loop%has_opened = loop%has_slipped
    end subroutine clear
 
-   !> What the joints have done on the way to NOW, WORK, goes to LOOP.
+   !> Add WORK, done by the joints on the way to NOW, to LOOP.
    subroutine book(now, work, loop)
       type(analysis_type), intent(in) :: now
       real(wp), intent(in)            :: work(:) !! (elements) [force x length]
@@ -195,8 +198,8 @@ contains
       loop%has_opened = loop%has_opened .or. now%states%normal%branch == branch_open
    end subroutine book
 
-   !> One increment from alpha = ENDS(1) to ENDS(2); the WORK of the joints on the straight path of each element, without that of the
-   !! forces at rest.
+   !> One increment from alpha = ENDS(1) to ENDS(2), and the WORK of the joints on the straight path of each element, without
+   !! that of the forces at rest.
    subroutine go(model, push, ends, now, work, failure)
       type(model_type), intent(in)       :: model
       type(push_type), intent(inout)     :: push
@@ -241,8 +244,9 @@ contains
       q = sum(push%condensed*(now%u - push%rest%u)) + alpha*push%inside
    end function coordinate
 
-   !> 0 -> ALPHA -> -ALPHA -> ALPHA, then the same loop again, and as often more as WANTED has cycles until its area has settled. The last
-   !! one is followed once more with its loss to WANTED's tolerance where MEASURED. FAILURE where the structure does not bear ALPHA.
+   !> 0 -> ALPHA -> -ALPHA -> ALPHA, then the same loop repeated until its area has settled, at most for the cycles of WANTED.
+   !! If MEASURED, the last loop is followed again with its loss to the tolerance of WANTED. FAILURE where the structure does
+   !! not carry ALPHA.
    subroutine run_loops(model, push, wanted, alpha, measured, loop, failure)
       type(model_type), intent(in)       :: model
       type(push_type), intent(inout)     :: push
@@ -280,7 +284,7 @@ contains
       call run_loop(model, push, wanted%increments, start, loop, failure)
    end subroutine run_loops
 
-   !> One more loop from NOW, at the upper turning point.
+   !> One more loop from NOW, the upper turning point.
    subroutine run_loop(model, push, increments, now, loop, failure)
       type(model_type), intent(in)       :: model
       type(push_type), intent(inout)     :: push
@@ -322,8 +326,8 @@ contains
       loop%distortion = distortion_of(model, push, 0.5_wp*(now%u - u_low), loop)
    end subroutine run_loop
 
-   !> Share of the movement U of retained nodes, half of that between the turning points, that is not phi: |d - q phi|/|d|, d the movement
-   !! of all nodes, in the norm of [M] [-].
+   !> The part of the movement U of retained nodes, half of that between the turning points, that differs from phi: |d - q
+   !! phi|/|d|, d the movement of all nodes, in the norm of [M] [-].
    function distortion_of(model, push, u, loop) result(share)
       type(model_type), intent(in)       :: model
       type(push_type), intent(in)        :: push

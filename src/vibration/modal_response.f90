@@ -1,15 +1,15 @@
-!> The answer of a structure to a load that oscillates, by superposition of its modes: amplitude and phase of some components.
+!> The response of a structure to an oscillating load by modal superposition: amplitude and phase of components.
 !!
-!! Mode r, its shape phi_r, modal mass m_r, lambda_r = omega_r**2, feels the force q_r = phi_r . F. Under F e**(i omega t) the displacement
-!! u e**(i omega t) has
+!! Mode r has the shape phi_r, the modal mass m_r, lambda_r = omega_r**2, and the modal force q_r = phi_r . F. Under F e**(i
+!! omega t) the displacement is u e**(i omega t) with
 !!
 !!    u = sum over r of phi_r q_r / (m_r (lambda_r - omega**2 + i b_r)) + u_rest,   b_r = eta_r lambda_r + omega g_r omega_r
 !!
 !!    structural damping: eta_r, the loss factor of materials and joints in this mode
 !!    viscous damping:    g_r of a TABDMP1, NASTRAN's B = g omega_r m, which is g at omega = omega_r
 !!
-!! u_rest is what modes that were not asked for give, as they do when nothing oscillates: the static answer less the share of the modes
-!! in it, phi_r q_r/(m_r lambda_r).
+!! u_rest is the static contribution of the modes that are not computed: the static response less that of the computed modes,
+!! phi_r q_r/(m_r lambda_r).
 !! Source: R. W. Clough and J. Penzien, Dynamics of Structures, sections 4-3 and 13-3; MSC Nastran, Dynamic Analysis User's Guide,
 !! modal frequency response.
 module modal_response
@@ -30,11 +30,11 @@ module modal_response
 
    real(wp), parameter :: pi = acos(-1.0_wp)
 
-   !> The modes, as far as the response asks of them.
+   !> The data of the modes for the response.
    type, public :: modal_system
       real(wp), allocatable :: lambda(:)  !! (modes) omega_r**2, 0 of a rigid mode [1/time^2]
       real(wp), allocatable :: mass(:)    !! (modes) modal mass, > 0 [force x time^2/length, by the scale of the shapes]
-      real(wp), allocatable :: shape(:, :) !! (components, modes) of the components asked
+      real(wp), allocatable :: shape(:, :) !! (components, modes) of the wanted components
       real(wp), allocatable :: force(:)   !! (modes) phi_r . F
       real(wp), allocatable :: loss(:)    !! (modes) eta_r, structural damping [-]
       real(wp), allocatable :: viscous(:) !! (modes) g_r, viscous damping [-]
@@ -42,17 +42,17 @@ module modal_response
    end type modal_system
 
    real(wp), parameter :: nothing = 1.0e-10_wp    ! of the largest amplitude at a frequency: rounding, which has no phase
-   real(wp), parameter :: missed_share = 0.05_wp  ! by which a peak is above what is asked for beside it: then it is missed
-   real(wp), parameter :: small_share = 0.01_wp   ! of the largest amplitude of a component: its peaks below are not looked for
-   real(wp), parameter :: untouched = 1.0e-9_wp   ! of a mode: a load that does not move it, a component that it does not move
+   real(wp), parameter :: missed_share = 0.05_wp  ! excess over the response at the adjacent frequencies of a missed peak
+   real(wp), parameter :: small_share = 0.01_wp   ! of the largest amplitude of a component: smaller peaks are not searched
+   real(wp), parameter :: untouched = 1.0e-9_wp   ! of a mode: a load or component of a smaller share does not excite or show it
 
-   !> The peak of a mode between the frequencies asked for.
+   !> The peak of a mode between the given frequencies.
    type, public :: missed_peak
       integer  :: mode = 0                        !! its place among the modes found
       real(wp) :: frequency = 0.0_wp              !! of the peak [1/time]
-      integer  :: node = 0, component = 0         !! where it is largest: place among the nodes asked for; 1 to 3
-      real(wp) :: amplitude = 0.0_wp              !! there, 0: without bound, the mode has no damping [length]
-      real(wp) :: beside = 0.0_wp                 !! the larger one at the frequencies beside it [length]
+      integer  :: node = 0, component = 0         !! place of its maximum: position among the wanted nodes; 1 to 3
+      real(wp) :: amplitude = 0.0_wp              !! there, 0: unbounded, the mode has no damping [length]
+      real(wp) :: beside = 0.0_wp                 !! the larger one at the adjacent frequencies [length]
    end type missed_peak
 
    !> The response of one stage.
@@ -62,20 +62,20 @@ module modal_response
       real(wp), allocatable :: amplitude(:, :, :) !! (2 or 3 components, nodes, frequencies), >= 0 [length]
       real(wp), allocatable :: phase(:, :, :)     !! likewise, of the displacement against the force [degrees]
       type(missed_peak), allocatable :: missed(:)
-      logical :: is_complete = .false.            !! with the static answer of the modes that have not been asked for
+      logical :: is_complete = .false.            !! includes the static contribution of the other modes
    end type response_type
 
 contains
 
-   !> The complex displacements of the components when the load oscillates with FREQUENCY [length]. OK is false where the answer is
-   !! without bound: the frequency of a mode that has no damping, or of a rigid mode at rest. An undamped mode that the load does not
-   !! touch gives nothing.
+   !> The complex displacements of the components under a load that oscillates with FREQUENCY [length]. OK is false where the
+   !! response is unbounded: at the frequency of an undamped mode, or of a rigid-body mode at zero. An undamped mode that the
+   !! load does not excite contributes zero.
    pure subroutine response_at(system, frequency, u, ok)
       type(modal_system), intent(in) :: system
       real(wp), intent(in)           :: frequency !! f >= 0 [1/time]
       complex(wp), intent(out)       :: u(:)      !! (components)
       logical, intent(out)           :: ok
-      complex(wp) :: resistance ! what the mode sets against its force, by its mass
+      complex(wp) :: resistance ! dynamic stiffness of the mode per modal mass
       real(wp)    :: omega
       integer     :: r
 
@@ -93,8 +93,8 @@ contains
       end do
    end subroutine response_at
 
-   !> Where mode R alone has its largest amplitude: with structural damping at its natural frequency, with viscous damping below it.
-   !! 0 of a mode that has no peak: a motion without strain, or one damped too much [1/time].
+   !> The frequency at which mode R alone has its largest amplitude: with structural damping its natural frequency, with viscous
+   !! damping below it. 0 for a mode without a peak: a rigid-body mode, or one damped too much [1/time].
    pure real(wp) function peak_frequency(system, r) result(frequency)
       type(modal_system), intent(in) :: system
       integer, intent(in)            :: r
@@ -102,7 +102,7 @@ contains
       frequency = sqrt(max(0.0_wp, system%lambda(r)*(1.0_wp - 0.5_wp*system%viscous(r)**2)))/(2.0_wp*pi)
    end function peak_frequency
 
-   !> What the elastic modes have in the static answer, which less this is u_rest [length].
+   !> The static response of the elastic modes, which is subtracted for u_rest [length].
    pure function static_share(system) result(u)
       type(modal_system), intent(in) :: system
       real(wp) :: u(size(system%shape, 1))
@@ -114,7 +114,8 @@ contains
       end do
    end function static_share
 
-   !> The phase of a displacement against the force, above -180 up to 180 degrees: negative where it lags behind. That of nothing is 0.
+   !> The phase of a displacement against the force, above -180 up to 180 degrees: negative where it lags behind. For zero
+   !! displacement it is 0.
    elemental real(wp) function phase_of(u) result(phase)
       complex(wp), intent(in) :: u
 
@@ -123,8 +124,8 @@ contains
       if (phase <= -180.0_wp) phase = 180.0_wp ! where the imaginary part is -0.0
    end function phase_of
 
-   !> The RESPONSE that is PLANned, by MODES, whose unknowns have the numbers of SYSTEM. FAILURE where it has no bound: an
-   !! undamped mode at its frequency, a structure that is not held at rest.
+   !> The RESPONSE of PLAN by superposition of MODES, in the numbering of SYSTEM. FAILURE where the response is unbounded: an
+   !! undamped mode at its frequency, or a structure without supports at zero frequency.
    subroutine find_response(model, structure, plan, modes, system, response, failure)
       type(model_type), intent(in)        :: model
       type(oscillating_type), intent(in)  :: structure
@@ -143,7 +144,7 @@ contains
       logical  :: ok
 
       call put_together(model, plan, modes, superposed)
-      if (system%shift >= 0.0_wp) then        ! the load at rest, of a structure that is held
+      if (system%shift >= 0.0_wp) then        ! static load on a supported structure
          call factorise_at(model, structure, 0.0_wp, unshifted, loose)
          response%is_complete = .not. loose%raised
       end if
@@ -175,8 +176,8 @@ contains
       call find_missed_peaks(plan, modes, superposed, response)
    end subroutine find_response
 
-   !> The modes that have a peak between two frequencies of RESPONSE and are not seen there: at the peak of the mode some component
-   !! has an amplitude above those at both frequencies. Of each mode the component with the largest one.
+   !> The modes whose peak lies between two frequencies of RESPONSE and is missed: at the peak some component exceeds its
+   !! amplitudes at both frequencies. For each mode the component of the largest amplitude.
    subroutine find_missed_peaks(plan, modes, superposed, response)
       type(response_plan), intent(in)    :: plan
       type(modes_type), intent(in)       :: modes
@@ -220,7 +221,7 @@ contains
       end do
    end subroutine find_missed_peaks
 
-   !> MODES as the superposition sees them.
+   !> Extract the data of MODES for the superposition.
    pure subroutine put_together(model, plan, modes, superposed)
       type(model_type), intent(in)    :: model
       type(response_plan), intent(in) :: plan

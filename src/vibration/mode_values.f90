@@ -1,18 +1,19 @@
-!> What a natural mode is worth: its frequency, shape, mass, how much of the structure's mass it moves along every axis, where its
-!! strain energy is, in each body, each bar, each joint, of these in its normal and its shear stiffness apart, and how much of that the
-!! joints keep in a cycle. The forces [k] {u}, element by element, owe nothing to the factor that the mode was found with.
+!> The values of a natural mode: frequency, shape, masses, participation, strain energy and loss factor. The strain energy is
+!! given for each body, bar and joint, there separately for normal and shear stiffness; the loss factor has a contribution of
+!! the joints. The forces [k] {u} are computed element by element and do not depend on the factor of the eigensolution.
 !!
 !!      generalised mass     m_r = u^T [m] u            participation  g_d = u^T [m] e_d/m_r, e_d all nodes by 1 along d
-!!      effective mass       g_d^2 m_r; of all modes together the mass that is not held at supports
-!!      residual             |[k] u - lambda [m] u|/|[k] u| on what is not held, of a motion without strain beside |sigma [m] u|
+!!      effective mass       g_d^2 m_r; summed over all modes the mass that is not held at supports
+!!      residual             |[k] u - lambda [m] u|/|[k] u| on free components; for a rigid-body mode over |sigma [m] u|
 !!      loss factor          of materials PARAM G + sum of GE U_e/U, U_e the strain energy of an element or bar, U that of the mode;
 !!                           and of joints sum of a_i W/(2 pi U): W the loss of their Masing loops at the amplitude asked for
 !! Source of the share by strain energy: C. D. Johnson, D. A. Kienholz, Finite element prediction of damping in structures with
 !! constrained viscoelastic layers, AIAA Journal 20 (1982) 1284-1290.
 !!
-!! Modes of equal frequency, of a square column those that bend either way, say: every combination of them is a mode; which one an
-!! algorithm finds is a matter of rounding. Here it is settled: the first has all the participation along x that they have, the next
-!! of what is left all along y, then z; what participates in nothing is told apart by the displacements of the nodes, in their order.
+!! Every combination of modes of equal frequency is a mode, as for the bending modes of a square column; rounding decides which
+!! of them an algorithm finds. The choice is made unique here: the first mode has their whole participation along x, the next
+!! the whole remaining participation along y, then z. Modes without participation are separated by the displacements of the
+!! nodes, in their order.
 module mode_values
    use analysis_state, only: analysis_type
    use bar_elements, only: add_pull, bar_elongation
@@ -38,16 +39,16 @@ module mode_values
 
    public :: settle_equal_modes, settle_sign, evaluate_modes, strain_energies
 
-   real(wp), parameter :: equal = 1.0e-7_wp    ! of the larger eigenvalue: two that differ by less are one
-   real(wp), parameter :: weak = 1.0e-6_wp     ! of the largest: a row that is no more tells no mode apart
-   real(wp), parameter :: near = 0.9283_wp     ! of the largest component: it is not rounding that chooses between equals
+   real(wp), parameter :: equal = 1.0e-7_wp    ! of the larger eigenvalue: closer eigenvalues are equal
+   real(wp), parameter :: weak = 1.0e-6_wp     ! of the largest: a smaller row separates no modes
+   real(wp), parameter :: near = 0.9283_wp     ! of the largest component: rounding must not choose between equals
 
    !> Of one mode [force x length].
    type, public :: energy_type
       real(wp), allocatable :: body(:)             !! (bodies)
       real(wp), allocatable :: bar(:)              !! (bars)
       real(wp), allocatable :: normal(:), shear(:) !! (joints)
-      real(wp) :: damped = 0.0_wp                  !! of bodies and bars, each part times its GE; what a cycle loses is 2 pi times this
+      real(wp) :: damped = 0.0_wp                  !! of bodies and bars, each part times GE; a cycle loses 2 pi times this
    contains
       procedure :: total, scale
    end type energy_type
@@ -55,32 +56,32 @@ module mode_values
    type, public :: mode_type
       real(wp) :: lambda = 0.0_wp                   !! omega^2 [1/time^2]
       real(wp) :: omega = 0.0_wp, frequency = 0.0_wp !! [1/time]
-      logical  :: is_rigid = .false.                !! a motion without strain
+      logical  :: is_rigid = .false.                !! a rigid-body mode
       real(wp) :: mass = 0.0_wp                     !! generalised [force time^2/length]
       real(wp) :: participation(3) = 0.0_wp         !! along x, y, z; of a ring along y alone [-]
       real(wp) :: effective(3) = 0.0_wp             !! mass [force time^2/length]
       real(wp) :: residual = 0.0_wp                 !! [-]
-      real(wp) :: loss = 0.0_wp                     !! loss factor, of joints where an amplitude is given [-]
-      real(wp) :: material_loss = 0.0_wp            !! what materials and PARAM G have in it [-]
+      real(wp) :: loss = 0.0_wp                     !! loss factor of joints, where an amplitude is given [-]
+      real(wp) :: material_loss = 0.0_wp            !! its part from materials and PARAM G [-]
       real(wp), allocatable :: u(:, :)              !! (dimension, n_nodes) shape [length]
-      type(energy_type) :: energy                   !! shares of the strain energy, their sum 1; of a motion without strain 0
+      type(energy_type) :: energy                   !! shares of the strain energy, with sum 1; 0 for a rigid-body mode
    end type mode_type
 
    !> The modes of a stage.
    type, public :: modes_type
       type(mode_type), allocatable :: modes(:)
-      integer  :: n_before = 0                      !! modes below the range that was asked for
-      integer  :: n_counted = 0                     !! modes below COUNTED_AT, of which none is missing
-      real(wp) :: counted_at = 0.0_wp               !! frequency [1/time]; beyond all: huge
+      integer  :: n_before = 0                      !! modes below the range
+      integer  :: n_counted = 0                     !! modes below COUNTED_AT, all found
+      real(wp) :: counted_at = 0.0_wp               !! frequency [1/time]; no bound: huge
       real(wp) :: mass = 0.0_wp                     !! of the structure [force time^2/length]
       real(wp) :: centre(3) = 0.0_wp                !! of that [length]
       real(wp) :: inertia(6) = 0.0_wp               !! about axes through it: I_xx, I_yy, I_zz, I_xy, I_yz, I_zx [force time^2 length]
-      integer  :: n_touching = 0                     !! interface elements that touch, and so take part
+      integer  :: n_touching = 0                     !! interface elements in contact, which have stiffness
    end type modes_type
 
 contains
 
-   !> Turn the shapes of every group of equal LAMBDA among themselves.
+   !> Rotate the shapes of every group of equal LAMBDA among themselves.
    subroutine settle_equal_modes(lambda, mass, participation, u)
       real(wp), intent(in)    :: lambda(:)           !! ascending
       real(wp), intent(in)    :: mass                !! of the structure
@@ -100,7 +101,8 @@ contains
       end do
    end subroutine settle_equal_modes
 
-   !> Turn the modes of one group: row after row of PARTICIPATION above LEAST, then of U, what is not yet settled goes to one mode.
+   !> Rotate the modes of one group: for each row of PARTICIPATION above LEAST, then of U, give the remaining components to one
+   !! mode.
    subroutine settle_group(least, participation, u)
       real(wp), intent(in)    :: least
       real(wp), intent(inout) :: participation(:, :), u(:, :, :)
@@ -111,7 +113,8 @@ contains
          if (next == size(u, 3)) return
          if (norm2(participation(d, next:)) > least) call give_to_one((participation(d, next:)))
       end do
-      do while (next < size(u, 3)) ! the first component and node, in their order, where all modes together move as good as most
+      do while (next < size(u, 3)) ! the first component and node, in their order, whose displacement in all modes is almost
+                                   ! the largest
          associate (squares => sum(u(:, :, next:)**2, dim=3))
             at = findloc(squares >= near**2*maxval(squares), .true.)
          end associate
@@ -120,7 +123,7 @@ contains
 
    contains
 
-      !> Reflect the modes from NEXT on (Householder) so that the first of them has all of ROW, and go on behind it.
+      !> Reflect the modes from NEXT on (Householder) so that the first of them has all of ROW, and continue with the next.
       subroutine give_to_one(row)
          real(wp), intent(in) :: row(:)
          real(wp) :: v(size(row)), along
@@ -144,7 +147,7 @@ contains
 
    end subroutine settle_group
 
-   !> The sign of a shape: that of its largest component, of as good as equal ones the first, is positive.
+   !> Set the sign of a shape: its largest component, the first of almost equal ones, is positive.
    pure subroutine settle_sign(participation, u)
       real(wp), intent(inout) :: participation(:), u(:, :)
       integer :: at(2)
@@ -155,7 +158,7 @@ contains
       participation = -participation
    end subroutine settle_sign
 
-   !> The modes that PLAN wants, of SPECTRUM.
+   !> The modes of PLAN, from SPECTRUM.
    subroutine evaluate_modes(model, analysis, structure, plan, spectrum, system, modes)
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
@@ -187,7 +190,7 @@ contains
             g(d, m) = sum(u(:, :, m)*of_mass)
          end do
       end do
-      if (model%axisymmetric) g(1, :) = 0.0_wp ! a ring moves as a whole along its axis only
+      if (model%axisymmetric) g(1, :) = 0.0_wp ! a ring has rigid-body motion along its axis only
       call settle_equal_modes(spectrum%lambda, modes%mass, g, u)
       n = spectrum%n_wanted
       do m = 1, n
@@ -208,9 +211,8 @@ contains
       end do
    end subroutine evaluate_modes
 
-   !> The values of MODE, of which there are lambda, u as it was found, u^T [m] e_d as its participation and its energies, from
-   !! F = [k] u and OF_MASS = [m] u. By NORM = MAX the largest component of its shape, at a point of the structure, becomes 1; its sign
-   !! remains.
+   !> The values of MODE from lambda, the computed u, u^T [m] e_d as participation, the energies, F = [k] u and OF_MASS = [m] u.
+   !! With NORM = MAX the shape is scaled so that its largest component at a point of the structure is 1; its sign is kept.
    subroutine evaluate_mode(model, analysis, plan, system, f, of_mass, mode)
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
@@ -248,11 +250,11 @@ contains
          if (plan%amplitude > 0.0_wp) mode%loss = mode%loss + loss_of_joints(model, analysis, plan, mode)
          share = 1.0_wp/mode%energy%total()
       end if
-      call mode%energy%scale(share)            ! the energies become shares of all
-      mode%energy%body = abs(mode%energy%body) ! below zero it is but rounding
+      call mode%energy%scale(share)            ! convert the energies to shares
+      mode%energy%body = abs(mode%energy%body) ! a negative value is rounding
    end subroutine evaluate_mode
 
-   !> What the joints have in the loss factor of MODE where its largest displacement is the amplitude that PLAN gives.
+   !> The contribution of joints to the loss factor of MODE, with the amplitude of PLAN as its largest displacement.
    pure real(wp) function loss_of_joints(model, analysis, plan, mode) result(loss)
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
@@ -279,14 +281,14 @@ contains
       loss = lost/(two_pi*factor**2*mode%energy%total())
    end function loss_of_joints
 
-   !> All of it.
+   !> The total energy.
    pure real(wp) function total(self)
       class(energy_type), intent(in) :: self
 
       total = sum(self%body) + sum(self%bar) + sum(self%normal) + sum(self%shear)
    end function total
 
-   !> FACTOR times all of it, part by part.
+   !> Multiply all parts by FACTOR.
    pure subroutine scale(self, factor)
       class(energy_type), intent(inout) :: self
       real(wp), intent(in)              :: factor
@@ -298,7 +300,7 @@ contains
       self%damped = factor*self%damped
    end subroutine scale
 
-   !> The strain energies of the shapes U, half of u^T [k] u part by part, and the forces F = [k] U that hold them.
+   !> The strain energies of the shapes U, half of u^T [k] u for each part, and the forces F = [k] U.
    pure subroutine strain_energies(model, structure, u, energies, f)
       type(model_type), intent(in)       :: model
       type(oscillating_type), intent(in) :: structure
@@ -337,7 +339,7 @@ contains
       end do
    end subroutine strain_energies
 
-   !> Those of the bodies: of every element once, for all shapes.
+   !> The strain energies of the bodies: each element once, for all shapes.
    pure subroutine strain_bodies(model, body, u, energies, f)
       type(model_type), intent(in)     :: model
       integer, intent(in)              :: body(:) !! (n_elements)

@@ -1,8 +1,7 @@
-!> Natural modes of an oscillating structure: which eigenvalues are asked for, the shift that they are found from, and the count that
-!! shows that none is missing.
+!> Natural modes of an oscillating structure: choice of eigenvalues, shift, and count that proves none is missing.
 !!
-!! The factor of [k] - sigma [m] has as many pivots below zero as there are eigenvalues below sigma (Sylvester's law of inertia). A range
-!! of frequencies is counted at both ends before anything is searched in it; the lowest modes are counted behind the last one.
+!! The factor of [k] - sigma [m] has as many negative pivots as there are eigenvalues below sigma (Sylvester's law of inertia).
+!! A range of frequencies is counted at both ends before the search. The lowest modes are counted behind the last one.
 !! Source: Parlett, The Symmetric Eigenvalue Problem, SIAM 1998, sections 3.3 and 15.
 module natural_modes
    use eigenpairs, only: find_eigenpairs, needs_all
@@ -19,29 +18,29 @@ module natural_modes
 
    public :: find_natural_modes
 
-   real(wp), parameter :: clear = 1.0e-6_wp       ! of an eigenvalue: a wider gap to the next one is safe to count in
-   real(wp), parameter :: near_pole = 1.0e-7_wp   ! by which a shift moves away from an eigenvalue that it has hit
-   real(wp), parameter :: noise = 2.0e-13_wp      ! of the largest eigenvalue: what is below it is rounding
+   real(wp), parameter :: clear = 1.0e-6_wp       ! of an eigenvalue: a wider gap is safe for a count
+   real(wp), parameter :: near_pole = 1.0e-7_wp   ! distance by which a shift moves away from an eigenvalue
+   real(wp), parameter :: noise = 2.0e-13_wp      ! of the largest eigenvalue: smaller values are rounding
    real(wp), parameter :: no_mode = 1.0e-4_wp     ! of the next eigenvalue, at most
-   real(wp), parameter :: barely_held = 1.0e-8_wp ! weakest pivot, as a share of its diagonal entry
-   integer, parameter  :: beyond = 3              ! modes more than are wanted: the last wanted one may have equals
+   real(wp), parameter :: barely_held = 1.0e-8_wp ! smallest pivot relative to its diagonal entry
+   integer, parameter  :: beyond = 3              ! extra modes: the last wanted one may have equals
    integer, parameter  :: most_trials = 4
 
    type, public :: spectrum_type
-      real(wp), allocatable :: lambda(:)          !! ascending, 0 of a motion without strain [1/time^2]
+      real(wp), allocatable :: lambda(:)          !! ascending, 0 for a rigid-body mode [1/time^2]
       real(wp), allocatable :: x(:, :)            !! (equations, modes) x^T [m] x = 1
-      integer  :: n_rigid = 0                     !! motions without strain among them
+      integer  :: n_rigid = 0                     !! number of rigid-body modes
       integer  :: n_before = 0                    !! modes below the range
-      integer  :: n_wanted = 0                    !! of them, from the first on; the others complete the last wanted one
-      real(wp) :: shift = 0.0_wp                  !! they were found from
-      integer  :: n_counted = 0                   !! eigenvalues below COUNTED_AT, all of them known
+      integer  :: n_wanted = 0                    !! wanted modes, from the first on; the others complete the last group
+      real(wp) :: shift = 0.0_wp                  !! shift of the search
+      integer  :: n_counted = 0                   !! eigenvalues below COUNTED_AT, all found
       real(wp) :: counted_at = 0.0_wp             !! [1/time^2]
    end type spectrum_type
 
 contains
 
-   !> The modes of STRUCTURE that PLAN asks for, by the numbers of SYSTEM, which has no factor. Of factors there is never more than
-   !! one at a time.
+   !> The modes of STRUCTURE for PLAN, in the numbering of SYSTEM, which has no factor. There is never more than one factor at a
+   !! time.
    subroutine find_natural_modes(model, structure, plan, spectrum, system, failure)
       type(model_type), intent(in)          :: model
       type(oscillating_type), intent(in)    :: structure
@@ -98,7 +97,7 @@ contains
       end if
    end subroutine find_some
 
-   !> All modes of a small structure; of these the range.
+   !> All modes of a small structure, and the range of them.
    subroutine find_all(model, structure, plan, spectrum, failure)
       type(model_type), intent(in)          :: model
       type(oscillating_type), intent(in)    :: structure
@@ -124,8 +123,9 @@ contains
       spectrum%x = spectrum%x(:, spectrum%n_before + 1:)
    end subroutine find_all
 
-   !> The modes from the shift of SYSTEM on, more of them until the count agrees: that at the end of the range, BELOW_END, or where
-   !! there is none that in the first clear gap behind the last wanted one; behind all where fewer nodes have mass.
+   !> Find the modes from the shift of SYSTEM on, and more of them until their number agrees with the count. The count is that
+   !! at the end of the range, BELOW_END. Without an end it is taken in the first clear gap behind the last wanted mode, or
+   !! behind all modes where few nodes have mass.
    subroutine find_and_count(model, structure, below_end, spectrum, system, failure)
       type(model_type), intent(in)       :: model
       type(oscillating_type), intent(in) :: structure
@@ -149,15 +149,15 @@ contains
             last = clear_gap(lambda, spectrum%n_wanted)
             if (spectrum%n_wanted == below_end - spectrum%n_before) then ! the whole range, which has been counted
                if (count(lambda < (1.0_wp - clear)*spectrum%counted_at) <= spectrum%n_wanted .and. &
-                   count(lambda < (1.0_wp + clear)*spectrum%counted_at) >= spectrum%n_wanted) return ! one may lie at the end itself
+                   count(lambda < (1.0_wp + clear)*spectrum%counted_at) >= spectrum%n_wanted) return ! a mode may be at the end
                n = n + beyond
             else if (last > 0 .or. size(lambda) < n) then
                if (last > 0) then
                   spectrum%counted_at = 0.5_wp*(lambda(last) + lambda(last + 1))
-               else ! there are no more
+               else ! no more modes exist
                   last = size(lambda)
                   spectrum%counted_at = 2.0_wp*maxval([lambda, abs(spectrum%shift)])
-                  if (.not. spectrum%counted_at > 0.0_wp) then ! nothing that can move has a mass
+                  if (.not. spectrum%counted_at > 0.0_wp) then ! no free unknown has mass
                      spectrum%n_wanted = 0
                      return
                   end if
@@ -181,7 +181,7 @@ contains
                          integer_text(most_trials)//' trials')
    end subroutine find_and_count
 
-   !> The first of the ascending LAMBDA from number FROM on that is clearly below the next one; 0: there is none.
+   !> The first of the ascending LAMBDA, from number FROM on, that is clearly below the next one; 0: there is none.
    pure integer function clear_gap(lambda, from) result(last)
       real(wp), intent(in) :: lambda(:)
       integer, intent(in)  :: from
@@ -192,7 +192,7 @@ contains
       last = 0
    end function clear_gap
 
-   !> How many eigenvalues there are BELOW a shift above zero.
+   !> Count the eigenvalues BELOW a positive SHIFT.
    subroutine count_below(model, structure, shift, below, failure)
       type(model_type), intent(in)       :: model
       type(oscillating_type), intent(in) :: structure
@@ -208,7 +208,7 @@ contains
       if (.not. failure%raised) below = system%n_negative
    end subroutine count_below
 
-   !> Factorise at a SHIFT above zero; where that is an eigenvalue, a little below it.
+   !> Factorise at a positive SHIFT, or slightly below it where it is an eigenvalue.
    subroutine factorise_beside(model, structure, shift, system, failure)
       type(model_type), intent(in)       :: model
       type(oscillating_type), intent(in) :: structure
@@ -228,8 +228,8 @@ contains
       failure = own
    end subroutine factorise_beside
 
-   !> N modes from below all of them: without a shift, or where the structure is not held from a shift below zero, as far below it as
-   !! the first mode with strain is above.
+   !> N modes from below all of them: without a shift, or for a structure without sufficient supports from a negative shift. Its
+   !! size is that of the first mode with strain.
    subroutine search_from_below(model, structure, n, spectrum, system, failure)
       type(model_type), intent(in)       :: model
       type(oscillating_type), intent(in) :: structure
@@ -255,7 +255,7 @@ contains
          call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
          if (failure%raised) return
          least = noise*stiffest(model, structure, system)
-         associate (lambda => spectrum%lambda) ! zero but for rounding: below the least, and far below the next one
+         associate (lambda => spectrum%lambda) ! zero but for rounding: below the least eigenvalue, and far below the next one
             do i = count(lambda < max(least, 1.0e-9_wp*abs(spectrum%shift))), 1, -1
                if (i == size(lambda)) exit
                if (lambda(i) < no_mode*lambda(i + 1)) exit
@@ -269,7 +269,7 @@ contains
       end do
    end subroutine search_from_below
 
-   !> The square of the frequency at which a wave runs through the whole structure and back once a radian: E/rho over its size^2.
+   !> The square of the frequency of a wave through the structure: E/rho over its size^2.
    pure real(wp) function wave_scale(model) result(scale)
       type(model_type), intent(in) :: model
       real(wp) :: size_of_it
@@ -282,10 +282,10 @@ contains
       do i = 1, size(model%properties)
          if (model%properties(i)%rho > 0.0_wp) scale = max(scale, model%properties(i)%e/(model%properties(i)%rho*size_of_it**2))
       end do
-      if (.not. scale > 0.0_wp) scale = 1.0_wp ! masses at nodes alone: the search finds its own
+      if (.not. scale > 0.0_wp) scale = 1.0_wp ! nodal masses only: the search finds its own scale
    end function wave_scale
 
-   !> About the largest eigenvalue: the largest k_ii/m_ii.
+   !> Estimate of the largest eigenvalue: the largest k_ii/m_ii.
    real(wp) function stiffest(model, structure, system) result(largest)
       type(model_type), intent(in)       :: model
       type(oscillating_type), intent(in) :: structure

@@ -1,5 +1,6 @@
-!> The structure as it oscillates about the state at the end of a stage: bodies, bars, bolts that have been tightened, joints with
-!! the stiffness that they have for that; and its equations [k] - sigma [m], ordered once and factorised at any shift.
+!> The structure that oscillates about the state at the end of a stage, and its equations [k] - sigma [m]. It has the bodies,
+!! bars, tightened bolts, and the joints with their stiffness under oscillation. The equations are ordered once and factorised
+!! at any shift.
 module oscillating_structure
    use analysis_state, only: analysis_type
    use case_control, only: solver_skyline, solver_tree
@@ -18,14 +19,14 @@ module oscillating_structure
    type, public :: oscillating_type
       real(wp), allocatable :: k(:, :)       !! (3, n) k_sx, k_sy, k_n of interface elements [force/length]
       logical, allocatable  :: is_elastic(:) !! bars: no bolts, or tightened ones
-      logical, allocatable  :: is_locked(:)  !! sections of solid bolts that have been tightened
+      logical, allocatable  :: is_locked(:)  !! tightened pretension sections of solid bolts
       type(mass_matrix_type) :: mass
       class(equation_system), allocatable :: started !! ordered, without a matrix
    end type oscillating_type
 
 contains
 
-   !> MODEL without its supports; what holds the axis of a ring is none.
+   !> MODEL without its supports; the condition on the axis of a ring remains.
    pure subroutine let_go(model)
       type(model_type), intent(inout) :: model
       logical :: free(model%dimension)
@@ -38,8 +39,8 @@ contains
       end do
    end subroutine let_go
 
-   !> Stiffness and mass about the state of ANALYSIS, and the order of the equations: of the solver that SYSTEM is where it is one of
-   !! the two that have factors.
+   !> Stiffness and mass about the state of ANALYSIS, and the order of the equations. The solver is SKYLINE if SYSTEM is
+   !! SKYLINE, else TREE.
    subroutine start_oscillation(model, analysis, system, on_loading, structure, failure)
       type(model_type), intent(in)        :: model
       type(analysis_type), intent(in)     :: analysis
@@ -61,8 +62,8 @@ contains
                            merge(solver_skyline, solver_tree, system%description%name == 'SKYLINE'), factorisations=1, shift=0.0_wp)
    end subroutine start_oscillation
 
-   !> [k] - SHIFT [m] of STRUCTURE, factorised, in SYSTEM. FAILURE where it is singular, which without shift a structure is that is
-   !! not held, or where the memory is not there.
+   !> Factorise [k] - SHIFT [m] of STRUCTURE in SYSTEM. FAILURE where the matrix is singular, as without shift for a structure
+   !! without sufficient supports, or where memory is missing.
    subroutine factorise_at(model, structure, shift, system, failure)
       type(model_type), intent(in)       :: model
       type(oscillating_type), intent(in) :: structure
@@ -88,7 +89,7 @@ contains
       call form_structure_stiffness(model, k, 'natural modes', system, failure)
    end subroutine factorise_at
 
-   !> The overlap of solid bolts that have been tightened does not change.
+   !> Hold the overlap of tightened solid bolts.
    subroutine hold_bolts(model, structure, system)
       type(model_type), intent(in)          :: model
       type(oscillating_type), intent(in)    :: structure
