@@ -141,7 +141,7 @@ contains
       end do
    end subroutine place_grids
 
-   !> VECTOR, given in system CID at the point X, in global axes; CID stands in FIELD of the card on LINE.
+   !> VECTOR, given in system CID at the point X, in global axes; CID is read from FIELD of the card on LINE.
    !! Errors: no such system, a point on the axis of a cylindrical or spherical one.
    subroutine to_global(deck, systems, line, cid, x, vector)
       type(checked_deck), intent(in)      :: deck

@@ -384,7 +384,7 @@ contains
       element%area = self%area(i)
    end subroutine hang
 
-   !> Drop the weights of an end that are rounding, and scale the others to the sum 1.
+   !> Set the weights of an end that are rounding to zero, and correct the largest weight so that the sum is 1.
    pure subroutine make_whole(weight)
       real(wp), intent(inout) :: weight(:)
       integer :: largest

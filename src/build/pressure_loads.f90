@@ -129,7 +129,7 @@ contains
       logical :: names_shell
 
       allocate (pressed(size(deck%bulk%pressure)))
-      if (size(pressed) == 0) return ! append doubles the room
+      if (size(pressed) == 0) return ! append doubles a room that is not empty
       call elements%build(model%element_id)
       call faces%build(pack(deck%bulk%element%id, is_face(model, deck%bulk%element)))
       n = 0

@@ -402,7 +402,7 @@ contains
       if (allocated(model%structural%place)) is_shell = model%structural%place(e) > 0 .and. model%element_kind(e) /= kind_edge2
    end function is_shell
 
-   !> Whether NODE stands on the face of shells.
+   !> Whether NODE is a face node of shells.
    pure logical function is_face_node(model, node)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
