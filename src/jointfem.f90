@@ -1,6 +1,5 @@
-!> jointfem: structures with flexible joints by the step-wise tangent-stiffness method.
-!! The program is the flow chart of the method (Edelugo, Fig. 6a), one call a box. A box does nothing once one before it has
-!! ended the run.
+!> jointfem: structures with flexible joints by the step-wise tangent-stiffness method. The program is the flow chart of the
+!! method (Edelugo, Fig. 6a), one call for each box. After an error that ends the run, the remaining boxes do nothing.
 program jointfem
    use analysis_state, only: analysis_type, interface_stiffness
    use back_method, only: back_increment

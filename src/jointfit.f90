@@ -1,4 +1,4 @@
-!> jointfit: the cards of a joint's laws, JNORM and JSHEAR, from test data.
+!> jointfit: the cards of a joint's laws, JNORM and JSHEAR, fitted to test data.
 program jointfit
    use c_library, only: end_run
    use deck_errors, only: deck_error_list

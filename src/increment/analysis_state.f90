@@ -53,7 +53,7 @@ module analysis_state
       real(wp), allocatable  :: load(:, :)           !! (dimension, n_nodes) with plastic bolt forces and thermal forces [force]
       real(wp), allocatable  :: moved(:, :)          !! (dimension, n_nodes) displacements of held components [length]
       type(temperature_type) :: temperature
-      real(wp), allocatable  :: condensed_load(:, :) !! (dimension, retained) condensed load, forces of moved supports included [force]
+      real(wp), allocatable  :: condensed_load(:, :) !! (dimension, retained) condensed load, with moved supports [force]
    end type load_state
 
    !> The record of the last increment for output; no later result depends on it.

@@ -229,7 +229,7 @@ contains
       if (.not. law%given) return
       d = curve_deflection(state)
       if (state%branch == branch_load .and. d > 0.0_wp) then
-         d = min(d, deflection_at(law%load, past_peaks*cubic_slope(law%load, 0.0_wp, pressure)*d, pressure)) ! tau is constant past it
+         d = min(d, deflection_at(law%load, past_peaks*cubic_slope(law%load, 0.0_wp, pressure)*d, pressure)) ! constant past it
          offset = state%sense*state%tau - cubic_value(law%load, d, pressure)
          slid = state%sense*(curve_deflection(state) - deflection_at(law%load, max(0.0_wp, state%sense*tau - offset), pressure))
       else

@@ -1,5 +1,6 @@
-!> The answer at the end of a stage in tables: a block of short ones for the screen and the listing, and the CSV files NAME.stage.csv,
-!! .bolt.csv, .reaction.csv, .watch.csv and .watch.energy.csv. A table and the CSV file of the same subject have one list of columns.
+!> The tables of the answer at the end of a stage: a block for screen and listing, and its CSV files. The files are
+!! NAME.stage.csv, .bolt.csv, .reaction.csv, .watch.csv and .watch.energy.csv. A table and the CSV file of the same subject
+!! share one list of columns.
 module answer_tables
    use analysis_state, only: analysis_type
    use bolt_answers, only: bolt_answer_type
@@ -18,13 +19,14 @@ module answer_tables
              print_reactions, &
              print_watched
 
-   integer, parameter      :: most_reactions = 40 ! of the block; the file has all
+   integer, parameter      :: most_reactions = 40 ! rows of the block; the file has all rows
    character(1), parameter :: xyz(3) = ['x', 'y', 'z']
 
 contains
 
-   !> A row a joint: the largest values of the bodies, contact, what the joint transmits, how its sides move, how stiff it is. The share
-   !! in contact and the safety stand in the file as they are, in the block in per cent and below a million.
+   !> A row for each joint: the largest values of the bodies, contact, transmitted forces, movement of the sides, stiffness. The
+   !! file has the share in contact and the safety as numbers; the block has the share in per cent and the safety below a
+   !! million.
    function stage_columns(labels) result(columns)
       type(label_type), intent(in)   :: labels
       type(column_type), allocatable :: columns(:)
@@ -42,8 +44,8 @@ contains
                       'secant_x', 'secant_y', 'secant_n', 'secant_tilt_x', 'secant_tilt_y', 'secant_twist'])]
    end function stage_columns
 
-   !> A row a bolt. In the listing the columns stand in two blocks: forces of the stage; and since the bolt was tightened, with its stress
-   !! and what it clamps.
+   !> A row for each bolt. The listing has two blocks: forces of the stage; and values since the bolt was tightened, with its
+   !! stress and clamping force.
    function bolt_columns(labels, block) result(columns)
       type(label_type), intent(in)   :: labels
       integer, intent(in)            :: block !! 1 or 2
@@ -70,7 +72,7 @@ contains
                                                                                                 is_listed=second)]
    end function bolt_columns
 
-   !> A row a support, their sum, the loads. Moments in the plane are about z alone.
+   !> A row for each support, their sum, the loads. A plane model has the moment about z only.
    function reaction_columns(labels, dimension) result(columns)
       type(label_type), intent(in)   :: labels
       integer, intent(in)            :: dimension
@@ -86,7 +88,7 @@ contains
                  column('MC'//axes, 'es11.3', labels%moment, name='central_'//xyz, is_listed=about)]
    end function reaction_columns
 
-   !> A row a node of WATCH.
+   !> A row for each node of WATCH.
    function watch_columns(labels, dimension) result(columns)
       type(label_type), intent(in)   :: labels
       integer, intent(in)            :: dimension
@@ -101,7 +103,7 @@ contains
                  column('STIFFNESS', 'es13.4', labels%stiffness, name='stiffness')]
    end function watch_columns
 
-   !> A row a body, joint, bar and spring: its share of the work of the stage.
+   !> A row for each body, joint, bar and spring: its share of the work of the stage.
    function split_columns() result(columns)
       type(column_type), allocatable :: columns(:)
 
@@ -110,7 +112,7 @@ contains
                  column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i14'), csv(['normal', 'shear ', 'work  '])]
    end function split_columns
 
-   !> Print ANSWER under TITLE on the screen, and its rows into the file of the stages; one, with joint 0, where there are no joints.
+   !> Print ANSWER under TITLE on the screen, and its rows into the file of the stages; without joints one row, with joint 0.
    subroutine print_answer(page, title, model, answer)
       type(page_type), intent(inout)      :: page
       character(*), intent(in)            :: title
@@ -151,7 +153,7 @@ contains
 
    contains
 
-      !> The columns that say nothing of a joint.
+      !> Add the columns that do not concern a joint.
       subroutine begin_row(joint)
          integer, intent(in) :: joint
 
@@ -168,7 +170,7 @@ contains
          call table%add([peak%id], where=[peak%is_there])
       end subroutine add_peak
 
-      !> The node of interface element I; nothing where there is none.
+      !> Add the node of interface element I, or an empty field.
       subroutine add_node(i)
          integer, intent(in) :: i
 
@@ -177,7 +179,7 @@ contains
 
    end subroutine print_answer
 
-   !> Displacement and stress.
+   !> Print displacement and stress.
    subroutine print_peaks(file, labels, model, answer)
       type(output_file_type), intent(inout) :: file
       type(label_type), intent(in)          :: labels
@@ -211,7 +213,7 @@ contains
 
    end subroutine print_peaks
 
-   !> Stiffnesses about the centroids.
+   !> Print stiffnesses about the centroids.
    subroutine print_stiffnesses(file, labels, model, answer)
       type(output_file_type), intent(inout) :: file
       type(label_type), intent(in)          :: labels
@@ -252,7 +254,7 @@ contains
 
    end subroutine print_stiffnesses
 
-   !> The BOLTS of ANALYSIS: in the answer of a stage on the screen, after every increment in their file.
+   !> Print the BOLTS of ANALYSIS: in the answer of a stage on the screen, after every increment in their file.
    subroutine print_bolts(page, analysis, bolts, in_answer)
       type(page_type), intent(inout)     :: page
       type(analysis_type), intent(in)    :: analysis
@@ -297,7 +299,7 @@ contains
 
    end subroutine print_bolts
 
-   !> What the supports take; the last line is the balance.
+   !> Print the support reactions; the last line is the balance.
    subroutine print_reactions(page, model, answer)
       type(page_type), intent(inout)   :: page
       type(model_type), intent(in)     :: model
@@ -323,7 +325,7 @@ contains
 
       subroutine row(part, is_listed)
          type(reaction_type), intent(in) :: part
-         logical, intent(in)             :: is_listed !! not in the file alone
+         logical, intent(in)             :: is_listed !! also in the listing, not in the file only
 
          call table%add([page%stage_id])
          call table%add(' '//part%kind)
@@ -334,7 +336,7 @@ contains
 
    end subroutine print_reactions
 
-   !> How the nodes of WATCH move, and who gives way by how much.
+   !> Print how the nodes of WATCH move, and the share of each component in the compliance.
    subroutine print_watched(page, model, answer)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model

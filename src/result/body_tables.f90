@@ -1,6 +1,7 @@
-!> Tables of the bodies: displacements, rotations, stresses, reactions, and the balance of the outer forces. Where OUTPUT limits a stage
-!! to some nodes, they have the rows of these, and of the elements that have any of them. Vectors at nodes stand along the axes of the
-!! model, or with OUTPUT = CD along those of the displacement system of each node, whose number stands behind its row.
+!> Tables of the bodies: displacements, rotations, stresses, reactions, and the balance of the external forces. Where OUTPUT
+!! limits a stage to some nodes, the tables have the rows of these nodes and of the elements with any of them. Nodal vectors are
+!! given along the axes of the model, or with OUTPUT = CD along those of the displacement system of each node, whose number
+!! follows the row.
 module body_tables
    use analysis_state, only: analysis_type, element_force
    use body_elements, only: element_centre, element_stress, node_stresses, whole_stress
@@ -20,13 +21,14 @@ module body_tables
 
    public :: list_bodies
 
-   ! Long tables are written by all threads: blocks of rows that are printed together, of them a piece is the work of one.
+   ! All threads write long tables: rows are printed in blocks, and each thread writes pieces of a block.
    integer, parameter :: block_rows = 16384, piece = 512, few = 4096
-   real(wp), parameter :: of_a_sum = 1.0e-14_wp ! of the sum of the sizes: what rounding leaves of a sum
+   real(wp), parameter :: of_a_sum = 1.0e-14_wp ! of the sum of amounts: rounding error of a sum
 
 contains
 
-   !> Displacements, stresses, reactions; where stresses are ASKED also principal ones, and those at nodes of elements of second order.
+   !> Displacements, stresses, reactions; where stresses are ASKED also principal stresses, and those at nodes of second-order
+   !! elements.
    subroutine list_bodies(page, asked, model, analysis)
       type(page_type), intent(inout)  :: page
       type(output_request), intent(in) :: asked
@@ -98,7 +100,7 @@ contains
 
    contains
 
-      !> The LINES of rows FROM to UNTIL, so many characters of them USED.
+      !> The LINES of rows FROM to UNTIL, and the number of characters USED.
       subroutine write_piece(from, until, lines, used)
          integer, intent(in)         :: from, until
          character(*), intent(inout) :: lines
@@ -157,7 +159,7 @@ contains
       shows_body = shows(page, corners_of(model, e)) .and. .not. (is_shell(model, e) .or. is_beam(model, e))
    end function shows_body
 
-   !> Which of the stresses (xx, yy, zz, xy, yz, zx) the tables of MODEL have.
+   !> Which of the stresses (xx, yy, zz, xy, yz, zx) the tables of MODEL show.
    pure function shown_stresses(model) result(shown)
       type(model_type), intent(in) :: model
       integer, allocatable         :: shown(:)
@@ -168,7 +170,7 @@ contains
       if (model%axisymmetric) shown = [1, 2, 3, 4]
    end function shown_stresses
 
-   !> Their names; across the plane of an axisymmetric model stands the hoop stress.
+   !> Names of the stresses; the stress across the plane of an axisymmetric model is the hoop stress.
    pure function stress_names(model) result(names)
       type(model_type), intent(in) :: model
       character(10), allocatable   :: names(:)
@@ -179,7 +181,7 @@ contains
       names = all_names(shown_stresses(model))
    end function stress_names
 
-   !> Stresses at nodes, the mean of their elements', and the equivalent stress of von Mises there.
+   !> Stresses at nodes, averaged over their elements, and their equivalent stress of von Mises.
    subroutine list_node_stresses(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -224,7 +226,7 @@ contains
       end do
    end subroutine list_principal
 
-   !> Reactions at supports, and the balance of all outer forces: loads, supports, rigid bases.
+   !> Reactions at supports, and the balance of all external forces: loads, supports, rigid bases.
    subroutine list_reactions(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -278,7 +280,7 @@ contains
       subroutine balance_line(words, resultant, floor)
          character(*), intent(in) :: words
          real(wp), intent(in)     :: resultant(:)
-         real(wp), intent(in)     :: floor !! what is below it is rounding [force]
+         real(wp), intent(in)     :: floor !! values below it are rounding [force]
          character(33) :: name
 
          name = words
@@ -305,7 +307,7 @@ contains
       end associate
    end function direction_columns
 
-   !> What stands behind the title of such a table.
+   !> The words behind the title of such a table.
    pure function direction_words(page) result(words)
       type(page_type), intent(in) :: page
       character(:), allocatable :: words
@@ -314,7 +316,7 @@ contains
       if (page%along_cd) words = ' ALONG THEIR SYSTEMS CD (0: X, Y, Z)'
    end function direction_words
 
-   !> Add the VECTOR at NODE in global axes to the row of TABLE, what is below FLOOR as zero, and the node's system where it counts.
+   !> Add the VECTOR at NODE, given in global axes, to the row of TABLE, with values below FLOOR as zero, and the node's system.
    subroutine add_directed(page, model, node, vector, floor, table)
       type(page_type), intent(in)             :: page
       type(model_type), intent(in)            :: model
@@ -332,7 +334,7 @@ contains
       system = 0
       if (allocated(model%node_system)) system = model%node_system(node)
       if (system > 0) system = model%systems(system)%id
-      if (size(vector) == 1) then ! about z of a plane model
+      if (size(vector) == 1) then ! about z for a plane model
          call table%add(clean(vector*directions(3, 3), floor))
       else
          associate (d => size(vector))
@@ -366,7 +368,7 @@ contains
       end associate
    end subroutine list_rotations
 
-   !> Moments of supports about these axes, where any rotation is supported.
+   !> Support moments about these axes, where any rotation is supported.
    subroutine list_moments(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model

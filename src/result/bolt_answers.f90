@@ -1,6 +1,6 @@
-!> Bolts at the end of an increment, be they bars or of solids: force, share of the load, stress, and what the clamped joint keeps.
-!! The terms are those of VDI 2230: assembly is the end of the last stage that tightens a bolt; from there on the share of a load, along
-!! the bolt or across it, and the loss of clamping are counted.
+!> The bolts at the end of an increment, bars or solids: force, load share, stress, and clamping of the joint. The terms are
+!! those of VDI 2230. Assembly is the end of the last stage that tightens a bolt. The share of an axial or transverse load and
+!! the loss of clamping force are counted from assembly on.
 module bolt_answers
    use analysis_state, only: analysis_type
    use body_elements, only: element_thermal_forces, felt_stiffness
@@ -19,68 +19,68 @@ module bolt_answers
 
    public :: n_bolts, start_bolts, find_bolt_answers, keep_bolts, record_bolts, load_along, whole_load, bending_moment
 
-   ! of forces and movements: what is left of sums and differences that would be zero but for rounding and for what iterations leave
+   ! of forces and movements: the remainder of sums and differences that are zero but for rounding and the tolerance of iterations
    real(wp), parameter, public :: remainder = 1.0e-7_wp
 
-   real(wp), parameter :: about_as_near = 0.45_wp ! of the length of a bolt: how much farther off its own joint may be than another
-   real(wp), parameter :: along_it = 0.01_wp      ! of the whole load: what acts along a bolt of this load is one
+   real(wp), parameter :: about_as_near = 0.45_wp ! of the bolt's length: own joint farther than the nearest one by this
+   real(wp), parameter :: along_it = 0.01_wp      ! of the whole load: a smaller part along a bolt is none
    real(wp), parameter :: pi = acos(-1.0_wp)
 
-   !> What does not change of a bolt.
+   !> The data of a bolt that do not change.
    type :: bolt_place
       integer  :: id = 0                  !! of its BOLT card
-      integer  :: bar = 0, section = 0    !! position of its bar, or of its section: one of them is 0
+      integer  :: bar = 0, section = 0    !! position of its bar or of its pretension section: one of them is 0
       integer  :: stage = 0               !! position of the stage that tightens it
-      integer  :: joint = 0               !! its own: position of the joint that it crosses, of several the largest; 0: none
+      integer  :: joint = 0               !! position of the joint that it crosses, the largest of several; 0: none
       real(wp) :: point(3) = 0.0_wp       !! on its axis [length]
       real(wp) :: direction(3) = 0.0_wp   !! along it, unit
       real(wp) :: area = 0.0_wp           !! of its shank [length^2]
       real(wp) :: strength = 0.0_wp       !! ST of its material, 0: not given [pressure]
    end type bolt_place
 
-   !> What is remembered of the bolts of a model.
+   !> The history of the bolts of a model.
    type, public :: bolt_history
       type(bolt_place), allocatable, private :: bolts(:)
       integer, private :: assembly = 0    !! position of the last stage so far that tightened a bolt, 0: none
       real(wp), private :: load = 0.0_wp  !! the largest since assembly [force]
       real(wp), allocatable, private :: before(:)    !! forces at the end of the stage before [force]
       real(wp), allocatable, private :: tightened(:) !! at the end of tightening, 0: not yet
-      real(wp), allocatable, private :: largest(:)   !! since then
+      real(wp), allocatable, private :: largest(:)   !! largest since then
       real(wp), allocatable, private :: assembled(:) !! at assembly
-      real(wp), allocatable, private :: change(:)    !! since assembly, the one of the largest size
-      real(wp), allocatable, private :: clamped(:)   !! what clamped the own joint around the bolt at assembly
+      real(wp), allocatable, private :: change(:)    !! largest in size since assembly
+      real(wp), allocatable, private :: clamped(:)   !! clamping force of its own joint around the bolt at assembly
    end type bolt_history
 
    type, public :: bolt_answer_type
       integer  :: id = 0
-      integer  :: element = 0, surface = 0     !! its bar; its section; one of them is 0
-      real(wp) :: longer = 0.0_wp              !! a bar: elongation; a solid bolt: minus what it was shortened by [length]
+      integer  :: element = 0, surface = 0     !! its bar; its pretension section; one of them is 0
+      real(wp) :: longer = 0.0_wp              !! elongation of a bar; of a solid bolt minus its shortening [length]
       real(wp) :: force = 0.0_wp               !! tension [force]
       real(wp) :: change = 0.0_wp              !! since the end of the stage before [force]
       real(wp) :: load_change = 0.0_wp         !! of the load along it [force]
       logical  :: has_ratio = .false., has_moment = .false.
       real(wp) :: ratio = 0.0_wp               !! change over load_change
       real(wp) :: moment = 0.0_wp              !! bending [force x length]
-      logical  :: is_locked = .false.          !! has been tightened: what follows is known
+      logical  :: is_locked = .false.          !! has been tightened: the values below are known
       real(wp) :: tightened = 0.0_wp           !! force at the end of tightening [force]
       real(wp) :: largest = 0.0_wp             !! since then [force]
       real(wp) :: load = 0.0_wp                !! the largest whole load since assembly [force]
       logical  :: has_share = .false.
-      real(wp) :: share = 0.0_wp               !! largest change of force since assembly, in stages that change the load, over that load
+      real(wp) :: share = 0.0_wp               !! largest change of force since assembly over the load that changed
       logical  :: has_strength = .false.
       real(wp) :: stress = 0.0_wp              !! force over area [pressure]
       real(wp) :: edge_stress = 0.0_wp         !! with bending, of a round shank; where has_moment [pressure]
       real(wp) :: use = 0.0_wp                 !! largest force over ST area
       integer  :: joint = 0                    !! JID of its own joint, 0: none
-      real(wp) :: clamping = 0.0_wp            !! normal force of the elements of that joint that are nearest to this bolt [force]
-      real(wp) :: loss = 0.0_wp                !! of it since assembly, 1: all
+      real(wp) :: clamping = 0.0_wp            !! normal force of the elements of that joint nearest to this bolt [force]
+      real(wp) :: loss = 0.0_wp                !! loss of clamping since assembly, 1: all
       logical  :: has_safety = .false.
       real(wp) :: safety = 0.0_wp              !! mu N/T of these elements
    end type bolt_answer_type
 
 contains
 
-   !> How many bolts there are.
+   !> Number of bolts.
    pure integer function n_bolts(model) result(n)
       type(model_type), intent(in) :: model
 
@@ -88,7 +88,7 @@ contains
       if (n_bars(model) > 0) n = n + count(model%bars%bolt > 0)
    end function n_bolts
 
-   !> All bolts of MODEL, bars first, and which joint is whose; nothing has happened yet.
+   !> Find all bolts of MODEL, bars first, and the joint of each; the history is empty.
    subroutine start_bolts(model, history)
       type(model_type), intent(in)    :: model
       type(bolt_history), intent(out) :: history
@@ -126,12 +126,11 @@ contains
       end do
    end subroutine start_bolts
 
-   !> From where to where along its axis a solid BOLT reaches: the nodes of its body that are not farther from the axis than those of
-   !! its section.
+   !> The axial range of a solid BOLT: the nodes of its body no farther from the axis than those of its pretension section.
    pure function span_of(model, bolt, point, radius) result(span)
       type(model_type), intent(in) :: model
       type(bolt_place), intent(in) :: bolt
-      integer, intent(in)          :: point  !! a node of its section
+      integer, intent(in)          :: point  !! a node of its pretension section
       real(wp), intent(in)         :: radius !! [length]
       real(wp) :: span(2), along
       integer  :: node
@@ -145,8 +144,9 @@ contains
       end do
    end function span_of
 
-   !> The joint of BOLT: one whose element nearest to the axis lies within the SPAN of the bolt and faces it. Those much farther off
-   !! than the nearest one are other bolts'; of what is left it is the one of the largest area, the first of equal ones.
+   !> The joint of BOLT: its element nearest to the axis lies within the SPAN of the bolt and faces the axis. Joints much
+   !! farther than the nearest one belong to other bolts. Of the remaining joints the one of largest area is taken, the first of
+   !! equal ones.
    pure subroutine find_own_joint(model, span, bolt)
       type(model_type), intent(in)    :: model
       real(wp), intent(in)            :: span(2) !! from the point of the bolt, in its direction [length]
@@ -173,7 +173,7 @@ contains
       bolt%joint = first_largest(model%joints%area, crossed)
    end subroutine find_own_joint
 
-   !> How far X is from the axis of BOLT [length].
+   !> Distance of X from the axis of BOLT [length].
    pure real(wp) function distance(bolt, x)
       type(bolt_place), intent(in) :: bolt
       real(wp), intent(in)         :: x(3)
@@ -181,8 +181,8 @@ contains
       distance = norm2(x - bolt%point - dot_product(x - bolt%point, bolt%direction)*bolt%direction)
    end function distance
 
-   !> The load of the deck along DIRECTION when FRACTION of STAGE is done: of its nodal forces that way and of those against it
-   !! the larger sum, so that of loads that balance each other one half counts [force]. Preloads are none of it.
+   !> The load of the deck along DIRECTION at FRACTION of STAGE: the larger of the sums of nodal forces in this and in the
+   !! opposite direction. Of self-equilibrated loads one half counts [force]. Preloads are left out.
    real(wp) function load_along(model, direction, stage, fraction) result(load)
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: direction(3)
@@ -201,9 +201,9 @@ contains
       load = maxval(sums)
    end function load_along
 
-   !> The load of the deck whatever its direction, when FRACTION of STAGE is done, against that at the end of stage FROM: half the sum
-   !! of the sizes of its nodal forces and of the size of their resultant. Of a single force it is that force, of loads that balance
-   !! each other one half [force].
+   !> The load of the deck in any direction at FRACTION of STAGE, relative to the end of stage FROM: half the sum of the
+   !! magnitudes of its nodal forces and of the magnitude of their resultant. For a single force it is that force, for
+   !! self-equilibrated loads one half [force].
    real(wp) function whole_load(model, from, stage, fraction) result(load)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: from, stage
@@ -214,7 +214,7 @@ contains
       load = 0.5_wp*(sum(norm2(force, dim=1)) + norm2(sum(force, dim=2)))
    end function whole_load
 
-   !> (3, n_nodes) The nodal forces of the deck when FRACTION of STAGE is done, less those at the end of stage FROM; without moments.
+   !> (3, n_nodes) The nodal forces of the deck at FRACTION of STAGE, less those at the end of stage FROM; without moments.
    subroutine find_load_change(model, from, stage, fraction, force)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: from, stage !! positions; before the first there is no load
@@ -244,8 +244,8 @@ contains
 
    end subroutine find_load_change
 
-   !> Bending moment at the section of a solid bolt: what the elements behind it exert on the nodes of the section, about the
-   !! centroid of its area, across the bolt [force x length]. Weight of these elements is neglected.
+   !> Bending moment at the pretension section of a solid bolt: the moment that the elements behind it exert on the nodes of the
+   !! section, about the centroid of its area, across the bolt [force x length]. The weight of these elements is neglected.
    pure real(wp) function bending_moment(model, section, u, temperature) result(moment)
       type(model_type), intent(in)   :: model
       type(section_type), intent(in) :: section
@@ -280,11 +280,11 @@ contains
       end do
       total = total - dot_product(total, section%direction)*section%direction
       moment = norm2(total)
-      if (model%axisymmetric) moment = 0.0_wp ! all round the ring it balances
+      if (model%axisymmetric) moment = 0.0_wp ! self-equilibrated around the ring
    end function bending_moment
 
-   !> The bolts after the increment just completed, which HISTORY takes note of. The bending of solid ones is known where the bodies
-   !! are, at the end of a stage.
+   !> The bolts after the completed increment, which HISTORY records. The bending of solid bolts is known only where the bodies
+   !! are recovered, at the end of a stage.
    subroutine find_bolt_answers(model, analysis, largest_force, history, answers)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
@@ -335,7 +335,7 @@ contains
 
    contains
 
-      !> What BOLT is and feels now.
+      !> Describe BOLT and its present state.
       subroutine describe(bolt, answer, force)
          type(bolt_place), intent(in)        :: bolt
          type(bolt_answer_type), intent(out) :: answer
@@ -357,13 +357,13 @@ contains
          if (.not. answer%has_moment) return
          answer%moment = above(bending_moment(model, model%sections(bolt%section), analysis%all_u, analysis%now%temperature), &
                                floor*sqrt(bolt%area))
-         answer%edge_stress = answer%stress + 4.0_wp*sqrt(pi)*answer%moment/bolt%area**1.5_wp ! W = pi d**3/32 of A = pi d**2/4
+         answer%edge_stress = answer%stress + 4.0_wp*sqrt(pi)*answer%moment/bolt%area**1.5_wp ! W = pi d**3/32, A = pi d**2/4
       end subroutine describe
 
    end subroutine find_bolt_answers
 
-   !> What clamps the own joint of each bolt around it, and shears it there: sums over the elements of the joint that are nearest to the
-   !! axis of this bolt, of those that are as near to others an equal share.
+   !> Clamping and shear forces of the own joint around each bolt: sums over the elements of the joint nearest to the axis of
+   !! this bolt. Elements equally near to several bolts are shared equally.
    pure subroutine find_clamping(model, analysis, bolts, clamping, shear)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -390,11 +390,11 @@ contains
             end associate
          end do
       end do
-      if (model%axisymmetric) along = 0.0_wp ! all round the ring it balances
+      if (model%axisymmetric) along = 0.0_wp ! self-equilibrated around the ring
       shear = norm2(along, dim=1)
    end subroutine find_clamping
 
-   !> The increment just completed in HISTORY; asked again about the same increment it stays as it is.
+   !> Record the completed increment in HISTORY; a second call for the same increment changes nothing.
    subroutine take_note(model, analysis, force, clamping, history)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
@@ -416,12 +416,12 @@ contains
          where (bolts%stage <= stage) history%largest = max(history%largest, force)
          if (stage > history%assembly) &
             history%load = max(history%load, whole_load(model, history%assembly, stage, analysis%fraction))
-         if (whole_load(model, stage - 1, stage, analysis%fraction) <= tie*history%load) return ! warmed alone, or tightened
+         if (whole_load(model, stage - 1, stage, analysis%fraction) <= tie*history%load) return ! thermal load only, or tightened
          where (abs(force - history%assembled) > abs(history%change)) history%change = force - history%assembled
       end associate
    end subroutine take_note
 
-   !> A stage ends with ANSWERS.
+   !> Record a stage that ends with ANSWERS.
    pure subroutine keep_bolts(answers, history)
       type(bolt_answer_type), intent(in) :: answers(:)
       type(bolt_history), intent(inout)  :: history
@@ -429,7 +429,7 @@ contains
       history%before = answers%force
    end subroutine keep_bolts
 
-   !> Write what is remembered to a restart file, or read it for the same model.
+   !> Write the history to a restart file, or read it for the same model.
    subroutine record_bolts(stream, history)
       type(restart_stream_type), intent(inout) :: stream
       type(bolt_history), intent(inout)        :: history

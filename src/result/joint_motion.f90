@@ -1,5 +1,5 @@
-!> A joint as a whole: what it transmits, how its sides move against each other as rigid bodies would, and
-!! how stiffly. Six components in the joint's axes: forces (movements) along x, y and the normal z, moments (turns) about them.
+!> The resultant of a joint, the rigid-body movement of its sides against each other, and its six stiffnesses. The components
+!! are given in the joint's axes: forces (movements) along x, y and the normal z, moments (rotations) about them.
 module joint_motion
    use analysis_state, only: analysis_type, element_force
    use interface_operator, only: at_first_end
@@ -13,18 +13,18 @@ module joint_motion
 
    public :: find_resultant, rigid_movement, stiffness_about
 
-   !> What side 1 transmits to side 2.
+   !> The force and moment of side 1 on side 2.
    type, public :: joint_resultant
       real(wp) :: normal = 0.0_wp           !! N: sum of the normal forces of the elements, compression positive [force]
       real(wp) :: along(2) = 0.0_wp         !! sums of the shear forces in the elements' own x and y [force]
       real(wp) :: shear(3) = 0.0_wp         !! the same as a vector, global axes [force]
-      real(wp) :: force(3) = 0.0_wp         !! all of it, global axes [force]
+      real(wp) :: force(3) = 0.0_wp         !! total, global axes [force]
       real(wp) :: moment(3) = 0.0_wp        !! about the centroid of the area, global axes [force x length]
    end type joint_resultant
 
 contains
 
-   !> What JOINT transmits now.
+   !> The present resultant of JOINT.
    pure function find_resultant(model, analysis, joint) result(total)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -45,10 +45,11 @@ contains
       end do
    end function find_resultant
 
-   !> Movement of side 1 against side 2 as of rigid bodies, nearest to the deflections {d} of the elements that are not open
-   !! (delta_x, delta_y, lambda as in the joint history) by least squares, their areas the weights: about the centroid s of these
-   !! elements the mean of {d}, and the turn {t} with [J] {t} = sum a (r - s) x {d}, [J] their inertia. It is the movement of the point
-   !! at the centroid of the joint. These elements do not tell the turn about a line on which all of them stand: it is 0 [length; radians].
+   !> Rigid-body movement of side 1 against side 2, fitted to the deflections {d} of the elements that are not open (delta_x,
+   !! delta_y, lambda as in the joint history) by least squares weighted with their areas. The translation at the centroid s of
+   !! these elements is the mean of {d}. The rotation {t} follows from [J] {t} = sum a (r - s) x {d}, [J] their inertia. The
+   !! result is the movement of the point at the centroid of the joint. Elements on one line do not determine the rotation about
+   !! it: it is set to 0 [length; radians].
    pure function rigid_movement(model, analysis, joint) result(q)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -82,7 +83,7 @@ contains
       q(:3) = merge(mean - cross(q(4:), place), 0.0_wp, joint%frame%exists(:3))
    end function rigid_movement
 
-   !> How interface element I is deflected, in the axes of JOINT [length].
+   !> Deflection of interface element I in the axes of JOINT [length].
    pure function deflection_of(model, analysis, joint, i) result(d)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -96,11 +97,11 @@ contains
       d = matmul(d, joint%frame%axes)
    end function deflection_of
 
-   !> The smallest {t} with [J] {t} = {moment}. Of elements on one line along e, [J] = J ([1] - e e^T): {t} = {moment}/J.
+   !> The smallest {t} with [J] {t} = {moment}. For elements on one line along e, [J] = J ([1] - e e^T) and {t} = {moment}/J.
    pure function smallest_turn(inertia, moment, least) result(turn)
       real(wp), intent(in) :: inertia(3, 3) !! [J] about the centroid of the elements
       real(wp), intent(in) :: moment(3)
-      real(wp), intent(in) :: least         !! below it J is that of one place
+      real(wp), intent(in) :: least         !! below it all elements are at one point
       real(wp) :: turn(3), determinant, j, minors(3, 3)
 
       turn = 0.0_wp
@@ -117,13 +118,13 @@ contains
       end if
    end function smallest_turn
 
-   !> What resists each of the six rigid movements while the five others are held: {m}^T [k] {m} summed over the elements
+   !> The stiffness of each of the six rigid-body movements with the five others held: {m}^T [k] {m} summed over the elements
    !! [force/length; force x length].
    pure function stiffness_about(model, joint, k) result(total)
       type(model_type), intent(in)  :: model
       type(joint_type), intent(in)  :: joint
       real(wp), intent(in)          :: k(:, :) !! (3, n) of all interface elements, in their own axes [force/length]
-      real(wp) :: total(6), moved(3) ! by a rigid movement of 1 along an axis or about it
+      real(wp) :: total(6), moved(3) ! by a unit rigid-body movement along or about an axis
       integer  :: c, i
 
       total = 0.0_wp
@@ -140,7 +141,7 @@ contains
       total = merge(total, 0.0_wp, joint%frame%exists)
    end function stiffness_about
 
-   !> From the centroid to where interface element I acts, in the axes of FRAME [length].
+   !> Vector from the centroid to the point of interface element I, in the axes of FRAME [length].
    pure function arm_of(model, frame, i) result(arm)
       type(model_type), intent(in)  :: model
       type(joint_frame), intent(in) :: frame
@@ -151,7 +152,7 @@ contains
       arm = matmul(arm, frame%axes)
    end function arm_of
 
-   !> The moments of inertia of a unit area that is ARM away.
+   !> The moments of inertia of a unit area at distance ARM.
    pure function inertia_of(arm) result(inertia)
       real(wp), intent(in) :: arm(3)
       real(wp) :: inertia(3, 3)

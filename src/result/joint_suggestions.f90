@@ -1,5 +1,5 @@
-!> Cards for the joints that a deck may be missing (--joints): a JOINT wherever outer sides of two bodies face each other, with the marks
-!! of both sides, and a support for the flat underside of a model that has none.
+!> Suggested cards (--joints) for joints that a deck may lack, and a support for a model without any. A JOINT is suggested
+!! wherever outer sides of two bodies face each other, with the marks of both sides. The support is for a flat underside.
 module joint_suggestions
    use deck_input, only: deck_type
    use element_kinds, only: element_table
@@ -15,7 +15,7 @@ module joint_suggestions
 
    public :: suggest_joints
 
-   !> Numbers that the deck does not have, and those of its cards that the suggestions name.
+   !> Numbers that are free in the deck, and the numbers of its cards that the suggestions name.
    type :: next_numbers
       integer :: element = 0, mark = 0, joint = 0, law = 1
    end type next_numbers
@@ -55,7 +55,7 @@ contains
 
    contains
 
-      !> The cards of one pair of bodies, unless there is a joint between them there.
+      !> Print the cards of one pair of bodies, unless a joint connects them there.
       subroutine suggest_pair(pair)
          type(facing_type), intent(in) :: pair
          real(wp) :: reach
@@ -110,7 +110,7 @@ contains
 
    end subroutine suggest_joints
 
-   !> Which MARK of the deck each of SIDES has, the last of several; 0: none.
+   !> The MARK of the deck of each of SIDES, the last of several; 0: none.
    subroutine find_marks(model, sides, mark)
       type(model_type), intent(in)      :: model
       type(outer_side), intent(in)      :: sides(:)
@@ -134,7 +134,8 @@ contains
 
    contains
 
-      !> Whether SIDE has the corners OWN, or those that a split put opposite, or the nodes of shells below them, in the same sense.
+      !> Whether SIDE has the corners OWN, or the opposite corners after a split, or the nodes of shells below them, in the same
+      !! sense.
       pure logical function same_side(own, side)
          integer, intent(in)          :: own(:)
          type(outer_side), intent(in) :: side
@@ -155,7 +156,7 @@ contains
 
    end subroutine find_marks
 
-   !> Numbers behind those of the deck.
+   !> Numbers above those of the deck.
    pure function free_numbers(deck, model) result(next)
       type(deck_type), intent(in)  :: deck
       type(model_type), intent(in) :: model
@@ -171,7 +172,7 @@ contains
       end associate
    end function free_numbers
 
-   !> The MARK for sides that have the marks NOW: that of the deck, where all have this one and no other side has, else a new one.
+   !> The MARK for sides with the marks NOW: that of the deck if all of these sides and no others have it, otherwise a new one.
    subroutine take_mark(deck, now, next, mark, is_new)
       type(deck_type), intent(in)       :: deck
       integer, intent(in)               :: now(:)
@@ -222,7 +223,7 @@ contains
       end do
    end subroutine put_sides
 
-   !> A support for the flat sides at the lowest z, in the plane y, that look down and see no other body.
+   !> A support for the flat sides at the lowest z (y in the plane) that face down and see no other body.
    subroutine suggest_support(deck, model, sides, sees, mark, next, file)
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model

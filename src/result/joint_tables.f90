@@ -1,4 +1,4 @@
-!> Tables of the interface elements: the history of all in NAME.joint.csv, those of each joint in the listing, and its plot.
+!> Tables of the interface elements: history in NAME.joint.csv, tables of each joint in the listing, and its plot.
 module joint_tables
    use analysis_state, only: analysis_type
    use branch_starts, only: branch_shift
@@ -24,7 +24,7 @@ module joint_tables
 
 contains
 
-   !> The titles of the columns of NAME.joint.csv. GAP and SLID only where the deck has any.
+   !> The titles of the columns of NAME.joint.csv. GAP and SLID only where the deck has them.
    pure function history_titles(model) result(titles)
       type(model_type), intent(in) :: model
       character(:), allocatable    :: titles
@@ -35,8 +35,8 @@ contains
       if (any(model%joints%law%has_friction)) titles = titles//',slid_x,slid_y'
    end function history_titles
 
-   !> One row an interface element in the file of the joints, for the increment just completed. node2 is 0 for the rigid base; a
-   !! direction without shear stiffness has no branch.
+   !> Write a row for each interface element into the file of the joints, after the completed increment. node2 is 0 for the
+   !! rigid base; a direction without shear stiffness has no branch.
    subroutine write_history(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -48,7 +48,7 @@ contains
       gaps = has_gaps(model)
       slides = any(model%joints%law%has_friction)
       call line%add([page%stage_id, analysis%increment], clean([analysis%fraction]))
-      same = line%length                  ! the columns that all rows have in common
+      same = line%length                  ! the columns that all rows share
       do i = 1, size(model%interface)
          line%length = same
          associate (element => model%interface(i), state => analysis%states(i)%normal)
@@ -60,7 +60,7 @@ contains
             associate (state => analysis%states(i)%shear(k))
                if (model%joints(model%interface(i)%joint)%law%shear(k)%given) then
                   call line%add(branch_name(state%branch), clean([state%delta, state%tau, state%k_s]))
-               else                       ! without a shear law the movement alone is a result
+               else                       ! without a shear law only the movement is a result
                   call line%add('', clean([analysis%movement(k, i), 0.0_wp, 0.0_wp]))
                end if
             end associate
@@ -72,7 +72,7 @@ contains
       end do
    end subroutine write_history
 
-   !> The tables of the interface elements, joint by joint; what the elements remember where that is ASKED.
+   !> List the tables of the interface elements, joint by joint; their history where it is ASKED.
    subroutine list_joints(page, asked, model, analysis)
       type(page_type), intent(inout)  :: page
       type(output_request), intent(in) :: asked
@@ -105,7 +105,7 @@ contains
 
    end subroutine list_joints
 
-   !> The table of SUBJECT of joint J, in direction K where it is one of shear: a row an element.
+   !> The table of SUBJECT of joint J, in direction K for shear: a row for each element.
    subroutine list_elements(page, subject, model, analysis, j, k)
       type(page_type), intent(inout)  :: page
       integer, intent(in)             :: subject
@@ -142,7 +142,7 @@ contains
       call table%print_kept(page%file) ! no elements removed: no table
    end subroutine list_elements
 
-   !> The columns of a table of SUBJECT behind element and node.
+   !> The columns of a table of SUBJECT after element and node.
    function columns_of(page, subject, model) result(columns)
       type(page_type), intent(in)    :: page
       integer, intent(in)            :: subject
@@ -179,9 +179,9 @@ contains
       end associate
    end function columns_of
 
-   !> What the tables of the normal way have of interface element I. The normal stiffness is what the increment used, and of which kind;
-   !! beside it stands how far lambda is from the loading curve at the present p, and where there are gaps of which closing it is the
-   !! rest. Elements removed: the force that decided it, which they no longer have.
+   !> Add the normal values of interface element I. The normal stiffness is that used in the increment, with its kind. The
+   !! difference of lambda from the loading curve at the present p follows; where gaps exist also the closing, of which lambda
+   !! is the part beyond the gap. Elements removed: the tensile force that caused the removal, which they no longer carry.
    subroutine add_normal(table, subject, model, analysis, i)
       type(listing_table_type), intent(inout) :: table
       integer, intent(in)                     :: subject
@@ -221,7 +221,7 @@ contains
       end associate
    end subroutine add_normal
 
-   !> Likewise of the shear way in direction K. LIMIT is mu p; D and TAU of the state count in the sense of the loading, like point A.
+   !> Add the shear values in direction K. LIMIT is mu p; D and TAU of the state count in the sense of loading, as point A.
    subroutine add_shear(table, subject, model, analysis, i, k)
       type(listing_table_type), intent(inout) :: table
       integer, intent(in)                     :: subject
@@ -255,7 +255,7 @@ contains
       end associate
    end subroutine add_shear
 
-   !> A plot a joint; a map where it has a plane in space.
+   !> A plot for each joint; a map where the joint has a plane in space.
    subroutine plot_joints(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -271,15 +271,16 @@ contains
       end do
    end subroutine plot_joints
 
-   !> The pressure of JOINT over its plane, seen against its normal: x of the joint to the right, y upwards. A character has the
-   !! largest pressure of the interface elements there: tenths of the largest of all, which is *; - where all are open.
+   !> Map of the pressure of JOINT over its plane, seen against its normal: x of the joint to the right, y upwards. A character
+   !! shows the largest pressure of the interface elements there: tenths of the largest of all, which is *; - where all are
+   !! open.
    subroutine map_joint(page, model, analysis, joint)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(joint_type), intent(in)    :: joint
       real(wp), parameter     :: upright = 2.0_wp ! height of a character over its width
-      character(*), parameter :: ranks = '-0123456789*' ! of two signs at one place the one behind is shown
+      character(*), parameter :: ranks = '-0123456789*' ! the later of two signs at one place is shown
       character(width), allocatable :: rows(:)
       character(page_width) :: line
       real(wp) :: place(3, joint%first:joint%last), low(3), high(3), step, p_most
@@ -291,7 +292,7 @@ contains
       end do
       low = minval(place, dim=2)
       high = maxval(place, dim=2)
-      step = sqrt(joint%area/(joint%last - joint%first + 1))/upright ! a row for every row of nodes of an even mesh
+      step = sqrt(joint%area/(joint%last - joint%first + 1))/upright ! one row for each row of nodes of a uniform mesh
       step = max(step, (high(1) - low(1))/(width - 1), (high(2) - low(2))/(width - 1))
       allocate (rows(0:nint((high(2) - low(2))/(upright*step))))
       rows = ''
@@ -315,7 +316,7 @@ contains
       end do
    end subroutine map_joint
 
-   !> What a map shows of an interface element in this STATE.
+   !> The sign of an interface element in this STATE on a map.
    pure character(1) function map_sign(state, p_most) result(sign)
       type(normal_state), intent(in) :: state
       real(wp), intent(in)           :: p_most
@@ -326,7 +327,7 @@ contains
       if (state%pressure >= (1.0_wp - noise)*p_most) sign = '*'
    end function map_sign
 
-   !> A line an interface element of JOINT, P as *, LAMBDA as +, both as # where they meet.
+   !> A line for each interface element of JOINT, P as *, LAMBDA as +, both as # where they coincide.
    subroutine plot_joint(page, model, analysis, joint)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model

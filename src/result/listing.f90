@@ -28,16 +28,16 @@ module listing
       type(page_type) :: page
       integer :: method = 0
       type(listing_table_type) :: tables(n_stage_tables) !! of the stage so far
-      type(farthest_type) :: farthest !! from the laws
-      character(:), allocatable :: poor_condition !! the last warning of it, '': none
-      character(:), allocatable :: divided        !! what is said of the last increment that was, '': none
+      type(farthest_type) :: farthest !! largest distance from the laws
+      character(:), allocatable :: poor_condition !! its last warning, '': none
+      character(:), allocatable :: divided        !! message about the last divided increment, '': none
       integer :: n_increments = 0, n_removed = 0
       type(range_watch_type) :: watch
    end type listing_type
 
 contains
 
-   !> Open the listing PATH (empty: standard output) and write what is known before the first increment.
+   !> Open the listing PATH (empty: standard output) and write the pages before the first increment.
    subroutine start_listing(listing, path, deck, model, plan, system)
       type(listing_type), intent(inout) :: listing
       character(*), intent(in)          :: path
@@ -80,9 +80,9 @@ contains
          end if
          page%largest_force = max(page%largest_force, maxval(abs(analysis%now%load(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &
-            max(page%largest_force, maxval(abs(held_forces(model, analysis%all_unbalanced)))) ! what moves the supports
+            max(page%largest_force, maxval(abs(held_forces(model, analysis%all_unbalanced)))) ! forces that move the supports
          if (any(model%interface%gap < 0.0_wp)) page%largest_force = &
-            max(page%largest_force, maxval(abs(analysis%states%normal%sumf)))              ! what interference presses
+            max(page%largest_force, maxval(abs(analysis%states%normal%sumf)))              ! forces of interference
          call note_stage_tables(page, listing%method, model, plan, analysis, listing%tables, listing%farthest)
          if (analysis%record%condition%is_new) call note_condition(model, plan, analysis, listing%watch, listing%poor_condition)
          call note_division(plan, analysis, listing%watch, listing%divided)
@@ -103,7 +103,7 @@ contains
       end associate
    end subroutine list_increment
 
-   !> Print the tables of the end of the stage just completed, which are those of its last increment, and then its own.
+   !> Print the tables of the last increment of the completed stage, and then those of the stage.
    subroutine list_stage(listing, model, plan, analysis)
       type(listing_type), intent(inout) :: listing
       type(model_type), intent(in)      :: model
@@ -125,8 +125,8 @@ contains
       end associate
    end subroutine list_stage
 
-   !> Work done on the joints in the stage, by normal forces, by shear and on friction; of the first two the difference is lost where
-   !! the stage closes a loop, what friction takes is lost at once.
+   !> Work on the joints in the stage, by normal forces, by shear and on friction. Over a closed loop the difference of work put
+   !! in and given back is lost; the work on friction is lost at once.
    subroutine list_energy(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -158,7 +158,7 @@ contains
       end do
    end subroutine list_energy
 
-   !> [k_b] condensed on the unknowns of the joints, and the loads that these feel before and after the stage; columns in groups.
+   !> [k_b] condensed on the joint unknowns, and the condensed loads before and after the stage; columns in groups.
    subroutine list_condensed(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -180,7 +180,7 @@ contains
          load_floor = noise*max(page%largest_force, maxval(abs(condensed%load)))
          allocate (names(n))
          allocate (scale(n), source=1.0_wp)
-         do i = 1, n ! 12Y, or 900RZ where it is a rotation of node 900: by its arm its rows hold moments
+         do i = 1, n ! 12Y, or 900RZ for a rotation of node 900, whose rows hold moments over its arm
             associate (node => condensed%node(i), d => condensed%direction(i))
                k = 0
                if (n_rotations(model) > 0) k = findloc(model%rotations%node, node, dim=1)
@@ -230,8 +230,8 @@ contains
       call listing%page%file%finish(ok)
    end subroutine finish_listing
 
-   !> Write the listing so far, and what it keeps, to a restart file, or read it into one that start_listing has opened for the same
-   !! deck. Its units and the way that the tables are limited come from the deck; its date stands in its head.
+   !> Write the present listing and its state to a restart file, or read them into a listing that start_listing has opened for
+   !! the same deck. Units and limits of the tables come from the deck; the date is in the head.
    subroutine record_listing(stream, listing)
       type(restart_stream_type), intent(inout) :: stream
       type(listing_type), intent(inout)        :: listing

@@ -12,12 +12,12 @@ module listing_echo
 
    public :: write_echo
 
-   integer, parameter :: most_echoed = 5000 ! cards of a deck that are echoed without being asked for
+   integer, parameter :: most_echoed = 5000 ! cards of a deck that are echoed without ECHO
 
 contains
 
-   !> The deck as read, cards counted, under a field ruler. INCLUDE files are counted, not shown, and so are the cards of a deck
-   !! that has very many of its own, unless ECHO asks for them.
+   !> The deck as read, cards counted, under a field ruler. INCLUDE files are counted, not shown. The same holds for the cards
+   !! of a very long deck, unless ECHO asks for them.
    subroutine write_echo(file, deck)
       type(output_file_type), intent(inout) :: file
       type(deck_type), intent(in)           :: deck
@@ -81,7 +81,7 @@ contains
 
    end subroutine write_echo
 
-   !> Whether more cards than are echoed without being asked for stand in the deck itself, not in INCLUDE files.
+   !> Whether the deck itself, without INCLUDE files, has more cards than are echoed without ECHO.
    logical function has_many_cards(deck)
       type(deck_type), intent(in) :: deck
       character(8) :: name
@@ -103,8 +103,8 @@ contains
       has_many_cards = n > most_echoed
    end function has_many_cards
 
-   !> The name of the card that begins on line I of the bulk data, or ENDDATA; blank where none does. A line is looked at where it
-   !! stands: of a long deck copies would take longer than all the rest of the listing's head.
+   !> The name of the card that begins on line I of the bulk data, or ENDDATA; blank where none begins. The line is examined in
+   !! place: copies of a long deck would take more time than the rest of the head.
    pure function name_at(text, i) result(name)
       type(deck_text_type), intent(in) :: text
       integer, intent(in)              :: i

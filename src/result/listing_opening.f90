@@ -29,7 +29,7 @@ module listing_opening
 
 contains
 
-   !> Everything that can be said before the first increment.
+   !> Write the pages before the first increment.
    subroutine write_opening(page, deck, model, plan, system)
       type(page_type), intent(inout)    :: page
       type(deck_type), intent(in)       :: deck
@@ -59,7 +59,7 @@ contains
       call write_stages(page, model, plan)
    end subroutine write_opening
 
-   !> What the model has of everything, and how it is solved.
+   !> The numbers of the parts of the model, and the solver.
    subroutine write_summary(file, deck, model, system)
       type(output_file_type), intent(inout) :: file
       type(deck_type), intent(in)           :: deck
@@ -108,7 +108,7 @@ contains
 
    contains
 
-      !> The body elements of every kind, and which formulation they are of.
+      !> Count the body elements of each kind and formulation.
       subroutine count_formulations(model)
          type(model_type), intent(in) :: model
          integer(long) :: n(2, size(element_table)) ! without and with incompatible modes
@@ -146,7 +146,7 @@ contains
 
    end subroutine write_summary
 
-   !> The bodies, where there are several: they have the numbers of the answers and of the energies of modes.
+   !> The bodies, if several, with their numbers in the answers and in the energies of modes.
    subroutine write_bodies(page, model)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
@@ -190,7 +190,7 @@ contains
       end do
    end subroutine write_placed
 
-   !> WORDS, a list with commas, in as many lines as it takes; none where there are no words.
+   !> WORDS, a list with commas, in as many lines as needed; nothing for an empty list.
    subroutine write_folded(file, words)
       type(output_file_type), intent(inout) :: file
       character(*), intent(in)              :: words
@@ -301,7 +301,7 @@ contains
       end do
    end subroutine write_shear_laws
 
-   !> How well a shear law closes its loops: the widest gap and where it is.
+   !> Words about the closure of the loops of a shear law: the widest gap and its place.
    function closure_line(closure) result(line)
       type(loop_closure), intent(in) :: closure
       character(page_width) :: line
@@ -345,12 +345,12 @@ contains
       end do
    end subroutine write_stages
 
-   !> How the sides of joints cover each other that do not match node by node.
+   !> The cover of joint sides that do not match node by node.
    subroutine write_covers(page, model)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
       type(listing_table_type) :: table
-      integer :: i, j, lists(size(model%joints)) ! interface elements that hang on lists of nodes
+      integer :: i, j, lists(size(model%joints)) ! interface elements coupled to lists of nodes
       integer, allocatable :: shown(:)
 
       lists = [(count([(model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0, &

@@ -1,13 +1,13 @@
-!> The tables of the results, for the listing, the screen and CSV files. A table is a list of columns, each said once: its heading, the
-!! edit descriptor of its values, its unit, its name in the CSV file. The lines of headings and units, the titles of the CSV file and
-!! every row of either come from it:
+!> The tables of the results, for the listing, the screen and CSV files. A table is a list of columns. A column has a heading,
+!! the edit descriptor of its values, a unit, and a name in the CSV file. The lines of headings and units, the titles of the CSV
+!! file and every row of both follow from it:
 !!
 !!    call table%start('REACTIONS', [csv('stage'), column('NODE', 'i11', name='node'), column('R'//axes, 'es13.5', labels%force)], file)
 !!    call table%add([stage, node], reaction)
 !!    call table%print_row(file, csv_file)
 !!
-!! The values of a row are added from left to right, those of a column without a heading go into the CSV file alone, those of a
-!! column without a name into the listing alone. The tables of a whole stage keep their rows until they are printed.
+!! The values of a row are added from left to right. Values of a column without a heading are written only to the CSV file,
+!! those of a column without a name only to the listing. The tables of a whole stage keep their rows until they are printed.
 module listing_table
    use kinds, only: wp
    use output_file, only: output_file_type
@@ -19,10 +19,10 @@ module listing_table
    public :: column, csv, csv_titles, heading, cut, in_form, in_units, shows
 
    integer, parameter, public      :: page_width = 132
-   real(wp), parameter, public     :: noise = 1.0e-9_wp !! of the largest number of its kind: below it only rounding is printed
+   real(wp), parameter, public     :: noise = 1.0e-9_wp !! of the largest number of its kind: smaller values are rounding
    character(1), parameter, public :: axes(3) = ['X', 'Y', 'Z']
 
-   !> What the numbers of the listing are measured in, blank where the deck does not say.
+   !> The units of the numbers of the listing, blank where the deck names none.
    type, public :: label_type
       character(20) :: length = '', force = '', pressure = '', area = '', stiffness = '', moment = ''
       character(20) :: slope = ''     !! of pressure over length
@@ -37,38 +37,38 @@ module listing_table
       '.modes.csv', '.modes.energy.csv', '.response.csv', '.backbone.csv', '.loop.csv', '.backbone.response.csv', '.watch.csv', &
       '.watch.energy.csv', '.reaction.csv']
 
-   !> The files as all tables find them.
+   !> The files and settings common to all tables.
    type, public :: page_type
       type(output_file_type) :: file          !! the listing
-      type(output_file_type) :: screen        !! the answers, for the standard output at the end
-      type(output_file_type) :: tables(size(table_endings)) !! open: those that the deck asks for
+      type(output_file_type) :: screen        !! answers, for the standard output at the end
+      type(output_file_type) :: tables(size(table_endings)) !! open where the deck asks for them
       type(label_type)       :: labels
       integer :: stage_id = 0                 !! number of the stage
-      character(:), allocatable :: stage, now !! where the run is: 'STAGE 2'; ', STAGE 2, INCREMENT 5' behind a title
-      real(wp) :: largest_force = 0.0_wp      !! ever applied, for the noise
-      logical, allocatable :: shown(:)        !! nodes that the tables of this stage are limited to; not allocated: all
-      logical :: along_cd = .false.           !! tables of nodes of this stage have the directions of their systems CD
-      character(:), allocatable :: date       !! for its head, where it is to have one
+      character(:), allocatable :: stage, now !! 'STAGE 2'; ', STAGE 2, INCREMENT 5' behind a title
+      real(wp) :: largest_force = 0.0_wp      !! largest applied so far, the scale of rounding
+      logical, allocatable :: shown(:)        !! nodes to which the tables of this stage are limited; not allocated: all
+      logical :: along_cd = .false.           !! nodal tables of this stage are along the systems CD
+      character(:), allocatable :: date       !! date for the head, if wanted
    end type page_type
 
    type, public :: column_type
       private
       character(48) :: heading = ''
       character(16) :: name = ''      ! in the CSV file
-      character(12) :: form = ''      ! as long as leaves no undefined bytes behind: columns are copied to restart files as they are
+      character(12) :: form = ''      ! length without padding: columns are copied to restart files
       character(20) :: unit = ''
-      integer :: width = 0            ! 0: text from here on
-      integer :: last = 0             ! character of the row that its values end at
+      integer :: width = 0            ! 0: text to the end of the row
+      integer :: last = 0             ! last character of its values in the row
       integer :: heading_shift = 0, unit_shift = 0
       logical :: is_listed = .true.
-      logical :: is_short = .false.   ! as write_short has it, fast
+      logical :: is_short = .false.   ! written by the fast write_short
    end type column_type
 
    type, public :: listing_table_type
       private
       character(:), allocatable :: title
       character(page_width) :: row = ''
-      type(csv_line_type) :: line     ! the same row in the CSV file
+      type(csv_line_type) :: line     ! the same row for the CSV file
       type(column_type), allocatable :: columns(:)
       integer :: used = 0             ! columns of the row
       integer :: n_kept = 0           ! characters of
@@ -90,8 +90,8 @@ module listing_table
 
 contains
 
-   !> A column. Its values are written as FORM says, an edit descriptor: i11, es13.5, f9.4, a8; 'a' is text up to the end of the
-   !! row. Heading and unit end where the values end, or as many characters behind that as is said.
+   !> A column. FORM is the edit descriptor of its values: i11, es13.5, f9.4, a8; 'a' is text to the end of the row. Heading and
+   !! unit end where the values end, or the given number of characters behind.
    elemental function column(heading, form, unit, heading_shift, unit_shift, name, is_listed) result(item)
       character(*), intent(in)           :: heading, form
       character(*), intent(in), optional :: unit, name    !! default: none
@@ -113,7 +113,7 @@ contains
       item%is_short = index(form, 'es') == 1 .and. form(point:) == '.5' .and. item%width >= short_width
    end function column
 
-   !> A column of the CSV file alone.
+   !> A column of the CSV file only.
    elemental function csv(name) result(item)
       character(*), intent(in) :: name
       type(column_type) :: item
@@ -134,15 +134,15 @@ contains
       titles = titles(2:)
    end function csv_titles
 
-   !> Whether nothing is kept: a table of a stage begins anew.
+   !> Whether no rows are kept: a table of a stage begins.
    pure logical function is_empty(self)
       class(listing_table_type), intent(in) :: self
 
       is_empty = self%n_kept == 0
    end function is_empty
 
-   !> Begin a table of these COLUMNS, without rows; its head goes into FILE where that is given. TITLE is empty where the headings
-   !! follow other words.
+   !> Begin a table of these COLUMNS, without rows; write its head into FILE if present. TITLE is empty where other words
+   !! precede the headings.
    subroutine start(self, title, columns, file)
       class(listing_table_type), intent(inout) :: self
       character(*), intent(in)                 :: title
@@ -160,7 +160,7 @@ contains
       if (present(file)) call self%print_head(file)
    end subroutine start
 
-   !> Title, headings, and units where there are any.
+   !> Title, headings, and units if any.
    subroutine print_head(self, file)
       class(listing_table_type), intent(in) :: self
       type(output_file_type), intent(inout) :: file
@@ -185,7 +185,7 @@ contains
       if (units /= '') call file%put(units)
    end subroutine print_head
 
-   !> WORDS in LINE, so that they end at character LAST.
+   !> Put WORDS into LINE so that they end at character LAST.
    pure subroutine place(line, words, last)
       character(*), intent(inout) :: line
       character(*), intent(in)    :: words
@@ -194,8 +194,8 @@ contains
       line(last - len(words) + 1:last) = words
    end subroutine place
 
-   !> The next values of the row, those WHERE there are any, and REALS behind them. What its column cannot hold is printed with an
-   !! exponent and fewer digits, behind a blank.
+   !> The next values of the row, where WHERE is true, followed by REALS. A value too wide for its column is printed with an
+   !! exponent and fewer digits, after a blank.
    subroutine add_integers(self, values, reals, where)
       class(listing_table_type), intent(inout) :: self
       integer, intent(in)                      :: values(:)
@@ -223,7 +223,7 @@ contains
       if (present(reals)) call self%add_reals(reals)
    end subroutine add_integers
 
-   !> In the listing what is below FLOOR is zero.
+   !> Values below FLOOR are zero in the listing.
    subroutine add_reals(self, values, floor, where)
       class(listing_table_type), intent(inout) :: self
       real(wp), intent(in)                     :: values(:)
@@ -248,7 +248,7 @@ contains
       end do
    end subroutine add_reals
 
-   !> VALUE as the format FORM has it in WIDTH characters; where they do not hold it, with an exponent and fewer digits, behind a blank.
+   !> VALUE in the format FORM of WIDTH characters; a value too wide is given an exponent and fewer digits, after a blank.
    pure function in_form(value, form, width) result(field)
       real(wp), intent(in)     :: value
       character(*), intent(in) :: form  !! '(f9.3)'
@@ -261,7 +261,7 @@ contains
       field = adjustr(field)
    end function in_form
 
-   !> WORDS with all their blanks, at the end of their column, and REALS behind them; the CSV file has WORDS without the blanks.
+   !> WORDS with all their blanks, at the end of their column, followed by REALS; the CSV file has WORDS without the blanks.
    subroutine add_text(self, words, reals)
       class(listing_table_type), intent(inout) :: self
       character(*), intent(in)                 :: words
@@ -276,7 +276,7 @@ contains
       if (present(reals)) call self%add_reals(reals)
    end subroutine add_text
 
-   !> The next N columns stay empty.
+   !> Leave the next N columns empty.
    subroutine skip(self, n)
       class(listing_table_type), intent(inout) :: self
       integer, intent(in)                      :: n
@@ -288,11 +288,11 @@ contains
       self%used = self%used + n
    end subroutine skip
 
-   !> The row is complete, columns to which nothing was added stay empty: print it into FILE, and into the CSV file where that is open.
+   !> Complete the row, with empty fields for the remaining columns, and print it into FILE, and into the CSV file if open.
    subroutine print_row(self, file, csv_file, is_listed)
       class(listing_table_type), intent(inout) :: self
       type(output_file_type), intent(inout), optional :: file, csv_file
-      logical, intent(in), optional :: is_listed !! not in the CSV file alone; default: yes
+      logical, intent(in), optional :: is_listed !! not only in the CSV file; default: yes
       logical :: lists
 
       if (present(csv_file)) then
@@ -313,7 +313,8 @@ contains
       self%used = 0
    end subroutine begin_row
 
-   !> The row is complete: a line of it behind the first USED characters of LINES, without the blanks at its end. There must be room.
+   !> Complete the row and append it as a line after the first USED characters of LINES, without trailing blanks. LINES must
+   !! have room.
    pure subroutine take_line(self, lines, used)
       class(listing_table_type), intent(inout) :: self
       character(*), intent(inout)              :: lines
@@ -326,7 +327,7 @@ contains
       call begin_row(self)
    end subroutine take_line
 
-   !> The row is complete: keep it until the table is printed.
+   !> Complete the row and keep it until the table is printed.
    pure subroutine keep_row(self)
       class(listing_table_type), intent(inout) :: self
 
@@ -334,7 +335,7 @@ contains
       call begin_row(self)
    end subroutine keep_row
 
-   !> Keep a LINE that runs through all columns.
+   !> Keep a LINE across all columns.
    pure subroutine keep_line(self, line)
       class(listing_table_type), intent(inout) :: self
       character(*), intent(in)                 :: line
@@ -353,7 +354,7 @@ contains
       self%n_kept = self%n_kept + length + 1
    end subroutine keep_line
 
-   !> Print what was kept, under title and headings where the table has some, and forget it.
+   !> Print the kept rows under title and headings, if any, and clear them.
    subroutine print_kept(self, file)
       class(listing_table_type), intent(inout) :: self
       type(output_file_type), intent(inout)    :: file
@@ -365,7 +366,7 @@ contains
       self%n_kept = 0
    end subroutine print_kept
 
-   !> Write the table as it is between two rows to a restart file, or read it.
+   !> Write the state of the table between two rows to a restart file, or read it.
    subroutine record(self, stream)
       class(listing_table_type), intent(inout) :: self
       type(restart_stream_type), intent(inout) :: stream
@@ -407,7 +408,7 @@ contains
       if (label /= '') words = '   ('//trim(label)//')'
    end function in_units
 
-   !> Whether tables that are limited to some nodes have a row for what has these NODES.
+   !> Whether tables limited to some nodes show an item with these NODES.
    pure logical function shows(page, nodes)
       type(page_type), intent(in) :: page
       integer, intent(in)         :: nodes(:)
@@ -416,7 +417,7 @@ contains
       if (allocated(page%shown)) shows = any(page%shown(nodes))
    end function shows
 
-   !> At most WIDTH characters of LINE, tabs and other controls as blanks.
+   !> At most WIDTH characters of LINE, with tabs and other control characters as blanks.
    pure function cut(line, width) result(part)
       character(*), intent(in)  :: line
       integer, intent(in)       :: width

@@ -1,5 +1,5 @@
-!> Result files that appear under their names only when they are complete: written as NAME.abcdef.part, renamed at the end.
-!! With no name the lines go to the standard output, at the end too.
+!> Result files that appear under their names only when complete: written as NAME.abcdef.part, renamed at the end. Without a
+!! name the lines go to the standard output at the end.
 module output_file
    use c_library, only: close_file, remove_file, write_bytes
    use incomplete_results, only: create_part, name_part
@@ -10,7 +10,7 @@ module output_file
    type, public :: output_file_type
       private
       character(:), allocatable :: path          ! empty: standard output
-      character(:), allocatable :: part          ! its name until it is complete
+      character(:), allocatable :: part          ! its name until complete
       character(:), allocatable :: buffer
       integer :: used = 0
       integer :: descriptor = -1
@@ -28,7 +28,7 @@ module output_file
       procedure :: record
    end type output_file_type
 
-   integer, parameter :: room = 1048576          ! bytes that are gathered before they are written
+   integer, parameter :: room = 1048576          ! bytes that are buffered before a write
 
 contains
 
@@ -73,14 +73,14 @@ contains
       self%used = self%used + len(text)
    end subroutine put_lines
 
-   !> How many characters wait in the memory: for the standard output all of them.
+   !> Number of buffered characters: for the standard output all.
    pure integer function length(self)
       class(output_file_type), intent(in) :: self
 
       length = self%used
    end function length
 
-   !> Those behind the first N.
+   !> The text behind the first N characters.
    pure function text_behind(self, n) result(text)
       class(output_file_type), intent(in) :: self
       integer, intent(in)                 :: n
@@ -114,7 +114,7 @@ contains
       failed = self%fault
    end function failed
 
-   !> Close the file and give it its name. OK is false, and no file of that name is left by us, where that failed.
+   !> Close the file and give it its name. If that fails, OK is false and the file is removed.
    subroutine finish(self, ok)
       class(output_file_type), intent(inout) :: self
       logical, intent(out)                   :: ok
@@ -139,7 +139,7 @@ contains
       self%fault = .not. ok
    end subroutine finish
 
-   !> Leave nothing behind.
+   !> Discard the file.
    subroutine discard(self)
       class(output_file_type), intent(inout) :: self
       logical :: closed
@@ -151,7 +151,7 @@ contains
       call remove_file(self%part)
    end subroutine discard
 
-   !> Write all that the file has so far to a restart file; or read it, and it has that and nothing else.
+   !> Write the present content of the file to a restart file, or replace it by that of the restart file.
    subroutine record(self, stream)
       class(output_file_type), intent(inout)   :: self
       type(restart_stream_type), intent(inout) :: stream

@@ -1,6 +1,7 @@
-!> Warnings: bodies of linear tetrahedra; shear laws whose loops do not close or that unload less steeply than they load (once a law), and used outside their range (one line a
-!! bound, joint and stage, with the number of interface elements and the worst of them); unloading softer than loading (once a
-!! joint), stages that end far from balance, increments that were divided, and stiffnesses of poor condition.
+!> Warnings about element type, shear laws, unbalanced stages, divided increments and poor condition. Bodies of linear
+!! tetrahedra are too stiff. A shear law is warned of once if its loops do not close or it unloads less steeply than it loads.
+!! Its use outside the tested range is warned of in one line for each bound, joint and stage, with the number of interface
+!! elements and the worst of them. Normal unloading softer than loading is warned of once for each joint.
 module range_watch
    use analysis_state, only: analysis_type, free_norm
    use branch_cubic, only: cubic_slope
@@ -24,34 +25,34 @@ module range_watch
    public :: start_watch, watch_shear_laws, watch_ranges, say_ranges, watch_unloading, watch_balance, note_condition, &
              note_division, record_watch, tetra_words
 
-   real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: what may be left without a warning
+   real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: a smaller remainder gives no warning
    real(wp), parameter :: rounding = 1.0e-9_wp
 
-   integer, parameter :: beyond_p = 1, beyond_d = 2, no_slope = 3 ! how a shear law is left
+   integer, parameter :: beyond_p = 1, beyond_d = 2, no_slope = 3 ! bounds of a shear law
 
-   !> Elements of a joint that have left a bound of its shear law in the stage so far.
+   !> Elements of a joint beyond a bound of its shear law in the stage so far.
    type :: tally_type
       integer  :: n = 0
-      integer  :: node = 0, increment = 0          ! of the first
+      integer  :: node = 0, increment = 0          ! of the first element
       integer  :: worst_node = 0
-      real(wp) :: p = 0.0_wp, d = 0.0_wp           ! of the worst
-      real(wp) :: excess = 0.0_wp                  ! its p or d, that is worst
+      real(wp) :: p = 0.0_wp, d = 0.0_wp           ! of the worst element
+      real(wp) :: excess = 0.0_wp                  ! its p or d beyond the bound
       real(wp) :: bound = 0.0_wp
    end type tally_type
 
    type, public :: range_watch_type
-      integer :: n_warnings = 0               !! in all
+      integer :: n_warnings = 0               !! total
       type(listing_table_type) :: rows        !! of the stage so far
-      integer, allocatable, private :: stage(:, :)   ! (bounds, n) in which an element was last found beyond one
+      integer, allocatable, private :: stage(:, :)   ! (bounds, n) stage in which an element was last found beyond a bound
       type(tally_type), allocatable, private :: tallies(:, :) ! (bounds, joints)
-      logical, allocatable, private :: soft_line(:)  ! whether a joint was warned of its E_u
-      integer, allocatable, private :: first_of(:, :)  ! (2, joints) the first direction of the model with the same shear law, 0: no law
-      logical, allocatable, private :: soft_unloading(:) ! whether that direction, counted through, was warned of soft unloading
+      logical, allocatable, private :: soft_line(:)  ! whether the E_u of a joint was warned of
+      integer, allocatable, private :: first_of(:, :)  ! (2, joints) first direction of the model with the same law, 0: none
+      logical, allocatable, private :: soft_unloading(:) ! whether that direction, by its number, was warned of soft unloading
    end type range_watch_type
 
 contains
 
-   !> Nothing has been warned of yet, but of bodies that are too stiff.
+   !> Start without warnings, except that of bodies that are too stiff.
    subroutine start_watch(model, watch)
       type(model_type), intent(in)        :: model
       type(range_watch_type), intent(out) :: watch
@@ -63,7 +64,7 @@ contains
       if (tetra_words(model) /= '') watch%n_warnings = 1
    end subroutine start_watch
 
-   !> What to say of a model whose bodies are of linear tetrahedra alone; empty of any other.
+   !> The warning for a model whose bodies are of linear tetrahedra only; otherwise empty.
    pure function tetra_words(model) result(words)
       type(model_type), intent(in) :: model
       character(:), allocatable    :: words
@@ -73,8 +74,8 @@ contains
          'usual meshes 10 to 35 % too stiff in bending: mesh with second order'
    end function tetra_words
 
-   !> Note, with the first increment, the laws whose loops stay open; and the laws of which an element has begun to unload less steeply
-   !! than it was loaded: there a branch leaves its loading curve on the wrong side.
+   !> Warn, in the first increment, of laws whose loops stay open. Warn of laws of which an element has begun to unload less
+   !! steeply than it was loaded: there a branch leaves its loading curve on the wrong side.
    subroutine watch_shear_laws(model, plan, analysis, watch)
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
@@ -102,7 +103,7 @@ contains
       end do
    end subroutine watch_shear_laws
 
-   !> Number the shear laws by the first direction of a joint that has them, and note those with a wide gap.
+   !> Number the shear laws by the first direction of a joint with that law, and note those with a wide gap.
    subroutine watch_closures(model, watch)
       type(model_type), intent(in)          :: model
       type(range_watch_type), intent(inout) :: watch
@@ -128,7 +129,7 @@ contains
       end do
    end subroutine watch_closures
 
-   !> Whether two laws are the same in all numbers.
+   !> Whether all numbers of two laws are the same.
    pure logical function is_same_law(a, b)
       type(shear_law), intent(in) :: a, b
 
@@ -138,7 +139,7 @@ contains
                     .and. all(abs(a%reload%coefficients - b%reload%coefficients) <= 0.0_wp)
    end function is_same_law
 
-   !> Count the elements that are outside the range of their shear law after the increment just completed.
+   !> Count the elements outside the range of their shear law after the completed increment.
    subroutine watch_ranges(model, analysis, watch)
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
@@ -162,7 +163,7 @@ contains
 
    contains
 
-      !> Element I is beyond the bound WHICH by the VALUE that it has.
+      !> Count element I, whose VALUE is beyond the bound WHICH.
       subroutine count_element(which, value, bound)
          integer, intent(in)  :: which
          real(wp), intent(in) :: value, bound
@@ -185,7 +186,7 @@ contains
 
    end subroutine watch_ranges
 
-   !> At the end of a stage: a line a joint and bound of its shear law that elements were beyond.
+   !> At the end of a stage print a line for each joint and bound of its shear law that elements have exceeded.
    subroutine say_ranges(model, plan, analysis, watch)
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
@@ -212,7 +213,8 @@ contains
       watch%tallies = tally_type()
    end subroutine say_ranges
 
-   !> Keep the line of a warning, or of a NOTE, which is not counted; where it and its SECOND part are too long for one line, one each.
+   !> Keep the line of a warning, or of a NOTE, which is not counted. If both parts are too long for one line, SECOND has a line
+   !! of its own.
    pure subroutine warn(watch, first, second)
       type(range_watch_type), intent(inout) :: watch
       character(*), intent(in)              :: first
@@ -229,8 +231,8 @@ contains
       end if
    end subroutine warn
 
-   !> Note the joints of which an element has come to where the loading curve is steeper than the line E_u that it would unload
-   !! along.
+   !> Warn of joints of which an element has reached a point where the loading curve is steeper than its line of unloading, of
+   !! slope E_u.
    subroutine watch_unloading(model, plan, analysis, watch)
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
@@ -255,7 +257,7 @@ contains
       end do
    end subroutine watch_unloading
 
-   !> At the end of a stage: what is unbalanced, and by how much friction limits are still exceeded.
+   !> At the end of a stage: the unbalanced force, and the remaining excess over the friction limits.
    subroutine watch_balance(model, plan, analysis, largest_force, watch)
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
@@ -289,8 +291,8 @@ contains
       end if
    end subroutine watch_balance
 
-   !> Warn of the condition of the stiffness, which has not been so poor before; WORDS are the same for the screen. Only powers of
-   !! ten: what is behind them is rounding.
+   !> Warn of the condition of the stiffness where it is the poorest so far; WORDS are the same for the screen. Only powers of
+   !! ten are given: the digits are rounding.
    subroutine note_condition(model, plan, analysis, watch, words)
       type(model_type), intent(in)           :: model
       type(stage_plan_type), intent(in)      :: plan
@@ -310,8 +312,7 @@ contains
       words = first//': '//second
    end subroutine note_condition
 
-   !> Note that the increment just completed was divided, and warn where its answer depends on the parts; WORDS are the same for the
-   !! screen.
+   !> Note a divided increment, and warn where its answer depends on the parts; WORDS are the same for the screen.
    subroutine note_division(plan, analysis, watch, words)
       type(stage_plan_type), intent(in)      :: plan
       type(analysis_type), intent(in)        :: analysis
@@ -330,7 +331,7 @@ contains
       words = first//', '//second
    end subroutine note_division
 
-   !> Write what has been warned of, and what is to be, to a restart file, or read it.
+   !> Write the state of the warnings to a restart file, or read it.
    subroutine record_watch(stream, watch)
       type(restart_stream_type), intent(inout) :: stream
       type(range_watch_type), intent(inout)    :: watch

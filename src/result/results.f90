@@ -1,4 +1,4 @@
-!> The results of one deck, as the main program sees them: opened, fed after every increment, closed.
+!> The results of one deck, as the main program uses them: opened, written after every increment, closed.
 module results
    use analysis_state, only: analysis_type
    use answer_tables, only: bolt_columns, print_answer, print_bolts, print_reactions, print_watched, reaction_columns, &
@@ -38,32 +38,32 @@ module results
 
    character(*), parameter, public :: listing_ending = '.out', restart_ending = '.restart'
 
-   !> What a row of a batch says of a run.
+   !> The values of a run in a row of a batch.
    type, public :: digest_type
       integer  :: stages = 0, increments = 0, iterations = 0 !! completed; iterations or re-analyses
       real(wp) :: u_max = 0.0_wp, mises_max = 0.0_wp         !! the largest at the end of any stage [length], [pressure]
       real(wp) :: strained = 0.0_wp                          !! largest von Mises stress over E, likewise
-      real(wp) :: contact = 1.0_wp                           !! least share of any joint, likewise
-      real(wp) :: safety = huge(1.0_wp)                      !! least against slip, likewise; huge: none
-      real(wp) :: frequency = -1.0_wp                        !! the first that is not zero, of the last stage with modes [1/time]
+      real(wp) :: contact = 1.0_wp                           !! smallest share of any joint, likewise
+      real(wp) :: safety = huge(1.0_wp)                      !! smallest against slip, likewise; huge: none
+      real(wp) :: frequency = -1.0_wp                        !! the first nonzero one of the last stage with modes [1/time]
    end type digest_type
 
    type, public :: results_type
       type(digest_type)      :: digest
-      type(watch_answer)     :: watched       !! of the last stage that has any
+      type(watch_answer)     :: watched       !! of the last stage with watched nodes
       type(listing_type)     :: listing
       logical, private       :: has_table(size(table_endings)) = .false.
       type(vtu_results_type) :: vtu
       type(bolt_history), private :: bolts
       type(watch_state), private :: watched_before      ! likewise, where nodes are watched
-      character(:), allocatable :: missing_vtu !! why there are no files for ParaView though they were asked for; '': there are
-      character(:), allocatable :: base !! what the names of the files begin with, folder included
+      character(:), allocatable :: missing_vtu !! why requested files for ParaView are missing; '': they exist
+      character(:), allocatable :: base !! beginning of the names of the files, folder included
    end type results_type
 
 contains
 
-   !> Open the files whose names begin with BASE and write what opens them; without it the listing goes to the standard output,
-   !! and nothing else is written. OK is false where that fails.
+   !> Open the files whose names begin with BASE and write their heads. Without BASE the listing goes to the standard output,
+   !! and no other file is written. OK is false where that fails.
    subroutine start_results(base, deck, model, plan, system, results, ok)
       character(*), intent(in)          :: base
       type(deck_type), intent(in)       :: deck
@@ -128,7 +128,7 @@ contains
 
    end subroutine start_tables
 
-   !> The increment just completed.
+   !> Write the results of the completed increment.
    subroutine print_increment(model, plan, analysis, results)
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
@@ -147,7 +147,7 @@ contains
       call print_bolts(results%listing%page, analysis, bolts, in_answer=.false.)
    end subroutine print_increment
 
-   !> The stage just completed. FAILURE is raised where a figure of its answer is beyond all measure.
+   !> Write the results of the completed stage. FAILURE is raised where a value of its answer is beyond all bounds.
    subroutine print_stage(model, plan, analysis, results, failure)
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
@@ -177,7 +177,7 @@ contains
             call find_watched(model, analysis, stage%watched, results%watched_before, results%watched)
             call print_watched(page, model, results%watched)
          end if
-         call page%file%put_lines(page%screen%text_behind(before)) ! the listing has the same answer
+         call page%file%put_lines(page%screen%text_behind(before)) ! the answer is repeated in the listing
       end associate
       associate (digest => results%digest)
          digest%stages = digest%stages + 1
@@ -239,8 +239,8 @@ contains
       end associate
    end subroutine print_response
 
-   !> Give the files their names. All or none: OK is false where one could not be written. But for files for ParaView, the largest:
-   !! where these cannot be written the tables and the listing stay, and MISSING_VTU says why.
+   !> Give the files their names, all or none: OK is false where a file could not be written. Files for ParaView, the largest,
+   !! are an exception: where they cannot be written the tables and the listing stay, and MISSING_VTU gives the reason.
    subroutine finish_results(plan, failure, results, ok)
       type(stage_plan_type), intent(in) :: plan
       type(failure_type), intent(in)    :: failure !! raised: the results end before it
@@ -250,7 +250,7 @@ contains
       logical :: closed, has_vtu
 
       call lock_folder(folder_of(results%base), hold)
-      call remove_all(results%base) ! of two runs of one name the last to come here leaves all of its files, and no others
+      call remove_all(results%base) ! of two runs of one name the later one leaves its own files only
       ok = .true.
       do i = 1, size(table_endings)
          if (ok .and. results%listing%page%tables(i)%is_open) call results%listing%page%tables(i)%finish(ok)
@@ -266,7 +266,7 @@ contains
       call close_file(hold, closed)
    end subroutine finish_results
 
-   !> The folder in which files are that begin with BASE.
+   !> The folder of the files that begin with BASE.
    pure function folder_of(base) result(folder)
       character(*), intent(in)  :: base
       character(:), allocatable :: folder
@@ -274,7 +274,7 @@ contains
       folder = base(:index(base, '/', back=.true.))//'.'
    end function folder_of
 
-   !> Show the answers on the standard output, and behind them the names of the files. OK is false where that fails.
+   !> Show the answers and the names of the files on the standard output. OK is false where that fails.
    subroutine show_answers(results, ok)
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
@@ -282,7 +282,7 @@ contains
       integer :: i
 
       ok = .true.
-      if (results%base == '') return ! the listing went there
+      if (results%base == '') return ! the listing is already there
       names = results%base//listing_ending//' (listing)'
       names = names//', '//results%base//trim(table_endings(joint_table))
       do i = joint_table + 1, size(table_endings)
@@ -293,7 +293,7 @@ contains
       call results%listing%page%screen%finish(ok)
    end subroutine show_answers
 
-   !> Leave nothing behind that could be taken for a result; of another run nothing is touched.
+   !> Discard all partial results of this run; files of another run are not touched.
    subroutine discard_results(results)
       type(results_type), intent(inout) :: results
       integer :: i
@@ -307,7 +307,7 @@ contains
       call give_up_parts()
    end subroutine discard_results
 
-   !> Write all results so far to a restart file; or read them into files that start_results has opened for the same deck.
+   !> Write all results so far to a restart file, or read them into files that start_results has opened for the same deck.
    subroutine record_results(stream, results)
       type(restart_stream_type), intent(inout) :: stream
       type(results_type), intent(inout)        :: results
@@ -327,7 +327,7 @@ contains
       end associate
    end subroutine record_results
 
-   !> Remove what an earlier run of the same deck left: it is not the result of this deck any more, wherever the run ends.
+   !> Remove the results of an earlier run of the same deck, which are no longer valid.
    subroutine remove_old_results(base)
       character(*), intent(in) :: base
       integer :: hold
@@ -352,7 +352,7 @@ contains
       call remove_old_vtu(base)
    end subroutine remove_all
 
-   !> Whether the name of a result may end so, behind its base.
+   !> Whether ENDING, behind the base, is that of a result file.
    pure logical function is_result_ending(ending)
       character(*), intent(in) :: ending
 

@@ -1,5 +1,5 @@
-!> The answer at the end of a stage: the numbers that an engineer asks for, of the bodies, of each joint, and of each bolt. What only
-!! rounding makes of them is zero, what means nothing is absent.
+!> The answer at the end of a stage: the values of interest for the bodies, each joint and each bolt. Values at the level of
+!! rounding are zero; values without meaning are absent.
 module stage_answer
    use analysis_state, only: analysis_type
    use body_elements, only: element_centre, node_stresses, whole_stress
@@ -19,31 +19,31 @@ module stage_answer
 
    public :: find_answer, stands_apart, fault_of_answer
 
-   !> The largest of some kind of value, and where.
+   !> The largest value of a kind, and its place.
    type, public :: peak_type
       logical  :: is_there = .false.
       real(wp) :: value = 0.0_wp
       integer  :: id = 0                       !! of a node, or of an element
-      real(wp) :: x(3) = 0.0_wp                !! the place [length]
+      real(wp) :: x(3) = 0.0_wp                !! position [length]
    end type peak_type
 
    type, public :: joint_answer
-      real(wp) :: contact = 0.0_wp             !! share of the area whose elements are not open
+      real(wp) :: contact = 0.0_wp             !! share of the area that is not open
       integer  :: pressed_at = 0, open_at = 0  !! interface elements of the largest pressure and gap; 0: none
-      real(wp) :: pressure = 0.0_wp            !! the largest [pressure]
-      real(wp) :: gap = 0.0_wp                 !! the largest [length]
+      real(wp) :: pressure = 0.0_wp            !! largest [pressure]
+      real(wp) :: gap = 0.0_wp                 !! largest [length]
       integer  :: slipping = 0                 !! interface elements
       real(wp) :: normal = 0.0_wp, shear = 0.0_wp, moment = 0.0_wp !! N, T, M [force; force x length]
       logical  :: has_safety = .false.
       real(wp) :: safety = 0.0_wp              !! mu N/T
-      real(wp) :: force(6) = 0.0_wp            !! and moment, in the axes of the joint
-      real(wp) :: movement(6) = 0.0_wp         !! deflection: of side 1 against side 2
+      real(wp) :: force(6) = 0.0_wp            !! force and moment in the axes of the joint
+      real(wp) :: movement(6) = 0.0_wp         !! movement of side 1 against side 2
       real(wp) :: tangent(6) = 0.0_wp, secant(6) = 0.0_wp
       logical  :: has_secant(6) = .false.
    end type joint_answer
 
    type, public :: stage_answer_type
-      type(peak_type) :: displacement          !! the length of the vector [length]
+      type(peak_type) :: displacement          !! magnitude [length]
       type(peak_type) :: at_centre, at_node    !! von Mises [pressure]
       real(wp) :: strained = 0.0_wp            !! largest von Mises stress at the centre of an element over its E
       type(joint_answer), allocatable     :: joints(:)
@@ -114,7 +114,7 @@ contains
       answer%at_centre%x(:model%dimension) = element_centre(model, e)
    end subroutine find_peaks
 
-   !> The largest of VALUES, or the first that is none.
+   !> The largest of VALUES, or the first one that is not a number.
    pure real(wp) function largest(values)
       real(wp), intent(in) :: values(:)
 
@@ -122,7 +122,7 @@ contains
       if (.not. all(is_measure(values))) largest = values(findloc(is_measure(values), .false., dim=1))
    end function largest
 
-   !> How far the faces stand apart at an interface element in this STATE: from where they would touch [length].
+   !> Distance of the faces at an interface element in this STATE from contact [length].
    elemental real(wp) function stands_apart(state) result(gap)
       type(normal_state), intent(in) :: state
 
@@ -130,13 +130,13 @@ contains
       if (state%branch == branch_open) gap = max(0.0_wp, state%lambda_b - state%lambda)
    end function stands_apart
 
-   !> Contact of JOINT, what it transmits, its safety against slip, and how stiff it is.
+   !> Contact, resultant, safety against slip and stiffness of JOINT.
    pure subroutine describe_joint(model, analysis, joint, k, floor, answer)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
       type(joint_type), intent(in)      :: joint
       real(wp), intent(in)              :: k(:, :) !! (3, n) tangents of all interface elements
-      real(wp), intent(in)              :: floor   !! of forces: below it there is only rounding
+      real(wp), intent(in)              :: floor   !! of forces: smaller values are rounding
       type(joint_answer), intent(inout) :: answer
       type(joint_resultant) :: total
       real(wp) :: least(6)
@@ -153,7 +153,7 @@ contains
       end associate
       total = find_resultant(model, analysis, joint)
       associate (frame => joint%frame)
-         if (model%axisymmetric) total%shear(1) = 0.0_wp ! all round the ring it balances
+         if (model%axisymmetric) total%shear(1) = 0.0_wp ! self-equilibrated around the ring
          answer%normal = above(total%normal, floor)
          answer%shear = above(norm2(total%shear), floor)
          answer%force(:3) = above(matmul(total%force, frame%axes), floor)
@@ -173,7 +173,7 @@ contains
       end associate
    end subroutine describe_joint
 
-   !> The first figure of ANSWER that is beyond all measure, in words; '' where all are numbers.
+   !> The first value of ANSWER beyond all bounds, in words; '' where all are finite.
    pure function fault_of_answer(model, answer) result(words)
       type(model_type), intent(in)        :: model
       type(stage_answer_type), intent(in) :: answer

@@ -1,5 +1,5 @@
-!> Tables of a whole stage, which keep their rows until its end: increments, distance from the laws, re-analyses or iterations,
-!! resultants of joints, forces of bars, bolts and springs.
+!> Tables of a whole stage, whose rows are kept until its end. Their subjects are increments, distance from the laws,
+!! re-analyses or iterations, resultants of joints, forces of bars, bolts and springs.
 module stage_tables
    use analysis_state, only: analysis_type, free_norm
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
@@ -20,12 +20,12 @@ module stage_tables
 
    public :: note_stage_tables, distance_words
 
-   ! the tables, in the order in which they stand at the end of a stage; warnings stand before the passes
+   ! the tables in the order of printing; warnings come before the passes
    integer, parameter, public :: increment_rows = 1, distance_rows = 2, pass_rows = 3, slip_rows = 4, resultant_rows = 5, &
                                  bar_rows = 6, &
                                  spring_rows = 7, section_rows = 8, n_stage_tables = 8
 
-   real(wp), parameter :: far = 0.02_wp !! of the largest deflection or stress: the answer is another one than that of the laws
+   real(wp), parameter :: far = 0.02_wp !! of the largest deflection or stress: beyond it the answer is not that of the laws
 
    !> The largest distance from a law in a run.
    type, public :: farthest_type
@@ -36,7 +36,7 @@ module stage_tables
 
 contains
 
-   !> Note the increment just completed in all TABLES, and in FARTHEST how far the joints are from their laws.
+   !> Add the completed increment to all TABLES, and the distance of the joints from their laws to FARTHEST.
    subroutine note_stage_tables(page, method, model, plan, analysis, tables, farthest)
       type(page_type), intent(in)             :: page
       integer, intent(in)                     :: method !! of case control
@@ -56,19 +56,19 @@ contains
       call note_sections(page, model, analysis, tables(section_rows))
    end subroutine note_stage_tables
 
-   !> A row a joint, or one where there are none.
+   !> A row for each joint, or one row without joints.
    subroutine note_increment(page, label, model, analysis, table)
       type(page_type), intent(in)             :: page
       character(*), intent(in)                :: label
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
       type(listing_table_type), intent(inout) :: table
-      type(stage_load_type) :: now !! the load that acts
+      type(stage_load_type) :: now !! present load
       real(wp) :: floor, unbalanced
       integer  :: j
 
       associate (labels => page%labels)
-         ! in this table the unit of LAMBDA stands two characters behind its numbers
+         ! here the unit of LAMBDA ends two characters behind its numbers
          if (table%is_empty()) call table%start('INCREMENTS OF '//page%stage//'   '//label, &
             [column('INCR', 'i6'), column('SHARE', 'f8.5'), column('LOAD', 'f7.4'), column('JOINT', 'i11'), column('OPEN', 'i5'), &
              column('LAMBDA MAX', 'es13.5', labels%length, unit_shift=2), column('AT NODE', 'i11'), &
@@ -117,7 +117,7 @@ contains
 
    end subroutine note_increment
 
-   !> How far the joints are from their laws, and where that is most in the run.
+   !> The distance of the joints from their laws, and its maximum in the run.
    subroutine note_distances(page, model, plan, analysis, table, farthest)
       type(page_type), intent(in)             :: page
       type(model_type), intent(in)            :: model
@@ -152,7 +152,7 @@ contains
 
    contains
 
-      !> The columns of one DISTANCE, of values of which LARGEST is the largest so far.
+      !> Add the columns of one DISTANCE; LARGEST is the largest value so far.
       subroutine add(distance, largest)
          type(distance_type), intent(in) :: distance
          real(wp), intent(in)            :: largest
@@ -181,7 +181,7 @@ contains
 
    end subroutine note_distances
 
-   !> The line on the screen at the end of a run that was FAR from its laws; '' where it was not.
+   !> The line on the screen after a run FAR from its laws; '' otherwise.
    pure function distance_words(farthest) result(words)
       type(farthest_type), intent(in) :: farthest
       character(:), allocatable :: words
@@ -316,7 +316,7 @@ contains
 
    contains
 
-      !> Below the tolerance the digits of an unbalanced FORCE are those of rounding.
+      !> Below the tolerance the digits of an unbalanced FORCE are rounding.
       subroutine add_unbalanced(force)
          real(wp), intent(in) :: force
 
@@ -370,7 +370,7 @@ contains
       end do
    end subroutine note_bars
 
-   !> The forces of all solid bolts, and how much each was shortened at its section.
+   !> The forces of all solid bolts, and the shortening of each at its pretension section.
    subroutine note_sections(page, model, analysis, table)
       type(page_type), intent(in)             :: page
       type(model_type), intent(in)            :: model
@@ -392,7 +392,7 @@ contains
       end do
    end subroutine note_sections
 
-   !> A FORCE and a LENGTH; what is rounding is zero.
+   !> Add a FORCE and a LENGTH; rounding becomes zero.
    subroutine add_forces(page, analysis, force, length, table)
       type(page_type), intent(in)             :: page
       type(analysis_type), intent(in)         :: analysis

@@ -1,4 +1,4 @@
-!> What shells and beams bear: stresses at both faces of shells, forces and stresses at the ends of beams; their tables in the listing.
+!> The results of shells and beams: stresses at both faces of shells, end forces and stresses of beams, and tables.
 module structural_results
    use analysis_state, only: analysis_type
    use beam_element, only: beam_end_forces, beam_law, beam_thermal_load
@@ -35,8 +35,8 @@ contains
       end associate
    end subroutine face_stresses
 
-   !> The forces in beam E at its ends, column 1 at end A, by which what lies beyond, towards B, acts on what lies before: N, Q along y and
-   !! z, T, M about y and z, in the axes of the beam [force], [force length].
+   !> The end forces of beam E, column 1 at end A: the action of the part towards B on the part towards A, N, Q along y and z,
+   !! T, M about y and z, in the axes of the beam [force], [force length].
    pure function end_forces(model, analysis, e) result(forces)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -55,7 +55,7 @@ contains
 
    contains
 
-      !> What the ends bear of the loads along the beam at the end of STAGE.
+      !> The fixed-end forces of loads along the beam at the end of STAGE.
       pure function of_stage(stage) result(f)
          integer, intent(in) :: stage
          real(wp) :: f(12)
@@ -89,9 +89,9 @@ contains
       end associate
    end function section_stresses
 
-   !> The largest von Mises stress of shells, and where the ANALYSIS is given of beams, at every point of the model: of shells at either
-   !! face, the mean of those that make one plate there; of beams at the stress points. AT_CENTRE: at the centres of shells and the ends
-   !! of beams, of every element; 0: a body.
+   !> The largest von Mises stress of shells, and where ANALYSIS is present of beams, at every point of the model. Shells: at
+   !! both faces, averaged over the shells that form one plate there. Beams: at the stress points. AT_CENTRE: at the centres of
+   !! shells and the ends of beams, for every element; 0 for a body.
    subroutine node_peaks(model, u, temperature, at_node, at_centre, analysis)
       type(model_type), intent(in)       :: model
       real(wp), intent(in)               :: u(:, :)      !! (dimension, n_nodes) [length]
@@ -132,7 +132,7 @@ contains
 
    contains
 
-      !> The largest mean at NODE over the shells there that make one plate.
+      !> The largest mean at NODE over the shells that form one plate there.
       subroutine average(node)
          integer, intent(in) :: node
          real(wp) :: total(max_stresses, 2)
@@ -150,7 +150,7 @@ contains
                   corner = findloc(corners_of(model, model%elements_at(j)), node, dim=1)
                   if (corner == 0) cycle
                   n = n + 1
-                  do f = 1, 2 ! of one turned round the faces change places
+                  do f = 1, 2 ! for a reversed shell the faces change places
                      total(:, f) = total(:, f) + stress(:, corner, merge(f, 3 - f, dot_product(normal(:, first), &
                                                                                               normal(:, other)) > 0.0_wp), other)
                   end do
@@ -162,7 +162,7 @@ contains
 
    end subroutine node_peaks
 
-   !> The tables of shells and of beams, where there are any.
+   !> The tables of shells and of beams, if any.
    subroutine list_structural(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -185,7 +185,7 @@ contains
          [column('ELEMENT', 'i11'), column('HEIGHT', 'es13.5'), column([character(9) :: 'SIGMA X', 'SIGMA Y', 'SIGMA Z', 'TAU XY', &
           'TAU YZ', 'TAU ZX', 'VON MISES'], 'es13.5')], page%file)
       floor = 0.0_wp
-      do pass = 1, 2 ! the largest, for what is but rounding
+      do pass = 1, 2 ! the largest value first, for the limit of rounding
          do e = 1, model%n_elements
             if (.not. is_shell(model, e)) cycle
             if (pass == 2 .and. .not. shows(page, corners_of(model, e))) cycle

@@ -1,5 +1,5 @@
-!> What the supports take at the end of a stage: of every SPC1 card, of the SPC cards of a set, of every surface of SPCM, of PS on GRID,
-!! of every joint to a rigid base, of the springs to the ground; and the balance with the loads.
+!> The reactions at the end of a stage, for each group of supports, and their balance with the loads. The groups are every SPC1
+!! card, the SPC cards of a set, every surface of SPCM, PS on GRID, every joint to a rigid base, and the springs to ground.
 module support_reactions
    use analysis_state, only: analysis_type, element_force
    use bolt_locking, only: bar_tension
@@ -14,25 +14,25 @@ module support_reactions
 
    public :: find_reactions
 
-   real(wp), parameter :: remainder = 1.0e-7_wp ! of the largest force: what less is left of sums is rounding
+   real(wp), parameter :: remainder = 1.0e-7_wp ! of the largest force: smaller sums are rounding
 
    !> A resultant.
    type, public :: reaction_type
       character(8) :: kind = ''                !! SPC, SPC1, SPCM, GRID; BASE: a joint to a rigid base; SPRINGS: to the ground
       integer  :: id = 0                       !! set, PMARK, or joint
-      integer  :: line = 0                     !! of its card in the deck with its INCLUDE files, 0: none
-      integer  :: nodes = 0                    !! that it acts on
-      real(wp) :: centre(3) = 0.0_wp           !! mean place of these [length]
+      integer  :: line = 0                     !! line of its card in the deck with its INCLUDE files, 0: none
+      integer  :: nodes = 0                    !! number of its nodes
+      real(wp) :: centre(3) = 0.0_wp           !! mean position of these [length]
       real(wp) :: force(3) = 0.0_wp            !! as it acts on the structure [force]
       real(wp) :: moment(3) = 0.0_wp           !! about the origin [force x length]
-      real(wp) :: about_centre(3) = 0.0_wp     !! and about the centre
+      real(wp) :: about_centre(3) = 0.0_wp     !! about the centre
    end type reaction_type
 
-   !> All of them, their sum, and the loads.
+   !> All resultants, their sum, and the loads.
    type, public :: reactions_type
       type(reaction_type), allocatable :: parts(:)
       type(reaction_type) :: total, loads
-      real(wp) :: left(3) = 0.0_wp             !! sum of all forces: left unbalanced
+      real(wp) :: left(3) = 0.0_wp             !! sum of all forces: the unbalanced force
    end type reactions_type
 
 contains
@@ -107,7 +107,7 @@ contains
       call settle(model, largest_force, answer%loads)
    end subroutine find_reactions
 
-   !> What supported components take, to the PARTS of their groups.
+   !> Add the reactions of supported components to the PARTS of their groups.
    subroutine add_supports(model, analysis, parts)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
@@ -139,7 +139,7 @@ contains
       end do
    end subroutine add_supports
 
-   !> FORCE on the unknowns of NODE in global axes.
+   !> Transform FORCE on the unknowns of NODE to global axes.
    pure function along_axes(model, node, force) result(turned)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
@@ -156,7 +156,7 @@ contains
       end associate
    end function along_axes
 
-   !> FORCE on the node of rotation K is a moment.
+   !> Add FORCE on the node of rotation K as a moment.
    pure subroutine add_moment(model, k, force, part)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: k
@@ -167,7 +167,7 @@ contains
       if (model%dimension == 2) part%moment(3) = part%moment(3) + force(1)*model%rotations(k)%arm
    end subroutine add_moment
 
-   !> FORCE acts at X.
+   !> Add FORCE at X.
    pure subroutine act(part, x, force)
       type(reaction_type), intent(inout) :: part
       real(wp), intent(in)               :: x(3), force(:) !! (2 or 3)
@@ -181,7 +181,7 @@ contains
       part%moment = part%moment + cross(x, whole)
    end subroutine act
 
-   !> All of PART is there: the mean place, the moment about it; what is rounding is zero, and on a ring what balances round it.
+   !> Complete PART: mean position and moment about it. Rounding becomes zero, and on a ring all self-equilibrated components.
    pure subroutine settle(model, largest_force, part)
       type(model_type), intent(in)       :: model
       real(wp), intent(in)               :: largest_force

@@ -1,5 +1,5 @@
-!> The tables of the oscillation about the state at the end of a stage: natural modes, backbone, response; in the listing, and in the CSV
-!! files NAME.modes.csv, .modes.energy.csv, .backbone.csv, .backbone.response.csv, .loop.csv and .response.csv.
+!> The tables of oscillation about the state at the end of a stage: natural modes, backbone, response. The CSV files are
+!! NAME.modes.csv, .modes.energy.csv, .backbone.csv, .backbone.response.csv, .loop.csv and .response.csv.
 module vibration_tables
    use backbone, only: backbone_type
    use element_mapping, only: two_pi
@@ -21,14 +21,14 @@ module vibration_tables
 
    character(1), parameter :: xyz(3) = ['x', 'y', 'z']
    real(wp), parameter :: percent = 100.0_wp
-   real(wp), parameter :: least_share = 1.0e-4_wp  ! of the strain energy: what has less has no row in the listing
+   real(wp), parameter :: least_share = 1.0e-4_wp  ! of the strain energy: a smaller share has no row in the listing
    real(wp), parameter :: no_part = 1.0e-9_wp      ! of the largest mass or participation possible: rounding
    real(wp), parameter :: no_mass = 1.0e-12_wp     ! of the mass of the structure: rounding, in full precision
    real(wp), parameter :: tiny_share = 1.0e-7_wp   ! of an amplitude, of a loss: rounding
 
 contains
 
-   !> A row a mode; its effective masses stand in a table of their own in the listing.
+   !> A row for each mode; the effective masses have a table of their own in the listing.
    function modes_columns() result(columns)
       type(column_type), allocatable :: columns(:)
 
@@ -38,7 +38,7 @@ contains
                  column('LOSS FACTOR', 'es15.5', name='loss_factor')]
    end function modes_columns
 
-   !> A row a body, joint and bar: its share of the strain energy of a mode; what bodies and bars have stands under normal.
+   !> A row for each body, joint and bar: its share of the strain energy of a mode. Bodies and bars stand under normal.
    function energy_columns() result(columns)
       type(column_type), allocatable :: columns(:)
 
@@ -47,7 +47,7 @@ contains
                                                                                                                        'shear '])]
    end function energy_columns
 
-   !> A row an amplitude.
+   !> A row for each amplitude.
    function backbone_columns(labels) result(columns)
       type(label_type), intent(in)   :: labels
       type(column_type), allocatable :: columns(:)
@@ -59,7 +59,7 @@ contains
                  column('NOT CLOSED', 'f12.6'), column('DISTORTION', 'f12.5', name='distortion'), column('LOOPS', 'i7')]
    end function backbone_columns
 
-   !> A row an amplitude of the response of the mode alone, ascending; the listing has the resonances.
+   !> A row for each amplitude of the response of the mode alone, ascending; the listing has the resonances only.
    function bend_columns(labels) result(columns)
       type(label_type), intent(in)   :: labels
       type(column_type), allocatable :: columns(:)
@@ -69,21 +69,21 @@ contains
                  csv([character(11) :: 'phase_below', 'above', 'phase_above'])]
    end function bend_columns
 
-   !> A row a point of the last loop of each amplitude, from its upper turning point on.
+   !> A row for each point of the last loop of each amplitude, from its upper turning point on.
    function loop_columns() result(columns)
       type(column_type), allocatable :: columns(:)
 
       columns = csv([character(9) :: 'stage', 'mode', 'amplitude', 'point', 'alpha', 'q'])
    end function loop_columns
 
-   !> A row a frequency, node and component.
+   !> A row for each frequency, node and component.
    function response_columns() result(columns)
       type(column_type), allocatable :: columns(:)
 
       columns = csv([character(9) :: 'stage', 'frequency', 'node', 'component', 'amplitude', 'phase'])
    end function response_columns
 
-   !> How they were found; frequencies; masses; where the strain energy is.
+   !> The search for the modes, frequencies, masses, and shares of strain energy.
    subroutine list_modes(page, model, plan, modes)
       type(page_type), intent(inout)        :: page
       type(model_type), intent(in)          :: model
@@ -187,7 +187,7 @@ contains
       call table%print_row(page%file)
    end subroutine list_participation
 
-   !> A motion without strain has no rows.
+   !> A rigid-body mode has no rows.
    subroutine list_energies(page, model, modes)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
@@ -229,7 +229,7 @@ contains
 
    end subroutine list_energies
 
-   !> The backbone FOUND, an amplitude a row, and what every joint has of the loss.
+   !> The backbone FOUND, a row for each amplitude, and the contribution of every joint to the loss.
    subroutine list_backbone(page, model, found)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -276,7 +276,7 @@ contains
       end do
    end subroutine list_backbone
 
-   !> Where the mode alone, of the backbone's frequency and loss, has its resonances under the load that oscillates.
+   !> The resonances of the mode alone, with the frequency and loss of the backbone, under the oscillating load.
    subroutine list_resonances(page, found)
       type(page_type), intent(inout)  :: page
       type(backbone_type), intent(in) :: found
@@ -298,7 +298,7 @@ contains
          '  NONE UP TO THE LARGEST AMPLITUDE: THE BRANCHES DO NOT MEET')
    end subroutine list_resonances
 
-   !> What every joint has of the loss.
+   !> The contribution of every joint to the loss.
    subroutine list_shares(page, model, found)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -319,7 +319,7 @@ contains
       end do
    end subroutine list_shares
 
-   !> Where and at which frequency every component asked for has its largest amplitude.
+   !> The largest amplitude of every wanted component, with its frequency.
    subroutine list_response(page, response)
       type(page_type), intent(inout)  :: page
       type(response_type), intent(in) :: response
@@ -351,7 +351,7 @@ contains
       call write_response(page%tables(response_table), page%stage_id, response)
    end subroutine list_response
 
-   !> The line that warns of a PEAK between the frequencies asked for.
+   !> The warning of a PEAK between the given frequencies.
    pure function missed_words(response, peak) result(words)
       type(response_type), intent(in) :: response
       type(missed_peak), intent(in)   :: peak
@@ -367,7 +367,7 @@ contains
               trim(adjustl(amplitude))//', IN THE TABLE '//trim(adjustl(beside))//'; SEE FREQ4'
    end function missed_words
 
-   !> The rows of the response in the stage with the number STAGE: frequency by frequency, at each node by node, of each its components.
+   !> The rows of the response in the stage with the number STAGE: ordered by frequency, node and component.
    subroutine write_response(file, stage, response)
       type(output_file_type), intent(inout) :: file
       integer, intent(in)                   :: stage

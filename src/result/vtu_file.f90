@@ -1,6 +1,6 @@
 !> A VTK XML unstructured grid, NAME.vtu, for ParaView: points, cells, and arrays of values on either.
 !!
-!! Every array is handed over once and goes to the disk at once; nothing of it is kept. Use:
+!! Every array is passed once and written at once; the module keeps none of it. Use:
 !!
 !!    call file%start('beam.1.vtu')
 !!    call file%points(x)                               ! in this order: points, cells, and then the values
@@ -11,20 +11,19 @@
 !!
 !! The file, "appended raw":
 !!
-!!    byte 1              the XML header, filled up with blanks; its last byte is the underscore that begins the data
-!!    byte data_start     the arrays as they lie in memory, each after its length in bytes (UInt64)
+!!    byte 1              the XML header, padded with blanks; its last byte is the underscore that begins the data
+!!    byte data_start     the arrays as in memory, each after its length in bytes (UInt64)
 !!    then                the closing tags
 !!
-!! The header needs the place of every array, so it is written last, into the room that was left for it. As with every result,
+!! The header contains the offset of every array. It is therefore written last, into the space reserved for it. As every result,
 !! the file has the name PATH.abcdef.part until it is complete.
 !!
-!! Where another process is to write it START comes in two parts: this one keeps the file, by RESERVE, FINISH and DISCARD; the other
-!! writes into it, by OPEN_PART and then from POINTS on, and ends with COMPLETE.
+!! For a file that another process writes, START is divided in two. This process keeps the file by RESERVE, FINISH and DISCARD.
+!! The other process writes it by OPEN_PART and then from POINTS on, and ends with COMPLETE.
 !!
-!! A call that fails, or that contradicts what went before (an array of another size than the points, a node number that
-!! is no point, no points at all, more arrays than the header holds), makes FAILED true; the calls after it do nothing,
-!! and FINISH leaves no file.
-!! Arrays that are not contiguous are copied by the compiler at the call.
+!! A failed or inconsistent call makes FAILED true. Inconsistent are: a size of an array that differs from that of the points, a
+!! node number without a point, no points at all, more arrays than the header holds. Later calls do nothing, and FINISH leaves
+!! no file. The compiler copies arrays that are not contiguous.
 module vtu_file
    use c_library, only: close_file, remove_file
    use incomplete_results, only: create_part, name_part
@@ -41,7 +40,7 @@ module vtu_file
 
    integer, parameter, public :: data_start = 16384 !! length of the header [bytes]: enough for a hundred arrays
 
-   !> The sections of the header that arrays stand in; those of the values are for the caller.
+   !> The sections of the header with arrays; callers use those of the values.
    integer, parameter, public :: point_data = 3, cell_data = 4
    integer, parameter         :: in_points = 1, in_cells = 2
    character(*), parameter    :: section_tags(4) = [character(9) :: 'Points', 'Cells', 'PointData', 'CellData']
@@ -49,9 +48,9 @@ module vtu_file
    character(*), parameter :: newline = new_line('a')
    character(*), parameter :: closing = newline//'  </AppendedData>'//newline//'</VTKFile>'//newline ! behind the data
 
-   integer, parameter :: wrong_call = -huge(0) ! a status of our own
+   integer, parameter :: wrong_call = -huge(0) ! a status of this module
 
-   !> The lines of a section of the header, one an array.
+   !> The lines of a section of the header, one for each array.
    type :: section_type
       character(:), allocatable :: lines
    end type section_type
@@ -59,15 +58,15 @@ module vtu_file
    type, public :: vtu_file_type
       private
       character(:), allocatable :: path
-      character(:), allocatable, public :: part !! its name until it is complete
+      character(:), allocatable, public :: part !! its name until complete
       integer :: unit   = 0
       integer :: status = 0                  ! of the first call that failed
       integer :: n_points = -1, n_cells = -1 ! -1: not yet given
       integer(int64) :: n_bytes = 0          ! of data so far
       type(section_type) :: sections(size(section_tags))
       logical, public :: is_open = .false.
-      logical :: waits = .false.             ! complete, for its name
-      logical :: is_named = .false.          ! it has it
+      logical :: waits = .false.             ! complete, not yet named
+      logical :: is_named = .false.          ! has its name
    contains
       procedure :: start
       procedure :: reserve
@@ -85,7 +84,7 @@ module vtu_file
 
 contains
 
-   !> Open the file that will be PATH. A file that is still open is given up first.
+   !> Open the file that will be PATH. A file that is still open is discarded first.
    subroutine start(self, path)
       class(vtu_file_type), intent(inout) :: self
       character(*), intent(in)            :: path
@@ -95,7 +94,7 @@ contains
       if (.not. self%is_open) call self%discard()
    end subroutine start
 
-   !> Create the file that will be PATH, empty: it is given up, or finished as whoever opens it by the name PART has left it.
+   !> Create the empty file that will be PATH. Another process opens it by the name PART; then it is finished or discarded here.
    subroutine reserve(self, path)
       class(vtu_file_type), intent(inout) :: self
       character(*), intent(in)            :: path
@@ -111,7 +110,7 @@ contains
       self%waits = ok
    end subroutine reserve
 
-   !> Open the file PART, which has been reserved.
+   !> Open the reserved file PART.
    subroutine open_part(self, part)
       class(vtu_file_type), intent(inout) :: self
       character(*), intent(in)            :: part
@@ -152,7 +151,7 @@ contains
       call require(self, self%n_points >= 0 .and. self%n_cells < 0 .and. size(ends) == size(types))
       call require(self, all(connectivity >= 1 .and. connectivity <= self%n_points))
       self%n_cells = size(ends)
-      n = 0 ! they never fall, and end where CONNECTIVITY does
+      n = 0 ! ENDS must not decrease, and end at the size of CONNECTIVITY
       do i = 1, size(ends)
          call require(self, ends(i) >= n)
          n = ends(i)
@@ -181,7 +180,7 @@ contains
       call write_array(self, section, name, 'Int32', 4, n_tuples(self, section), values)
    end subroutine add_integers
 
-   !> How many tuples an array of SECTION has: one a point or one a cell; -1 where neither is known yet.
+   !> Number of tuples of an array of SECTION: one for each point or cell; -1 where not yet known.
    pure integer function n_tuples(self, section)
       type(vtu_file_type), intent(in) :: self
       integer, intent(in)             :: section
@@ -189,13 +188,13 @@ contains
       n_tuples = merge(self%n_points, self%n_cells, section == in_points .or. section == point_data)
    end function n_tuples
 
-   !> Note an array for the header, and write its length and its bytes.
+   !> Record an array for the header, and write its length and bytes.
    subroutine write_array(self, section, name, number, bytes, n, values)
       type(vtu_file_type), intent(inout) :: self
       integer, intent(in)                :: section
       character(*), intent(in)           :: name, number
       integer, intent(in)                :: bytes      !! of a number
-      integer, intent(in)                :: n          !! tuples, as it has to be
+      integer, intent(in)                :: n          !! tuples required
       type(*), intent(in), contiguous, target :: values(..) !! (n) or (components, n)
       integer(int8), pointer :: as_bytes(:)
       character(:), allocatable :: line
@@ -211,14 +210,14 @@ contains
       if (self%status /= 0) return
       write (offset, '(i0)') self%n_bytes
       line = '        <DataArray type="'//number//'" Name="'//xml_text(name)//'"'
-      if (components > 1) line = line//' NumberOfComponents="'//integer_text(components)//'"' ! of a 1 some readers make a matrix
+      if (components > 1) line = line//' NumberOfComponents="'//integer_text(components)//'"' ! 1: a matrix to some readers
       self%sections(section)%lines = self%sections(section)%lines//line//' format="appended" offset="'//trim(offset)//'"/>'//newline
       call c_f_pointer(c_loc(values), as_bytes, [n_bytes])
       write (self%unit, iostat=self%status) n_bytes, as_bytes
       self%n_bytes = self%n_bytes + storage_size(n_bytes)/8 + n_bytes
    end subroutine write_array
 
-   !> The file has failed unless a call FITS what went before.
+   !> Mark the file as failed unless a call FITS the state.
    pure subroutine require(self, fits)
       type(vtu_file_type), intent(inout) :: self
       logical, intent(in)                :: fits
@@ -233,7 +232,7 @@ contains
       failed = self%status /= 0
    end function failed
 
-   !> Write the header and close the file. It has no name yet.
+   !> Write the header and close the file, which has no name yet.
    subroutine complete(self)
       class(vtu_file_type), intent(inout) :: self
       character(:), allocatable :: header
@@ -251,7 +250,7 @@ contains
       end if
       close (self%unit, iostat=self%status)
       self%is_open = .false.
-      if (self%status == 0) then ! that the disk is full may show in nothing but the size
+      if (self%status == 0) then ! a full disk may show only in the size
          inquire (file=self%part, size=n_written)
          call require(self, n_written == data_start + self%n_bytes + len(closing))
       end if
@@ -259,7 +258,7 @@ contains
       if (.not. self%waits) call remove_file(self%part)
    end subroutine complete
 
-   !> Complete the file and give it its name. OK is false, and no file is left by us, where that failed.
+   !> Complete the file and give it its name. If that fails, OK is false and the file is removed.
    subroutine finish(self, ok)
       class(vtu_file_type), intent(inout) :: self
       logical, intent(out)                :: ok
@@ -273,7 +272,7 @@ contains
       call require(self, ok)
    end subroutine finish
 
-   !> Leave nothing behind, a file that has got its name included.
+   !> Discard the file, even if it already has its name.
    subroutine discard(self)
       class(vtu_file_type), intent(inout) :: self
       integer :: status
@@ -287,7 +286,7 @@ contains
       call remove_file(self%part)
    end subroutine discard
 
-   !> Write the complete file to a restart file; or read it, which will be PATH, and wait with it for its name.
+   !> Write the complete file to a restart file, or read it as the file that will be PATH, not yet named.
    subroutine record(self, path, stream)
       class(vtu_file_type), intent(inout)      :: self
       character(*), intent(in)                 :: path
@@ -309,7 +308,7 @@ contains
       self%waits = self%status == 0
    end subroutine record
 
-   !> The header, at least data_start bytes long: longer where the arrays are too many.
+   !> The header, at least data_start bytes long; longer for too many arrays.
    pure function header_text(n_points, n_cells, sections) result(text)
       integer, intent(in)            :: n_points, n_cells
       type(section_type), intent(in) :: sections(:)
@@ -330,7 +329,7 @@ contains
       text = text//repeat(' ', max(0, data_start - len(text) - len(last)))//last
    end function header_text
 
-   !> NAME of an array with the UNIT of its values; alone where the deck names none.
+   !> NAME of an array with the UNIT of its values, if the deck names one.
    pure function named(name, unit) result(words)
       character(*), intent(in)  :: name, unit
       character(:), allocatable :: words
@@ -339,7 +338,7 @@ contains
       if (unit /= '') words = name//' ['//trim(unit)//']'
    end function named
 
-   !> TEXT as it may stand between the quotes of an XML attribute.
+   !> TEXT escaped for an XML attribute.
    pure function xml_text(text) result(escaped)
       character(*), intent(in)  :: text
       character(:), allocatable :: escaped

@@ -1,6 +1,6 @@
-!> What ParaView shows: the bodies with displacements and stresses, or in the shapes of natural modes; the joints, the faces of their side
-!! 1 with what the interface elements have there, in the places of the nodes. Joints of single elements (CJOINT) are points, and of
-!! several elements at one node all but the first.
+!> The grids for ParaView: bodies with displacements and stresses or mode shapes, and joints with their values. A joint is shown
+!! by the faces of its side 1, with the values of the interface elements at the nodes. Joints of single elements (CJOINT) are
+!! points; so are all elements at one node but the first.
 module vtu_grids
    use analysis_state, only: analysis_type
    use body_elements, only: node_stresses, whole_stress
@@ -24,21 +24,20 @@ module vtu_grids
 
    public :: write_bodies, write_joints, write_shapes, write_piece, notes_for_pieces
 
-   integer, parameter :: n_values = 8 ! lambda, pressure, tau(3), gap, slip as it is averaged, area
+   integer, parameter :: n_values = 8 ! lambda, pressure, tau(3), gap, averaged slip, area
 
-   !> Points and cells of all joints as they are gathered.
+   !> The points and cells of all joints during assembly.
    type :: grid_type
       integer :: n_points = 0, n_cells = 0, n_corners = 0
       real(wp), allocatable :: x(:, :), u(:, :), values(:, :)
-      integer, allocatable  :: element(:)      ! interface element that a point has its branch of
+      integer, allocatable  :: element(:)      ! interface element that gives a point its branch
       integer, allocatable  :: corners(:), ends(:)
       integer(int8), allocatable :: types(:)
    end type grid_type
 
 contains
 
-   !> Of what is SHOWN elements with stresses at their centres, nodes with displacements and the mean of the stresses of its elements
-   !! there.
+   !> Write the SHOWN elements with stresses at their centres, and their nodes with displacements and averaged stresses.
    subroutine write_bodies(file, labels, model, shown, u, temperature)
       type(vtu_file_type), intent(inout) :: file
       type(label_type), intent(in)       :: labels
@@ -79,7 +78,7 @@ contains
       if (allocated(model%structural%place)) call write_faces(file, labels, model, shown, u, temperature)
    end subroutine write_bodies
 
-   !> Of shells the thickness and the von Mises stress at the centres of both faces; of other elements zero.
+   !> Thickness and von Mises stress at the centres of both faces of shells; zero for other elements.
    subroutine write_faces(file, labels, model, shown, u, temperature)
       type(vtu_file_type), intent(inout) :: file
       type(label_type), intent(in)       :: labels
@@ -104,7 +103,7 @@ contains
       call file%add(cell_data, named('von_mises_at_z2', labels%pressure), at_face(:, 2))
    end subroutine write_faces
 
-   !> What the LABELS of a file are that is written in pieces, for write_piece.
+   !> The LABELS of a file that is written in pieces, packed for write_piece.
    pure function notes_for_pieces(labels) result(notes)
       type(label_type), intent(in) :: labels
       character(:), allocatable    :: notes
@@ -112,7 +111,7 @@ contains
       notes = labels%length//labels%pressure
    end function notes_for_pieces
 
-   !> The piece_writer of the results: a PIECE as write_bodies has it, into a file that has been reserved.
+   !> The piece_writer of the results: write a PIECE as write_bodies does, into a reserved file.
    subroutine write_piece(piece, u, temperature, notes, file, ok)
       type(body_piece_type), intent(in)  :: piece
       real(wp), intent(in)               :: u(:, :) !! (dimension, nodes of its model) [length]
@@ -130,7 +129,7 @@ contains
       ok = .not. part%failed()
    end subroutine write_piece
 
-   !> The shapes of the MODES: vectors at the nodes, one a mode, each named by its number and frequency.
+   !> The shapes of the MODES: a nodal vector for each mode, named by its number and frequency.
    subroutine write_shapes(file, model, modes)
       type(vtu_file_type), intent(inout) :: file
       type(model_type), intent(in)       :: model
@@ -148,7 +147,7 @@ contains
       end do
    end subroutine write_shapes
 
-   !> The points and cells of what is SHOWN, and the numbers of the nodes.
+   !> The points and cells of the SHOWN elements, and the numbers of the nodes.
    subroutine write_mesh(file, model, shown)
       type(vtu_file_type), intent(inout) :: file
       type(model_type), intent(in)       :: model
@@ -175,9 +174,9 @@ contains
    end subroutine write_mesh
 
 
-   !> Write all joints into FILE. BRANCH is 1 load, 2 unload, 3 open, 4 reload as in the chart; TAU the shear stress on side 2 in
-   !! global axes; GAP how far the faces stand apart. Where a node of a face has no element of its own, the corners of faces of
-   !! second order, it has the mean of those beside it; its branch is that of the first of them.
+   !> Write all joints into FILE. BRANCH is 1 load, 2 unload, 3 open, 4 reload as in the chart. TAU is the shear stress on side
+   !! 2 in global axes. GAP is the distance of the faces. A node of a face without an element of its own, such as a corner of a
+   !! second-order face, has the mean of the adjacent nodes and the branch of the first of them.
    subroutine write_joints(file, labels, model, analysis)
       type(vtu_file_type), intent(inout) :: file
       type(label_type), intent(in)       :: labels
@@ -186,7 +185,7 @@ contains
       type(grid_type) :: grid
       integer :: cells, i, j, n, points
 
-      points = 0 ! as many points and cells as there can be
+      points = 0 ! upper bounds of points and cells
       cells = 0
       do j = 1, size(model%joints)
          if (model%joints(j)%side_1 > 0) then
@@ -204,7 +203,7 @@ contains
          if (model%joints(j)%side_1 > 0) then
             call add_faces(model, analysis, model%joints(j), model%surfaces(model%joints(j)%side_1), grid)
          else
-            do i = model%joints(j)%first, model%joints(j)%last ! of a joint of single elements
+            do i = model%joints(j)%first, model%joints(j)%last ! elements of a joint of single elements
                call add_element(model, analysis, i, grid)
             end do
          end if
@@ -226,7 +225,7 @@ contains
       end associate
    end subroutine write_joints
 
-   !> JOINT as the faces of SURFACE, its side 1, that have an element at any of their nodes.
+   !> Add JOINT as the faces of SURFACE, its side 1, that have an element at any of their nodes.
    subroutine add_faces(model, analysis, joint, surface, grid)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -237,9 +236,9 @@ contains
       logical, allocatable :: second(:)
       integer :: before, f, i, k
 
-      allocate (own(model%n_nodes), point(model%n_nodes), source=0) ! the element, and the point, of a node
+      allocate (own(model%n_nodes), point(model%n_nodes), source=0) ! element and point of a node
       allocate (share(size(grid%element)), source=0)
-      allocate (second(joint%first:joint%last), source=.false.) ! whether the node of an element belongs to one before it
+      allocate (second(joint%first:joint%last), source=.false.) ! whether an earlier element has the same node
       do i = joint%first, joint%last
          associate (nodes => nodes_of_end(model%interface(i), 1), weights => weights_of_end(model%interface(i), 1))
             associate (node => nodes(maxloc(weights, dim=1)))
@@ -277,7 +276,7 @@ contains
             call add_cell(point(nodes), cell_type(surface%corners(f), size(nodes)), grid)
          end associate
       end do
-      do f = 1, surface%n                                 ! where none stands beside, as at the edge of the other side
+      do f = 1, surface%n                                 ! no adjacent element, as at the edge of the other side
          associate (nodes => surface%nodes(:surface%n_nodes(f), f))
             do k = 1, size(nodes)
                if (point(nodes(k)) == 0) cycle
@@ -296,7 +295,7 @@ contains
 
    contains
 
-      !> Point K has the values of element E, as its ONLY one or among others.
+      !> Give point K the values of element E, its ONLY one or one of several.
       subroutine take(e, k, only)
          integer, intent(in) :: e, k
          logical, intent(in) :: only
@@ -309,8 +308,8 @@ contains
 
    end subroutine add_faces
 
-   !> The nodes of a side, by their places among its N, that say what node K of it has that has no element of its own: of a corner
-   !! of a side of second order the nodes between it and its neighbours, else all.
+   !> The positions among the N nodes of a side from which node K, without an element of its own, takes its values. For a corner
+   !! of a second-order side these are the adjacent mid-side nodes, otherwise all nodes.
    pure function beside(k, corners, n) result(near)
       integer, intent(in)  :: k, corners, n
       integer, allocatable :: near(:)
@@ -318,11 +317,11 @@ contains
 
       near = [(i, i = 1, n)]
       if (n == corners .or. k > corners) return
-      near = [n]                                          ! an edge has one
+      near = [n]                                          ! an edge has one mid-side node
       if (corners > 2) near = [corners + k, corners + modulo(k - 2, corners) + 1]
    end function beside
 
-   !> Interface element I as a point.
+   !> Add interface element I as a point.
    subroutine add_element(model, analysis, i, grid)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -337,7 +336,7 @@ contains
       call add_cell([grid%n_points], vtk_vertex, grid)
    end subroutine add_element
 
-   !> A point at X that moves as NODE does.
+   !> Add a point at X that moves with NODE.
    subroutine add_point(model, analysis, node, x, grid)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -362,7 +361,7 @@ contains
       grid%types(grid%n_cells) = kind
    end subroutine add_cell
 
-   !> VTK's type of a side with so many corners and NODES in all.
+   !> VTK's type of a side with the given number of corners and NODES in total.
    pure integer(int8) function cell_type(corners, nodes)
       integer, intent(in) :: corners, nodes
       integer, parameter :: linear(2:4) = [3, 5, 9], quadratic(2:4) = [21, 22, 23]
@@ -370,7 +369,7 @@ contains
       cell_type = int(merge(linear(corners), quadratic(corners), nodes == corners), int8)
    end function cell_type
 
-   !> What the point of interface element I shows.
+   !> The values at the point of interface element I.
    pure function values_of(model, analysis, i) result(values)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis

@@ -1,5 +1,5 @@
-!> The files for ParaView beside the grids themselves: how their names end, and which of them an earlier run has left; the index of the
-!! pieces of a grid, NAME.pvtu, which says what arrays these have; the list of the files that belong together, and at what times, NAME.pvd.
+!> The names of the files for ParaView, their removal, and the index files NAME.pvtu and NAME.pvd. NAME.pvtu is the index of the
+!! pieces of a grid and names their arrays. NAME.pvd lists the files that belong together, and their times.
 module vtu_lists
    use c_library, only: close_file, is_regular_file, open_file, read_all_bytes, read_bytes
    use incomplete_results, only: remove_old
@@ -14,7 +14,7 @@ module vtu_lists
 
 contains
 
-   !> The ending of piece K behind the name of the deck, of a grid whose index has this ENDING: .2.p0.vtu, .2.p1.vtu of .2.pvtu.
+   !> The ending of piece K of a grid whose index has this ENDING: .2.p0.vtu, .2.p1.vtu of .2.pvtu.
    pure function piece_ending(ending, k) result(of_piece)
       character(*), intent(in)  :: ending
       integer, intent(in)       :: k !! from 0 on
@@ -23,8 +23,8 @@ contains
       of_piece = ending(:len(ending) - len('pvtu'))//'p'//integer_text(k)//'.vtu'
    end function piece_ending
 
-   !> Whether a file of a deck may end so, behind the name of the deck: .vtu, .pvtu and its pieces, .joint.vtu, .modes.vtu, all with the
-   !! number of a stage before them, or of a stage and an increment; .pvd.
+   !> Whether ENDING, behind the name of the deck, is that of a file for ParaView: .vtu, .pvtu and its pieces, .joint.vtu,
+   !! .modes.vtu, all optionally preceded by the number of a stage, or of a stage and an increment; .pvd.
    pure logical function is_vtu_ending(ending)
       character(*), intent(in) :: ending
       integer :: first, k, length
@@ -52,7 +52,7 @@ contains
       is_piece_ending = ending(:2) == '.p' .and. length >= 1 .and. ending(3 + length:) == '.vtu'
    end function is_piece_ending
 
-   !> Remove what an earlier run left: the files without a number, and those that its lists name.
+   !> Remove the files of an earlier run: those without a number, and those in its lists.
    subroutine remove_old_vtu(name)
       character(*), intent(in) :: name
 
@@ -63,7 +63,7 @@ contains
       call remove_list(name, '.pvd', 'file="')
    end subroutine remove_old_vtu
 
-   !> Remove the files of NAME that the one with this ENDING names behind MARK, the pieces of those that are indexes, and itself.
+   !> Remove the file of NAME with this ENDING, the files that it names behind MARK, and the pieces of those that are indexes.
    recursive subroutine remove_list(name, ending, mark)
       character(*), intent(in) :: name, ending, mark
       character(:), allocatable :: bytes, base, listed
@@ -87,8 +87,8 @@ contains
       call remove_old(name//ending)
    end subroutine remove_list
 
-   !> The index of the deck NAME, its folder included, with this ENDING: of so many pieces, whose arrays are those in the header of the
-   !! first. OK is false, and no index is left by us, where it cannot be read or written.
+   !> Write the index with this ENDING of N_PIECES pieces of the deck NAME, its folder included. Its arrays are those in the
+   !! header of the first piece. If a file cannot be read or written, OK is false and the index is removed.
    subroutine write_index(name, ending, n_pieces, ok)
       character(*), intent(in) :: name, ending
       integer, intent(in)      :: n_pieces
@@ -118,7 +118,7 @@ contains
 
    contains
 
-      !> The arrays of the section TAG, without their places in the file.
+      !> The arrays of the section TAG, without their offsets in the file.
       subroutine put_section(tag)
          character(*), intent(in) :: tag
          integer :: at, last, length
@@ -138,13 +138,13 @@ contains
 
    end subroutine write_index
 
-   !> The list of .vtu files that ParaView opens: which belong together, and at what time. OK is false, and no file is left by us,
-   !! where it cannot be written.
+   !> Write the list of .vtu files that ParaView opens: the files of each time. If it cannot be written, OK is false and the
+   !! list is removed.
    subroutine write_collection(path, times, parts, names, ok)
       character(*), intent(in) :: path
       real(wp), intent(in)     :: times(:) !! ascending
       integer, intent(in)      :: parts(:) !! 0, 1, ... within one time
-      character(*), intent(in) :: names(:) !! the .vtu files, as seen from the folder of the list
+      character(*), intent(in) :: names(:) !! the .vtu files, relative to the folder of the list
       logical, intent(out)     :: ok
       type(output_file_type) :: file
       character(24) :: time
@@ -157,7 +157,7 @@ contains
       do i = 1, size(names)
          write (time, '(f24.9)') times(i)
          call file%put('    <DataSet timestep="'//trim(adjustl(time))//'" group="" part="'//integer_text(parts(i))//'"')
-         call file%put('             file="'//xml_text(trim(names(i)))//'"/>') ! a line of its own: names may be long
+         call file%put('             file="'//xml_text(trim(names(i)))//'"/>') ! on a line of its own: names may be long
       end do
       call file%put('  </Collection>')
       call file%put('</VTKFile>')

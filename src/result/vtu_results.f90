@@ -1,7 +1,7 @@
-!> Results for ParaView: for a stage with OUTPUT = VTU the bodies in one file and the joints in another, with STEPS after every
-!! increment, the shapes of natural modes in a third; where there may be more than one of each their list NAME.pvd. Bodies that are
-!! dealt out to several processes stand in pieces, a file a process, and their index NAME.pvtu takes the place of the file. All stay
-!! unnamed until the whole run is complete.
+!> The files for ParaView of a run: bodies, joints and mode shapes of a stage, their pieces and their list. A stage with OUTPUT
+!! = VTU has a file of the bodies and one of the joints, with STEPS after every increment, and one of the shapes of natural
+!! modes. Several files of a kind have the list NAME.pvd. Bodies that are distributed over several processes are written in
+!! pieces, one file for each process, with the index NAME.pvtu. All files stay unnamed until the whole run is complete.
 module vtu_results
    use analysis_state, only: analysis_type
    use body_parts, only: all_shown
@@ -24,31 +24,31 @@ module vtu_results
 
    integer, parameter :: of_bodies = 0, of_joints = 1, of_modes = 2 ! parts of one time
 
-   !> A file of the run, or the pieces of one.
+   !> A file of the run, or its pieces.
    type :: part_type
       type(vtu_file_type), allocatable :: files(:)
-      logical :: is_index = .false.               ! they are pieces, and the name that of their index
-      logical :: is_indexed = .false.             ! which has it
+      logical :: is_index = .false.               ! the files are pieces, and the name is that of their index
+      logical :: is_indexed = .false.             ! the index has its name
       character(48) :: ending = ''                ! of its name
-      real(wp) :: time = 0.0_wp                   ! of its stage the number less one, and how much of its load is on
+      real(wp) :: time = 0.0_wp                   ! number of its stage less one, plus the load fraction
       integer  :: part = of_bodies
    end type part_type
 
    type, public :: vtu_results_type
       private
-      character(:), allocatable :: name           ! files begin with it; empty: none are written
+      character(:), allocatable :: name           ! beginning of the names; empty: no files
       type(label_type) :: labels
       type(part_type), allocatable :: parts(:)
       integer :: n = 0
       logical :: many = .false.                   ! more than one stage, or every increment of one
       logical :: is_listed = .false.              ! the list has its name
-      class(subdomain_output_type), allocatable :: dealt ! where the bodies are written in pieces
+      class(subdomain_output_type), allocatable :: dealt ! allocated where the bodies are written in pieces
    end type vtu_results_type
 
 contains
 
-   !> NAME: what the names of the files begin with, folder included; empty: none are written. DEALT, where it is there, writes the bodies,
-   !! and is handed over.
+   !> NAME: beginning of the names of the files, folder included; empty: no files. DEALT, if present, writes the bodies; it is
+   !! moved into RESULTS.
    subroutine start_vtu(results, name, labels, plan, dealt)
       type(vtu_results_type), intent(inout) :: results
       character(*), intent(in)              :: name
@@ -105,7 +105,7 @@ contains
       end associate
    end subroutine write_vtu
 
-   !> The next part of RESULTS, of the stage with the number STAGE; its file is open, but for PIECES.
+   !> Begin the next part of RESULTS in the stage with the number STAGE; its file is open unless it has PIECES.
    subroutine begin_part(results, stage, ending, time, part, pieces)
       type(vtu_results_type), intent(inout) :: results
       integer, intent(in)                   :: stage, part
@@ -128,7 +128,7 @@ contains
       end associate
    end subroutine begin_part
 
-   !> PART has so many files, none of them open; where it IS_INDEX they are pieces.
+   !> Give PART N_FILES files, none of them open; with IS_INDEX they are pieces.
    pure subroutine make_room(part, n_files, is_index)
       type(part_type), intent(inout) :: part
       integer, intent(in)            :: n_files
@@ -140,7 +140,7 @@ contains
       part%is_indexed = .false.
    end subroutine make_room
 
-   !> What file K of part I will be.
+   !> The final path of file K of part I.
    pure function path_of(results, i, k) result(path)
       type(vtu_results_type), intent(in) :: results
       integer, intent(in)                :: i, k
@@ -152,7 +152,7 @@ contains
       end associate
    end function path_of
 
-   !> All pieces of PART, by those who have them; none where one cannot be written.
+   !> Write all pieces of PART, on the processes that hold them; none where one cannot be written.
    subroutine write_pieces(results, part, analysis)
       type(vtu_results_type), intent(in) :: results
       type(part_type), intent(inout)     :: part
@@ -197,7 +197,7 @@ contains
       end associate
    end subroutine write_modes
 
-   !> Give all files their names. All or none: OK is false where one could not be written.
+   !> Give all files their names, all or none: OK is false where a file could not be written.
    subroutine finish_vtu(results, ok)
       type(vtu_results_type), intent(inout) :: results
       logical, intent(out)                  :: ok
@@ -224,7 +224,7 @@ contains
       if (.not. ok) call discard_vtu(results)
    end subroutine finish_vtu
 
-   !> The files by their endings, each behind a comma: of many their list alone.
+   !> The endings of the files, each after a comma; of many files only the list.
    pure function vtu_names(results) result(words)
       type(vtu_results_type), intent(in) :: results
       character(:), allocatable :: words
@@ -240,7 +240,7 @@ contains
       end if
    end function vtu_names
 
-   !> Leave nothing behind, files that have their names already included.
+   !> Discard all files, even those that already have their names.
    subroutine discard_vtu(results)
       type(vtu_results_type), intent(inout) :: results
       integer :: i, k

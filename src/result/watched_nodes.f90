@@ -1,13 +1,13 @@
-!> What WATCH asks at the end of a stage: how its nodes have moved, how stiff the structure is there, and which bodies, joints, bars
-!! and springs give way by how much.
+!> The answer of WATCH at the end of a stage: movement and stiffness at nodes, and shares in the compliance. The shares are
+!! those of bodies, joints, bars and springs.
 !!
-!! With q the internal forces of a component, d its deformations, and Delta the change over the stage, equilibrium at both ends of the
-!! stage and the principle of virtual work give, however nonlinear the way between them was,
+!! With q the internal forces of a component, d its deformations, and Delta the change over the stage, equilibrium at both ends
+!! of the stage and the principle of virtual work give, for any nonlinear path between them,
 !!
 !!     1/2 sum of Delta F . Delta u = 1/2 sum over all components of Delta q . Delta d
 !!
-!! for all loads, preloads, and supports that are moved. The shares are those of the right side. For one force F at one node that is
-!! F . u at the node: the share of a component is its share of the compliance there.
+!! for all loads, preloads, and moved supports. The shares are those of the right side. For one force F at one node the left
+!! side is F . u at the node: the share of a component is its share of the compliance there.
 module watched_nodes
    use analysis_state, only: analysis_type
    use bar_elements, only: bar_elongation
@@ -23,10 +23,10 @@ module watched_nodes
 
    public :: start_watched, find_watched, keep_watched, record_watched
 
-   real(wp), parameter :: cancels = 1.0e-9_wp   ! of the sum of amounts: forces or works that leave no more cancel
-   real(wp), parameter :: rests = 1.0e-7_wp     ! of the largest movement over the stage: what moves less along the load is at rest
+   real(wp), parameter :: cancels = 1.0e-9_wp   ! of the sum of amounts: a smaller sum of forces or works is zero
+   real(wp), parameter :: rests = 1.0e-7_wp     ! of the largest movement over the stage: a smaller one is zero
 
-   !> The structure at the end of the stage before.
+   !> The structure at the end of the last stage.
    type, public :: watch_state
       real(wp), allocatable :: u(:, :)          !! (dimension, n_nodes) [length]
       real(wp), allocatable :: force(:, :)      !! (3, interface elements) in their axes [force]
@@ -37,18 +37,18 @@ module watched_nodes
    type, public :: watched_node
       integer  :: node = 0                      !! its position
       real(wp) :: u(3) = 0.0_wp, change(3) = 0.0_wp !! displacement, and its change over the stage [length]
-      real(wp) :: load(3) = 0.0_wp              ! the load that its stiffness is for, change over the stage [force]
+      real(wp) :: load(3) = 0.0_wp              ! change over the stage of the load, for the stiffness [force]
       logical  :: is_loaded = .false., moves = .false.
       real(wp) :: along = 0.0_wp                ! the change along the load [length]
       real(wp) :: stiffness = 0.0_wp            ! load over that [force/length]
    end type watched_node
 
-   !> One component, and its shares of the work.
+   !> A component and its shares of the work.
    type :: yielding_type
       character(6) :: kind = ''
       integer      :: id = 0
       integer      :: first = 0, last = 0       ! of a body: lowest and highest number of its elements
-      real(wp)     :: share(2) = 0.0_wp         ! normal, which has what bodies and bars have, and shear [-]
+      real(wp)     :: share(2) = 0.0_wp         ! normal, with all of bodies and bars, and shear [-]
    end type yielding_type
 
    type, public :: watch_answer
@@ -59,12 +59,12 @@ module watched_nodes
 
 contains
 
-   !> The answer about the nodes WATCHED at the end of the stage just completed, the bodies recovered.
+   !> The answer for the nodes WATCHED at the end of the completed stage, after recovery of the bodies.
    subroutine find_watched(model, analysis, watched, before, answer)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: watched(:)  !! positions
-      type(watch_state), intent(in)   :: before      !! at the end of the stage before
+      type(watch_state), intent(in)   :: before      !! at the end of the last stage
       type(watch_answer), intent(out) :: answer
       real(wp), allocatable :: change(:, :), load(:, :)
       real(wp) :: on_nodes(3), total(3), amount, largest
@@ -96,7 +96,7 @@ contains
       call share_work(model, analysis, change, before, answer)
    end subroutine find_watched
 
-   !> How much the loads of the deck have changed over the stage, at every node; of preloads nothing [force].
+   !> The change of the loads of the deck over the stage at every node, without preloads [force].
    pure subroutine load_change(model, analysis, load)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
@@ -145,14 +145,14 @@ contains
       all_amounts = sum([(sum(abs(parts(i)%share)), i = 1, size(parts))])
       answer%work = sum([(sum(parts(i)%share), i = 1, size(parts))])
       if (abs(answer%work) <= cancels*all_amounts .or. &
-          all_amounts <= cancels**2*analysis%largest_load*maxval(abs(analysis%all_u))) parts = parts(:0) ! what rounding alone makes
+          all_amounts <= cancels**2*analysis%largest_load*maxval(abs(analysis%all_u))) parts = parts(:0) ! only rounding
       do i = 1, size(parts)
          parts(i)%share = parts(i)%share/answer%work
       end do
       call move_alloc(parts, answer%parts)
    end subroutine share_work
 
-   !> The bodies, as PARTS with their works: forces at their nodes by movements of these, what warmth pushes taken off the forces.
+   !> The bodies, as PARTS with their works: nodal forces less thermal forces, times the movements of the nodes.
    subroutine share_of_bodies(model, analysis, change, parts)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
@@ -194,7 +194,7 @@ contains
       end do
    end subroutine share_of_bodies
 
-   !> Shear along x and y, and normal force that interface element I carries [force].
+   !> Shear along x and y and normal force of interface element I [force].
    pure function local_force(model, analysis, i) result(force)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -206,7 +206,7 @@ contains
       end associate
    end function local_force
 
-   !> What bar I is called: a bolt by its BOLT card, springs and other bars by their elements.
+   !> The name of bar I: a bolt by its BOLT card, springs and other bars by their elements.
    pure function words_of_bar(model, i) result(words)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i
@@ -226,7 +226,7 @@ contains
                 before%movement(3, size(model%interface)), before%tension(n_bars(model)), source=0.0_wp)
    end subroutine start_watched
 
-   !> The stage just completed becomes the stage before.
+   !> The completed stage becomes the last stage.
    pure subroutine keep_watched(model, analysis, before)
       type(model_type), intent(in)     :: model
       type(analysis_type), intent(in)  :: analysis
@@ -241,7 +241,7 @@ contains
       before%tension = [(bar_tension(model, analysis, i), i = 1, n_bars(model))]
    end subroutine keep_watched
 
-   !> BEFORE passes through a restart file.
+   !> Write BEFORE to a restart file, or read it.
    subroutine record_watched(stream, before)
       type(restart_stream_type), intent(inout) :: stream
       type(watch_state), intent(inout)         :: before

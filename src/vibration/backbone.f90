@@ -42,8 +42,7 @@ module backbone
       type(loop_type), allocatable :: loops(:)      !! in the order of their amplitudes
       character(:), allocatable    :: problem       !! why there is no backbone, or none up to the largest amplitude; '': there is
       logical  :: is_limited = .false.              !! the last loop is under the largest load that the structure carries
-      real(wp), allocatable :: answers(:, :)        !! (amplitude, frequency below, phase there, frequency above, phase there; n): the
-                                                    !! response of the mode alone [length, 1/time, degrees]; frequency < 0: none
+      real(wp), allocatable :: answers(:, :)        !! (amplitude; frequency below, its phase; frequency above, its phase; n) [length, 1/time, degrees]
    end type backbone_type
 
    !> A load and the resulting amplitude.

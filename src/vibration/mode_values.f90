@@ -75,7 +75,7 @@ module mode_values
       real(wp) :: counted_at = 0.0_wp               !! frequency [1/time]; no bound: huge
       real(wp) :: mass = 0.0_wp                     !! of the structure [force time^2/length]
       real(wp) :: centre(3) = 0.0_wp                !! of that [length]
-      real(wp) :: inertia(6) = 0.0_wp               !! about axes through it: I_xx, I_yy, I_zz, I_xy, I_yz, I_zx [force time^2 length]
+      real(wp) :: inertia(6) = 0.0_wp               !! about its axes: I_xx, I_yy, I_zz, I_xy, I_yz, I_zx [force time^2 length]
       integer  :: n_touching = 0                     !! interface elements in contact, which have stiffness
    end type modes_type
 
