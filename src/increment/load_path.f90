@@ -1,4 +1,4 @@
-!> The load path: from stage to stage, from increment to increment, and the recovery of displacements and forces of the bodies.
+!> The load path over stages and increments, and the recovery of displacements and forces of the bodies.
 module load_path
    use analysis_state, only: all_held, analysis_type, joint_energy, load_state, subtract_joint_forces
    use bar_elements, only: add_bar_forces, add_pull, add_thermal_pulls

@@ -27,7 +27,7 @@ contains
    subroutine structure_stiffness(model, plan, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
-      type(analysis_type), intent(inout)   :: analysis !! crosses_gaps: there is none
+      type(analysis_type), intent(inout)   :: analysis !! crosses_gaps: there is no stiffness to solve with
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(failure_type) :: trouble

@@ -157,7 +157,7 @@ contains
       end do
    end function residual_of
 
-   !> Whether JOINT bears no pressure.
+   !> Whether JOINT carries no pressure.
    pure logical function bears_nothing(model, states, joint)
       type(model_type), intent(in)    :: model
       type(element_state), intent(in) :: states(:)

@@ -42,7 +42,8 @@ module backbone
       type(loop_type), allocatable :: loops(:)      !! in the order of their amplitudes
       character(:), allocatable    :: problem       !! why there is no backbone, or none up to the largest amplitude; '': there is
       logical  :: is_limited = .false.              !! the last loop is under the largest load that the structure carries
-      real(wp), allocatable :: answers(:, :)        !! (amplitude; frequency below, its phase; frequency above, its phase; n) [length, 1/time, degrees]
+      real(wp), allocatable :: answers(:, :)        !! (5, n) response of the mode alone: amplitude; frequency below, its phase;
+                                                    !! frequency above, its phase [length, 1/time, degrees]; frequency < 0: none
    end type backbone_type
 
    !> A load and the resulting amplitude.
