@@ -275,6 +275,10 @@ contains
       if (lambda <= before%lambda_a) return
       bounds = min([0.5_wp, 1.0_wp]*goal/area, loading_pressure(law, [0.5_wp, 1.0_wp]*goal/rho))
       p = bounds(2)
+      if (p <= 0.0_wp) then ! the pressure underflows: the law bears nothing at this lambda
+         lambda = goal/rho
+         return
+      end if
       do step = 1, most_steps
          lambda = loading_deflection(law, p)
          excess = area*p + rho*lambda - goal

@@ -50,14 +50,25 @@ contains
       listing%method = deck%control%method
       listing%poor_condition = ''
       listing%divided = ''
-      associate (labels => listing%page%labels, length => trim(deck%control%length_unit), force => trim(deck%control%force_unit))
-         if (length /= '') labels = label_type(length=length, force=force, pressure=force//'/'//length//'2', area=length//'2', &
-                                               stiffness=force//'/'//length, moment=force//' '//length, &
-                                               slope=force//'/'//length//'2/'//length)
-      end associate
+      if (deck%control%length_unit /= '') call set_labels(trim(deck%control%length_unit), trim(deck%control%force_unit), &
+                                                          listing%page%labels)
       call write_opening(listing%page, deck, model, plan, system)
       call start_watch(model, listing%watch)
    end subroutine start_listing
+
+   !> The units above the columns, from those of LENGTH and FORCE. (A structure constructor is freed twice by gfortran 12 at -O0.)
+   pure subroutine set_labels(length, force, labels)
+      character(*), intent(in)        :: length, force
+      type(label_type), intent(inout) :: labels
+
+      labels%length = length
+      labels%force = force
+      labels%pressure = force//'/'//length//'2'
+      labels%area = length//'2'
+      labels%stiffness = force//'/'//length
+      labels%moment = force//' '//length
+      labels%slope = force//'/'//length//'2/'//length
+   end subroutine set_labels
 
    !> Note the increment just completed; print its tables where OUTPUT = ALL or JOINT.
    subroutine list_increment(listing, model, plan, analysis)
