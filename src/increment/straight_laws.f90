@@ -29,6 +29,7 @@ module straight_laws
    real(wp), parameter :: near  = 1.0e-6_wp !! of the force: a point on the graph
    real(wp), parameter :: right = 0.1_wp    !! of it: error up to which a straight law has crossed no kink
    real(wp), parameter :: least_rho = 1.0e-3_wp !! relative to the initial rho
+   real(wp), parameter :: farthest = 1.0e30_wp  !! point of rest from the movement: powers of it are finite [length]
    real(wp), parameter :: most  = 3.0_wp    !! times the residual: limit of the force of a movement
 
    !> The straight laws of all interface elements, in their axes: f = force + tangent (m - point).
@@ -123,6 +124,7 @@ contains
                rho = laws%rho(i)*softer*stiffness_at_rest(model, analysis, i)
                rho = max(min(rho, most*unbalanced/max(abs(movement - laws%point(:, i)), tiny(1.0_wp))), tiny(1.0_wp))
                shift = point_of_rest(law, element%area, analysis%states(i), movement, force, rho) - movement
+               if (.not. norm2(shift) < farthest) shift = 0.0_wp ! no point of rest: the law at the movement serves
                if (dot_product(shift, laws%shift(:, i)) > 0.0_wp) laws%rho(i) = max(0.25_wp*laws%rho(i), least_rho)
                if (dot_product(shift, laws%shift(:, i)) < 0.0_wp) laws%rho(i) = min(4.0_wp*laws%rho(i), 1.0_wp)
                movement = movement + shift

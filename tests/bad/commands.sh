@@ -52,7 +52,7 @@ else fail '--help of a card: not its last word at the end'
 fi
 run --help output; check '--help of a key' 0
 if grep -qE '[`|]|\]\(|\*[A-Za-z]' "$work/stdout"; then fail '--help of a key: it has marks of Markdown'; else pass; fi
-prints '--help of a key: its entry' '^What the listing holds'
+prints '--help of a key: its entry' '^OUTPUT selects the tables of the listing'
 run --help SPC; prints '--help of a name that key and card have: both' '^The number of a set of SPC'
 prints '--help of a name that key and card have: both' '^SPC  *SID '
 run --help NOCARD; check '--help of no card' 1 "the manual has no entry 'NOCARD'" 'CROD'
