@@ -131,9 +131,8 @@ contains
       integer :: k
 
       do k = 1, size(model%masses)
-         associate (node => model%masses(k)%node)
-            force(:, node) = force(:, node) + model%masses(k)%mass*acceleration_at(field, model%x(:, node)) &
-                             + matmul(model%masses(k)%directed, acceleration_at(field, model%x(:, node)))
+         associate (point => model%masses(k), a => acceleration_at(field, model%x(:, model%masses(k)%node)))
+            force(:, point%node) = force(:, point%node) + point%mass*a + matmul(point%directed, a)
          end associate
       end do
    end subroutine add_mass_weights

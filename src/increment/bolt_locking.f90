@@ -16,7 +16,7 @@ module bolt_locking
 
 contains
 
-   !> Lock the bolts that the completed stage has tightened. The plastic part of the bar forces becomes a load, and the overlap
+   !> Lock the bolts that the completed stage has tightened. The inelastic part of the bar forces becomes a load, and the overlap
    !! of solid bolts a prescribed displacement.
    subroutine lock_bolts(model, system, analysis)
       type(model_type), intent(in)          :: model
