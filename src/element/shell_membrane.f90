@@ -304,7 +304,7 @@ contains
       end if
       q(:12) = pack(own([1, 2, 6], :), .true.)
       call mode_stiffness(law, frame, k)
-      call warm_modes(law, frame, rise, f)
+      call membrane_thermal_forces(law, frame, rise, f)
       call condense(k, f)
       do i = 13, 16
          q(i) = (f(i) - dot_product(k(:i - 1, i), q(:i - 1)))/k(i, i)
@@ -319,7 +319,7 @@ contains
    end subroutine find_membrane
 
    !> The thermal forces F of a quadrilateral membrane on u, v, theta_z of its corners and on its modes.
-   pure subroutine warm_modes(law, frame, rise, f)
+   pure subroutine membrane_thermal_forces(law, frame, rise, f)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
       real(wp), intent(in)          :: rise(:) !! (4)
@@ -336,7 +336,7 @@ contains
          f = f + rule%weight(p)*volume*sum(law%thickness)/4.0_wp*dot_product(n(:4), rise)*law%expansion* &
              matmul(law%d(:, 1) + law%d(:, 2), b)
       end do
-   end subroutine warm_modes
+   end subroutine membrane_thermal_forces
 
    !> Add to F the thermal nodal forces of a membrane; RISE is T - TREF at its corners.
    pure subroutine add_membrane_warmth(law, frame, rise, f)
@@ -350,7 +350,7 @@ contains
          call membrane_strains(law%nu, frame%x(:, :3), area, basic, at_corner)
          q(:9) = area*sum(law%thickness(:3))*sum(rise)/9.0_wp*law%expansion*matmul(transpose(basic), law%d(:, 1) + law%d(:, 2))
       else
-         call warm_modes(law, frame, rise, q)
+         call membrane_thermal_forces(law, frame, rise, q)
          call mode_stiffness(law, frame, k)
          call condense(k, q)
       end if

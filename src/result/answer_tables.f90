@@ -5,7 +5,7 @@ module answer_tables
    use analysis_state, only: analysis_type
    use bolt_answers, only: bolt_answer_type
    use kinds, only: wp
-   use listing_table, only: axes, bolt_table, column, column_type, csv, heading, label_type, listing_table_type, page_type, &
+   use table_writer, only: axes, bolt_table, column, column_type, csv, heading, label_type, table_type, page_type, &
                             reaction_table, split_table, stage_table, watch_table
    use model_data, only: joint_node_id, model_type
    use output_file, only: output_file_type
@@ -118,7 +118,7 @@ contains
       character(*), intent(in)            :: title
       type(model_type), intent(in)        :: model
       type(stage_answer_type), intent(in) :: answer
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: j
 
       call heading(page%screen, title)
@@ -185,7 +185,7 @@ contains
       type(label_type), intent(in)          :: labels
       type(model_type), intent(in)          :: model
       type(stage_answer_type), intent(in)   :: answer
-      type(listing_table_type) :: table
+      type(table_type) :: table
 
       call table%start('', [column('', 'a33'), column('VALUE', 'es13.4'), column('', 'a13'), column('AT', 'a8'), &
                             column('NUMBER', 'i11'), column(axes(:model%dimension), 'es13.5', labels%length)], file)
@@ -221,7 +221,7 @@ contains
       type(stage_answer_type), intent(in)   :: answer
       character(14), parameter :: names(6) = [character(14) :: 'ALONG X', 'ALONG Y', 'NORMAL', 'TILT ABOUT X', 'TILT ABOUT Y', &
                                               'TWIST']
-      type(listing_table_type) :: table
+      type(table_type) :: table
       character(20) :: unit(6)
       integer :: c, j
       logical :: shown(6)
@@ -260,7 +260,7 @@ contains
       type(analysis_type), intent(in)    :: analysis
       type(bolt_answer_type), intent(in) :: bolts(:)
       logical, intent(in)                :: in_answer
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: block, i
 
       do block = 1, merge(2, 1, in_answer .and. any(bolts%is_locked))
@@ -304,7 +304,7 @@ contains
       type(page_type), intent(inout)   :: page
       type(model_type), intent(in)     :: model
       type(reactions_type), intent(in) :: answer
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: i
 
       call page%screen%put('')
@@ -341,7 +341,7 @@ contains
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
       type(watch_answer), intent(in) :: answer
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: k
 
       call page%screen%put('')

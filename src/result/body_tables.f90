@@ -9,7 +9,7 @@ module body_tables
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use interface_operator, only: named_node
    use kinds, only: wp
-   use listing_table, only: axes, column, column_type, in_units, listing_table_type, noise, page_type, page_width, shows
+   use table_writer, only: axes, column, column_type, in_units, table_type, noise, page_type, page_width, shows
    use model_data, only: a_point, corners_of, has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, &
                          n_points, n_rotations, node_kind, supported
    use node_coupling, only: held_forces, node_axes
@@ -51,7 +51,7 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer, allocatable :: list(:)
       real(wp) :: floor
       integer  :: node
@@ -78,7 +78,7 @@ contains
    !> Print the rows of TABLE: ID, the place X, VALUES.
    subroutine print_rows(page, table, id, x, values)
       type(page_type), intent(inout)       :: page
-      type(listing_table_type), intent(in) :: table
+      type(table_type), intent(in)         :: table
       integer, intent(in)                  :: id(:)        !! (rows)
       real(wp), intent(in)                 :: x(:, :)      !! (dimension, rows)
       real(wp), intent(in)                 :: values(:, :) !! (n, rows)
@@ -105,7 +105,7 @@ contains
          integer, intent(in)         :: from, until
          character(*), intent(inout) :: lines
          integer, intent(out)        :: used
-         type(listing_table_type) :: mine
+         type(table_type) :: mine
          integer :: k
 
          mine = table
@@ -124,7 +124,7 @@ contains
       logical, intent(in)             :: principal
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      type(listing_table_type) :: table
+      type(table_type) :: table
       real(wp), allocatable :: stress(:, :), centre(:, :)
       integer, allocatable  :: list(:)
       real(wp) :: floor
@@ -186,7 +186,7 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      type(listing_table_type) :: table
+      type(table_type) :: table
       real(wp), allocatable :: stress(:, :)
       integer, allocatable  :: shown(:)
       real(wp) :: floor
@@ -211,7 +211,7 @@ contains
       type(model_type), intent(in)   :: model
       type(analysis_type), intent(in) :: analysis
       real(wp), intent(in)           :: floor
-      type(listing_table_type) :: table
+      type(table_type) :: table
       real(wp) :: full(max_stresses)
       integer  :: e
 
@@ -231,7 +231,7 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      type(listing_table_type) :: table
+      type(table_type) :: table
       real(wp), dimension(model%dimension) :: reaction, supports, base, ground, loads
       real(wp), allocatable :: held(:, :)
       real(wp) :: floor, force(3)
@@ -322,7 +322,7 @@ contains
       type(model_type), intent(in)            :: model
       integer, intent(in)                     :: node
       real(wp), intent(in)                    :: vector(:), floor
-      type(listing_table_type), intent(inout) :: table
+      type(table_type), intent(inout)         :: table
       real(wp) :: directions(3, 3)
       integer  :: system
 
@@ -349,7 +349,7 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      type(listing_table_type) :: table
+      type(table_type) :: table
       real(wp) :: floor
       integer  :: i, m
 
@@ -373,7 +373,7 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      type(listing_table_type) :: table
+      type(table_type) :: table
       real(wp), allocatable :: held(:, :)
       real(wp) :: floor
       integer  :: i, m

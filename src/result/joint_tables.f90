@@ -5,7 +5,7 @@ module joint_tables
    use interface_operator, only: at_first_end
    use joint_laws, only: friction_limit
    use kinds, only: wp
-   use listing_table, only: axes, column, column_type, heading, joint_table, listing_table_type, noise, page_type, page_width, shows
+   use table_writer, only: axes, column, column_type, heading, joint_table, table_type, noise, page_type, page_width, shows
    use model_data, only: has_gaps, joint_node_id, joint_type, model_type
    use normal_curve, only: loading_deflection
    use normal_stiffness, only: branch_name, branch_open, branch_reload, branch_unload, force_reached, normal_state
@@ -115,7 +115,7 @@ contains
       integer, intent(in), optional   :: k
       character(43), parameter :: titles(6) = [character(43) :: 'INTERFACE ELEMENTS', 'NORMAL STIFFNESS', &
          'ELEMENTS REMOVED FROM JOINT', 'SHEAR IN DIRECTION', 'STATE OF THE INTERFACE ELEMENTS', 'STATE OF SHEAR IN DIRECTION']
-      type(listing_table_type)  :: table
+      type(table_type)  :: table
       character(:), allocatable :: title
       integer :: i
 
@@ -183,7 +183,7 @@ contains
    !! difference of lambda from the loading curve at the present p follows; where gaps exist also the closing, of which lambda
    !! is the part beyond the gap. Elements removed: the tensile force that caused the removal, which they no longer carry.
    subroutine add_normal(table, subject, model, analysis, i)
-      type(listing_table_type), intent(inout) :: table
+      type(table_type), intent(inout)         :: table
       integer, intent(in)                     :: subject
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
@@ -223,7 +223,7 @@ contains
 
    !> Add the shear values in direction K. LIMIT is mu p; D and TAU of the state count in the sense of loading, as point A.
    subroutine add_shear(table, subject, model, analysis, i, k)
-      type(listing_table_type), intent(inout) :: table
+      type(table_type), intent(inout)         :: table
       integer, intent(in)                     :: subject
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis

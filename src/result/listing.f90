@@ -9,7 +9,7 @@ module listing
    use joint_tables, only: list_joints, plot_joints
    use kinds, only: wp
    use listing_opening, only: write_opening
-   use listing_table, only: axes, column, heading, label_type, listing_table_type, noise, page_type
+   use table_writer, only: axes, column, heading, label_type, table_type, noise, page_type
    use model_data, only: model_type, n_rotations
    use node_coupling, only: held_forces
    use range_watch, only: note_condition, note_division, range_watch_type, record_watch, say_ranges, start_watch, &
@@ -27,7 +27,7 @@ module listing
    type, public :: listing_type
       type(page_type) :: page
       integer :: method = 0
-      type(listing_table_type) :: tables(n_stage_tables) !! of the stage so far
+      type(table_type) :: tables(n_stage_tables) !! of the stage so far
       type(farthest_type) :: farthest !! largest distance from the laws
       character(:), allocatable :: poor_condition !! its last warning, '': none
       character(:), allocatable :: divided        !! message about the last divided increment, '': none
@@ -143,7 +143,7 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       character(10), parameter :: names(3) = [character(10) :: 'PUT IN', 'GIVEN BACK', 'KEPT']
-      type(listing_table_type) :: table
+      type(table_type) :: table
       real(wp) :: floor
       integer  :: j, k
       logical  :: slides
@@ -175,7 +175,7 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       integer, parameter :: across = 8
-      type(listing_table_type) :: table
+      type(table_type) :: table
       character(12), allocatable :: names(:)
       real(wp), allocatable :: scale(:)
       real(wp) :: k_floor, load_floor

@@ -4,7 +4,7 @@ module listing_echo
    use deck_input, only: deck_type
    use deck_text, only: deck_text_type, is_include
    use kinds, only: long
-   use listing_table, only: cut, heading, page_width
+   use table_writer, only: cut, heading, page_width
    use output_file, only: output_file_type
    use text_tools, only: integer_text, plural, upper
    implicit none

@@ -11,7 +11,7 @@ module listing_opening
    use interface_operator, only: named_node
    use kinds, only: long, wp
    use listing_echo, only: write_echo
-   use listing_table, only: axes, column, cut, heading, in_form, listing_table_type, page_type, page_width
+   use table_writer, only: axes, column, cut, heading, in_form, table_type, page_type, page_width
    use model_data, only: has_gaps, is_coarser, model_type, n_bars, n_points, n_rotations, n_sections, n_springs, supported, &
                          whole_share
    use normal_curve, only: pressure_floor
@@ -150,7 +150,7 @@ contains
    subroutine write_bodies(page, model)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
-      type(listing_table_type) :: table
+      type(table_type) :: table
       type(body_type), allocatable :: bodies(:)
       integer :: body(model%n_elements), d, i
 
@@ -173,7 +173,7 @@ contains
    subroutine write_placed(page, model)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: d, i
 
       d = model%dimension
@@ -209,7 +209,7 @@ contains
    subroutine write_joints(page, model)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: d, j
 
       d = model%dimension
@@ -239,7 +239,7 @@ contains
    subroutine write_gaps(page, model)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: j
 
       call table%start('INITIAL GAPS, NEGATIVE: INTERFERENCE', &
@@ -261,7 +261,7 @@ contains
       type(output_file_type), intent(inout) :: file
       type(model_type), intent(in)          :: model
       integer, parameter :: branches(3) = [branch_load, branch_unload, branch_reload]
-      type(listing_table_type) :: table
+      type(table_type) :: table
       character(page_width)    :: line
       type(cubic) :: curve
       integer :: b, j, k
@@ -323,7 +323,7 @@ contains
       type(page_type), intent(inout)    :: page
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
-      type(listing_table_type) :: table
+      type(table_type) :: table
       real(wp) :: total(3), largest
       integer  :: s
 
@@ -349,7 +349,7 @@ contains
    subroutine write_covers(page, model)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: i, j, lists(size(model%joints)) ! interface elements coupled to lists of nodes
       integer, allocatable :: shown(:)
 

@@ -8,7 +8,7 @@ module range_watch
    use element_kinds, only: kind_tetra4
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
-   use listing_table, only: axes, listing_table_type, page_width
+   use table_writer, only: axes, table_type, page_width
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, branch_unload
@@ -42,7 +42,7 @@ module range_watch
 
    type, public :: range_watch_type
       integer :: n_warnings = 0               !! total
-      type(listing_table_type) :: rows        !! of the stage so far
+      type(table_type) :: rows        !! of the stage so far
       integer, allocatable, private :: stage(:, :)   ! (bounds, n) stage in which an element was last found beyond a bound
       type(tally_type), allocatable, private :: tallies(:, :) ! (bounds, joints)
       logical, allocatable, private :: soft_line(:)  ! whether the E_u of a joint was warned of

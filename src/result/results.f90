@@ -14,7 +14,7 @@ module results
    use kinds, only: wp
    use listing, only: finish_listing, list_increment, list_stage, listing_type, record_listing, start_listing
    use joint_tables, only: history_titles, write_history
-   use listing_table, only: backbone_table, bend_table, bolt_table, csv_titles, energy_table, joint_table, loop_table, &
+   use table_writer, only: backbone_table, bend_table, bolt_table, csv_titles, energy_table, joint_table, loop_table, &
                             modes_table, &
                             reaction_table, response_table, split_table, stage_table, table_endings, watch_table
    use modal_response, only: response_type

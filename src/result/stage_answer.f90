@@ -8,7 +8,7 @@ module stage_answer
    use joint_motion, only: find_resultant, joint_resultant, rigid_movement, stiffness_about
    use kinds, only: wp
    use law_error, only: tangents_now
-   use listing_table, only: noise
+   use table_writer, only: noise
    use model_data, only: joint_type, model_type, n_points
    use normal_stiffness, only: branch_open, normal_state
    use numbers, only: first_largest, is_measure

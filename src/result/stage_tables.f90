@@ -8,7 +8,7 @@ module stage_tables
    use joint_motion, only: find_resultant, joint_resultant
    use kinds, only: wp
    use law_error, only: distance_type, normal_distance, shear_distance
-   use listing_table, only: axes, column, listing_table_type, noise, page_type
+   use table_writer, only: axes, column, table_type, noise, page_type
    use model_data, only: a_spring, bar_nodes, joint_node_id, joint_type, model_type, n_bars, n_sections, point_of, stage_load_type
    use normal_stiffness, only: branch_open
    use numbers, only: first_largest
@@ -43,7 +43,7 @@ contains
       type(model_type), intent(in)            :: model
       type(stage_plan_type), intent(in)       :: plan
       type(analysis_type), intent(in)         :: analysis
-      type(listing_table_type), intent(inout) :: tables(:)
+      type(table_type), intent(inout)         :: tables(:)
       type(farthest_type), intent(inout)      :: farthest
 
       call note_increment(page, trim(plan%stages(analysis%stage)%label), model, analysis, tables(increment_rows))
@@ -62,7 +62,7 @@ contains
       character(*), intent(in)                :: label
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
-      type(listing_table_type), intent(inout) :: table
+      type(table_type), intent(inout)         :: table
       type(stage_load_type) :: now !! present load
       real(wp) :: floor, unbalanced
       integer  :: j
@@ -123,7 +123,7 @@ contains
       type(model_type), intent(in)            :: model
       type(stage_plan_type), intent(in)       :: plan
       type(analysis_type), intent(in)         :: analysis
-      type(listing_table_type), intent(inout) :: table
+      type(table_type), intent(inout)         :: table
       type(farthest_type), intent(inout)      :: farthest
       type(distance_type) :: normal, shear
       logical :: has_shear
@@ -197,7 +197,7 @@ contains
       type(page_type), intent(in)             :: page
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
-      type(listing_table_type), intent(inout) :: table
+      type(table_type), intent(inout)         :: table
       real(wp) :: delta_floor, tau_floor
       integer  :: i, k, side
 
@@ -234,7 +234,7 @@ contains
       type(page_type), intent(in)             :: page
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
-      type(listing_table_type), intent(inout) :: table
+      type(table_type), intent(inout)         :: table
       character(12) :: headings(7)
       type(joint_resultant) :: total
       real(wp) :: floor
@@ -268,7 +268,7 @@ contains
       type(page_type), intent(in)             :: page
       integer, intent(in)                     :: method
       type(analysis_type), intent(in)         :: analysis
-      type(listing_table_type), intent(inout) :: table
+      type(table_type), intent(inout)         :: table
       integer, parameter :: shown = 8 ! of many passes
       character(6) :: increment
       integer :: i
@@ -334,7 +334,7 @@ contains
       type(page_type), intent(in)             :: page
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
-      type(listing_table_type), intent(inout) :: bars, springs
+      type(table_type), intent(inout)         :: bars, springs
       integer :: i, id(2), k
 
       associate (force => column('FORCE', 'es15.5', page%labels%force), longer => column('ELONGATION', 'es15.5', &
@@ -375,7 +375,7 @@ contains
       type(page_type), intent(in)             :: page
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
-      type(listing_table_type), intent(inout) :: table
+      type(table_type), intent(inout)         :: table
       integer :: i
 
       if (table%is_empty()) call table%start('BOLT FORCES, SOLID BOLTS (TENSION POSITIVE), '//page%stage, &
@@ -397,7 +397,7 @@ contains
       type(page_type), intent(in)             :: page
       type(analysis_type), intent(in)         :: analysis
       real(wp), intent(in)                    :: force, length
-      type(listing_table_type), intent(inout) :: table
+      type(table_type), intent(inout)         :: table
 
       call table%add([force], noise*page%largest_force)
       call table%add([length], noise*maxval(abs(analysis%u)))

@@ -5,7 +5,7 @@ module structural_results
    use bolt_locking, only: bar_tension
    use elasticity, only: max_stresses, von_mises
    use kinds, only: wp
-   use listing_table, only: column, in_units, listing_table_type, noise, page_type, shows
+   use table_writer, only: column, in_units, table_type, noise, page_type, shows
    use model_data, only: a_bar, corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
    use shell_membrane, only: shell_frame, shell_frame_of
    use structural_elements, only: beam_ends, nodal_values, structural_stress
@@ -177,7 +177,7 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      type(listing_table_type) :: table
+      type(table_type) :: table
       real(wp) :: stress(max_stresses, 5, 2), floor
       integer  :: e, f, pass
 
@@ -206,7 +206,7 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      type(listing_table_type) :: table, stresses
+      type(table_type) :: table, stresses
       real(wp), allocatable :: forces(:, :, :)
       real(wp) :: floor(2), stress_floor
       integer  :: e, end

@@ -4,8 +4,8 @@ module vibration_tables
    use backbone, only: backbone_type
    use element_mapping, only: two_pi
    use kinds, only: wp
-   use listing_table, only: axes, backbone_table, bend_table, column, column_type, csv, energy_table, label_type, &
-                            listing_table_type, loop_table, modes_table, noise, page_type, response_table
+   use table_writer, only: axes, backbone_table, bend_table, column, column_type, csv, energy_table, label_type, &
+                            table_type, loop_table, modes_table, noise, page_type, response_table
    use modal_response, only: missed_peak, response_type
    use mode_values, only: modes_type
    use model_data, only: model_type
@@ -118,7 +118,7 @@ contains
       type(model_type), intent(in)   :: model
       type(modes_type), intent(in)   :: modes
       character(4), parameter :: moments(6) = ['I XX', 'I YY', 'I ZZ', 'I XY', 'I YZ', 'I ZX']
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer, allocatable :: shown(:)
       real(wp) :: size_of_it
       integer  :: c, d
@@ -139,7 +139,7 @@ contains
       type(page_type), intent(inout)        :: page
       type(vibration_plan_type), intent(in) :: plan
       type(modes_type), intent(in)          :: modes
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: m
 
       call table%start('FREQUENCIES', modes_columns(), page%file)
@@ -163,7 +163,7 @@ contains
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
       type(modes_type), intent(in)   :: modes
-      type(listing_table_type) :: table
+      type(table_type) :: table
       real(wp) :: sums(3)
       integer  :: d, m
 
@@ -192,7 +192,7 @@ contains
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
       type(modes_type), intent(in)   :: modes
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: i, m
 
       call table%start('STRAIN ENERGY OF THE MODES, PERCENT; SHARES BELOW '//real_text(percent*least_share)// &
@@ -234,7 +234,7 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(backbone_type), intent(in) :: found
-      type(listing_table_type) :: table
+      type(table_type) :: table
       real(wp) :: linear
       integer  :: i, k
 
@@ -281,7 +281,7 @@ contains
       type(page_type), intent(inout)  :: page
       type(backbone_type), intent(in) :: found
       real(wp), parameter :: at_resonance = -90.0_wp
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: i
 
       call table%start('RESPONSE OF THIS MODE ALONE BY ITS BACKBONE: RESONANCES', bend_columns(page%labels), page%file)
@@ -303,7 +303,7 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(backbone_type), intent(in) :: found
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: i, j
 
       call table%start('SHARE OF THE LOSS BY JOINT', [column('AMPLITUDE', 'es14.5', page%labels%length), column('JOINT', 'i11'), &
@@ -323,7 +323,7 @@ contains
    subroutine list_response(page, response)
       type(page_type), intent(inout)  :: page
       type(response_type), intent(in) :: response
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: at, c, i
 
       if (size(response%frequency) == 0) then
@@ -372,7 +372,7 @@ contains
       type(output_file_type), intent(inout) :: file
       integer, intent(in)                   :: stage
       type(response_type), intent(in)       :: response
-      type(listing_table_type) :: table
+      type(table_type) :: table
       integer :: d, f, k
 
       call table%start('', response_columns())

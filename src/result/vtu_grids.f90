@@ -10,7 +10,7 @@ module vtu_grids
    use interface_operator, only: at_first_end, nodes_of_end, weights_of_end
    use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: wp
-   use listing_table, only: label_type
+   use table_writer, only: label_type
    use mode_values, only: modes_type
    use model_data, only: corners_of, is_shell, joint_type, model_type, n_points, surface_type, temperature_type
    use stage_answer, only: stands_apart

@@ -8,7 +8,7 @@ module vtu_results
    use c_library, only: remove_file
    use distribution, only: subdomain_output_type
    use kinds, only: wp
-   use listing_table, only: label_type
+   use table_writer, only: label_type
    use mode_values, only: modes_type
    use model_data, only: model_type
    use restart_stream, only: restart_stream_type

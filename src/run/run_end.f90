@@ -10,7 +10,7 @@ module run_end
    use incomplete_results, only: say_at_interrupts, what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
-   use listing_table, only: column, column_type, csv, csv_titles, heading, history_ending, listing_table_type
+   use table_writer, only: column, column_type, csv, csv_titles, heading, history_ending, table_type
    use model_data, only: model_type, n_points
    use output_file, only: output_file_type
    use progress, only: phase_write, has_errors, is_over, is_refused, is_unreadable, is_unsolved, is_unwritten, run_type, &
@@ -212,7 +212,7 @@ contains
       type(batch_type), intent(in)   :: batch
       logical, intent(out)           :: ok
       type(output_file_type)   :: screen, summary
-      type(listing_table_type) :: table
+      type(table_type) :: table
       type(column_type), allocatable :: columns(:)
       character(name_width) :: name
       integer :: i

@@ -8,7 +8,7 @@
 !!
 !! The values of a row are added from left to right. Values of a column without a heading are written only to the CSV file,
 !! those of a column without a name only to the listing. The tables of a whole stage keep their rows until they are printed.
-module listing_table
+module table_writer
    use kinds, only: wp
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
@@ -64,7 +64,7 @@ module listing_table
       logical :: is_short = .false.   ! written by the fast write_short
    end type column_type
 
-   type, public :: listing_table_type
+   type, public :: table_type
       private
       character(:), allocatable :: title
       character(page_width) :: row = ''
@@ -86,7 +86,7 @@ module listing_table
       procedure :: print_kept
       procedure :: record
       procedure, private :: add_integers, add_reals, add_text
-   end type listing_table_type
+   end type table_type
 
 contains
 
@@ -136,7 +136,7 @@ contains
 
    !> Whether no rows are kept: a table of a stage begins.
    pure logical function is_empty(self)
-      class(listing_table_type), intent(in) :: self
+      class(table_type), intent(in)         :: self
 
       is_empty = self%n_kept == 0
    end function is_empty
@@ -144,7 +144,7 @@ contains
    !> Begin a table of these COLUMNS, without rows; write its head into FILE if present. TITLE is empty where other words
    !! precede the headings.
    subroutine start(self, title, columns, file)
-      class(listing_table_type), intent(inout) :: self
+      class(table_type), intent(inout)         :: self
       character(*), intent(in)                 :: title
       type(column_type), intent(in)            :: columns(:)
       type(output_file_type), intent(inout), optional :: file
@@ -162,7 +162,7 @@ contains
 
    !> Title, headings, and units if any.
    subroutine print_head(self, file)
-      class(listing_table_type), intent(in) :: self
+      class(table_type), intent(in)         :: self
       type(output_file_type), intent(inout) :: file
       character(page_width + 1) :: headings, units
       integer :: i
@@ -197,7 +197,7 @@ contains
    !> The next values of the row, where WHERE is true, followed by REALS. A value too wide for its column is printed with an
    !! exponent and fewer digits, after a blank.
    subroutine add_integers(self, values, reals, where)
-      class(listing_table_type), intent(inout) :: self
+      class(table_type), intent(inout)         :: self
       integer, intent(in)                      :: values(:)
       real(wp), intent(in), optional           :: reals(:)
       logical, intent(in), optional            :: where(:) !! (values) default: all
@@ -225,7 +225,7 @@ contains
 
    !> Values below FLOOR are zero in the listing.
    subroutine add_reals(self, values, floor, where)
-      class(listing_table_type), intent(inout) :: self
+      class(table_type), intent(inout)         :: self
       real(wp), intent(in)                     :: values(:)
       real(wp), intent(in), optional           :: floor
       logical, intent(in), optional            :: where(:)
@@ -263,7 +263,7 @@ contains
 
    !> WORDS with all their blanks, at the end of their column, followed by REALS; the CSV file has WORDS without the blanks.
    subroutine add_text(self, words, reals)
-      class(listing_table_type), intent(inout) :: self
+      class(table_type), intent(inout)         :: self
       character(*), intent(in)                 :: words
       real(wp), intent(in), optional           :: reals(:)
 
@@ -278,7 +278,7 @@ contains
 
    !> Leave the next N columns empty.
    subroutine skip(self, n)
-      class(listing_table_type), intent(inout) :: self
+      class(table_type), intent(inout)         :: self
       integer, intent(in)                      :: n
       integer :: i
 
@@ -290,7 +290,7 @@ contains
 
    !> Complete the row, with empty fields for the remaining columns, and print it into FILE, and into the CSV file if open.
    subroutine print_row(self, file, csv_file, is_listed)
-      class(listing_table_type), intent(inout) :: self
+      class(table_type), intent(inout)         :: self
       type(output_file_type), intent(inout), optional :: file, csv_file
       logical, intent(in), optional :: is_listed !! not only in the CSV file; default: yes
       logical :: lists
@@ -306,7 +306,7 @@ contains
    end subroutine print_row
 
    pure subroutine begin_row(self)
-      class(listing_table_type), intent(inout) :: self
+      class(table_type), intent(inout)         :: self
 
       self%row = ''
       self%line%length = 0
@@ -316,7 +316,7 @@ contains
    !> Complete the row and append it as a line after the first USED characters of LINES, without trailing blanks. LINES must
    !! have room.
    pure subroutine take_line(self, lines, used)
-      class(listing_table_type), intent(inout) :: self
+      class(table_type), intent(inout)         :: self
       character(*), intent(inout)              :: lines
       integer, intent(inout)                   :: used
       integer :: length
@@ -329,7 +329,7 @@ contains
 
    !> Complete the row and keep it until the table is printed.
    pure subroutine keep_row(self)
-      class(listing_table_type), intent(inout) :: self
+      class(table_type), intent(inout)         :: self
 
       call self%keep_line(self%row)
       call begin_row(self)
@@ -337,7 +337,7 @@ contains
 
    !> Keep a LINE across all columns.
    pure subroutine keep_line(self, line)
-      class(listing_table_type), intent(inout) :: self
+      class(table_type), intent(inout)         :: self
       character(*), intent(in)                 :: line
       integer, parameter :: room = 8192 ! characters at first
       character(:), allocatable :: longer
@@ -356,7 +356,7 @@ contains
 
    !> Print the kept rows under title and headings, if any, and clear them.
    subroutine print_kept(self, file)
-      class(listing_table_type), intent(inout) :: self
+      class(table_type), intent(inout)         :: self
       type(output_file_type), intent(inout)    :: file
 
       if (self%n_kept == 0) return
@@ -368,7 +368,7 @@ contains
 
    !> Write the state of the table between two rows to a restart file, or read it.
    subroutine record(self, stream)
-      class(listing_table_type), intent(inout) :: self
+      class(table_type), intent(inout)         :: self
       type(restart_stream_type), intent(inout) :: stream
       character(:), allocatable :: kept
       integer :: n
@@ -431,4 +431,4 @@ contains
       end do
    end function cut
 
-end module listing_table
+end module table_writer
