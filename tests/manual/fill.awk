@@ -14,7 +14,7 @@ NR == FNR {
    if (!fence && /^##+ [0-9]/) { title = $0; sub(/^#+ /, "", title); contents = contents (/^###/ ? "   - [" : "- [") title "](#" anchor(title) ")\n" }
    next
 }
-/^{{contents}}$/ { printf "%s", contents; next }
+/^{{contents}}$/ { printf "%s", contents; blank = 0; next }
 /^$/ && blank { next }
 {
    blank = /^$/
