@@ -36,6 +36,7 @@ module stage_entries
       logical :: plot = .false., vtu = .false.
       logical :: steps = .false.          !! VTU files after every increment
       logical :: stress = .false.         !! principal stresses and von Mises in the listing
+      logical :: forces = .false.         !! forces and moments per length of shells
       logical :: state = .false.          !! state variables of the interface elements
       logical :: condensed = .false.      !! [k_b] condensed on the interface
       logical :: along_cd = .false.       !! nodal vectors in their systems CD
@@ -121,7 +122,7 @@ contains
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
-      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N' ! options beside a level
+      character(*), parameter :: beside = 'PLOT, STRESS, FORCES, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N' ! with a level
       character(:), allocatable :: rest, word
       integer :: comma, levels
       logical :: ok, twice
@@ -144,6 +145,7 @@ contains
          case ('NONE');   stage%output%level = output_none
          case ('PLOT');   call switch_on(stage%output%plot)
          case ('STRESS'); call switch_on(stage%output%stress)
+         case ('FORCES'); call switch_on(stage%output%forces)
          case ('VTU');    call switch_on(stage%output%vtu)
          case ('STEPS');  call switch_on(stage%output%steps)
          case ('STATE');  call switch_on(stage%output%state)

@@ -18,7 +18,7 @@ module shell_element
    implicit none
    private
 
-   public :: shell_products, shell_stiffness, shell_stresses, shell_thermal_forces
+   public :: shell_forces, shell_products, shell_stiffness, shell_stresses, shell_thermal_forces
 
 contains
 
@@ -158,6 +158,29 @@ contains
       end do
    end subroutine find_edges
 
+   !> Strains in the axes of the element, at the corners and then at the centre, under the nodal values U: MEMBRANE xx, yy, xy of the
+   !! mean plane, CURVATURE likewise, transverse shear strains xz, yz.
+   pure subroutine find_strains(law, frame, u, rise, membrane, curvature, shear)
+      type(shell_law), intent(in)   :: law
+      type(shell_frame), intent(in) :: frame
+      real(wp), intent(in)          :: u(:, :)          !! (3, 2 corners) [length], [rad]
+      real(wp), intent(in)          :: rise(:)          !! (corners) [temperature]
+      real(wp), intent(out)         :: membrane(3, 5), curvature(3, 5), shear(2, 5) !! [-], [1/length], [-]
+      real(wp) :: b(3, 12), gamma(2, 12), own(6, 4), plate(12), volume
+      integer  :: i, m
+
+      m = frame%n
+      own(:, :m) = reshape(matmul(from_nodes(frame), reshape(u, [6*m])), [6, m])
+      plate(:3*m) = reshape(own(3:5, :m), [3*m])
+      call find_membrane(law, frame, rise, own, membrane)
+      do i = 1, m + 1
+         if (i <= m) call plate_strains(law, frame, node_point(:, i, corner_kind(m)), b, gamma, volume)
+         if (i > m) call plate_strains(law, frame, centre_point(:, corner_kind(m)), b, gamma, volume)
+         curvature(:, i) = matmul(b(:, :3*m), plate(:3*m))
+         shear(:, i) = matmul(gamma(:, :3*m), plate(:3*m))
+      end do
+   end subroutine find_strains
+
    !> Stresses (xx, yy, zz, xy, yz, zx) in global axes at the heights Z above the mean plane, at the corners and then at the centre, under
    !! the nodal values U and a thermal load: T - TREF is RISE at the mean plane and grows by SLOPE per unit height.
    pure subroutine shell_stresses(law, x, u, rise, slope, z, stress)
@@ -168,19 +191,12 @@ contains
       real(wp), intent(in)        :: z(:)            !! [length]
       real(wp), intent(out)       :: stress(:, :, :) !! (6, corners + 1, heights) [pressure]
       type(shell_frame) :: frame
-      real(wp) :: membrane(3, 5), curvature(3, 5), gamma(2, 12), b(3, 12), plate(12), own(6, 4), s(3), full(3, 3), warm(5), volume
+      real(wp) :: membrane(3, 5), curvature(3, 5), shear(2, 5), s(3), full(3, 3), warm(5)
       integer  :: i, k, m
 
       frame = shell_frame_of(x, law%offset)
       m = frame%n
-      own(:, :m) = reshape(matmul(from_nodes(frame), reshape(u, [6*m])), [6, m])
-      plate(:3*m) = reshape(own(3:5, :m), [3*m])
-      call find_membrane(law, frame, rise, own, membrane)
-      do i = 1, m + 1
-         if (i <= m) call plate_strains(law, frame, node_point(:, i, corner_kind(m)), b, gamma, volume)
-         if (i > m) call plate_strains(law, frame, centre_point(:, corner_kind(m)), b, gamma, volume)
-         curvature(:, i) = matmul(b(:, :3*m), plate(:3*m))
-      end do
+      call find_strains(law, frame, u, rise, membrane, curvature, shear)
       warm(:m) = rise
       warm(m + 1) = sum(rise)/m
       do k = 1, size(z)
@@ -192,6 +208,53 @@ contains
          end do
       end do
    end subroutine shell_stresses
+
+   !> Forces and moments per length, N_x, N_y, N_xy, M_x, M_y, M_xy, Q_x, Q_y, at the corners and then at the centre, for nodal values
+   !! and a thermal load as in shell_stresses: the integrals over the thickness of sigma, of sigma z and of tau_xz, tau_yz. The
+   !! direction x is ALONG, y is normal cross x.
+   pure subroutine shell_forces(law, x, u, rise, slope, along, force)
+      type(shell_law), intent(in) :: law
+      real(wp), intent(in)        :: x(:, :)         !! (3, corners) [length]
+      real(wp), intent(in)        :: u(:, :)         !! (3, 2 corners) [length], [rad]
+      real(wp), intent(in)        :: rise(:), slope  !! (corners) [temperature], [temperature/length]
+      real(wp), intent(in)        :: along(3)        !! unit, in the plane of the element
+      real(wp), intent(out)       :: force(:, :)     !! (8, corners + 1) [force/length], moments [force]
+      real(wp), parameter :: rigid = 1.0e12_wp
+      type(shell_frame) :: frame
+      type(shell_law)   :: own
+      real(wp) :: membrane(3, 5), curvature(3, 5), shear(2, 5), t, turn(2, 2), warm
+      integer  :: i, m
+
+      own = law
+      if (law%shear <= 0.0_wp) own%shear = rigid*law%bending(1, 1) ! the shear force is that of a plate nearly rigid in shear
+      frame = shell_frame_of(x, law%offset)
+      m = frame%n
+      call find_strains(own, frame, u, rise, membrane, curvature, shear)
+      turn(1, :) = matmul(along, frame%axes(:, :2))
+      turn(2, :) = [-turn(1, 2), turn(1, 1)]
+      do i = 1, m + 1
+         t = sum(law%thickness(:m))/m
+         warm = sum(rise)/m
+         if (i <= m) t = law%thickness(i)
+         if (i <= m) warm = rise(i)
+         force(:3, i) = turned(t*matmul(law%d, membrane(:, i) - law%expansion*warm*[1.0_wp, 1.0_wp, 0.0_wp]))
+         force(4:6, i) = turned(t**3/12.0_wp*matmul(law%bending, curvature(:, i) - &
+                                                    law%expansion*slope*[1.0_wp, 1.0_wp, 0.0_wp]))
+         force(7:, i) = t*own%shear*matmul(turn, shear(:, i))
+      end do
+
+   contains
+
+      !> The components xx, yy, xy along and across the direction ALONG.
+      pure function turned(s)
+         real(wp), intent(in) :: s(3)
+         real(wp) :: turned(3), full(2, 2)
+
+         full = matmul(turn, matmul(reshape([s(1), s(3), s(3), s(2)], [2, 2]), transpose(turn)))
+         turned = [full(1, 1), full(2, 2), full(1, 2)]
+      end function turned
+
+   end subroutine shell_forces
 
    !> Nodal forces and moments F of a thermal load: T - TREF is RISE at the corners of the mean plane and grows by SLOPE per unit height.
    pure subroutine shell_thermal_forces(law, x, rise, slope, f)

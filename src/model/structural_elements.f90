@@ -5,13 +5,13 @@ module structural_elements
    use elasticity, only: max_stresses
    use kinds, only: wp
    use model_data, only: corners_of, is_beam, model_type, temperature_type
-   use shell_element, only: shell_products, shell_stiffness, shell_stresses, shell_thermal_forces
+   use shell_element, only: shell_forces, shell_products, shell_stiffness, shell_stresses, shell_thermal_forces
    use temperatures, only: element_rise, element_slope
    implicit none
    private
 
-   public :: structural_stiffness, structural_stress, structural_thermal_forces, structural_mass, shell_mass, &
-             nodal_values, beam_ends, onto_own
+   public :: structural_stiffness, structural_stress, section_forces, structural_thermal_forces, structural_mass, &
+             shell_mass, nodal_values, beam_ends, onto_own
 
    integer, parameter :: most = 8 ! own nodes of an element: corners and their rotations
 
@@ -117,6 +117,20 @@ contains
                           nodal_values(model, e, u), element_rise(model, e, temperature), &
                           element_slope(model, e, temperature), z, stress)
    end subroutine structural_stress
+
+   !> Forces and moments per length of shell E, as in shell_forces, under displacements U of its own nodes.
+   pure subroutine section_forces(model, e, u, temperature, along, force)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      real(wp), intent(in)         :: u(:, :)     !! (3, own nodes) [length]
+      type(temperature_type), intent(in) :: temperature
+      real(wp), intent(in)         :: along(3)    !! unit, in the plane of the shell
+      real(wp), intent(out)        :: force(:, :) !! (8, corners + 1) [force/length], moments [force]
+
+      call shell_forces(model%structural%shells(model%structural%place(e)), model%x(:, corners_of(model, e)), &
+                        nodal_values(model, e, u), element_rise(model, e, temperature), element_slope(model, e, temperature), &
+                        along, force)
+   end subroutine section_forces
 
    !> Thermal nodal forces F of element E at its own nodes at this TEMPERATURE.
    pure subroutine structural_thermal_forces(model, e, temperature, f)

@@ -41,7 +41,7 @@ contains
       has_bodies = model%n_elements > 0
       if (allocated(model%structural%place)) has_bodies = any(model%structural%place == 0)
       if (has_bodies) call list_stresses(page, asked%stress, model, analysis)
-      call list_structural(page, model, analysis)
+      call list_structural(page, asked, model, analysis)
       if (asked%stress .and. has_second_order(model)) call list_node_stresses(page, model, analysis)
       call list_reactions(page, model, analysis)
       call list_moments(page, model, analysis)

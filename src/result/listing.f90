@@ -17,6 +17,7 @@ module listing
    use restart_stream, only: restart_stream_type
    use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: stage_plan_type
+   use structural_results, only: list_shell_forces
    use stage_tables, only: farthest_type, n_stage_tables, note_stage_tables, pass_rows
    use text_tools, only: clean, integer_text, plural, upper
    implicit none
@@ -125,7 +126,11 @@ contains
       associate (stage => plan%stages(analysis%stage), page => listing%page)
          if (stage%output%level >= output_last) call list_joints(page, stage%output, model, analysis)
          if (stage%output%plot) call plot_joints(page, model, analysis)
-         if (any(stage%output%level == [output_all, output_last])) call list_bodies(page, stage%output, model, analysis)
+         if (any(stage%output%level == [output_all, output_last])) then
+            call list_bodies(page, stage%output, model, analysis)
+         else if (stage%output%forces) then
+            call list_shell_forces(page, model, analysis, is_listed=.false.)
+         end if
          call say_ranges(model, plan, analysis, listing%watch)
          call watch_balance(model, plan, analysis, page%largest_force, listing%watch)
          do i = 1, n_stage_tables

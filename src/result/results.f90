@@ -16,13 +16,14 @@ module results
    use joint_tables, only: history_titles, write_history
    use table_writer, only: backbone_table, bend_table, bolt_table, csv_titles, energy_table, joint_table, loop_table, &
                             modes_table, &
-                            reaction_table, response_table, split_table, stage_table, table_endings, watch_table
+                            reaction_table, response_table, shell_table, split_table, stage_table, table_endings, watch_table
    use modal_response, only: response_type
    use mode_values, only: modes_type
    use model_data, only: model_type
    use restart_stream, only: restart_stream_type
    use stage_answer, only: fault_of_answer, find_answer, stage_answer_type
    use stage_plan, only: any_backbone, any_modes, any_response, any_watched, stage_plan_type, where_in_plan
+   use structural_results, only: shell_columns
    use support_reactions, only: find_reactions, reactions_type
    use text_tools, only: real_text
    use vibration_tables, only: backbone_columns, bend_columns, energy_columns, list_backbone, list_modes, list_response, &
@@ -108,6 +109,7 @@ contains
          call open_table(watch_table, any_watched(plan), csv_titles(watch_columns(labels, d)))
          call open_table(split_table, any_watched(plan), csv_titles(split_columns()))
          call open_table(reaction_table, .true., csv_titles(reaction_columns(labels, d)))
+         call open_table(shell_table, any(plan%stages%output%forces), csv_titles(shell_columns(labels)))
       end associate
 
    contains

@@ -1,20 +1,23 @@
-!> The results of shells and beams: stresses at both faces of shells, end forces and stresses of beams, and tables.
+!> The results of shells and beams, and their tables: stresses at both faces of shells, forces and moments per length, end forces
+!! and stresses of beams.
 module structural_results
    use analysis_state, only: analysis_type
    use beam_element, only: beam_end_forces, beam_law, beam_thermal_load
    use bolt_locking, only: bar_tension
    use elasticity, only: max_stresses, von_mises
+   use joint_sides, only: joint_axes
    use kinds, only: wp
-   use table_writer, only: column, in_units, table_type, noise, page_type, shows
+   use table_writer, only: column, column_type, csv, in_units, label_type, table_type, noise, page_type, shell_table, shows
    use model_data, only: a_bar, corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
    use shell_membrane, only: shell_frame, shell_frame_of
-   use structural_elements, only: beam_ends, nodal_values, structural_stress
+   use stage_entries, only: output_request
+   use structural_elements, only: beam_ends, nodal_values, section_forces, structural_stress
    use temperatures, only: element_rise
    use text_tools, only: clean
    implicit none
    private
 
-   public :: end_forces, face_stresses, list_structural, node_peaks, section_stresses
+   public :: end_forces, face_stresses, list_structural, list_shell_forces, node_peaks, section_stresses, shell_columns
 
    real(wp), parameter :: one_plate = 0.94_wp ! cosine of 20 degrees: shells at a node whose normals differ more are not averaged
 
@@ -162,14 +165,16 @@ contains
 
    end subroutine node_peaks
 
-   !> The tables of shells and of beams, if any.
-   subroutine list_structural(page, model, analysis)
-      type(page_type), intent(inout)  :: page
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
+   !> The tables of shells and of beams, if any; the forces of shells where they are ASKED for.
+   subroutine list_structural(page, asked, model, analysis)
+      type(page_type), intent(inout)   :: page
+      type(output_request), intent(in) :: asked
+      type(model_type), intent(in)     :: model
+      type(analysis_type), intent(in)  :: analysis
 
       if (.not. allocated(model%structural%place)) return
       if (size(model%structural%shells) > 0) call list_shells(page, model, analysis)
+      if (asked%forces) call list_shell_forces(page, model, analysis, is_listed=.true.)
       if (size(model%structural%beams) > 0) call list_beams(page, model, analysis)
    end subroutine list_structural
 
@@ -201,6 +206,83 @@ contains
          end do
       end do
    end subroutine list_shells
+
+   !> Forces and moments per length of shells: a row for the centre and, in the CSV file, for every corner.
+   function shell_columns(labels) result(columns)
+      type(label_type), intent(in)   :: labels
+      type(column_type), allocatable :: columns(:)
+
+      columns = [csv([character(9) :: 'stage', 'increment', 'load']), column('ELEMENT', 'i11', name='element'), &
+                 csv([character(4) :: 'node', 'x', 'y', 'z']), &
+                 column([character(4) :: 'N X', 'N Y', 'N XY'], 'es13.5', labels%stiffness, &
+                        name=[character(4) :: 'n_x', 'n_y', 'n_xy']), &
+                 column([character(4) :: 'M X', 'M Y', 'M XY'], 'es13.5', labels%force, &
+                        name=[character(4) :: 'm_x', 'm_y', 'm_xy']), &
+                 column(['Q X', 'Q Y'], 'es13.5', labels%stiffness, name=['q_x', 'q_y'])]
+   end function shell_columns
+
+   !> Write forces and moments per length into the CSV file, and where IS_LISTED those at the centres into the listing. The directions
+   !! x and y of a shell follow from its normal as those of a joint do.
+   subroutine list_shell_forces(page, model, analysis, is_listed)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      logical, intent(in)             :: is_listed
+      type(table_type) :: table
+      type(shell_frame) :: frame
+      real(wp), allocatable :: force(:, :, :)
+      real(wp) :: axes(3, 3), floor(2), thickness
+      integer  :: e
+
+      if (.not. allocated(model%structural%place)) return
+      thickness = 0.0_wp
+      allocate (force(8, 5, size(model%structural%shells)), source=0.0_wp)
+      do e = 1, model%n_elements
+         if (.not. is_shell(model, e)) cycle
+         associate (nodes => corners_of(model, e))
+            frame = shell_frame_of(model%x(:, nodes), 0.0_wp)
+            axes = joint_axes(model, frame%axes(:, 3))
+            call section_forces(model, e, analysis%all_u(:, own_nodes(model, e)), analysis%now%temperature, axes(:, 1), &
+                                force(:, :size(nodes) + 1, model%structural%place(e)))
+            thickness = max(thickness, maxval(model%structural%shells(model%structural%place(e))%thickness))
+         end associate
+      end do
+      if (size(force) == 0) return
+      floor = noise*max(maxval(abs(force([1, 2, 3, 7, 8], :, :))), maxval(abs(force(4:6, :, :)))/thickness)*[1.0_wp, thickness]
+      if (is_listed) call table%start('FORCES AND MOMENTS PER LENGTH OF SHELLS, AT THEIR CENTRES'//page%now, &
+                                      shell_columns(page%labels), page%file)
+      if (.not. is_listed) call table%start('', shell_columns(page%labels))
+      do e = 1, model%n_elements
+         if (.not. is_shell(model, e)) cycle
+         if (shows(page, corners_of(model, e))) call rows(e, corners_of(model, e))
+      end do
+
+   contains
+
+      !> The rows of shell E with corners NODES.
+      subroutine rows(e, nodes)
+         integer, intent(in) :: e, nodes(:)
+         real(wp) :: x(3)
+         integer  :: i, n, node
+
+         n = size(nodes)
+         do i = 1, n + 1
+            node = 0
+            x = sum(model%x(:, nodes), dim=2)/n
+            if (i <= n) node = model%node_id(nodes(i))
+            if (i <= n) x = model%x(:, nodes(i))
+            associate (own => force(:, i, model%structural%place(e)))
+               call table%add([page%stage_id, analysis%increment], [analysis%fraction])
+               call table%add([model%element_id(e), node], x)
+               call table%add(own(:3), floor(1))
+               call table%add(own(4:6), floor(2))
+               call table%add(own(7:), floor(1))
+            end associate
+            call table%print_row(page%file, page%tables(shell_table), is_listed=is_listed .and. i > n)
+         end do
+      end subroutine rows
+
+   end subroutine list_shell_forces
 
    subroutine list_beams(page, model, analysis)
       type(page_type), intent(inout)  :: page

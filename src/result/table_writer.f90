@@ -31,11 +31,11 @@ module table_writer
    ! the CSV files in the order of their endings
    integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
                                  response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9, watch_table = 10, &
-                                 split_table = 11, reaction_table = 12
+                                 split_table = 11, reaction_table = 12, shell_table = 13
    character(*), parameter, public :: history_ending = '.joint.csv'
-   character(22), parameter, public :: table_endings(12) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
+   character(22), parameter, public :: table_endings(13) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
       '.modes.csv', '.modes.energy.csv', '.response.csv', '.backbone.csv', '.loop.csv', '.backbone.response.csv', '.watch.csv', &
-      '.watch.energy.csv', '.reaction.csv']
+      '.watch.energy.csv', '.reaction.csv', '.shell.csv']
 
    !> The files and settings common to all tables.
    type, public :: page_type

@@ -150,6 +150,40 @@ sed -e 's/^TEMPP1.*/TEMP,5,1,50.0,2,50.0,6,50.0\nTEMP,5,7,50.0\nTEMPD,5,20.0\nTE
 run warm_both && near 'TEMPP1 goes before TEMP of nodes' "$(shell_stress warm_both 6 2 1)" '-210000/(1 - 0.3)*1.2e-5*50' 3e-6
 near 'a shell without TEMPP1 beside' "$(shell_stress warm_both 1 2 1)" '-210000/(1 - 0.3)*1.2e-5*30' 3e-6
 
+# ---- forces and moments per length: a strip pulled and bent, N = F/b, M = M_0/b; corner forces P twist a plate evenly, M_xy = P/2 ----
+
+# bent NAME CASE: 4 x 2 distorted elements of 100 x 20, 4 thick, offset 3 from their nodes; the strip lies in x-y, the plate in y-z
+bent() {
+   awk -v case="$2" 'BEGIN {
+      print "MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  OUTPUT = LAST, FORCES\nSUBCASE 2\n  LOAD = 2\n  OUTPUT = NONE, FORCES\nBEGIN BULK"
+      strip = case == "strip"
+      for (i = 0; i <= 4; i++) for (j = 0; j <= 2; j++) { n++
+         a = 25*i + (i == 2 && j == 1 ? 4 : 0); b = 10*j + (i == 1 && j == 1 ? 2 : 0)
+         if (strip) printf "GRID,%d,,%.1f,%.1f,0.0\n", n, a, b; else printf "GRID,%d,,0.0,%.1f,%.1f\n", n, a, b }
+      for (i = 0; i < 4; i++) for (j = 0; j < 2; j++) { a = 3*i + j + 1; printf "CQUAD4,%d,1,%d,%d,%d,%d,,%s\n", ++e, a, a + 3, a + 4, a + 1, strip ? "3.0" : "" }
+      print "PSHELL,1,1,4.0,1,," (strip ? "1" : "") "\nMAT1,1,210000.0,,0.3"
+      if (strip) {
+         print "SPC1,1,13,1,3\nSPC1,1,12,2\nSPC1,1,5,1,2,3"
+         for (s = 1; s <= 2; s++) for (j = 0; j <= 2; j++) {
+            w = (j == 1 ? 0.5 : 0.25)*s
+            printf "FORCE,%d,%d,,%.4f,1.0,0.0,0.0\nMOMENT,%d,%d,,%.4f,0.0,1.0,0.0\n", s, 13 + j, 600*w, s, 13 + j, 1800*w + 4000*w }
+      } else print "SPC1,1,123,1\nSPC1,1,13,13\nSPC1,1,1,3\nFORCE,1,15,,50.0,1.0,0.0,0.0\nFORCE,2,15,,100.0,1.0,0.0,0.0"
+      print "ENDDATA" }' > "$work/$1.bdf"
+}
+shell_force() { table "$1" 'FORCES AND MOMENTS PER LENGTH OF SHELLS' | awk -v e="$2" -v k="$3" '$1 == e { v = $(1 + k) } END { print v }'; }
+bent strip strip && run strip && {
+   for k in '1 600/20' '2 0' '3 0' '4 4000/20' '5 0' '6 0' '7 0' '8 0'; do
+      read -r k value <<< "$k"
+      near "a strip pulled and bent: force $k per length" "$(shell_force strip 3 $k)" "$value" 3e-6 1e-4
+   done
+   "$query" "$work/strip.shell.csv" rows 'stage = 2' count 40 all 'n_x = 60 within 1e-6 and m_x = 400 within 1e-6 and m_y = 0 within 1e-5 and n_y = 0 within 1e-6 and q_x = 0 within 1e-5 and load = 1' &&
+      passed=$((passed + 1)) || fail 'a strip pulled and bent: the CSV file has every corner and centre'
+}
+bent twisted_plate plate && run twisted_plate && {
+   near 'a plate twisted evenly: M XY' "$(shell_force twisted_plate 3 6)" '-50/2' 3e-6
+   for k in 1 2 3 4 5 7 8; do near "a plate twisted evenly: force $k per length" "$(shell_force twisted_plate 3 $k)" 0 0 1e-5; done
+}
+
 # ---- a wall tied to a solid by SHELLTO: a turn of the solid turns the wall, free of force; what the wall bears goes to the solid ----
 
 # tied NAME: a wall of 7 x 2 shells, 6 thick, upright askew on 3 x 2 bricks; the cards behind are read from the standard input
