@@ -8,7 +8,7 @@ module spring_build
    use model_data, only: a_spring, bar_type, model_type
    use node_build, only: find_nodes
    use node_coupling, only: node_axes, rotation_at
-   use numbers, only: identity
+   use numbers, only: cross, identity
    use structural_build, only: is_cut_beam
    use text_tools, only: integer_text
    implicit none
@@ -186,6 +186,7 @@ contains
          call find_nodes(deck, card%line, card%nodes, model, nodes)
          call find_axes(deck, card, model, nodes, stiffness, directions, ok)
          if (.not. ok) return
+         if (all(nodes > 0)) call check_levers()
          do k = 1, 6
             if (stiffness(k) <= 0.0_wp) cycle
             if (k > 3) call add_rotational(k, stiffness(k), spread(directions(:, k - 3), 2, 2))
@@ -215,6 +216,26 @@ contains
       end if
 
    contains
+
+      !> Between nodes apart that have rotations no force may have a lever: the springs of this program apply no moments to their nodes.
+      subroutine check_levers()
+         real(wp) :: lever
+         integer  :: axis, end
+
+         lever = 0.0_wp
+         do axis = 1, model%dimension
+            if (stiffness(axis) > 0.0_wp) lever = max(lever, norm2(cross(model%x(:, nodes(2)) - model%x(:, nodes(1)), &
+                                                                          directions(:, axis))))
+         end do
+         do end = 1, 2
+            if (rotation_at(model, nodes(end)) == 0) cycle
+            if (lever <= 1.0e-6_wp*model%rotations(rotation_at(model, nodes(end)))%arm) cycle
+            call deck%field_error(card%line, 'GB', 'a spring across the line from GA to GB gives node '// &
+               integer_text(model%node_id(nodes(end)))//' a moment, since the nodes are apart; expected nodes in one place, '// &
+               'one of them tied to GA or GB by an RBAR')
+            return
+         end do
+      end subroutine check_levers
 
       !> A spring between rotations about AXES, unit, and the nodes of these rotations, whose components are rotations times an arm.
       subroutine add_rotational(component, k_axis, axes)
@@ -286,8 +307,8 @@ contains
       end associate
    end subroutine find_stiffness
 
-   !> The axes of a CBUSH at its first node: those of its system; without a system, the line between its nodes if it has K1 alone, and
-   !! global axes if the nodes coincide.
+   !> The axes of a CBUSH at its first node: those of its system; without a system, the line between its nodes if it has K1 and K4
+   !! alone, and global axes if the nodes coincide.
    subroutine find_axes(deck, card, model, nodes, stiffness, directions, ok)
       type(checked_deck), intent(in) :: deck
       type(spring_card), intent(in)  :: card
@@ -308,10 +329,10 @@ contains
       else if (card%system < 0 .and. nodes(2) > 0) then
          associate (along => model%x(:, nodes(2)) - model%x(:, nodes(1)))
             if (norm2(along) <= 0.0_wp) return
-            ok = all(stiffness(2:) <= 0.0_wp)
+            ok = all(stiffness([2, 3, 5, 6]) <= 0.0_wp)
             if (ok) directions(:, 1) = along/norm2(along)
-            if (.not. ok) call deck%field_error(card%line, 'CID', 'blank, but GA and GB stand apart and there is more than '// &
-               'K1; expected the system of its axes, 0 for global axes')
+            if (.not. ok) call deck%field_error(card%line, 'CID', 'blank, but GA and GB are apart and there is more than '// &
+               'K1 and K4; expected the system of its axes, 0 for global axes')
          end associate
       end if
    end subroutine find_axes

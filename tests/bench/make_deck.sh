@@ -5,7 +5,8 @@
 #
 # SHAPE  q4_100x20: a plate of 100 x 20 CQUAD4, the second number its height; hex8_20x20x10: a block of 20 x 20 x 10 CHEXA, the
 #        last number its height. The whole bottom stands on a rigid base by a joint. 20 increments press on the whole top, and out
-#        of centre on one node: the pressure is uneven, and the joint stays closed. over_24x17x8: a block of 24 x 24 x 8 CHEXA on one of
+#        of centre on one node: the pressure is uneven, and the joint stays closed. shell_316x316: a plate of 316 x 316 CQUAD4 shells, 3
+#        thick, node by node, with its lower face on the joint, likewise. over_24x17x8: a block of 24 x 24 x 8 CHEXA on one of
 #        17 x 17 x 8, the joint between them: lists of nodes, and pairs where both numbers are the same. bracket_16: an angle of two legs,
 #        3 x 2 units each, 1 thick, each unit cut into 16 cells an edge and every cell into six CTETRA of second order, node by node:
 #        1,000,000 unknowns. The lower leg stands on the joint, the upper one is pressed on its end.
@@ -41,6 +42,14 @@ PSOLID,1,1,,,,PLAIN"
    supports='SPCM,1,1,21
 SPCM,1,3,22'
    loads="FORCE,10,$(( (nx + 1)*(n2 + 1)*(n3 + 1) )),,100.0,0.0,-1.0" ;;
+shell_*)
+   mesh="PSHELL,1,1,3.0,1,,1"
+   model='MODEL = SPACE
+' held='$'
+   supports='SPC1,1,126,1
+SPC1,1,2,'$(( nx*(n2 + 1) + 1 ))
+   down='0.0,0.0,-1.0'
+   loads="FORCE,10,$(( (2*nx/3)*(n2 + 1) + n2/2 + 1 )),,100.0,$down" ;;
 over_*)
    mesh="BLOCK3,1,1,$n2,$n2,$n3,0.0,0.0,0.0
 +,150.0,150.0,60.0,,,,1,1
@@ -64,7 +73,7 @@ SPCM,1,2,22'
    down='0.0,0.0,-1.0'
    loads= ;;
 *)
-   echo "make_deck.sh: '$shape' is no shape, expected q4_NxM, hex8_NxMxK, over_NxMxK or bracket_N" >&2
+   echo "make_deck.sh: '$shape' is no shape, expected q4_NxM, hex8_NxMxK, shell_NxM, over_NxMxK or bracket_N" >&2
    exit 1 ;;
 esac
 
@@ -114,10 +123,22 @@ bracket() {
       }'
 }
 
+# The nodes, shells and marked faces of a plate of 150 x 150, $1 x $2 elements: 20 below, 23 above
+plate() {
+   awk -v n="$1" -v m="$2" 'BEGIN {
+      for (i = 0; i <= n; i++) for (j = 0; j <= m; j++) printf "GRID,%d,,%.9g,%.9g,0.0\n", 1 + i*(m + 1) + j, 150*i/n, 150*j/m
+      for (i = 0; i < n; i++) for (j = 0; j < m; j++) {
+         e++; a = 1 + i*(m + 1) + j; d = a + m + 1
+         printf "CQUAD4,%d,1,%d,%d,%d,%d\nCQUAD4,%d,20,%d,%d,%d,%d\n", e, a, d, d + 1, a + 1, n*m + e, a + 1, d + 1, d, a
+         printf "CQUAD4,%d,23,%d,%d,%d,%d\n", 2*n*m + e, a, d, d + 1, a + 1
+      }
+   }'
+}
+
 cat <<END
 TITLE = ${shape^^}
 ECHO = NO
-SPC = 1
+${model-}SPC = 1
 SOLVER = $solver
 SUBCASE 1
   LOAD = 10
@@ -126,11 +147,12 @@ $steps
 BEGIN BULK
 END
 [ "${shape%_*}" != bracket ] || bracket "${shape#*_}"
+[ "${shape%_*}" != shell ] || plate "$nx" "$n2"
 cat <<END
 $mesh
 MAT1,1,9500.0,,0.25$density
 PMARK,20
-PMARK,21
+${held-PMARK,21}
 PMARK,23
 JOINT,1,1,${sides-20}
 $laws

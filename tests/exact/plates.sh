@@ -56,6 +56,11 @@ DECK
 run hinge && near 'hinge with a spring' "$(rotation hinge 3 3)" '2e6*1000/(210000*1e5) + 2e6/4e8' 3e-6
 sed -e 's/^CBUSH.*/CELAS2,9,4.0+8,2,6,12,6\nRBE2,8,2,12345,12/' -e '/^PBUSH/d' "$work/hinge.bdf" > "$work/hinge_celas.bdf"
 run hinge_celas && near 'CELAS2 between rotations, RBE2 for the rest' "$(rotation hinge_celas 3 3)" '2e6*1000/(210000*1e5) + 2e6/4e8' 3e-6
+# K1 and K4 of a CBUSH along the line between two nodes that are apart: 2e5 on a beam of 490, behind it the spring and one of 500
+sed -e 's/^GRID,12,,500.0/GRID,12,,510.0/' -e 's/^CBUSH.*/CBUSH,9,9,2,12/' -e 's/^PBUSH.*/PBUSH,9,K,1.0+5,,,1.0+8/' -e 's/^MOMENT.*/MOMENT,1,12,,2.0+5,1.0,0.0,0.0/' \
+   -e 's/^SPC1.*/&,3/' "$work/hinge.bdf" > "$work/along_spring.bdf"
+run along_spring && near 'K4 along the line of a CBUSH' "$(table along_spring 'FORCES OF SPRINGS' | awk '$5 == "R1" { print $6 }')" \
+   '2e5/(1 + (500/(1.5e5*210000/2.6) + 1/1e8)/(490/(1.5e5*210000/2.6)))' 3e-6
 near 'moment of the spring' "$(table hinge_celas 'FORCES OF SPRINGS' | awk '$2 == 9 { print sqrt($6*$6) }')" 2e6 3e-6
 # a rigid arm of 100 at the tip: RBAR, and the same by an offset of the beam
 cards rigid_arm <<DECK

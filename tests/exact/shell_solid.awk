@@ -6,11 +6,11 @@
 # tube: a box column, walls of thickness 6, mean width 200, height 600, clamped below; above it moves as a rigid body under a force along
 #       x and a moment about z at node 99999; n elements a wall, m along it; frequencies as many as `modes`
 # lap:  two sheets of 120 x 40 x 5 that overlap by 40, their joint with MU 0.2, a bolt of 5000 through its middle, the lower one clamped
-#       at x = 0, the upper one loaded at x = 200, node 99993, by fx and fz
+#       at x = 0, the upper one loaded at x = 200, node 99993, by fx and fz; elements of 5/r
 function line(i) { return i == 0 ? -100 - t0/2 : i == n + 2 ? 100 + t0/2 : (200 - t0)*((i - 1)/n - 0.5) }
 function kept(i, j) { return i == 0 || j == 0 || i == n + 1 || j == n + 1 }
 function id(i, j, k) { return 1 + i + (n + 3)*(j + (n + 3)*k) }
-function shell_id(s, i, j) { return 1 + s*1000 + i*(ny + 1) + j }
+function shell_id(s, i, j) { return 1 + s*10000 + i*(ny + 1) + j }
 function solid_id(s, i, j, k) { return 1 + s*10000 + (i*(ny + 1) + j)*3 + k }
 function outer(s, i, j) { return solid ? solid_id(s, i, j, s ? 2 : 0) : shell_id(s, i, j) }
 BEGIN { t0 = 6; if (case == "tube") tube(); else if (case == "tee") tee(); else lap() }
@@ -74,24 +74,25 @@ function tube(   e, f, i, j, k, q, s, t, w, x, y, text) {
    print "ENDDATA"
 }
 function lap(   a, b, c, d, e, f, g, i, j, k, m, s, text) {
-   nx = 24; ny = 8
+   if (!r) r = 1
+   nx = 24*r; ny = 8*r
    print "METHOD = NEWTON\nMODEL = SPACE\nSPC = 1\nSUBCASE 1\n  INCR = 1\nSUBCASE 2\n  LOAD = 1\n  INCR = 1\nBEGIN BULK\nJINCR,1,4\nMAT1,1,210000.,,.3"
    print "PMARK,11\nPMARK,12\nJOINT,1,1,11,12,.01\nPJOINT,1,1,1,1,.2\nJNORM,1,2.-3,.5,1.+5\nJSHEAR,1,5000.\nCROD,90001,9,99991,99992\nPROD,9,1,50.\nBOLT,1,90001,5000.,1"
    print solid ? "PSOLID,1,1" : "PSHELL,1,1,5.,1,,1"
    for (s = 0; s < 2; s++) {
       for (i = 0; i <= nx; i++) for (j = 0; j <= ny; j++) for (k = 0; k <= (solid ? 2 : 0); k++)
-         printf "GRID,%d,,%.6f,%.6f,%.6f\n", solid ? solid_id(s, i, j, k) : shell_id(s, i, j), 80*s + 5*i, 5*j, solid ? 5*s + 2.5*k : 2.5 + 5*s
+         printf "GRID,%d,,%.6f,%.6f,%.6f\n", solid ? solid_id(s, i, j, k) : shell_id(s, i, j), 80*s + 5*i/r, 5*j/r, solid ? 5*s + 2.5*k : 2.5 + 5*s
       for (i = 0; i < nx; i++) for (j = 0; j < ny; j++) {
          if (!solid) {
             a = shell_id(s, i, j); b = shell_id(s, i + 1, j); c = b + 1; d = a + 1
             printf "CQUAD4,%d,1,%d,%d,%d,%d\n", ++e, a, b, c, d
-            if (s == 0 && i >= 16) printf "CQUAD4,%d,11,%d,%d,%d,%d\n", 50000 + ++f, a, b, c, d
-            if (s == 1 && i < 8) printf "CQUAD4,%d,12,%d,%d,%d,%d\n", 50000 + ++f, d, c, b, a
+            if (s == 0 && i >= 16*r) printf "CQUAD4,%d,11,%d,%d,%d,%d\n", 50000 + ++f, a, b, c, d
+            if (s == 1 && i < 8*r) printf "CQUAD4,%d,12,%d,%d,%d,%d\n", 50000 + ++f, d, c, b, a
             continue
          }
          for (k = 0; k < 2; k++) printf "CHEXA,%d,1,%d,%d,%d,%d,%d,%d\n+,%d,%d,,,,,,\n+,,,,,,\n", ++e, solid_id(s, i, j, k), solid_id(s, i + 1, j, k), solid_id(s, i + 1, j + 1, k), solid_id(s, i, j + 1, k), solid_id(s, i, j, k + 1), solid_id(s, i + 1, j, k + 1), solid_id(s, i + 1, j + 1, k + 1), solid_id(s, i, j + 1, k + 1)
          k = s ? 0 : 2
-         if (s == 0 && i >= 16 || s == 1 && i < 8) printf "CQUAD4,%d,%d,%d,%d,%d,%d\n", 50000 + ++f, 11 + s, solid_id(s, i, j, k), solid_id(s, i + 1, j, k), solid_id(s, i + 1, j + 1, k), solid_id(s, i, j + 1, k)
+         if (s == 0 && i >= 16*r || s == 1 && i < 8*r) printf "CQUAD4,%d,%d,%d,%d,%d,%d\n", 50000 + ++f, 11 + s, solid_id(s, i, j, k), solid_id(s, i + 1, j, k), solid_id(s, i + 1, j + 1, k), solid_id(s, i, j + 1, k)
       }
    }
    for (j = 0; j <= ny; j++) for (k = 0; k <= (solid ? 2 : 0); k++) printf "SPC1,1,123456,%d\n", solid ? solid_id(0, 0, j, k) : shell_id(0, 0, j)
@@ -99,7 +100,7 @@ function lap(   a, b, c, d, e, f, g, i, j, k, m, s, text) {
    printf "GRID,99991,,100.,20.,0.\nGRID,99992,,100.,20.,10.\nGRID,99993,,200.,20.,7.5\n"
    for (s = 0; s < 2; s++) {
       text = "RBE3," 80001 + s ",," 99991 + s ",123,1.,123"; m = 7
-      for (i = 19 - 16*s; i <= 21 - 16*s; i++) for (j = ny/2 - 1; j <= ny/2 + 1; j++) { if (m++ % 8 == 0) text = text "\n+"; text = text "," outer(s, i, j) }
+      for (i = (19 - 16*s)*r; i <= (21 - 16*s)*r; i++) for (j = ny/2 - r; j <= ny/2 + r; j++) { if (m++ % 8 == 0) text = text "\n+"; text = text "," outer(s, i, j) }
       print text
    }
    text = "RBE3,80003,,99993,123,1.,123"; m = 7
