@@ -127,8 +127,14 @@ contains
          n = 100000
          e = e + 1
       end if
-      text = merge(' -', '  ', sign(1.0_wp, value) < 0.0_wp)//achar(48 + n/100000)//'.'//pairs(mod(n/1000, 100))// &
-             pairs(mod(n/10, 100))//achar(48 + mod(n, 10))//'E'//merge('-', '+', e < 0)//pairs(mod(abs(e), 100))
+      text(:2) = merge(' -', '  ', sign(1.0_wp, value) < 0.0_wp) ! piece by piece: // would copy the text eight times
+      text(3:3) = achar(48 + n/100000)
+      text(4:) = '.     E+'
+      text(5:6) = pairs(mod(n/1000, 100))
+      text(7:8) = pairs(mod(n/10, 100))
+      text(9:9) = achar(48 + mod(n, 10))
+      if (e < 0) text(11:11) = '-'
+      text(12:) = pairs(mod(abs(e), 100))
       if (abs(e) >= 100) text(10:11) = merge('-', '+', e < 0)//achar(48 + abs(e)/100)
    end subroutine write_short
 

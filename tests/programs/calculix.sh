@@ -94,6 +94,27 @@ for name in hexa hexa20 hexa20_curved quad quad8 quad8_curved strain8 ring8 ring
    [ "$store" ] || same_frequencies "$name" "$here/frequencies.dat" && pass || fail "$name: against the stored frequencies of CalculiX"
 done
 [ "$ccx$store" = yesstore ] && { version Frequencies "deck, the eight lowest"; cat "$work/found"; } > "$here/frequencies.dat"
+# ---- shells: a column of thin walls, CQUAD4 against S8R: movement of two corners of its top, five frequencies, to 1 % ----
+
+theirs='1.662519E-02 1.362553E-02 374.8622 415.6102 435.5873 435.5873 461.1871' # by CalculiX 2.20
+# close NUMBERS OTHERS TOLERANCE: all seven numbers agree
+close() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { n = split(a, x, " "); split(b, y, " "); for (k = 1; k <= n; k++) { d = x[k]/y[k] - 1; if (d > t || -d > t) print x[k] ", and " y[k] }
+   if (n != 7) print n " numbers of 7" }' > "$work/differences"; [ ! -s "$work/differences" ]; }
+awk -v n=16 -v m=48 -v modes=5 -f "$here/calculix_box.awk" > "$work/box.bdf"
+runs box && {
+   ours=$(awk 'index($0, " DISPLACEMENTS OF NODES") == 1 { on = 1 } /^ [A-Z]/ && !/DISPLACEMENTS/ { on = 0 } on && ($1 == 3073 || $1 == 3105) { print $5 }' "$work/box.out"
+          awk -F, 'NR > 1 { print $3 }' "$work/box.modes.csv")
+   close "$ours" "$theirs" 0.01 && pass || fail 'box: against the stored results of CalculiX'
+   if [ "$ccx" ]; then
+      awk -v n=16 -v m=48 -v ccx=1 -f "$here/calculix_box.awk" > "$work/box.inp"
+      awk -v n=16 -v m=48 -v ccx=1 -v modes=5 -f "$here/calculix_box.awk" > "$work/box_modes.inp"
+      (cd "$work" && ccx box > box.log 2>&1 && ccx box_modes >> box.log 2>&1)
+      found=$(awk '$1 == 3073 || $1 == 3105 { print $2 }' "$work/box.dat"
+              awk '/E I G E N V A L U E/ { on = 1 } /P A R T I C I P A T I O N/ { on = 0 } on && NF == 5 && $1 + 0 == $1 { print $4 }' "$work/box_modes.dat")
+      close "$found" "$theirs" 1e-5 && pass || fail 'box: ccx against its stored results'
+   fi
+   close "$ours" "${theirs/435.5873/440.5873}" 0.01 && fail 'box: a wrong frequency is not noticed' || pass
+}
 [ "$ccx" ] || echo 'skipped: runs of CalculiX: ccx is not installed; what it gave is compared'
 
 # the comparison notices a density that is wrong in its fourth digit, and a mode that is missing
