@@ -2,7 +2,7 @@
 !! A system may depend on other systems in any order. Nodes with CD have their unknowns along the directions of their system, so that
 !! supports and prescribed displacements act along these directions.
 module displacement_systems
-   use bulk_data, only: system_card
+   use bulk_data, only: grid_card
    use coordinate_systems, only: coordinate_system, directions_at, make_system, position_in, rectangular
    use deck_check, only: checked_deck
    use kinds, only: wp
@@ -121,22 +121,21 @@ contains
       if (system > size(systems)) system = 0
    end subroutine find_system
 
-   !> X of all GRID cards in global axes; each card is placed once its system is known.
-   subroutine place_grids(deck, systems, x)
+   !> Transform X of GRID CARDS to global axes; each card is placed once its system is known.
+   subroutine place_grids(deck, systems, cards)
       type(checked_deck), intent(in)      :: deck
       type(coordinate_system), intent(in) :: systems(:)
-      real(wp), intent(inout)             :: x(:, :) !! (3, at least as many as GRID cards) set here [length]
-      integer :: i, system
+      type(grid_card), intent(inout)      :: cards(:)
       real(wp), parameter :: rounding = 1.0e-12_wp ! of the distance of points and systems: a smaller distance from an axis is zero
+      integer :: i, system
 
-      do i = 1, size(deck%bulk%grid)
-         associate (grid => deck%bulk%grid(i))
-            x(:, i) = grid%x
-            if (grid%cp <= 0) cycle
-            call find_system(deck, grid%line, 'CP', grid%cp, systems, system)
+      do i = 1, size(cards)
+         associate (x => cards(i)%x)
+            if (cards(i)%cp <= 0) cycle
+            call find_system(deck, cards(i)%line, 'CP', cards(i)%cp, systems, system)
             if (system == 0) cycle
-            x(:, i) = position_in(systems(system), grid%x)
-            where (abs(x(:, i)) <= rounding*(norm2(x(:, i)) + norm2(systems(system)%origin))) x(:, i) = 0.0_wp
+            x = position_in(systems(system), x)
+            where (abs(x) <= rounding*(norm2(x) + norm2(systems(system)%origin))) x = 0.0_wp
          end associate
       end do
    end subroutine place_grids

@@ -7,6 +7,7 @@ module model_build
    use deck_input, only: deck_type
    use determinate_joints, only: find_determinate_joints, find_first_pressures
    use displacement_systems, only: build_frames
+   use element_build, only: marked_side
    use free_structure, only: check_balance, hold_free_structure
    use joint_build, only: build_joints
    use joint_gaps, only: build_gaps
@@ -14,7 +15,7 @@ module model_build
    use lists, only: join, root_of
    use load_build, only: build_loads
    use mass_build, only: build_masses, check_mass
-   use mesh_build, only: build_mesh, marked_side, check_named_nodes
+   use mesh_build, only: build_mesh, check_named_nodes
    use model_data, only: model_type, n_bars, n_rotations, n_sections, stage_load_type
    use node_coupling, only: coupling_parts, section_node
    use pretension_section, only: build_sections

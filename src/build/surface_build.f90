@@ -1,11 +1,11 @@
 !> Marked surfaces: the body elements and the orientation of their sides, and the tributary areas of their nodes.
 module surface_build
    use deck_check, only: checked_deck
+   use element_build, only: marked_side
    use element_kinds, only: element_table, max_side_nodes
    use isoparametric, only: side_areas, side_forces
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
-   use mesh_build, only: marked_side
    use model_data, only: corners_of, has_second_order, is_shell, model_type, surface_type
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
