@@ -1,7 +1,7 @@
 !> Block meshes: the GRID, element and side cards that a BLOCK2, a quadrilateral block, or a BLOCK3, a box, stands for.
 !! Nodes are numbered up each column first. A welded block uses the coincident nodes of an earlier block.
 module block_mesh
-   use bulk_data, only: block_card, element_card, grid_card
+   use bulk_data, only: block_card, edge_cbar, element_card, grid_card
    use deck_check, only: checked_deck
    use element_kinds, only: kind_hexa20, kind_hexa8, kind_quad4, kind_quad8
    use kinds, only: wp
@@ -18,7 +18,7 @@ module block_mesh
       real(wp), allocatable :: x(:, :)                !! (3, nodes) [length]
       type(element_card), allocatable :: element(:)   !! corners alone: mid-edge nodes are added later, like those that cards leave blank
       integer :: n_sides = 0
-      type(element_card), allocatable :: side(:)      !! (n_sides) the property is a PMARK, the kind is k for side Sk of the card
+      type(element_card), allocatable :: side(:)      !! (n_sides) the property is a PMARK, the id is -k for side Sk of the card
    end type block_type
 
    !> The mesh cards of a deck, followed by those of its blocks.
@@ -271,7 +271,8 @@ contains
       associate (side => block%side(block%n_sides))
          side%line = card%line
          side%property = card%marks(number)
-         side%kind = number
+         side%id = -number
+         side%kind = merge(edge_cbar, kind_quad4, card%dimension == 2)
          side%nodes(:size(places)) = places
       end associate
    end subroutine add_side

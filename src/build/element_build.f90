@@ -219,7 +219,7 @@ contains
       do i = 1, size(of_blocks)
          associate (corners => count(of_blocks(i)%nodes > 0))
             call add_card(of_blocks(i), corners, corners)
-            sides(n)%of_block = of_blocks(i)%kind
+            sides(n)%of_block = -of_blocks(i)%id
          end associate
       end do
       sides = sides(:n)

@@ -42,9 +42,8 @@ contains
          if (deck%bulk%block(b)%dimension < model%dimension) call deck%errors%add(deck%bulk%block(b)%line, &
             'BLOCK2: plane bodies cannot stand in a model of space')
       end do
+      if (any(deck%rigid%surface > 0) .or. size(deck%bulk%place) > 0) call place_nodes(deck, cards%side, model)
       call resolve_properties(deck, model)
-      call collect_sides(deck, cards%side, model, sides)
-      if (any(deck%rigid%surface > 0) .or. size(deck%bulk%place) > 0) call place_nodes(deck, sides, model)
       call collect_elements(deck, cards%element, model)
       call fill_mid_sides(deck, model)
       call check_element_numbers(deck, cards%element)
@@ -52,6 +51,7 @@ contains
       call check_one_state(deck, model)
       call check_nodes(deck, model)
       call check_elements(deck, cards%grid, model)
+      call collect_sides(deck, cards%side, model, sides)
    end subroutine build_mesh
 
    !> Whether a deck without solids is plane, whatever X3 of its nodes: it has a PAXIS or a BLOCK2, or it has PSHELL and none of them has a
@@ -126,51 +126,42 @@ contains
 
       do i = 1, size(deck%bulk%force)
          associate (card => deck%bulk%force(i))
-            if (is_missing(card%node)) call deck%field_error(card%line, 'G', there_is_no(card%node))
+            call require(card%line, 2, card%node)
             do k = 1, 4
-               if (is_missing(card%ends(k))) call deck%field_error(card%line, k + 3, there_is_no(card%ends(k)))
+               call require(card%line, k + 3, card%ends(k))
             end do
          end associate
       end do
       do i = 1, size(deck%bulk%support)
          associate (card => deck%bulk%support(i))
             if (card%surface > 0) cycle
-            do k = 1, size(card%first)
-               if (card%first(k) /= card%last(k)) cycle ! G1 THRU G2 means the nodes that exist
-               if (is_missing(card%first(k))) &
-                  call deck%field_error(card%line, card%at(k), there_is_no(card%first(k)), called='G')
+            do k = 1, size(card%first) ! G1 THRU G2 means the nodes that exist
+               if (card%first(k) == card%last(k)) call require(card%line, card%at(k), card%first(k), called='G')
             end do
          end associate
       end do
       do i = 1, size(deck%bulk%displacement)
          associate (card => deck%bulk%displacement(i))
-            if (is_missing(card%node)) call deck%field_error(card%line, card%field, there_is_no(card%node), called='G')
+            call require(card%line, card%field, card%node, called='G')
          end associate
       end do
       do i = 1, size(deck%bulk%mass)
          associate (card => deck%bulk%mass(i))
-            if (is_missing(card%node)) call deck%field_error(card%line, trim(merge('G1', 'G ', card%component > 0)), &
-                                                             there_is_no(card%node))
+            call require(card%line, merge(3, 2, card%component > 0), card%node)
          end associate
       end do
 
    contains
 
-      !> Whether node ID is named and missing.
-      pure logical function is_missing(id)
-         integer, intent(in) :: id
+      !> Error: data field K of the card on LINE names a missing node ID.
+      subroutine require(line, k, id, called)
+         integer, intent(in)                :: line, k, id
+         character(*), intent(in), optional :: called
 
-         is_missing = id > 0
-         if (is_missing) is_missing = model%node_table%find(id) == 0
-      end function is_missing
+         if (id <= 0) return
+         if (model%node_table%find(id) == 0) call deck%field_error(line, k, 'there is no GRID '//integer_text(id), called)
+      end subroutine require
 
    end subroutine check_named_nodes
-
-   pure function there_is_no(id) result(words)
-      integer, intent(in)       :: id
-      character(:), allocatable :: words
-
-      words = 'there is no GRID '//integer_text(id)
-   end function there_is_no
 
 end module mesh_build

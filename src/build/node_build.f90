@@ -55,17 +55,13 @@ contains
    subroutine append_nodes(model, x)
       type(model_type), intent(inout) :: model
       real(wp), intent(in)            :: x(:, :) !! (3, new nodes) [length]
-      real(wp), allocatable :: all_x(:, :)
-      integer :: highest, k, n
+      integer :: highest, k
 
-      n = model%n_nodes
-      allocate (all_x(3, n + size(x, 2)))
-      all_x(:, :n) = model%x
-      all_x(:, n + 1:) = x
-      call move_alloc(all_x, model%x)
       highest = highest_number(model)
       model%node_id = [model%node_id, (highest + min(k, huge(1) - highest), k = 1, size(x, 2))]
-      model%n_nodes = n + size(x, 2)
+      model%n_nodes = size(model%node_id)
+      model%x = reshape([model%x, x], [3, model%n_nodes])
+      if (allocated(model%duplicate)) model%duplicate = [model%duplicate, spread(0, 1, size(x, 2))]
       call model%node_table%build(model%node_id)
       if (.not. allocated(model%placed)) return
       associate (named => model%placed%id > 0 .and. model%placed%node > 0)

@@ -1,8 +1,9 @@
 !> Nodes defined by position or surface: reference nodes of RBE2M and RBE3M, and NODEAT.
 !! A new reference node lies at the centroid of its marked surface. NODEAT is another number for the node nearest to a position.
 module placed_nodes
+   use bulk_data, only: element_card
    use deck_check, only: checked_deck
-   use element_build, only: marked_side
+   use element_kinds, only: element_table
    use kinds, only: wp
    use model_data, only: model_type, placed_node
    use node_build, only: append_nodes, highest_number
@@ -19,7 +20,7 @@ contains
    !! number of the deck on. Find the nodes of NODEAT cards.
    subroutine place_nodes(deck, sides, model)
       type(checked_deck), intent(inout) :: deck
-      type(marked_side), intent(in)     :: sides(:)
+      type(element_card), intent(in)    :: sides(:) !! of blocks
       type(model_type), intent(inout)   :: model
       real(wp), allocatable :: x(:, :)
       integer :: highest, i, n, n_given
@@ -40,7 +41,7 @@ contains
                   if (card%surface == 0 .or. card%node > 0) cycle
                   n = n + 1
                   card%node = highest + n
-                  x(:, n) = centroid(model%x, pack(sides, sides%mark == card%surface))
+                  x(:, n) = centroid(model, side_cards(deck, sides, card%surface))
                end associate
             end do
             call append_nodes(model, x)
@@ -49,18 +50,44 @@ contains
       call find_places(deck, sides, n_given, model)
    end subroutine place_nodes
 
-   !> The centroid of SIDES, weighted by length of edges or area of faces; the mean of the nodes where the total is zero.
-   pure function centroid(x, sides)
-      real(wp), intent(in)          :: x(:, :) !! (3, nodes) [length]
-      type(marked_side), intent(in) :: sides(:)
+   !> The cards that mark the sides of SURFACE, those of blocks included.
+   pure function side_cards(deck, of_blocks, surface) result(cards)
+      type(checked_deck), intent(in) :: deck
+      type(element_card), intent(in) :: of_blocks(:)
+      integer, intent(in)            :: surface
+      type(element_card), allocatable :: cards(:)
+
+      associate (edge => deck%bulk%edge%element_card, element => deck%bulk%element)
+         cards = [pack(edge, edge%property == surface), pack(element, element%property == surface), &
+                  pack(of_blocks, of_blocks%property == surface)]
+      end associate
+   end function side_cards
+
+   !> The first N nodes on CARD, without missing ones.
+   pure function nodes_on(model, card, n) result(nodes)
+      type(model_type), intent(in)   :: model
+      type(element_card), intent(in) :: card
+      integer, intent(in)            :: n
+      integer, allocatable :: nodes(:)
+      integer :: k
+
+      nodes = [(model%node_table%find(card%nodes(k)), k = 1, n)]
+      nodes = pack(nodes, nodes > 0)
+   end function nodes_on
+
+   !> The centroid of the sides on CARDS, weighted by length of edges or area of faces; the mean of the nodes where the total is zero.
+   pure function centroid(model, cards)
+      type(model_type), intent(in)   :: model
+      type(element_card), intent(in) :: cards(:)
       real(wp) :: centroid(3), extent, total
       integer  :: k, n, s
 
       centroid = 0.0_wp
       total = 0.0_wp
-      do s = 1, size(sides)
-         n = count(sides(s)%nodes(:sides(s)%corners) > 0)
-         associate (p => x(:, pack(sides(s)%nodes(:sides(s)%corners), sides(s)%nodes(:sides(s)%corners) > 0)))
+      do s = 1, size(cards)
+         n = merge(2, element_table(max(1, cards(s)%kind))%n_corners, cards(s)%kind <= 0) ! corners
+         associate (p => model%x(:, nodes_on(model, cards(s), n)))
+            n = size(p, 2)
             if (n == 2) then
                extent = norm2(p(:, 2) - p(:, 1))
                centroid = centroid + extent*0.5_wp*(p(:, 1) + p(:, 2))
@@ -80,9 +107,10 @@ contains
    !! new reference node of an RBE2M or RBE3M is taken, else the node with the lowest number.
    subroutine find_places(deck, sides, n_given, model)
       type(checked_deck), intent(in)  :: deck
-      type(marked_side), intent(in)   :: sides(:)
+      type(element_card), intent(in)  :: sides(:) !! of blocks
       integer, intent(in)             :: n_given !! number of nodes before the new reference nodes
       type(model_type), intent(inout) :: model
+      type(element_card), allocatable :: marking(:)
       real(wp), allocatable :: distance(:)
       logical, allocatable  :: is_meant(:)
       real(wp) :: rounding
@@ -106,8 +134,9 @@ contains
                cycle
             end if
             is_meant = spread(card%surface == 0, 1, model%n_nodes)
-            do k = 1, merge(size(sides), 0, card%surface > 0)
-               if (sides(k)%mark == card%surface) is_meant(pack(sides(k)%nodes, sides(k)%nodes > 0)) = .true.
+            marking = side_cards(deck, sides, card%surface)
+            do k = 1, merge(size(marking), 0, card%surface > 0)
+               is_meant(nodes_on(model, marking(k), merge(3, 8, marking(k)%kind <= 0))) = .true.
             end do
             do k = 1, size(model%placed)
                if (model%placed(k)%surface == card%surface .and. model%placed(k)%node > 0) is_meant(model%placed(k)%node) = .true.
