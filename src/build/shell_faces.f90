@@ -187,7 +187,6 @@ contains
          end associate
          model%first_at = [model%first_at, size(model%elements_at) + 1]
       end do
-      model%duplicate = [model%duplicate, spread(0, 1, size(faces))]
       call append_nodes(model, x)
       allocate (model%face_of(model%n_nodes), source=0)
       do k = 1, size(faces)
