@@ -150,7 +150,6 @@ contains
       integer :: first, last, star
 
       last = end_of_first_field(line, comma)
-      if (is_name_alone(line(:last))) return
       first = max(1, verify(line(:last), ' '))
       associate (entry => line(first:len_trim(line(:last))))
          star = index(entry, '*')
@@ -161,26 +160,6 @@ contains
          end if
       end associate
    end subroutine check_first_field
-
-   !> Whether FIELD is one word of at most eight characters without *, as in most cards.
-   pure logical function is_name_alone(field)
-      character(*), intent(in) :: field
-      integer :: i, length
-      logical :: has_ended
-
-      is_name_alone = .false.
-      has_ended = .false.
-      length = 0
-      do i = 1, len(field)
-         if (iachar(field(i:i)) == blank) then
-            has_ended = length > 0
-         else
-            if (has_ended .or. iachar(field(i:i)) == asterisk) return
-            length = length + 1
-         end if
-      end do
-      is_name_alone = length <= 8
-   end function is_name_alone
 
    !> The user's name of a continuation (`+AB`) must be that in field 10 of the line before, MARKER.
    subroutine check_marker(line, comma, at, marker, errors)

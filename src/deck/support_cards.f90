@@ -74,9 +74,7 @@ contains
       total%at = [2]
       do k = 3, card%n
          if (card%text_at(k) == '') cycle
-         call card%integer_at(k, 'S', 'the number of '//a_set, set, ok)
-         if (ok .and. set < 1) call card%error_at(k, 'S: '''//integer_text(set)// &
-                                                  ''' is out of range, expected the number of '//a_set//', 1 or more')
+         call card%integer_at(k, 'S', 'the number of '//a_set//', 1 or more', set, ok, least=1)
          total%sets = [total%sets, set]
          total%at = [total%at, k]
       end do

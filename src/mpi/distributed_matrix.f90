@@ -198,7 +198,7 @@ contains
       do i = 1, size(own, 3)
          associate (touched => stiffness%touched(:, i))
             call MatGetValues(stiffness%matrix, d, [(d*touched(1) + c, c = 0, d - 1)], &
-                                      d, [(d*touched(2) + c, c = 0, d - 1)], rows, code)
+                              d, [(d*touched(2) + c, c = 0, d - 1)], rows, code)
             own(:, :, i) = transpose(rows)
          end associate
       end do
