@@ -82,7 +82,7 @@ contains
                call card%real_at(first + 3, 'G', jgap%gap(i), ok, expected='the gap at the point, a real number')
             else
                call card%integer_at(first, 'G', 'the number of a node', jgap%node(i), ok)
-               call card%real_at(first + 1, 'GAP', jgap%gap(i), ok, expected='the gap there, a real number')
+               call card%real_at(first + 1, 'GAP', jgap%gap(i), ok, expected='the gap at the node, a real number')
             end if
          end associate
       end do

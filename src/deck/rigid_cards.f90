@@ -289,7 +289,7 @@ contains
          call card%field('C2', equation%component(2), most=6)
          call card%field('A2', equation%factor(2))
          if (.not. card%is_faulty() .and. abs(equation%factor(1)) <= 0.0_wp) &
-            call card%error('A1', 'zero, but the first term is the dependent one')
+            call card%error('A1', 'zero, expected a coefficient that is not zero: the first term is the dependent one')
          do k = 8, card%n
             if (modulo(k, 8) <= 1 .and. card%text_at(k) /= '') &
                call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank')

@@ -149,9 +149,9 @@ contains
          if (first == 'SKIP' .or. second == 'SKIP') cycle
          call card%real_at(k, 'F', frequency, ok, not_negative, expected='a frequency of 0 or more')
          if (table%kind == 'Q') then
-            call card%real_at(k + 1, 'G', value, ok, positive, expected='a real number above 0, the amplification Q there')
+            call card%real_at(k + 1, 'G', value, ok, positive, expected='a real number above 0, the amplification Q')
          else
-            call card%real_at(k + 1, 'G', value, ok, not_negative, expected='a real number of at least 0, the damping there')
+            call card%real_at(k + 1, 'G', value, ok, not_negative, expected='a real number of at least 0, the damping')
          end if
          table%frequency = [table%frequency, frequency]
          table%value = [table%value, value]
