@@ -73,7 +73,8 @@ $(BIN)/jointfem: src/jointfem.f90 $(RELEASE_OBJECTS)
 .PHONY: mpi
 mpi:
 	@pkg-config --exists petsc || { echo 'make mpi needs PETSc: apt-get install libpetsc-real-dev'; exit 1; }
-	@$(MAKE) --no-print-directory PETSC="$$(pkg-config --libs petsc)" $(BIN)/jointfem_mpi
+	@$(MAKE) --no-print-directory PETSC="$$(pkg-config --libs petsc)" PETSC_MODULES="$$(pkg-config --cflags-only-I petsc)" \
+	   $(BIN)/jointfem_mpi
 
 # It has the objects of the program for one process, but for the submodule that is the one process
 $(BIN)/jointfem_mpi: src/jointfem.f90 $(RELEASE_OBJECTS) $(MPI_OBJECTS)
@@ -116,7 +117,7 @@ $(BUILD)/release/%.o: %.f90 $(RELEASE_STAMP)
 
 $(BUILD)/mpi/%.o: src/mpi/%.f90 $(RELEASE_STAMP)
 	@mkdir -p $(@D)
-	$(MPI_FC) $(FFLAGS_RELEASE) -I$(BUILD)/release -J$(@D) -c -o $@ $<
+	$(MPI_FC) $(FFLAGS_RELEASE) -I$(BUILD)/release $(PETSC_MODULES) -J$(@D) -c -o $@ $<
 
 $(BUILD)/checked/%.o: %.f90 $(CHECKED_STAMP)
 	@mkdir -p $(@D)

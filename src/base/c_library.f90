@@ -7,7 +7,7 @@ module c_library
    private
 
    public :: keep_on_disk, open_standard_outputs
-   public :: read_all_bytes, open_file, read_bytes, create_unique, write_bytes, close_file, rename_file, remove_file, &
+   public :: read_all_bytes, create_unique, write_bytes, close_file, rename_file, remove_file, &
              remove_terminated, true_path, kind_of_file, is_regular_file, is_same_file, is_terminal, tell_failed_writes, &
              at_signals, by_default, end_by_signal, lock_folder, end_run
 
@@ -171,24 +171,6 @@ contains
       ok = c_close(descriptor) == 0 .and. got == 0
       if (used < len(bytes, c_size_t)) bytes = bytes(:used)
    end subroutine read_all_bytes
-
-   !> Open the file PATH for reading. DESCRIPTOR is negative on failure.
-   subroutine open_file(path, descriptor)
-      character(*), intent(in) :: path
-      integer, intent(out)     :: descriptor
-      integer(c_int), parameter :: to_read = 0 ! O_RDONLY
-
-      descriptor = int(c_open(path//c_null_char, to_read))
-   end subroutine open_file
-
-   !> Read the next BYTES of DESCRIPTOR, as many as fit and are there. GOT is their number, 0 at the end, negative on failure.
-   subroutine read_bytes(descriptor, bytes, got)
-      integer, intent(in)            :: descriptor
-      character(*), intent(inout)    :: bytes
-      integer(c_size_t), intent(out) :: got
-
-      got = c_read(int(descriptor, c_int), bytes, len(bytes, c_size_t))
-   end subroutine read_bytes
 
    !> Create a new file NAME, a dot, six letters, ENDING for writing, and give its PATH. No link, pipe or device can wait under
    !! this name, and no other run has the file. DESCRIPTOR is negative on failure.

@@ -24,8 +24,6 @@ module lists
 
    integer, parameter :: sparsest = 8 ! at most so many times the count of numbers is the range of a direct table
 
-   integer, parameter :: few = 48 ! insertion sort is faster than radix sort up to so many keys
-
 contains
 
    !> Build the table of the numbers IDS(n); find(IDS(k)) is then k.
@@ -125,10 +123,6 @@ contains
       end do
       if (n < 2) return
       if (all(keys(2:) >= keys(:n - 1))) return
-      if (n <= few) then
-         call insert_one_by_one(keys, order)
-         return
-      end if
       least = minval(keys)
       above = maxval(keys) - least
       byte = 0
@@ -151,23 +145,6 @@ contains
          byte = byte + 1
       end do
    end subroutine sorted_order
-
-   !> The same permutation for few KEYS by insertion sort.
-   pure subroutine insert_one_by_one(keys, order)
-      integer, intent(in)  :: keys(:)
-      integer, intent(out) :: order(:)
-      integer :: i, j
-
-      do i = 1, size(keys)
-         j = i
-         do while (j > 1)
-            if (keys(order(j - 1)) <= keys(i)) exit
-            order(j) = order(j - 1)
-            j = j - 1
-         end do
-         order(j) = i
-      end do
-   end subroutine insert_one_by_one
 
    !> The distinct numbers among KEYS, in ascending order.
    pure subroutine distinct(keys, values)

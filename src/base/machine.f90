@@ -76,11 +76,6 @@ module machine
 
    integer(long), parameter, public :: no_figure = huge(1_long) !! unreadable, or a word such as `max`
 
-   !> One version of the control groups: the folder of its groups and the names of their files.
-   type :: hierarchy_type
-      character(:), allocatable :: folder, limit, used, reclaimable
-   end type hierarchy_type
-
 contains
 
    !> Keep deallocated memory in the program for the next allocation: new pages cost a sixth of a factorisation. Where glibc
@@ -239,32 +234,26 @@ contains
    function left_by_line(root, line) result(bytes)
       character(*), intent(in) :: root, line
       integer(long) :: bytes
-      type(hierarchy_type) :: hierarchy
-      character(:), allocatable :: path
+      character(:), allocatable :: folder, path
+      character(24) :: names(3) ! the files of limit and memory of a group, and the reclaimable part of the memory
       integer :: first, second
 
       bytes = no_figure
       first = index(line, ':')
       second = first + index(line(first + 1:), ':')
       if (first == 0 .or. second == first) return
-      associate (controllers => line(first + 1:second - 1))
-         if (controllers == '') then
-            hierarchy%folder = root//'/sys/fs/cgroup'
-            hierarchy%limit = '/memory.max'
-            hierarchy%used = '/memory.current'
-            hierarchy%reclaimable = 'inactive_file '
-         else if (index(','//controllers//',', ',memory,') > 0) then
-            hierarchy%folder = root//'/sys/fs/cgroup/memory'
-            hierarchy%limit = '/memory.limit_in_bytes'
-            hierarchy%used = '/memory.usage_in_bytes'
-            hierarchy%reclaimable = 'total_inactive_file '
-         else
-            return
-         end if
-      end associate
+      if (second == first + 1) then
+         folder = root//'/sys/fs/cgroup'
+         names = [character(24) :: '/memory.max', '/memory.current', 'inactive_file']
+      else if (index(','//line(first + 1:second - 1)//',', ',memory,') > 0) then
+         folder = root//'/sys/fs/cgroup/memory'
+         names = [character(24) :: '/memory.limit_in_bytes', '/memory.usage_in_bytes', 'total_inactive_file']
+      else
+         return
+      end if
       path = line(second + 1:)
       do ! in a container these groups may be absent, or the path is that of the host: they give no limit
-         bytes = min(bytes, left_in_group(hierarchy, path))
+         bytes = min(bytes, left_in_group(folder//path, names))
          if (path == '') exit
          path = path(:index(path, '/', back=.true.) - 1)
       end do
@@ -272,18 +261,17 @@ contains
 
    !> The rest of one group: its limit less the memory of its members. Unused file pages do not count, the kernel reclaims them on
    !! demand.
-   function left_in_group(hierarchy, path) result(bytes)
-      type(hierarchy_type), intent(in) :: hierarchy
-      character(*), intent(in)         :: path
+   function left_in_group(group, names) result(bytes)
+      character(*), intent(in) :: group, names(3)
       integer(long) :: bytes, used, reclaimable
 
-      bytes = kernel_figure(hierarchy%folder//path//hierarchy%limit, '', 1)
-      used = kernel_figure(hierarchy%folder//path//hierarchy%used, '', 1)
+      bytes = kernel_figure(group//trim(names(1)), '', 1)
+      used = kernel_figure(group//trim(names(2)), '', 1)
       if (bytes == no_figure .or. used == no_figure) then
          bytes = no_figure
          return
       end if
-      reclaimable = kernel_figure(hierarchy%folder//path//'/memory.stat', hierarchy%reclaimable, 1)
+      reclaimable = kernel_figure(group//'/memory.stat', trim(names(3))//' ', 1)
       if (reclaimable == no_figure) reclaimable = 0
       bytes = max(0_long, bytes - max(0_long, used - reclaimable))
    end function left_in_group

@@ -22,7 +22,7 @@
 !! is 995DC9BBDF1939FA.
 module restart_stream
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
-   use c_library, only: close_file, open_file, read_bytes, write_bytes
+   use c_library, only: read_all_bytes, write_bytes
    use, intrinsic :: iso_fortran_env, only: int32, int64
    use kinds, only: long
    use text_tools, only: integer_text
@@ -222,12 +222,19 @@ contains
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: path
       integer, intent(in)                       :: descriptor
+      character(:), allocatable :: bytes
       integer(long) :: n
       logical :: ok
 
       if (allocated(self%fault)) return
       if (self%writes) then
-         call copy_file(self, path)
+         call read_all_bytes(path, bytes, ok)
+         if (.not. ok) then
+            call fail(self, path//' cannot be read')
+            return
+         end if
+         call put(self, transfer(len(bytes, long), eight_letters))
+         call put(self, bytes)
          return
       end if
       n = next_size(self)
@@ -236,32 +243,6 @@ contains
       self%used = self%used + max(0_long, n)
       if (.not. ok) call fail(self, path//' cannot be written')
    end subroutine file
-
-   subroutine copy_file(self, path)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: path
-      integer, parameter :: room = 262144
-      character(:), allocatable :: piece
-      integer(long) :: n, left, got
-      integer :: descriptor
-      logical :: closed
-
-      inquire (file=path, size=n)
-      call open_file(path, descriptor)
-      left = n
-      if (descriptor >= 0) then
-         call put(self, transfer(n, eight_letters))
-         allocate (character(room) :: piece)
-         do while (left > 0)
-            call read_bytes(descriptor, piece, got)
-            if (got <= 0 .or. got > left) exit
-            call put(self, piece(:got))
-            left = left - got
-         end do
-         call close_file(descriptor, closed)
-      end if
-      if (descriptor < 0 .or. left /= 0) call fail(self, path//' cannot be read')
-   end subroutine copy_file
 
    !> Write or read a text of any length, or an unallocated one.
    subroutine any_text(self, value)

@@ -33,7 +33,7 @@ module card_fields
       procedure, private :: integer_field, integer_fields, real_field, real_fields
       generic   :: field => integer_field, integer_fields, real_field, real_fields
       procedure :: components, word, blank, skip, finish
-      procedure :: text_at, given, is_faulty, error, error_at, wrong_entry, integer_at, node_at, real_at, components_at
+      procedure :: text_at, given, is_faulty, error, error_at, wrong_entry, integer_at, real_at, components_at
       procedure :: check_direction, list_ranges
    end type card_fields_type
 
@@ -85,24 +85,19 @@ contains
       call go_on(self, name, is_given)
       lowest = 1
       if (present(least)) lowest = least
+      ok = .false.
+      value = 0
       if (is_given) then
          associate (field => self%card%fields(self%k))
             call parse_integer(field%text(:field%length), value, ok)
          end associate
-         if (.not. ok) then
-            call self%integer_at(self%k, name, integer_words(lowest, most, present(default)), value, ok)
-            return
-         end if
-         if (present(most)) ok = value <= most
-         if (ok .and. value >= lowest) return
-         call self%wrong_entry(self%k, name, 'is out of range, expected '//integer_words(lowest, most, present(default)))
-         value = 0
+         if (present(most)) ok = ok .and. value <= most
+         ok = ok .and. value >= lowest
       else if (present(default)) then
          value = default
-      else
-         call self%error_at(self%k, trim(name)//': blank, expected '//integer_words(lowest, most, .false.))
-         value = 0
+         return
       end if
+      if (.not. ok) call self%integer_at(self%k, name, integer_words(lowest, most, present(default)), value, ok, lowest, most)
    end subroutine integer_field
 
    !> Take the next fields by the same rule.
@@ -126,39 +121,20 @@ contains
       type(real_range), intent(in), optional :: range   !! default: any
       real(wp), intent(in), optional         :: default
       logical, intent(in), optional          :: whole
-      type(real_range) :: within
       integer :: number
       logical :: is_given, ok
 
       call go_on(self, name, is_given)
-      within = any_real
-      if (present(range)) within = range
       ok = .false.
-      if (is_given) then
+      if (is_given .and. present(whole)) then
          associate (field => self%card%fields(self%k))
-            if (present(whole)) then
-               call parse_integer(field%text(:field%length), number, ok)
-               value = real(number, wp)
-               if (ok) return
-            end if
-            call parse_real(field%text(:field%length), value, ok)
+            call parse_integer(field%text(:field%length), number, ok)
          end associate
-         if (.not. ok) then
-            call self%real_at(self%k, name, real_words(within, present(default)), value, ok)
-            return
-         end if
-         ok = in_range(within, value)
-         if (ok) then
-            call check_size(self, self%k, name, within%above .and. within%least >= 0.0_wp, value, ok)
-         else
-            call self%wrong_entry(self%k, name, 'is out of range, expected '//real_words(within, present(default)))
-         end if
-      else if (.not. present(default)) then
-         call self%error_at(self%k, trim(name)//': blank, expected '//real_words(within, .false.))
+         value = real(number, wp)
       end if
-      if (ok) return
-      value = 0.0_wp
-      if (present(default)) value = default
+      if (.not. ok .and. (is_given .or. .not. present(default))) &
+         call self%real_at(self%k, name, value, ok, range, or_blank=present(default))
+      if (.not. ok .and. present(default)) value = default
    end subroutine real_field
 
    !> Take the next fields by the same rule.
@@ -306,104 +282,103 @@ contains
       call self%error_at(k, trim(name)//': '''//trim(self%card%fields(k)%text)//''' '//words)
    end subroutine wrong_entry
 
-   !> The integer in data field K, NAME. If there is none, OK is false and an error says what was EXPECTED.
-   subroutine integer_at(self, k, name, expected, value, ok)
+   !> The integer in data field K, NAME, from LEAST to MOST. If there is none, VALUE is 0, OK is false, and an error says what was
+   !! EXPECTED.
+   subroutine integer_at(self, k, name, expected, value, ok, least, most)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: k
       character(*), intent(in)               :: name, expected
       integer, intent(out)                   :: value
       logical, intent(out)                   :: ok
+      integer, intent(in), optional          :: least, most !! default: any
+      character(:), allocatable :: text
+      logical :: is_integer
 
-      associate (text => self%card%fields(k)%text)
-         call parse_integer(text, value, ok)
-         if (ok) return
-         value = 0
-         if (is_number_shape(text, '0123456789+-') .and. scan(trim(text(2:)), '+-') == 0) then
-            call self%wrong_entry(k, name, 'is too large for an integer, expected '//expected)
-         else
-            call self%wrong_entry(k, name, 'is not an integer, expected '//expected)
-         end if
-      end associate
+      text = self%text_at(k)
+      call parse_integer(text, value, is_integer)
+      ok = is_integer
+      if (present(least)) ok = ok .and. value >= least
+      if (present(most)) ok = ok .and. value <= most
+      if (ok) return
+      value = 0
+      if (text == '') then
+         call self%error_at(k, trim(name)//': blank, expected '//expected)
+      else if (is_integer) then
+         call self%wrong_entry(k, name, 'is out of range, expected '//expected)
+      else if (is_number_shape(text, '0123456789+-') .and. scan(text(2:), '+-') == 0) then
+         call self%wrong_entry(k, name, 'is too large for an integer, expected '//expected)
+      else
+         call self%wrong_entry(k, name, 'is not an integer, expected '//expected)
+      end if
    end subroutine integer_at
 
-   !> The node number in data field K, NAME. A number below 1 is an error, but OK stays true.
-   subroutine node_at(self, k, name, expected, node, ok)
+   !> The real in data field K, NAME, in RANGE. It must not be so large that a stiffness, area or volume overflows, nor, where it must be
+   !! positive, so small that it vanishes beside others. If there is none, VALUE is 0, OK is false, and an error says what was EXPECTED.
+   subroutine real_at(self, k, name, value, ok, range, or_blank, expected)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: k
-      character(*), intent(in)               :: name, expected
-      integer, intent(out)                   :: node
-      logical, intent(out)                   :: ok
-
-      call self%integer_at(k, name, expected, node, ok)
-      if (ok .and. node < 1) call self%error_at(k, name//': '''//integer_text(node)//''' is no node number')
-   end subroutine node_at
-
-   !> The real in data field K. If there is none in the range, OK is false with an error.
-   subroutine real_at(self, k, name, expected, value, ok, required)
-      class(card_fields_type), intent(inout) :: self
-      integer, intent(in)                    :: k
-      character(*), intent(in)               :: name, expected
+      character(*), intent(in)               :: name
       real(wp), intent(out)                  :: value
       logical, intent(out)                   :: ok
-      logical, intent(in), optional          :: required !! true: a blank field is an error
+      type(real_range), intent(in), optional :: range    !! default: any
+      logical, intent(in), optional          :: or_blank !! ends the words for what is expected; default: false
+      character(*), intent(in), optional     :: expected !! default: RANGE in words
+      type(real_range) :: within
+      character(:), allocatable :: words
       integer :: whole
       logical :: is_integer
 
+      within = any_real
+      if (present(range)) within = range
       value = 0.0_wp
       ok = .false.
-      if (present(required) .and. self%text_at(k) == '') then
-         call self%error_at(k, name//': blank, expected '//expected)
+      if (k <= self%n) call parse_real(self%card%fields(k)%text, value, ok)
+      if (ok) ok = in_range(within, value) .and. abs(value) <= largest_size
+      if (ok .and. within%above .and. within%least >= 0.0_wp) ok = value >= smallest_size
+      if (ok) return
+      words = real_words(within, .false.)
+      if (present(expected)) words = expected
+      if (present(or_blank)) words = words//trim(merge(', or blank', repeat(' ', 10), or_blank))
+      if (self%text_at(k) == '') then
+         call self%error_at(k, trim(name)//': blank, expected '//words)
          return
       end if
       associate (text => self%card%fields(k)%text)
          call parse_real(text, value, ok)
-         if (ok) then
-            call check_size(self, k, name, .false., value, ok)
-            if (.not. ok) value = 0.0_wp
-            return
-         end if
-         value = 0.0_wp
          call parse_integer(text, whole, is_integer)
-         if (is_number_shape(text, '0123456789.+-ED') .and. scan(text, '.ED') > 0) then
-            call self%wrong_entry(k, name, 'is too large or too small for a real number, or not one, expected '//expected)
+         if (ok .and. .not. in_range(within, value)) then
+            words = 'is out of range, expected '//words
+         else if (ok .and. abs(value) > largest_size) then
+            words = 'is too large to compute with, expected no more than '//real_text(largest_size)
+         else if (ok) then
+            words = 'is too small to compute with, expected at least '//real_text(smallest_size)
+         else if (is_number_shape(text, '0123456789.+-ED') .and. scan(text, '.ED') > 0) then
+            words = 'is too large or too small for a real number, or not one, expected '//words
          else if (is_integer) then
-            call self%wrong_entry(k, name, 'is an integer, expected '//expected//': write it with a decimal point')
+            words = 'is an integer, expected '//words//': write it with a decimal point'
          else
-            call self%wrong_entry(k, name, 'is not a real number, expected '//expected)
+            words = 'is not a real number, expected '//words
          end if
       end associate
+      call self%wrong_entry(k, name, words)
+      value = 0.0_wp
+      ok = .false.
    end subroutine real_at
 
-   !> The components in data field K, NAME; OR_BLANK ends the words for what is expected. With MOST it is a single component from 1 to
-   !! MOST. Zero, with an error, where they are wrong.
-   subroutine components_at(self, k, name, or_blank, value, most)
+   !> The components in data field K, NAME; OR_BLANK ends the words for what is expected. Zero, with an error, where they are wrong.
+   subroutine components_at(self, k, name, or_blank, value)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: k
       character(*), intent(in)               :: name
       logical, intent(in)                    :: or_blank
       integer, intent(out)                   :: value
-      integer, intent(in), optional          :: most
       character(:), allocatable :: expected
       logical :: ok
 
-      value = 0
-      ok = .false.
-      if (k <= self%n) call parse_integer(self%card%fields(k)%text, value, ok)
-      if (present(most)) then
-         ok = ok .and. value >= 1 .and. value <= most
-      else if (ok) then
-         ok = is_component_list(value)
-      end if
-      if (ok) return
-      expected = component_words
-      if (present(most)) expected = integer_words(1, most, .false.)
-      if (or_blank) expected = expected//', or blank'
-      if (self%text_at(k) == '') then
-         call self%error_at(k, trim(name)//': blank, expected '//expected)
-      else
-         call self%integer_at(k, name, expected, value, ok)
-         if (ok) call self%wrong_entry(k, name, 'is out of range, expected '//expected)
-      end if
+      expected = component_words//trim(merge(', or blank', repeat(' ', 10), or_blank))
+      call self%integer_at(k, name, expected, value, ok)
+      if (.not. ok .or. is_component_list(value)) return
+      call self%wrong_entry(k, name, 'is out of range, expected '//expected)
       value = 0
    end subroutine components_at
 
@@ -448,25 +423,6 @@ contains
       ranges%last = ranges%last(:n)
       ranges%at = ranges%at(:n)
    end subroutine list_ranges
-
-   !> Check that VALUE in data field K is not so large that a stiffness, area or volume overflows, and, with IS_POSITIVE, not so small
-   !! that it vanishes beside others. Otherwise OK is false with an error.
-   subroutine check_size(self, k, name, is_positive, value, ok)
-      type(card_fields_type), intent(inout) :: self
-      integer, intent(in)                   :: k
-      character(*), intent(in)              :: name
-      logical, intent(in)                   :: is_positive
-      real(wp), intent(in)                  :: value
-      logical, intent(out)                  :: ok
-
-      ok = .not. (abs(value) > largest_size .or. (is_positive .and. value < smallest_size))
-      if (ok) return
-      if (abs(value) > largest_size) then
-         call self%wrong_entry(k, name, 'is too large to compute with, expected no more than '//real_text(largest_size))
-      else
-         call self%wrong_entry(k, name, 'is too small to compute with, expected at least '//real_text(smallest_size))
-      end if
-   end subroutine check_size
 
    !> Whether TEXT consists of LETTERS only and begins and ends like a number.
    pure logical function is_number_shape(text, letters)

@@ -11,7 +11,6 @@ module deck_cards
    public :: read_card, add_field_error, card_name, is_continuation, check_first_field
 
    integer, parameter :: field_width = 32 !! longest entry of a field (free field only)
-   integer, parameter :: blank = iachar(' '), asterisk = iachar('*') ! codes are compared inline, characters by a library call
 
    !> One entry of a card and its position.
    type, public :: card_field
@@ -95,23 +94,15 @@ contains
       character(*), intent(in)      :: line
       integer, intent(in), optional :: comma !! column of the first comma, 0: none; default: searched
       character(8) :: name
-      integer :: i, first, last, n, code
+      integer :: first, last, star
 
       name = ''
       if (is_continuation(line, comma)) return
       last = end_of_first_field(line, comma)
-      first = 1
-      do while (first <= last)
-         if (iachar(line(first:first)) /= blank) exit
-         first = first + 1
-      end do
-      n = min(8, last - first + 1)
-      do i = 1, n
-         code = iachar(line(first + i - 1:first + i - 1))
-         if (code == asterisk .and. i > 1 .and. name(1:1) /= '*') exit
-         if (code >= iachar('a') .and. code <= iachar('z')) code = code - 32
-         name(i:i) = achar(code)
-      end do
+      first = max(1, verify(line(:last), ' '))
+      name = upper(line(first:last))
+      star = index(name(2:), '*')
+      if (star > 0 .and. name(1:1) /= '*') name(star + 1:) = ''
    end function card_name
 
    !> Whether LINE continues the card before it: +, * or blank in field 1.
@@ -150,7 +141,6 @@ contains
       integer :: first, last, star
 
       last = end_of_first_field(line, comma)
-      if (is_name_alone(line(:last))) return
       first = max(1, verify(line(:last), ' '))
       associate (entry => line(first:len_trim(line(:last))))
          star = index(entry, '*')
@@ -161,26 +151,6 @@ contains
          end if
       end associate
    end subroutine check_first_field
-
-   !> Whether FIELD is one word of at most eight characters without *, as in most cards.
-   pure logical function is_name_alone(field)
-      character(*), intent(in) :: field
-      integer :: i, length
-      logical :: has_ended
-
-      is_name_alone = .false.
-      has_ended = .false.
-      length = 0
-      do i = 1, len(field)
-         if (iachar(field(i:i)) == blank) then
-            has_ended = length > 0
-         else
-            if (has_ended .or. iachar(field(i:i)) == asterisk) return
-            length = length + 1
-         end if
-      end do
-      is_name_alone = length <= 8
-   end function is_name_alone
 
    !> The user's name of a continuation (`+AB`) must be that in field 10 of the line before, MARKER.
    subroutine check_marker(line, comma, at, marker, errors)
@@ -285,7 +255,7 @@ contains
       integer, intent(in)                  :: at, first, last
       type(deck_error_list), intent(inout) :: errors
       type(card_field), allocatable :: wider(:)
-      integer :: from, to, i, code
+      integer :: code, from, i, to
 
       if (card%n == size(card%fields)) then
          allocate (wider(2*card%n))
@@ -293,23 +263,15 @@ contains
          call move_alloc(wider, card%fields)
       end if
       card%n = card%n + 1
-      from = 1
-      do while (from <= len(entry))
-         if (iachar(entry(from:from)) /= blank) exit
-         from = from + 1
-      end do
-      to = len(entry)
-      do while (to >= from)
-         if (iachar(entry(to:to)) /= blank) exit
-         to = to - 1
-      end do
+      from = max(1, verify(entry, ' '))
+      to = len_trim(entry)
       associate (field => card%fields(card%n))
          field%line = at
          field%first = first
          field%last = last
          field%length = min(to - from + 1, field_width)
          field%text = ''
-         do i = 1, field%length
+         do i = 1, field%length ! upper, inline
             code = iachar(entry(from + i - 1:from + i - 1))
             if (code >= iachar('a') .and. code <= iachar('z')) code = code - 32
             field%text(i:i) = achar(code)

@@ -10,12 +10,13 @@ module deck_input
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
    use lists, only: id_table_type
-   use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_pressure, read_surface_load
+   use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
+                         read_temperature
    use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark, fill_grid_defaults, &
                          read_grid_defaults, read_system, system_names
    use nastran_compatibility, only: is_idle_card
    use property_cards, only: read_beam_load, read_beam_property, read_conrod, read_mat1, read_parameter, read_paxis, &
-                             read_plate_temperature, read_prod, read_pshell, read_psolid, read_temperature
+                             read_prod, read_pshell, read_psolid
    use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
    use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, read_support
    use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_jampl, read_tabdmp1

@@ -353,11 +353,7 @@ contains
             if (bad < 0) bad = iachar(bytes(i:i))
          end select
       end do
-      do while (finish >= start)
-         if (iachar(bytes(finish:finish)) /= iachar(' ')) exit ! a comparison of characters would call the library
-         finish = finish - 1
-      end do
-      line%length = int(finish - start + 1)
+      line%length = len_trim(bytes(start:finish))
    end subroutine scan_line
 
    !> Whether LINE (its card part) is an INCLUDE: the word, followed by a blank, a quote or an equals sign.

@@ -49,7 +49,7 @@ contains
 
       value = 0
       ok = .false.
-      length = filled_length(text)
+      length = len_trim(text)
       if (length == 0) return
       first = 1
       if (text(1:1) == '+' .or. text(1:1) == '-') first = 2
@@ -79,7 +79,7 @@ contains
 
       value = 0.0_wp
       ok = .false.
-      length = filled_length(text)
+      length = len_trim(text)
       if (length == 0 .or. length > 32) return
       i = 1
       if (text(1:1) == '+' .or. text(1:1) == '-') i = 2
@@ -136,17 +136,6 @@ contains
       end select
       ok = ok .and. abs(exponent) < 10000
    end subroutine parse_exponent
-
-   !> len_trim(TEXT) without a library call: for a comparison with a blank the compiler would generate one.
-   pure integer function filled_length(text) result(length)
-      character(*), intent(in) :: text
-
-      length = len(text)
-      do while (length > 0)
-         if (iachar(text(length:length)) /= iachar(' ')) exit
-         length = length - 1
-      end do
-   end function filled_length
 
    !> The words for an integer from LEAST to MOST; OR_BLANK: the field may be empty.
    pure function integer_words(least, most, or_blank) result(words)

@@ -68,7 +68,6 @@ contains
    subroutine read_gaps(card, jgap)
       type(card_fields_type), intent(inout) :: card
       type(jgap_card), intent(inout)        :: jgap
-      character(*), parameter :: a_node = 'the number of a node'
       integer :: d, i
       logical :: ok
 
@@ -78,13 +77,12 @@ contains
             if (jgap%kind == 'TABLE') then
                do d = 1, 3
                   if (card%text_at(first + d - 1) /= '') call card%real_at(first + d - 1, achar(iachar('X') + d - 1), &
-                                                                           'a real number, or blank', jgap%x(d, i), ok)
+                                                                           jgap%x(d, i), ok, or_blank=.true.)
                end do
-               call card%real_at(first + 3, 'G', 'the gap at the point, a real number', jgap%gap(i), ok, required=.true.)
+               call card%real_at(first + 3, 'G', jgap%gap(i), ok, expected='the gap at the point, a real number')
             else
-               if (card%text_at(first) == '') call card%error_at(first, 'G: blank, expected '//a_node)
-               if (card%text_at(first) /= '') call card%integer_at(first, 'G', a_node, jgap%node(i), ok)
-               call card%real_at(first + 1, 'GAP', 'the gap there, a real number', jgap%gap(i), ok, required=.true.)
+               call card%integer_at(first, 'G', 'the number of a node', jgap%node(i), ok)
+               call card%real_at(first + 1, 'GAP', jgap%gap(i), ok, expected='the gap at the node, a real number')
             end if
          end associate
       end do
@@ -273,7 +271,7 @@ contains
       allocate (list(0))
       do k = 4, card%n
          if (card%text_at(k) == '') cycle
-         call card%real_at(k, 'SHARE', 'a share of the load change', share, ok)
+         call card%real_at(k, 'SHARE', share, ok, expected='a share of the load change')
          if (ok .and. share <= 0.0_wp) call card%error_at(k, 'SHARE: '//real_text(share)//', expected above 0')
          list = [list, share]
       end do

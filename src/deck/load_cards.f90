@@ -1,9 +1,9 @@
-!> Reads the cards of loads: FORCE, FORCE1, FORCE2, MOMENT, PLOAD4, PLOADE, PLOAD, PLOADM, FORCEM, GRAV, LOAD and BOLT.
+!> Reads the cards of loads (FORCE to FORCEM, GRAV, RFORCE, LOAD), of bolts and of temperatures (TEMP, TEMPD, TEMPP1).
 !! Each array of the bulk data has a routine, each kind of card a table. The increment fractions of a stage's load change
 !! (section 5: arithmetic or geometric progression) are here too.
 module load_cards
-   use bulk_data, only: bulk_data_type, gravity_card, of_edge, of_face, of_marks, of_nodes, pressure_card
-   use card_fields, only: card_fields_type
+   use bulk_data, only: bulk_data_type, gravity_card, of_edge, of_face, of_marks, of_nodes, pressure_card, temperature_card
+   use card_fields, only: card_fields_type, id_ranges
    use field_rules, only: positive
    use kinds, only: wp
    use text_tools, only: integer_text
@@ -11,7 +11,7 @@ module load_cards
    private
 
    public :: arithmetic_fractions, geometric_fractions, read_force, read_pressure, read_surface_load, read_gravity, read_load, &
-             read_bolt
+             read_bolt, read_temperature, read_plate_temperature
 
 contains
 
@@ -175,8 +175,8 @@ contains
       pressure%last = pressure%first
       if (card%text_at(7) /= 'THRU') then
          do k = 7, 8
-            if (card%text_at(k) /= '') call card%node_at(k, trim(merge('G1 ', 'G34', k == 7)), 'a node number or THRU', &
-                                                         pressure%corners(k - 6), ok)
+            if (card%text_at(k) /= '') call card%integer_at(k, trim(merge('G1 ', 'G34', k == 7)), 'a node number or THRU', &
+                                                            pressure%corners(k - 6), ok, least=1)
          end do
       else if (card%n < 8) then
          call card%error_at(8, 'EID2: blank, expected the number of an element after THRU')
@@ -289,11 +289,9 @@ contains
                call card%error_at(k, 'S: a factor S and its load set L go together, one of them is blank')
                cycle
             end if
-            call card%real_at(k, 'S', 'a real number', factor, factor_ok)
-            call card%integer_at(k + 1, 'L', 'a load set number', set, set_ok)
+            call card%real_at(k, 'S', factor, factor_ok)
+            call card%integer_at(k + 1, 'L', 'a load set number of 1 or more', set, set_ok, least=1)
             if (.not. (factor_ok .and. set_ok)) cycle
-            if (set < 1) call card%error_at(k + 1, 'L: '''//integer_text(set)// &
-                                            ''' is out of range, expected a load set number of 1 or more')
             load%factors = [load%factors, factor]
             load%sets = [load%sets, set]
             load%at = [load%at, k + 1]
@@ -315,10 +313,68 @@ contains
          call card%finish(bolt%line)
       end associate
       if (all(card%given(['EID  ', 'PMARK']))) then
-         call card%error('PMARK', 'a bolt is a CROD, EID, or a solid cut at a surface, PMARK, not both')
+         call card%error('PMARK', 'given beside EID; expected one of them: the CROD of a bolt, or the surface at which a solid bolt is cut')
       else if (.not. any(card%given(['EID  ', 'PMARK']))) then
          call card%error('EID', 'blank, expected a CROD, or in field 6 the PMARK at which a solid is cut')
       end if
    end subroutine read_bolt
+
+   !> TEMP: temperatures T of up to three nodes G. TEMPD: temperature of all nodes without a TEMP in set SID, for up to four sets.
+   subroutine read_temperature(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      character(4) :: name(4)
+      character(2) :: t(4)
+      integer  :: k, line, n, number(4), set
+      real(wp) :: value(4)
+      logical  :: for_all
+
+      for_all = card%name == 'TEMPD'
+      n = merge(4, 3, for_all)
+      name = merge(['SID1', 'SID2', 'SID3', 'SID4'], ['G1  ', 'G2  ', 'G3  ', 'G4  '], for_all)
+      t = ['T1', 'T2', 'T3', 'T4']
+      set = 0
+      if (.not. for_all) call card%field('SID', set)
+      call card%field(name(1), number(1))
+      call card%field(t(1), value(1))
+      do k = 2, n
+         call card%field(name(k), number(k), default=0)
+         call card%field(t(k), value(k), default=0.0_wp)
+      end do
+      call card%finish(line)
+      card%i = card%i - 1
+      do k = 1, n
+         if (.not. (card%given(name(k)) .or. card%given(t(k)))) cycle
+         if (k > 1 .and. .not. (card%given(name(k)) .and. card%given(t(k)))) then
+            call card%error(trim(name(k)), 'this and '//t(k)//' go together, one of them is blank')
+            cycle
+         end if
+         card%i = card%i + 1
+         bulk%temperature(card%i) = temperature_card(line=line, set=merge(number(k), set, for_all), is_default=for_all, &
+            node=merge(0, number(k), for_all), field=merge(2*k - 1, 2*k, for_all), value=value(k))
+      end do
+   end subroutine read_temperature
+
+   !> TEMPP1: the mean temperature TBAR of shells and its gradient TPRIME along their normals. TS1 and TS2, which NASTRAN uses for
+   !! stresses only, have no effect.
+   subroutine read_plate_temperature(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      type(id_ranges) :: others
+      integer :: first
+
+      associate (warm => bulk%plate_temperature(card%i))
+         warm%line = card%line
+         call card%field('SID', warm%set)
+         call card%field('EID1', first)
+         call card%field('TBAR', warm%mean)
+         call card%field('TPRIME', warm%slope, default=0.0_wp)
+         call card%skip(['-  ', 'TS1', 'TS2', '-  '])
+         warm%ranges = id_ranges([first], [first], [2])
+         if (card%n <= 8) return
+         call card%list_ranges(9, 'EID', 'an element number', others)
+         warm%ranges = id_ranges([first, others%first], [first, others%last], [2, others%at])
+      end associate
+   end subroutine read_plate_temperature
 
 end module load_cards

@@ -1,10 +1,10 @@
-!> Reads the cards of properties, materials, beam sections, beam loads and temperatures, and PARAM.
+!> Reads the cards of properties, materials, beam sections and beam loads, and PARAM.
 !! Properties and materials: PSHELL, PAXIS, PSOLID, PROD, CONROD, MAT1. Beams: PBAR, PBARL, PBEAM, PBEAML with sections constant
-!! along the beam, and the line load PLOAD1. Temperatures: TEMP, TEMPD, TEMPP1. The module mesh_cards reads CBAR and CBEAM.
+!! along the beam, and the line load PLOAD1. The module mesh_cards reads CBAR and CBEAM.
 module property_cards
    use beam_sections, only: beam_section, section_dimensions, section_names, section_of
-   use bulk_data, only: beam_load_card, beam_property_card, bulk_data_type, temperature_card
-   use card_fields, only: card_fields_type, id_ranges
+   use bulk_data, only: beam_load_card, beam_property_card, bulk_data_type
+   use card_fields, only: card_fields_type
    use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
    use field_rules, only: not_negative, parse_real, positive, real_range
    use kinds, only: wp
@@ -13,8 +13,8 @@ module property_cards
    implicit none
    private
 
-   public :: read_temperature, read_plate_temperature, read_pshell, read_paxis, read_psolid, read_prod, read_conrod, read_mat1, &
-             read_parameter, read_beam_property, read_beam_load
+   public :: read_pshell, read_paxis, read_psolid, read_prod, read_conrod, read_mat1, read_parameter, read_beam_property, &
+             read_beam_load
 
    character(2), parameter :: point_names(8) = ['C1', 'C2', 'D1', 'D2', 'E1', 'E2', 'F1', 'F2']
    character(4), parameter :: dimension_names(6) = ['DIM1', 'DIM2', 'DIM3', 'DIM4', 'DIM5', 'DIM6']
@@ -23,64 +23,6 @@ module property_cards
                                                         'MXE', 'MYE', 'MZE']
 
 contains
-
-   !> TEMP: temperatures T of up to three nodes G. TEMPD: temperature of all nodes without a TEMP in set SID, for up to four sets.
-   subroutine read_temperature(card, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(bulk_data_type), intent(inout)   :: bulk
-      character(4) :: name(4)
-      character(2) :: t(4)
-      integer  :: k, line, n, number(4), set
-      real(wp) :: value(4)
-      logical  :: for_all
-
-      for_all = card%name == 'TEMPD'
-      n = merge(4, 3, for_all)
-      name = merge(['SID1', 'SID2', 'SID3', 'SID4'], ['G1  ', 'G2  ', 'G3  ', 'G4  '], for_all)
-      t = ['T1', 'T2', 'T3', 'T4']
-      set = 0
-      if (.not. for_all) call card%field('SID', set)
-      call card%field(name(1), number(1))
-      call card%field(t(1), value(1))
-      do k = 2, n
-         call card%field(name(k), number(k), default=0)
-         call card%field(t(k), value(k), default=0.0_wp)
-      end do
-      call card%finish(line)
-      card%i = card%i - 1
-      do k = 1, n
-         if (.not. (card%given(name(k)) .or. card%given(t(k)))) cycle
-         if (k > 1 .and. .not. (card%given(name(k)) .and. card%given(t(k)))) then
-            call card%error(trim(name(k)), 'this and '//t(k)//' go together, one of them is blank')
-            cycle
-         end if
-         card%i = card%i + 1
-         bulk%temperature(card%i) = temperature_card(line=line, set=merge(number(k), set, for_all), is_default=for_all, &
-            node=merge(0, number(k), for_all), field=merge(2*k - 1, 2*k, for_all), value=value(k))
-      end do
-   end subroutine read_temperature
-
-   !> TEMPP1: the mean temperature TBAR of shells and its gradient TPRIME along their normals. TS1 and TS2, which NASTRAN uses for
-   !! stresses only, have no effect.
-   subroutine read_plate_temperature(card, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(bulk_data_type), intent(inout)   :: bulk
-      type(id_ranges) :: others
-      integer :: first
-
-      associate (warm => bulk%plate_temperature(card%i))
-         warm%line = card%line
-         call card%field('SID', warm%set)
-         call card%field('EID1', first)
-         call card%field('TBAR', warm%mean)
-         call card%field('TPRIME', warm%slope, default=0.0_wp)
-         call card%skip(['-  ', 'TS1', 'TS2', '-  '])
-         warm%ranges = id_ranges([first], [first], [2])
-         if (card%n <= 8) return
-         call card%list_ranges(9, 'EID', 'an element number', others)
-         warm%ranges = id_ranges([first, others%first], [first, others%last], [2, others%at])
-      end associate
-   end subroutine read_plate_temperature
 
    !> PSHELL: in the plane a membrane of thickness T; MID2 = -1 is plane strain, otherwise plane stress. MODES = YES on a continuation
    !! adds the incompatible modes of Wilson and Taylor; bending data have no effect there. In space a shell: MID1 membrane, MID2 and
@@ -310,7 +252,7 @@ contains
          end do
          do k = 1, 2
             if (card%text_at(first + k - 1) == '') cycle
-            call card%real_at(first + k - 1, 'K'//integer_text(k), 'a real number, 0 or more', section%shear(k), ok)
+            call card%real_at(first + k - 1, 'K'//integer_text(k), section%shear(k), ok, expected='a real number, 0 or more')
          end do
          do k = first + 2, card%n
             call parse_real(card%text_at(k), value, ok)

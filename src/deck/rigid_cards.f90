@@ -4,7 +4,7 @@
 module rigid_cards
    use bulk_data, only: bulk_data_type, has_component, rigid_card
    use card_fields, only: card_fields_type
-   use field_rules, only: parse_integer, positive
+   use field_rules, only: integer_words, parse_integer, positive
    use kinds, only: wp
    implicit none
    private
@@ -147,9 +147,9 @@ contains
       real(wp) :: reference
       logical  :: ok
 
-      call card%real_at(k, 'ALPHA', 'a real number', rigid%alpha, ok)
+      call card%real_at(k, 'ALPHA', rigid%alpha, ok)
       rigid%alpha_at = k
-      if (k < last) call card%real_at(k + 1, 'TREF', 'a real number', reference, ok)
+      if (k < last) call card%real_at(k + 1, 'TREF', reference, ok)
    end subroutine read_expansion
 
    !> The groups of an RBE3 from data field 5 on. WEIGHT, DIRECTIONS and nodes of the first group are decoded so far; after its nodes a
@@ -177,9 +177,7 @@ contains
             call read_tail(card, last, rigid)
             return
          end if
-         call card%real_at(last, 'WT', 'a weight, a real number above 0', this_weight, ok)
-         if (ok .and. this_weight <= 0.0_wp) &
-            call card%wrong_entry(last, 'WT', 'is out of range, expected a weight, a real number above 0')
+         call card%real_at(last, 'WT', this_weight, ok, positive, expected='a weight, a real number above 0')
          call card%components_at(last + 1, 'C', .false., these)
          first = last + 2
          if (first > card%n) call card%error_at(first, 'G: blank, expected '//a_node)
@@ -262,8 +260,8 @@ contains
       at = 0
       do k = first, last
          if (card%text_at(k) == '') cycle
-         call card%node_at(k, 'G', a_node, node(k), ok)
-         if (ok .and. node(k) > 0) at(k) = k
+         call card%integer_at(k, 'G', a_node, node(k), ok, least=1)
+         if (ok) at(k) = k
       end do
       rigid%nodes = [rigid%nodes, pack(node, at > 0)]
       rigid%at = [rigid%at, pack(at, at > 0)]
@@ -291,7 +289,7 @@ contains
          call card%field('C2', equation%component(2), most=6)
          call card%field('A2', equation%factor(2))
          if (.not. card%is_faulty() .and. abs(equation%factor(1)) <= 0.0_wp) &
-            call card%error('A1', 'zero, but the first term is the dependent one')
+            call card%error('A1', 'zero, expected a coefficient that is not zero: the first term is the dependent one')
          do k = 8, card%n
             if (modulo(k, 8) <= 1 .and. card%text_at(k) /= '') &
                call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank')
@@ -302,8 +300,8 @@ contains
                cycle
             end if
             call card%integer_at(k, 'G', a_node, node, ok)
-            call card%components_at(k + 1, 'C', .false., component, most=6)
-            call card%real_at(k + 2, 'A', 'a real number', factor, ok, required=.true.)
+            call card%integer_at(k + 1, 'C', integer_words(1, 6, .false.), component, ok, least=1, most=6)
+            call card%real_at(k + 2, 'A', factor, ok)
             equation%node = [equation%node, node]
             equation%component = [equation%component, component]
             equation%factor = [equation%factor, factor]

@@ -85,12 +85,12 @@ contains
          case ('TEMPERATURE')
             call read_number(entry, stage%temperature, errors)
             if (entry%describers /= 'LOAD') call errors%add(entry%line, 'TEMPERATURE: expected TEMPERATURE(LOAD) = set, the '// &
-               'temperatures at the end of the stage; those without thermal strain are TREF on MAT1')
+               'temperatures at the end of the stage; without thermal strain the temperature is TREF of MAT1')
          case ('MODES')
             call read_number(entry, asked%modes, errors)
             asked%free = entry%describers == 'FREE'
             if (entry%describers /= '' .and. .not. asked%free) call errors%add(entry%line, 'MODES('//entry%describers// &
-               '): expected MODES = set, or MODES(FREE) = set, the supports let go')
+               '): expected MODES = set, or MODES(FREE) = set, modes without the supports')
          case ('STIFFNESS')
             choice = 1
             call choose(entry, '|UNLOAD|LOAD|', choice, errors)

@@ -74,9 +74,7 @@ contains
       total%at = [2]
       do k = 3, card%n
          if (card%text_at(k) == '') cycle
-         call card%integer_at(k, 'S', 'the number of '//a_set, set, ok)
-         if (ok .and. set < 1) call card%error_at(k, 'S: '''//integer_text(set)// &
-                                                  ''' is out of range, expected the number of '//a_set//', 1 or more')
+         call card%integer_at(k, 'S', 'the number of '//a_set//', 1 or more', set, ok, least=1)
          total%sets = [total%sets, set]
          total%at = [total%at, k]
       end do
@@ -169,7 +167,7 @@ contains
       character(2) :: field
       integer :: k
 
-      if (all(spring%nodes == 0)) call card%error('G1', 'blank, like G2; expected a node at one end at least')
+      if (all(spring%nodes == 0)) call card%error('G1', 'blank, as is G2; expected a node at one end or at both')
       if (all(spring%nodes == 0)) return
       do k = 1, 2
          field = 'C'//integer_text(k)
@@ -180,8 +178,9 @@ contains
                cycle
             else if (c == 0) then
                call card%error(field, 'blank or 0, expected the component at G'//integer_text(k))
-            else if (all(spring%components > 0) .and. (c > 3 .neqv. spring%components(3 - k) > 3)) then
-               if (k == 1) call card%error(field, 'a displacement at one end and a rotation at the other; expected two of a kind')
+            else if (k == 1 .and. all(spring%components > 0) .and. (c > 3 .neqv. spring%components(3 - k) > 3)) then
+               call card%error(field, 'a displacement at one end and a rotation at the other; expected two displacements or two '// &
+                               'rotations')
             end if
          end associate
       end do

@@ -2,7 +2,7 @@
 module vibration_cards
    use bulk_data, only: bulk_data_type, tabdmp1_card
    use card_fields, only: card_fields_type
-   use field_rules, only: not_negative, positive, real_range, smallest_size
+   use field_rules, only: not_negative, positive, real_range
    use kinds, only: wp
    use text_tools, only: integer_text, real_text
    implicit none
@@ -129,6 +129,7 @@ contains
       character(:), allocatable :: first, second
       real(wp) :: frequency, value
       integer  :: k, last
+      logical  :: ok
 
       last = list_from
       do while (last <= card%n .and. card%text_at(last) /= 'ENDT')
@@ -146,29 +147,16 @@ contains
          second = card%text_at(k + 1)
          if (first == '' .and. (second == '' .or. second == 'ENDT')) cycle
          if (first == 'SKIP' .or. second == 'SKIP') cycle
-         call read_entry(card, k, 'F', 'a frequency of 0 or more', 0.0_wp, frequency)
+         call card%real_at(k, 'F', frequency, ok, not_negative, expected='a frequency of 0 or more')
          if (table%kind == 'Q') then
-            call read_entry(card, k + 1, 'G', 'a real number above 0, the amplification Q there', smallest_size, value)
+            call card%real_at(k + 1, 'G', value, ok, positive, expected='a real number above 0, the amplification Q')
          else
-            call read_entry(card, k + 1, 'G', 'a real number of at least 0, the damping there', 0.0_wp, value)
+            call card%real_at(k + 1, 'G', value, ok, not_negative, expected='a real number of at least 0, the damping')
          end if
          table%frequency = [table%frequency, frequency]
          table%value = [table%value, value]
       end do
    end subroutine read_pairs
-
-   !> The real in data field K, NAME, at least LEAST.
-   subroutine read_entry(card, k, name, expected, least, value)
-      type(card_fields_type), intent(inout) :: card
-      integer, intent(in)                   :: k
-      character(*), intent(in)              :: name, expected
-      real(wp), intent(in)                  :: least
-      real(wp), intent(out)                 :: value
-      logical :: ok
-
-      call card%real_at(k, name, expected, value, ok, required=.true.)
-      if (ok .and. value < least) call card%wrong_entry(k, name, 'is out of range, expected '//expected)
-   end subroutine read_entry
 
    !> At least two points, in ascending or descending order; descending points are reversed. At a jump a frequency may appear twice, but
    !! not at the ends.

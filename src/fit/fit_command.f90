@@ -70,7 +70,7 @@ contains
          '   --columns NAMES   the columns, whatever headings the file has; - does not count: -,p [MPa],lambda [um]'//nl// &
          '   --noise X         share of the range of the readings that is noise: smaller turns are none, a first reading'//nl// &
          '                     that is less below zero is an offset (default: found from the record, 0.01 or more)'//nl// &
-         '   --zero            take the first reading of each test off all of it'//nl// &
+         '   --zero            subtract the first reading of each test from all its readings'//nl// &
          '   --unordered       rows without a branch stand in no order: all are loading'//nl// &
          ''//nl// &
          'shear:'//nl// &

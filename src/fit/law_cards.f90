@@ -50,7 +50,7 @@ contains
       real(wp) :: p_lost, d_lost
 
       call find_slope_loss(fit%card(:, :, b), p(1), p(2), way(1), way(2), lost, p_lost, d_lost)
-      if (lost) call fit%warnings%add(0, trim(branch_words(b))//': the slope of tau is first not positive at p = '// &
+      if (lost) call fit%warnings%add(0, trim(branch_words(b))//': the slope of tau becomes zero or negative at p = '// &
                                       real_text(p_lost)//', d = '//real_text(d_lost)//', '//range)
    end function loses_slope
 

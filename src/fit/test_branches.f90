@@ -362,7 +362,7 @@ contains
          if (.not. (always .or. (first < -scatter(k) .and. first >= -band(k))) .or. abs(first) <= 0.0_wp) cycle
          data%value(columns(k), rows) = data%value(columns(k), rows) - first
          call data%notes%add(data%line(start), 'the first reading of '//trim(column_symbols(columns(k)))//', '// &
-                             real_text(first)//', taken off '//plural(size(rows), 'row'))
+                             real_text(first)//', subtracted from '//plural(size(rows), 'row'))
       end do
    end subroutine take_off_offset
 
@@ -374,8 +374,8 @@ contains
       character(:), allocatable :: help, word
       integer :: i
 
-      help = '; --zero takes the first reading off all of a test, --noise takes more than '// &
-             real_text(0.01_wp*anint(1.0e4_wp*share))//' % of the range for noise'
+      help = '; --zero subtracts the first reading of a test from all its readings, --noise allows more noise than '// &
+             real_text(0.01_wp*anint(1.0e4_wp*share))//' % of the range'
       do i = 1, data%n
          associate (p => data%place(:, column_p, i), d => data%place(:, column_d, i))
             word = data%text%line(data%line(i))

@@ -4,8 +4,7 @@ module analysis_state
    use case_control, only: case_control_type, method_step, pressure_eq10
    use condensed_interface, only: condensed_type
    use condition_estimate, only: condition_type
-   use equation_solver, only: equation_system
-   use failures, only: failure_type
+   use equation_solver, only: equation_system, failure_type
    use interface_operator, only: add_global_force, interface_element, joint_movement
    use joint_laws, only: element_state, is_apart, open_or_close, shear_pressure
    use kinds, only: wp

@@ -12,7 +12,7 @@ module back_method
    use analysis_state, only: analysis_type, find_unbalanced, force_noise, no_stiffness, iteration_record, reach, record_iteration, &
                              secant_stiffness, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
-   use failures, only: failure_type
+   use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
    use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin, stand_at_limits
    use kinds, only: wp

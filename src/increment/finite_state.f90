@@ -3,7 +3,7 @@
 module finite_state
    use analysis_state, only: analysis_type, force_noise, precise
    use equations, only: equation_system
-   use failures, only: failure_type
+   use equation_solver, only: failure_type
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type, n_bars
    use newton_method, only: idle, no_balance

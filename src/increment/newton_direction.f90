@@ -2,7 +2,7 @@
 module newton_direction
    use analysis_state, only: analysis_type
    use equations, only: solve_coupled, equation_system, form_structure_stiffness, solve_equations
-   use failures, only: failure_type
+   use equation_solver, only: failure_type
    use joint_laws, only: element_state
    use kinds, only: wp
    use model_data, only: model_type

@@ -5,7 +5,7 @@
 module newton_method
    use analysis_state, only: all_held, analysis_type, force_noise, free_norm, iteration_record, precise, record_iteration
    use equations, only: equation_system, forces_in_bodies
-   use failures, only: failure_type
+   use equation_solver, only: failure_type
    use kinds, only: wp
    use load_path, only: go_back, support_force
    use model_data, only: joint_node_id, model_type

@@ -2,7 +2,7 @@
 module step_method
    use analysis_state, only: analysis_type, book_friction, iteration_record, reach, record_iteration, slip_record, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
-   use failures, only: failure_type
+   use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
    use joint_laws, only: exceeds_limit, flag_margin, friction_excess, friction_limit, is_apart
    use kinds, only: wp

@@ -1,30 +1,32 @@
 !> Holds the stiffness of the structure as a PETSc matrix distributed over all processes, in blocks of the dimension.
-!! All processes call every routine together. An argument of rank 0 matters on rank 0 alone.
+!! All processes call every routine together. An argument of rank 0 matters on rank 0 alone. An error in PETSc ends the run, see
+!! end_at_error; the codes that its routines return need no check.
 module distributed_matrix
-   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_null_ptr, c_ptr
    use body_elements, only: coupled_stiffness
    use kinds, only: wp
    use model_data, only: corners_of
    use partition, only: subdomain_type
-   use petsc_library
-   use ranks, only: gather, give_up, largest_of_all, n_ranks, rank, scatter
+   use petscmat
+   use ranks, only: gather, give_up, rank, scatter
    use unknowns, only: motions_at, n_motions
    implicit none
    private
 
    public :: start_matrix, reserve_touched, add_blocks, finish_matrix, keep_copy, drop_copy, read_touched, read_diagonal, &
-             write_touched, multiply_by_matrix, free_matrix, put_vector, take_vector, check
+             write_touched, multiply_by_matrix, free_matrix, put_vector, take_vector, end_at_error
 
    type, public :: distributed_matrix_type
-      type(c_ptr) :: matrix = c_null_ptr      !! row by row, for the preconditioners
-      type(c_ptr) :: products = c_null_ptr    !! the matrix for products: the upper blocks of MATRIX, or MATRIX itself
+      type(tMat) :: matrix                    !! row by row, for the preconditioners
+      type(tMat) :: products                  !! the matrix for products: the upper blocks of MATRIX, or MATRIX itself
       logical :: has_copy = .false.           !! whether MATRIX and PRODUCTS are two matrices
-      type(c_ptr) :: x = c_null_ptr, b = c_null_ptr, r = c_null_ptr !! vectors of the matrix
+      type(tVec) :: x, b, r                   !! vectors of the matrix
       real(wp) :: unit = 1.0_wp               !! diagonal of held components [force/length]
       integer, allocatable :: counts(:)       !! (ranks) rows of each rank
       integer, allocatable :: touched(:, :)   !! (2, own touched blocks) row and column, from 0
       integer, allocatable :: touched_counts(:) !! (ranks) entries of the touched blocks of each rank
    end type distributed_matrix_type
+
+   integer :: code ! of PETSc
 
 contains
 
@@ -38,9 +40,15 @@ contains
 
       d = subdomain%dimension
       stiffness%counts = d*counts
-      call start_matrix_of_type('aij', subdomain, subdomain%inside, subdomain%outside, stiffness%matrix)
-      call check(mat_set_option(stiffness%matrix, mat_spd, petsc_true))
-      call check(mat_set_option(stiffness%matrix, mat_spd_eternal, petsc_true))
+      associate (matrix => stiffness%matrix, own => d*subdomain%n_own, all => d*subdomain%n_blocks)
+         call MatCreate(PETSC_COMM_WORLD, matrix, code)
+         call MatSetSizes(matrix, own, own, all, all, code)
+         call MatSetType(matrix, 'aij', code)
+         call MatSetBlockSize(matrix, d, code)
+         call MatXAIJSetPreallocation(matrix, d, subdomain%inside, subdomain%outside, PETSC_NULL_INTEGER, PETSC_NULL_INTEGER, code)
+      end associate
+      call MatSetOption(stiffness%matrix, MAT_SPD, PETSC_TRUE, code)
+      call MatSetOption(stiffness%matrix, MAT_SPD_ETERNAL, PETSC_TRUE, code)
       do e = 1, subdomain%model%n_elements
          call coupled_stiffness(subdomain%model, e, k)
          associate (nodes => corners_of(subdomain%model, e))
@@ -50,38 +58,21 @@ contains
       end do
    end subroutine start_matrix
 
-   !> Create a matrix of a PETSc type, with room in every own row of blocks for INSIDE own columns and OUTSIDE columns.
-   subroutine start_matrix_of_type(type_name, subdomain, inside, outside, matrix)
-      character(*), intent(in)     :: type_name
-      type(subdomain_type), intent(in) :: subdomain
-      integer, intent(in)          :: inside(:), outside(:)
-      type(c_ptr), intent(inout)   :: matrix
-
-      associate (d => subdomain%dimension, own => int(subdomain%dimension*subdomain%n_own, c_int), &
-                 all => int(subdomain%dimension*subdomain%n_blocks, c_int))
-         call check(mat_create(petsc_comm_world, matrix))
-         call check(mat_set_sizes(matrix, own, own, all, all))
-         call check(mat_set_type(matrix, type_name//char(0)))
-         call check(mat_set_block_size(matrix, d))
-         call check(mat_set_preallocation(matrix, d, inside, outside, inside, outside))
-      end associate
-   end subroutine start_matrix_of_type
-
    !> Reserve the touched blocks and the diagonal: the assembly would return entries that are empty.
    subroutine reserve_touched(subdomain, stiffness)
       type(subdomain_type), intent(in)              :: subdomain
       type(distributed_matrix_type), intent(in) :: stiffness
-      real(wp) :: nothing(subdomain%dimension, subdomain%dimension)
+      real(wp) :: nothing(subdomain%dimension**2)
       integer  :: i
 
       nothing = 0.0_wp
       do i = 1, size(stiffness%touched, 2)
          associate (touched => stiffness%touched(:, i))
-            call check(mat_set_values_blocked(stiffness%matrix, 1, touched(1:1), 1, touched(2:2), nothing, add_values))
+            call MatSetValuesBlocked(stiffness%matrix, 1, touched(1:1), 1, touched(2:2), nothing, ADD_VALUES, code)
          end associate
       end do
       do i = subdomain%first, subdomain%first + subdomain%n_own - 1
-         call check(mat_set_values_blocked(stiffness%matrix, 1, [i], 1, [i], nothing, add_values))
+         call MatSetValuesBlocked(stiffness%matrix, 1, [i], 1, [i], nothing, ADD_VALUES, code)
       end do
    end subroutine reserve_touched
 
@@ -102,7 +93,8 @@ contains
          values(i, :) = 0.0_wp
          values(:, i) = 0.0_wp
       end do
-      call check(mat_set_values_blocked(stiffness%matrix, size(blocks), blocks, size(blocks), blocks, values, add_values))
+      call MatSetValuesBlocked(stiffness%matrix, size(blocks), blocks, size(blocks), blocks, &
+                               reshape(values, [size(values)]), ADD_VALUES, code)
    end subroutine add_blocks
 
    !> Assemble the matrix. Held components get the identity times STIFFEST, the largest diagonal entry of all processes. Without an
@@ -111,21 +103,14 @@ contains
       type(subdomain_type), intent(in)                 :: subdomain
       type(distributed_matrix_type), intent(inout) :: stiffness
       real(wp), intent(out)                        :: stiffest !! [force/length]
-      real(wp) :: block(subdomain%dimension, subdomain%dimension), own
-      real(c_double), pointer :: diagonal(:)
-      type(c_ptr) :: values
-      integer :: b, c
+      real(wp) :: block(subdomain%dimension, subdomain%dimension)
+      integer  :: b, c, row(1)
 
       call assemble(stiffness%matrix)
-      call check(mat_create_vecs(stiffness%matrix, stiffness%x, stiffness%b))
-      call check(vec_duplicate(stiffness%b, stiffness%r))
-      call check(mat_get_diagonal(stiffness%matrix, stiffness%r))
-      call check(vec_get_array(stiffness%r, values))
-      call c_f_pointer(values, diagonal, [stiffness%counts(rank + 1)])
-      own = 0.0_wp
-      if (size(diagonal) > 0) own = maxval(diagonal)
-      call check(vec_restore_array(stiffness%r, values))
-      stiffest = largest_of_all(own)
+      call MatCreateVecs(stiffness%matrix, stiffness%x, stiffness%b, code)
+      call VecDuplicate(stiffness%b, stiffness%r, code)
+      call MatGetDiagonal(stiffness%matrix, stiffness%r, code)
+      call VecMax(stiffness%r, PETSC_NULL_INTEGER, stiffest, code)
       stiffness%unit = merge(stiffest, 1.0_wp, stiffest > 0.0_wp)
       do b = 1, subdomain%n_own
          if (.not. any(subdomain%held_own(:, b))) cycle
@@ -133,8 +118,8 @@ contains
          do c = 1, subdomain%dimension
             if (subdomain%held_own(c, b)) block(c, c) = stiffness%unit
          end do
-         call check(mat_set_values_blocked(stiffness%matrix, 1, [subdomain%first + b - 1], 1, &
-                                           [subdomain%first + b - 1], block, add_values))
+         row = subdomain%first + b - 1
+         call MatSetValuesBlocked(stiffness%matrix, 1, row, 1, row, reshape(block, [size(block)]), ADD_VALUES, code)
       end do
       call assemble(stiffness%matrix)
       call give_near_null_space(subdomain, stiffness)
@@ -143,29 +128,12 @@ contains
 
    !> Keep the blocks on and above the diagonal beside the matrix from now on. They take half its memory and multiply a vector in a
    !! quarter of the time.
-   subroutine keep_copy(subdomain, stiffness)
-      type(subdomain_type), intent(in)                 :: subdomain
+   subroutine keep_copy(stiffness)
       type(distributed_matrix_type), intent(inout) :: stiffness
-      integer(c_int), allocatable :: columns(:), own(:), others(:)
-      real(wp), allocatable       :: values(:, :)
-      integer :: b
 
       if (stiffness%has_copy) return
-      stiffness%products = c_null_ptr
-      allocate (own(subdomain%n_own), others(subdomain%n_own))
-      do b = 1, subdomain%n_own
-         call take_upper(subdomain, stiffness, b, columns)
-         own(b) = count(columns < subdomain%first + subdomain%n_own)
-         others(b) = size(columns) - own(b)
-      end do
-      call start_matrix_of_type('sbaij', subdomain, own, others, stiffness%products)
-      call check(mat_set_option(stiffness%products, mat_ignore_lower, petsc_true))
-      do b = 1, subdomain%n_own
-         call take_upper(subdomain, stiffness, b, columns, values)
-         call check(mat_set_values_blocked(stiffness%products, 1, [subdomain%first + b - 1], size(columns), columns, values, &
-                                           insert_values))
-      end do
-      call assemble(stiffness%products)
+      call MatConvert(stiffness%matrix, 'sbaij', MAT_INITIAL_MATRIX, stiffness%products, code)
+      call MatSetOption(stiffness%products, MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE, code)
       stiffness%has_copy = .true.
    end subroutine keep_copy
 
@@ -173,49 +141,16 @@ contains
    subroutine drop_copy(stiffness)
       type(distributed_matrix_type), intent(inout) :: stiffness
 
-      if (stiffness%has_copy) call check(mat_destroy(stiffness%products))
+      if (stiffness%has_copy) call MatDestroy(stiffness%products, code)
       stiffness%products = stiffness%matrix
       stiffness%has_copy = .false.
    end subroutine drop_copy
 
-   !> The blocks on and above the diagonal in the row of the own block B: the COLUMNS of blocks, and VALUES row after row.
-   subroutine take_upper(subdomain, stiffness, b, columns, values)
-      type(subdomain_type), intent(in)                          :: subdomain
-      type(distributed_matrix_type), intent(in)             :: stiffness
-      integer, intent(in)                                   :: b
-      integer(c_int), allocatable, intent(inout)            :: columns(:)   !! from 0
-      real(wp), allocatable, optional, intent(inout)        :: values(:, :) !! (dimension x columns, dimension) [force/length]
-      integer(c_int), pointer :: all(:)
-      real(c_double), pointer :: row(:)
-      type(c_ptr) :: at_columns, at_values
-      integer     :: c, first, n
-
-      associate (d => subdomain%dimension, block => subdomain%first + b - 1)
-         do c = 1, merge(d, 1, present(values))
-            call check(mat_get_row(stiffness%matrix, d*block + c - 1, n, at_columns, at_values))
-            call c_f_pointer(at_columns, all, [n])
-            if (c == 1) then
-               first = count(all < d*block)
-               columns = all(first + 1::d)/d
-               if (present(values)) then
-                  if (allocated(values)) deallocate (values)
-                  allocate (values(n - first, d))
-               end if
-            end if
-            if (present(values)) then
-               call c_f_pointer(at_values, row, [n])
-               values(:, c) = row(first + 1:)
-            end if
-            call check(mat_restore_row(stiffness%matrix, d*block + c - 1, n, at_columns, at_values))
-         end do
-      end associate
-   end subroutine take_upper
-
    subroutine assemble(matrix)
-      type(c_ptr), intent(in) :: matrix
+      type(tMat), intent(in) :: matrix
 
-      call check(mat_assembly_begin(matrix, final_assembly))
-      call check(mat_assembly_end(matrix, final_assembly))
+      call MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY, code)
+      call MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY, code)
    end subroutine assemble
 
    !> The rigid-body modes, which the coarse levels of the preconditioner have to represent.
@@ -223,7 +158,8 @@ contains
       type(subdomain_type), intent(in)              :: subdomain
       type(distributed_matrix_type), intent(in) :: stiffness
       real(wp) :: modes(subdomain%dimension, subdomain%n_own, n_motions(subdomain%dimension)) ! [-], rotations [length]
-      type(c_ptr) :: null_space, vectors(size(modes, 3))
+      type(tMatNullSpace) :: null_space
+      type(tVec)  :: vectors(size(modes, 3))
       real(wp)    :: product
       integer     :: b, i, j
 
@@ -234,20 +170,20 @@ contains
                                            order=[1, 3, 2])
       do i = 1, size(vectors)
          where (subdomain%held_own) modes(:, :, i) = 0.0_wp
-         call check(vec_duplicate(stiffness%b, vectors(i)))
+         call VecDuplicate(stiffness%b, vectors(i), code)
          call put_own(vectors(i), reshape(modes(:, :, i), [size(modes, 1)*size(modes, 2)]))
          do j = 1, i - 1
-            call check(vec_dot(vectors(i), vectors(j), product))
-            call check(vec_axpy(vectors(i), -product, vectors(j)))
+            call VecDot(vectors(i), vectors(j), product, code)
+            call VecAXPY(vectors(i), -product, vectors(j), code)
          end do
-         call check(vec_norm(vectors(i), norm_2, product))
-         if (product > 0.0_wp) call check(vec_scale(vectors(i), 1.0_wp/product))
+         call VecNorm(vectors(i), NORM_2, product, code)
+         if (product > 0.0_wp) call VecScale(vectors(i), 1.0_wp/product, code)
       end do
-      call check(mat_null_space_create(petsc_comm_world, petsc_false, size(vectors), vectors, null_space))
-      call check(mat_set_near_null_space(stiffness%matrix, null_space))
-      call check(mat_null_space_destroy(null_space))
+      call MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, size(vectors), vectors, null_space, code)
+      call MatSetNearNullSpace(stiffness%matrix, null_space, code)
+      call MatNullSpaceDestroy(null_space, code)
       do i = 1, size(vectors)
-         call check(vec_destroy(vectors(i)))
+         call VecDestroy(vectors(i), code)
       end do
    end subroutine give_near_null_space
 
@@ -261,8 +197,8 @@ contains
 
       do i = 1, size(own, 3)
          associate (touched => stiffness%touched(:, i))
-            call check(mat_get_values(stiffness%matrix, d, [(d*touched(1) + c, c = 0, d - 1)], &
-                                      d, [(d*touched(2) + c, c = 0, d - 1)], rows))
+            call MatGetValues(stiffness%matrix, d, [(d*touched(1) + c, c = 0, d - 1)], &
+                              d, [(d*touched(2) + c, c = 0, d - 1)], rows, code)
             own(:, :, i) = transpose(rows)
          end associate
       end do
@@ -274,7 +210,7 @@ contains
       type(distributed_matrix_type), intent(in) :: stiffness
       real(wp), intent(inout)                   :: values(:) !! [force/length]
 
-      call check(mat_get_diagonal(stiffness%matrix, stiffness%r))
+      call MatGetDiagonal(stiffness%matrix, stiffness%r, code)
       call take_vector(stiffness%r, stiffness, values)
    end subroutine read_diagonal
 
@@ -292,12 +228,13 @@ contains
    contains
 
       subroutine insert(matrix)
-         type(c_ptr), intent(in) :: matrix
+         type(tMat), intent(in) :: matrix
          integer :: i
 
          do i = 1, size(stiffness%touched, 2)
             associate (touched => stiffness%touched(:, i), block => reshape(own(d*d*(i - 1) + 1:d*d*i), [d, d]))
-               call check(mat_set_values_blocked(matrix, 1, touched(1:1), 1, touched(2:2), transpose(block), insert_values))
+               call MatSetValuesBlocked(matrix, 1, touched(1:1), 1, touched(2:2), &
+                                        reshape(transpose(block), [d*d]), INSERT_VALUES, code)
             end associate
          end do
          call assemble(matrix)
@@ -311,7 +248,7 @@ contains
       real(wp), intent(inout)                   :: x(:)
 
       call put_vector(x, stiffness, stiffness%r)
-      call check(mat_mult(stiffness%products, stiffness%r, stiffness%b))
+      call MatMult(stiffness%products, stiffness%r, stiffness%b, code)
       call take_vector(stiffness%b, stiffness, x)
    end subroutine multiply_by_matrix
 
@@ -319,7 +256,7 @@ contains
    subroutine put_vector(values, stiffness, vector)
       real(wp), intent(in)                      :: values(:)
       type(distributed_matrix_type), intent(in) :: stiffness
-      type(c_ptr), intent(in)                   :: vector
+      type(tVec), intent(in)                    :: vector
       real(wp) :: own(stiffness%counts(rank + 1))
 
       call scatter(values, stiffness%counts, own)
@@ -327,53 +264,53 @@ contains
    end subroutine put_vector
 
    subroutine put_own(vector, own)
-      type(c_ptr), intent(in) :: vector
-      real(wp), intent(in)    :: own(:)
-      real(c_double), pointer :: array(:)
-      type(c_ptr) :: values
+      type(tVec), intent(in) :: vector
+      real(wp), intent(in)   :: own(:)
+      real(wp), pointer :: values(:)
 
-      call check(vec_get_array(vector, values))
-      call c_f_pointer(values, array, [size(own)])
-      array = own
-      call check(vec_restore_array(vector, values))
+      call VecGetArrayF90(vector, values, code)
+      values = own
+      call VecRestoreArrayF90(vector, values, code)
    end subroutine put_own
 
    !> Gather VALUES on rank 0 from VECTOR.
    subroutine take_vector(vector, stiffness, values)
-      type(c_ptr), intent(in)                   :: vector
+      type(tVec), intent(in)                    :: vector
       type(distributed_matrix_type), intent(in) :: stiffness
       real(wp), intent(inout)                   :: values(:)
-      real(c_double), pointer :: array(:)
-      type(c_ptr) :: own
+      real(wp), pointer :: own(:)
 
-      call check(vec_get_array(vector, own))
-      call c_f_pointer(own, array, [stiffness%counts(rank + 1)])
-      call gather(array, stiffness%counts, values)
-      call check(vec_restore_array(vector, own))
+      call VecGetArrayF90(vector, own, code)
+      call gather(own, stiffness%counts, values)
+      call VecRestoreArrayF90(vector, own, code)
    end subroutine take_vector
 
    subroutine free_matrix(stiffness)
       type(distributed_matrix_type), intent(inout) :: stiffness
 
       call drop_copy(stiffness)
-      call check(mat_destroy(stiffness%matrix))
-      call check(vec_destroy(stiffness%x))
-      call check(vec_destroy(stiffness%b))
-      call check(vec_destroy(stiffness%r))
+      call MatDestroy(stiffness%matrix, code)
+      call VecDestroy(stiffness%x, code)
+      call VecDestroy(stiffness%b, code)
+      call VecDestroy(stiffness%r, code)
    end subroutine free_matrix
 
-   !> End the program where PETSc has failed: a failure on one process ends all processes.
-   subroutine check(code)
-      integer(c_int), intent(in) :: code
-      character(12) :: digits
+   !> PETSc calls this routine at its first error: an error on one process ends all processes. Its manual page of PetscPushErrorHandler
+   !! prescribes the arguments.
+   subroutine end_at_error(comm, line, routine, file, error, kind, message, context, status)
+      integer, intent(in)      :: comm, line, error, kind, context
+      character(*), intent(in) :: routine, file, message
+      integer, intent(out)     :: status
+      character(200) :: words
 
-      if (code == 0) return
-      write (digits, '(i0)') code
-      if (code == out_of_memory) then
+      status = error
+      if (error == PETSC_ERR_MEM) then
          call give_up('no memory for the stiffness of the structure; more processes on more machines have more')
       else
-         call give_up('PETSc gives the error code '//trim(digits))
+         write (words, '(a, i0, 3a, i0, 4a, 3(a, i0))') 'PETSc gives the error code ', error, ' in ', routine, ', line ', line, &
+            ' of ', file, ': ', message, '; kind ', kind, ', context ', context, ', communicator ', comm
+         call give_up(trim(words))
       end if
-   end subroutine check
+   end subroutine end_at_error
 
 end module distributed_matrix

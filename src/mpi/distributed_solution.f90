@@ -4,12 +4,10 @@
 !! Source: Adams, Bayraktar, Keaveny, Papadopoulos, Proc. SC2004; Amestoy et al., SIAM J. Matrix Anal. Appl. 23 (2001) 15-41.
 !! First guess: Fischer, Comput. Methods Appl. Mech. Engrg. 163 (1998) 193-204.
 module distributed_solution
-   use, intrinsic :: iso_c_binding, only: c_int, c_null_funptr, c_null_ptr, c_ptr
-   use distributed_matrix, only: check, distributed_matrix_type, drop_copy, keep_copy, put_vector, take_vector
+   use distributed_matrix, only: distributed_matrix_type, drop_copy, keep_copy, put_vector, take_vector
    use factor_reuse, only: find_least_energy
    use kinds, only: wp
-   use partition, only: subdomain_type
-   use petsc_library
+   use petscksp
    use ranks, only: n_ranks
    implicit none
    private
@@ -20,13 +18,13 @@ module distributed_solution
 
    type, public :: earlier_vectors_type
       integer :: n = 0                                ! number kept, the last one first
-      type(c_ptr) :: u(most) = c_null_ptr
+      type(tVec) :: u(most)
    end type earlier_vectors_type
 
    integer, parameter, public :: by_gamg = 1, by_mumps = 2
 
    type, public :: distributed_solution_type
-      type(c_ptr) :: solver = c_null_ptr
+      type(tKSP) :: solver
       logical  :: has_solver = .false.
       integer  :: way = by_gamg                !! or by_mumps
       type(earlier_vectors_type) :: earlier    !! solutions for the first guess
@@ -43,6 +41,7 @@ module distributed_solution
    integer, parameter  :: lean_from = 600000     !! rows of a process, from which on the set-up of several takes a fifth less
                                                  !! memory, and several times longer
    integer, parameter  :: most_solutions = 3     !! at most, each from the result of the one before
+   integer :: code                               ! of PETSc, see end_at_error
 
 contains
 
@@ -54,15 +53,15 @@ contains
       real(wp) :: energy(earlier%n, earlier%n), work(earlier%n), factor(earlier%n)
       integer  :: i
 
-      call check(vec_scale(stiffness%x, 0.0_wp))
+      call VecScale(stiffness%x, 0.0_wp, code)
       if (earlier%n == 0) return
       do i = 1, earlier%n
-         call check(mat_mult(stiffness%products, earlier%u(i), stiffness%r))
-         call check(vec_many_dot(stiffness%r, earlier%n, earlier%u, energy(:, i)))
+         call MatMult(stiffness%products, earlier%u(i), stiffness%r, code)
+         call VecMDot(stiffness%r, earlier%n, earlier%u, energy(:, i), code)
       end do
-      call check(vec_many_dot(stiffness%b, earlier%n, earlier%u, work))
+      call VecMDot(stiffness%b, earlier%n, earlier%u, work, code)
       call find_least_energy(energy, work, factor)
-      call check(vec_many_axpy(stiffness%x, earlier%n, factor, earlier%u))
+      call VecMAXPY(stiffness%x, earlier%n, factor, earlier%u, code)
    end subroutine guess_vector
 
    subroutine forget_vectors(earlier)
@@ -70,7 +69,7 @@ contains
       integer :: i
 
       do i = 1, earlier%n
-         call check(vec_destroy(earlier%u(i)))
+         call VecDestroy(earlier%u(i), code)
       end do
       earlier%n = 0
    end subroutine forget_vectors
@@ -92,38 +91,37 @@ contains
    subroutine set_option(name, value)
       character(*), intent(in) :: name, value
 
-      call check(petsc_options_set_value(c_null_ptr, name//char(0), value//char(0)))
+      call PetscOptionsSetValue(PETSC_NULL_OPTIONS, name, value, code)
    end subroutine set_option
 
    !> Build a solver with a preconditioner of the present stiffness. The old preconditioner and the copy for products are freed first.
-   subroutine renew_preconditioner(subdomain, stiffness, solution)
-      type(subdomain_type), intent(in)                   :: subdomain
+   subroutine renew_preconditioner(stiffness, solution)
       type(distributed_matrix_type), intent(inout)   :: stiffness
       type(distributed_solution_type), intent(inout) :: solution
-      type(c_ptr)    :: preconditioner
-      integer(c_int) :: reason
+      type(tPC) :: preconditioner
+      integer   :: reason
 
-      if (solution%has_solver) call check(ksp_destroy(solution%solver))
+      if (solution%has_solver) call KSPDestroy(solution%solver, code)
       call drop_copy(stiffness)
       associate (ksp => solution%solver)
-         call check(ksp_create(petsc_comm_world, ksp))
+         call KSPCreate(PETSC_COMM_WORLD, ksp, code)
          solution%has_solver = .true.
-         call check(ksp_set_options_prefix(ksp, 'jointfem_'//char(0)))
-         call check(ksp_set_operators(ksp, stiffness%matrix, stiffness%matrix))
-         call check(ksp_get_pc(ksp, preconditioner))
+         call KSPSetOptionsPrefix(ksp, 'jointfem_', code)
+         call KSPSetOperators(ksp, stiffness%matrix, stiffness%matrix, code)
+         call KSPGetPC(ksp, preconditioner, code)
          if (solution%way == by_gamg) then
-            call check(pc_set_type(preconditioner, 'gamg'//char(0)))
+            call PCSetType(preconditioner, 'gamg', code)
          else
-            call check(pc_set_type(preconditioner, 'cholesky'//char(0)))
-            call check(pc_factor_set_solver(preconditioner, 'mumps'//char(0)))
+            call PCSetType(preconditioner, 'cholesky', code)
+            call PCFactorSetMatSolverType(preconditioner, 'mumps', code)
          end if
-         call check(ksp_set_tolerances(ksp, 1.0e-12_wp, 1.0e-300_wp, 1.0e5_wp, most_steps))
-         call check(ksp_set_from_options(ksp))
+         call KSPSetTolerances(ksp, 1.0e-12_wp, 1.0e-300_wp, 1.0e5_wp, most_steps, code)
+         call KSPSetFromOptions(ksp, code)
          if (n_ranks > 1 .and. sum(stiffness%counts) > n_ranks*lean_from) call set_option('-matptap_via', 'allatonce')
-         call check(ksp_set_up(ksp))
-         call check(ksp_set_reuse_preconditioner(ksp, petsc_true))
-         call check(pc_get_failed_reason(preconditioner, reason))
-         solution%has_memory = reason /= no_memory_for_factor
+         call KSPSetUp(ksp, code)
+         call KSPSetReusePreconditioner(ksp, PETSC_TRUE, code)
+         call PCGetFailedReason(preconditioner, reason, code)
+         solution%has_memory = reason /= PC_FACTOR_OUTMEMORY
          if (solution%way == by_gamg) call multiply_by_copy(preconditioner)
       end associate
 
@@ -131,17 +129,17 @@ contains
 
       !> The steps and the finest level multiply by the copy from now on.
       subroutine multiply_by_copy(preconditioner)
-         type(c_ptr), intent(in) :: preconditioner
-         type(c_ptr)    :: smoother
-         integer(c_int) :: levels
+         type(tPC), intent(in) :: preconditioner
+         type(tKSP) :: smoother
+         integer    :: levels
 
-         call check(pc_mg_get_levels(preconditioner, levels))
+         call PCMGGetLevels(preconditioner, levels, code)
          if (levels < 2) return                 ! the finest level is the coarsest: a factor
-         call keep_copy(subdomain, stiffness)
-         call check(pc_mg_get_smoother(preconditioner, levels - 1, smoother))
-         call check(ksp_set_operators(smoother, stiffness%products, stiffness%matrix))
-         call check(pc_mg_set_residual(preconditioner, levels - 1, c_null_funptr, stiffness%products))
-         call check(ksp_set_operators(solution%solver, stiffness%products, stiffness%matrix))
+         call keep_copy(stiffness)
+         call PCMGGetSmoother(preconditioner, levels - 1, smoother, code)
+         call KSPSetOperators(smoother, stiffness%products, stiffness%matrix, code)
+         call PCMGSetResidual(preconditioner, levels - 1, PCMGResidualDefault, stiffness%products, code)
+         call KSPSetOperators(solution%solver, stiffness%products, stiffness%matrix, code)
       end subroutine multiply_by_copy
 
    end subroutine renew_preconditioner
@@ -153,29 +151,28 @@ contains
       type(distributed_matrix_type), intent(in)      :: stiffness
       type(distributed_solution_type), intent(inout) :: solution
       real(wp), intent(inout)                        :: x(:)
-      integer(c_int) :: reason, steps, usual
-      integer  :: again
+      integer  :: again, reason, steps, usual
       real(wp) :: first, load, left, tolerance
       real(wp) :: relative, absolute, divergence ! limits in use: those of this routine, or the user's (PETSC_OPTIONS)
 
       tolerance = 10.0_wp**(-how(1))
       call put_vector(x, stiffness, stiffness%b)
-      call check(ksp_get_tolerances(solution%solver, relative, absolute, divergence, usual))
-      call check(ksp_set_tolerances(solution%solver, tolerance, absolute, divergence, min(usual, how(2))))
-      call check(vec_norm(stiffness%b, norm_2, load))
+      call KSPGetTolerances(solution%solver, relative, absolute, divergence, usual, code)
+      call KSPSetTolerances(solution%solver, tolerance, absolute, divergence, min(usual, how(2)), code)
+      call VecNorm(stiffness%b, NORM_2, load, code)
       solution%steps = 0
       solution%residual = 0.0_wp
       solution%gained = 0.0_wp
       solution%converged = .true.
       if (.not. load > 0.0_wp) then
-         call check(vec_scale(stiffness%x, 0.0_wp))
+         call VecScale(stiffness%x, 0.0_wp, code)
       else
          call guess_vector(stiffness, solution%earlier)
          call find_residual(stiffness, first)
          do again = 1, most_solutions            ! the recursive residual drifts from the true one
-            call check(ksp_solve(solution%solver, stiffness%b, stiffness%x))
-            call check(ksp_get_iteration_number(solution%solver, steps))
-            call check(ksp_get_converged_reason(solution%solver, reason))
+            call KSPSolve(solution%solver, stiffness%b, stiffness%x, code)
+            call KSPGetIterationNumber(solution%solver, steps, code)
+            call KSPGetConvergedReason(solution%solver, reason, code)
             solution%steps = solution%steps + steps
             call find_residual(stiffness, left)
             solution%residual = left/load
@@ -185,7 +182,7 @@ contains
          solution%converged = solution%residual <= max(loosest, 10.0_wp*tolerance)
          if (solution%converged .and. how(3) == 1) call note_vector()
       end if
-      call check(ksp_set_tolerances(solution%solver, relative, absolute, divergence, usual))
+      call KSPSetTolerances(solution%solver, relative, absolute, divergence, usual, code)
       call take_vector(stiffness%x, stiffness, x)
 
    contains
@@ -195,10 +192,10 @@ contains
          associate (earlier => solution%earlier)
             if (earlier%n < most) then
                earlier%n = earlier%n + 1
-               call check(vec_duplicate(stiffness%x, earlier%u(earlier%n)))
+               call VecDuplicate(stiffness%x, earlier%u(earlier%n), code)
             end if
             earlier%u(:earlier%n) = cshift(earlier%u(:earlier%n), -1)
-            call check(vec_copy(stiffness%x, earlier%u(1)))
+            call VecCopy(stiffness%x, earlier%u(1), code)
          end associate
       end subroutine note_vector
 
@@ -209,16 +206,16 @@ contains
       type(distributed_matrix_type), intent(in) :: stiffness
       real(wp), intent(out)                     :: left !! [force]
 
-      call check(mat_mult(stiffness%products, stiffness%x, stiffness%r))
-      call check(vec_aypx(stiffness%r, -1.0_wp, stiffness%b))
-      call check(vec_norm(stiffness%r, norm_2, left))
+      call MatMult(stiffness%products, stiffness%x, stiffness%r, code)
+      call VecAYPX(stiffness%r, -1.0_wp, stiffness%b, code)
+      call VecNorm(stiffness%r, NORM_2, left, code)
    end subroutine find_residual
 
    subroutine free_solution(solution)
       type(distributed_solution_type), intent(inout) :: solution
 
       call forget_vectors(solution%earlier)
-      if (solution%has_solver) call check(ksp_destroy(solution%solver))
+      if (solution%has_solver) call KSPDestroy(solution%solver, code)
       solution%has_solver = .false.
    end subroutine free_solution
 

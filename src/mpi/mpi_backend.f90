@@ -1,16 +1,14 @@
 !> Provides the solvers and the output of several processes: PETSc on all processes that mpirun has started.
 !! Rank 0 partitions the bodies as it partitions the equations. Every process writes its own piece.
 submodule(distribution) mpi_backend
-   use, intrinsic :: iso_c_binding, only: c_funloc, c_null_ptr
    use body_parts, only: cut_piece
    use c_library, only: end_run
    use case_control, only: offer_petsc
-   use distributed_matrix, only: check
+   use distributed_matrix, only: end_at_error
    use distributed_solution, only: by_gamg, by_mumps, set_library_options
    use incomplete_results, only: watch_ends
    use omp_lib, only: omp_get_max_threads
-   use petsc_library, only: petsc_finalize, petsc_initialize, petsc_pop_signal_handler, petsc_push_error_handler, &
-                            petsc_return_error_handler
+   use petscsys, only: PETSC_NULL_INTEGER, PetscFinalize, PetscInitialize
    use petsc_solver, only: petsc_solver_type
    use ranks, only: find_ranks, leave_ranks, n_ranks, rank
    use subdomain_output, only: pass_piece, send_state, write_own, writes_by
@@ -32,13 +30,14 @@ contains
 
    module subroutine join_processes(write_piece)
       procedure(piece_writer) :: write_piece
+      integer :: code ! of PETSc, see end_at_error
 
       call find_ranks()
       call offer_petsc()
       call set_library_options()
-      call check(petsc_initialize())
-      call check(petsc_pop_signal_handler())
-      call check(petsc_push_error_handler(c_funloc(petsc_return_error_handler), c_null_ptr))
+      call PetscInitialize(code)
+      call PetscPopSignalHandler(code)
+      call PetscPushErrorHandler(end_at_error, PETSC_NULL_INTEGER, code)
       call writes_by(write_piece)
       if (rank == 0) return
       call watch_ends() ! rank 0 watches itself, and has files of its own
@@ -53,8 +52,10 @@ contains
    end subroutine leave_processes
 
    subroutine leave()
+      integer :: code
+
       call free_worker()
-      call check(petsc_finalize())
+      call PetscFinalize(code)
       call leave_ranks()
    end subroutine leave
 

@@ -6,9 +6,8 @@ module petsc_solver
    use condition_estimate, only: first_large
    use distributed_matrix, only: add_blocks
    use distributed_solution, only: by_gamg, by_mumps, no_limit
-   use equation_solver, only: equation_system, no_memory, no_solution, pivot_tolerance
+   use equation_solver, only: equation_system, failure_type, no_memory, no_solution, pivot_tolerance
    use factor_reuse, only: factor_reuse_type, may_reuse, note_factor, note_failure, note_steps
-   use failures, only: failure_type
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
    use kinds, only: long, wp

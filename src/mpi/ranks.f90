@@ -2,7 +2,7 @@
 !! Rank 0 reads, steps and writes. The other ranks wait for its commands.
 module ranks
    use mpi_f08, only: mpi_abort, mpi_allreduce, mpi_bcast, mpi_byte, mpi_comm_rank, mpi_comm_size, mpi_comm_world, &
-                      mpi_double_precision, mpi_finalize, mpi_gatherv, mpi_init, mpi_integer, mpi_max, mpi_recv, mpi_scatterv, &
+                      mpi_double_precision, mpi_finalize, mpi_gatherv, mpi_init, mpi_integer, mpi_recv, mpi_scatterv, &
                       mpi_send, mpi_status_ignore, mpi_sum
    use incomplete_results, only: remove_incomplete
    use kinds, only: long, wp
@@ -10,7 +10,7 @@ module ranks
    implicit none
    private
 
-   public :: find_ranks, leave_ranks, tell, pass, pass_text, scatter, gather, largest_of_all, sum_of_all, give_up
+   public :: find_ranks, leave_ranks, tell, pass, pass_text, scatter, gather, sum_of_all, give_up
 
    integer, public, protected :: rank = 0, n_ranks = 1
 
@@ -97,12 +97,6 @@ contains
       first = [(sum(counts(:i - 1)), i = 1, size(counts))]
       call mpi_gatherv(own, size(own), mpi_double_precision, all, counts, first, mpi_double_precision, 0, mpi_comm_world)
    end subroutine gather
-
-   real(wp) function largest_of_all(value) result(largest)
-      real(wp), intent(in) :: value
-
-      call mpi_allreduce(value, largest, 1, mpi_double_precision, mpi_max, mpi_comm_world)
-   end function largest_of_all
 
    real(wp) function sum_of_all(value) result(total)
       real(wp), intent(in) :: value

@@ -123,7 +123,7 @@ contains
       case (command_write)
          call write_touched(subdomain%dimension, values, stiffness)
       case (command_renew)
-         call renew_preconditioner(subdomain, stiffness, solution)
+         call renew_preconditioner(stiffness, solution)
       case (command_solve)                                     ! words: digits; most steps; 1: for later first guesses, 0
          call solve_distributed(words, stiffness, solution, values)
       case (command_diagonal)

@@ -4,8 +4,7 @@ module listing
    use body_tables, only: list_bodies
    use case_control, only: method_back
    use deck_input, only: deck_type
-   use equation_solver, only: equation_system
-   use failures, only: failure_type
+   use equation_solver, only: equation_system, failure_type
    use joint_tables, only: list_joints, plot_joints
    use kinds, only: wp
    use listing_opening, only: write_opening

@@ -8,8 +8,7 @@ module results
    use c_library, only: close_file, lock_folder
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
-   use equation_solver, only: equation_system
-   use failures, only: failure_type
+   use equation_solver, only: equation_system, failure_type
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
    use kinds, only: wp
    use listing, only: finish_listing, list_increment, list_stage, listing_type, record_listing, start_listing

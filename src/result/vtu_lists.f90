@@ -1,9 +1,9 @@
 !> The names of the files for ParaView, their removal, and the index files NAME.pvtu and NAME.pvd. NAME.pvtu is the index of the
 !! pieces of a grid and names their arrays. NAME.pvd lists the files that belong together, and their times.
 module vtu_lists
-   use c_library, only: close_file, is_regular_file, open_file, read_all_bytes, read_bytes
+   use c_library, only: is_regular_file, read_all_bytes
    use incomplete_results, only: remove_old
-   use kinds, only: long, wp
+   use kinds, only: wp
    use output_file, only: output_file_type
    use text_tools, only: integer_text
    use vtu_file, only: data_start, xml_text
@@ -169,20 +169,15 @@ contains
       character(*), intent(in)               :: path
       character(:), allocatable, intent(out) :: header
       logical, intent(out)                   :: ok
-      integer(long) :: got
-      integer :: descriptor, first
-      logical :: closed
+      integer :: status, unit
 
       allocate (character(data_start) :: header)
-      call open_file(path, descriptor)
-      ok = descriptor >= 0
-      first = 1
-      do while (ok .and. first <= data_start)
-         call read_bytes(descriptor, header(first:), got)
-         ok = got > 0
-         first = first + int(got)
-      end do
-      if (descriptor >= 0) call close_file(descriptor, closed)
+      open (newunit=unit, file=path, access='stream', action='read', status='old', iostat=status)
+      ok = status == 0
+      if (.not. ok) return
+      read (unit, iostat=status) header
+      ok = status == 0
+      close (unit)
    end subroutine read_header
 
 end module vtu_lists

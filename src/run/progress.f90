@@ -5,8 +5,7 @@ module progress
    use command_line, only: deck_argument
    use deck_errors, only: deck_error_list
    use distribution, only: memory_of_all
-   use equation_solver, only: solver_description
-   use failures, only: failure_type
+   use equation_solver, only: failure_type, solver_description
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
    use restart_stream, only: restart_stream_type

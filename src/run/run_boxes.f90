@@ -11,10 +11,9 @@ module run_boxes
    use condition_estimate, only: watch_condition
    use deck_input, only: deck_type, read_deck
    use distribution, only: join_processes
-   use equation_solver, only: equation_system
+   use equation_solver, only: equation_system, failure_type
    use equations, only: form_body_stiffness, start_equations
    use facing_bodies, only: loose_words
-   use failures, only: failure_type
    use finite_state, only: check_precision, check_state
    use incomplete_results, only: say_at_interrupts, watch_ends
    use joint_suggestions, only: suggest_joints

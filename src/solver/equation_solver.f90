@@ -6,7 +6,6 @@
 !! of the bodies. A vector has one entry for each equation; only the entries at the EQUATIONS are set or read unless stated
 !! otherwise. FAULT is 0, no_memory, no_solution, or an equation without stiffness.
 module equation_solver
-   use failures, only: failure_type
    use interface_operator, only: interface_element
    use kinds, only: long, wp
    use model_data, only: model_type
@@ -20,6 +19,14 @@ module equation_solver
    integer, parameter, public :: no_solution = -2              !! as FAULT: the solver has a COMPLAINT
    integer, parameter, public :: exact_digits = 11             !! of a direct solution: residual < 10**(-digits) of the load
    real(wp), parameter, public :: pivot_tolerance = 1.0e-12_wp !! relative to the diagonal entry; below: no stiffness
+
+   !> A numerical failure: that the structure cannot be solved, and why.
+   type, public :: failure_type
+      logical :: raised = .false.
+      character(:), allocatable :: message
+   contains
+      procedure :: raise
+   end type failure_type
 
    !> The data of a solver for the listing and --times.
    type, public :: solver_description
@@ -164,6 +171,16 @@ module equation_solver
    end interface
 
 contains
+
+   !> Report the failure; the first message counts.
+   subroutine raise(self, message)
+      class(failure_type), intent(inout) :: self
+      character(*), intent(in)           :: message
+
+      if (self%raised) return
+      self%raised = .true.
+      self%message = message
+   end subroutine raise
 
    !> Number the free components, node after node in ORDER.
    subroutine number_unknowns(self, model, order)

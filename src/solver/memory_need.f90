@@ -3,7 +3,7 @@
 module memory_need
    use bulk_data, only: block_card
    use deck_input, only: deck_type
-   use failures, only: failure_type
+   use equation_solver, only: failure_type
    use kinds, only: wp
    use machine, only: memory_for
    use text_tools, only: integer_text

@@ -1,8 +1,7 @@
 !> The solver SKYLINE, the profile method of the period. [k_b] of the bodies is formed once in a profile. In every increment the
 !! whole of [k_s] = [k_b] + sum of [k_int] is formed and factorised.
 module skyline_solver
-   use equation_solver, only: equation_system, pivot_tolerance
-   use failures, only: failure_type
+   use equation_solver, only: equation_system, failure_type, pivot_tolerance
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
    use kinds, only: long, wp

@@ -4,10 +4,9 @@
 !! joints inside: the joint unknowns stay where the dissection puts them;
 !! joints last in parts: in every subtree up to some size the joint unknowns come last; the bodies are condensed piece by piece.
 module tree_solver
-   use equation_solver, only: equation_system
+   use equation_solver, only: equation_system, failure_type
    use factor_reuse, only: earlier_solutions_type, factor_reuse_type, guess_solution, iterate_refactored, may_reuse, &
                            note_factor, note_failure, note_solution, note_steps, price_in_steps
-   use failures, only: failure_type
    use front_factor, only: add_to_refactored, factorise_refactored, factorise_static
    use front_layout, only: bytes_needed, choose_layout, front_layout_type
    use front_solve, only: eliminate_static, factor_times_vector, recover_static, refactored_times_vector, solve_refactored

@@ -5,8 +5,7 @@
 module backbone
    use analysis_state, only: analysis_type
    use element_mapping, only: two_pi
-   use equation_solver, only: equation_system
-   use failures, only: failure_type
+   use equation_solver, only: equation_system, failure_type
    use kinds, only: wp
    use modal_loops, only: loop_type, push_type, run_loops, start_push
    use mode_values, only: modes_type

@@ -5,8 +5,7 @@
 !! Source: Ericsson, Ruhe, Math. Comp. 35 (1980) 1251-1268; Lehoucq, Sorensen, Yang, ARPACK Users' Guide, SIAM 1998, section 3.2.
 module eigenpairs
    use blas_lapack, only: dsygv
-   use equation_solver, only: equation_system
-   use failures, only: failure_type
+   use equation_solver, only: equation_system, failure_type
    use kinds, only: wp
    use mass_matrix, only: mass_matrix_type, mass_times
    use model_data, only: model_type

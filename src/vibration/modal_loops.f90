@@ -15,9 +15,8 @@
 module modal_loops
    use analysis_state, only: analysis_type, free_norm
    use element_mapping, only: two_pi
-   use equation_solver, only: equation_system
+   use equation_solver, only: equation_system, failure_type
    use equations, only: condense_load, recover_displacements
-   use failures, only: failure_type
    use joint_laws, only: element_state, work_along
    use kinds, only: wp
    use load_path, only: hold_load, start_increment

@@ -14,8 +14,7 @@
 !! modal frequency response.
 module modal_response
    use eigenpairs, only: all_displacements, on_equations
-   use equation_solver, only: equation_system
-   use failures, only: failure_type
+   use equation_solver, only: equation_system, failure_type
    use kinds, only: wp
    use mode_values, only: modes_type
    use model_data, only: model_type

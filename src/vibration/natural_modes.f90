@@ -6,8 +6,7 @@
 module natural_modes
    use eigenpairs, only: find_eigenpairs, needs_all
    use element_mapping, only: two_pi
-   use equation_solver, only: equation_system
-   use failures, only: failure_type
+   use equation_solver, only: equation_system, failure_type
    use kinds, only: wp
    use model_data, only: a_point, model_type, n_points, node_kind
    use oscillating_structure, only: factorise_at, hold_bolts, oscillating_type

@@ -4,9 +4,8 @@
 module oscillating_structure
    use analysis_state, only: analysis_type
    use case_control, only: solver_skyline, solver_tree
-   use equation_solver, only: equation_system
+   use equation_solver, only: equation_system, failure_type
    use equations, only: add_bar, form_body_stiffness, form_structure_stiffness, lock_unknown, start_equations
-   use failures, only: failure_type
    use kinds, only: wp
    use mass_matrix, only: form_mass, mass_matrix_type
    use model_data, only: model_type, n_bars, n_sections, supported

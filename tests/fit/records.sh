@@ -191,7 +191,7 @@ says '--noise is printed' cards 'noise band 10 % of the range (--noise)'
 awk 'NR > 1 { split($0, v, "; "); print v[1] - 0.05, v[2] - 0.03; next } { print "lambda p" }' loops.dat > offset.dat
 fit offset.dat
 near 'a first reading below zero is an offset' 1e-5 loops
-says 'an offset is said' cards 'the first reading of lambda, -0.05, taken off 200 rows' 'the first reading of p, -0.03, taken off 200 rows'
+says 'an offset is said' cards 'the first reading of lambda, -0.05, subtracted from 200 rows' 'the first reading of p, -0.03, subtracted from 200 rows'
 awk 'NR > 1 { split($0, v, "; "); print v[1] + 3, v[2] - 1; next } { print "lambda p" }' loops.dat > far_off.dat
 fit far_off.dat
 says 'a first reading too far below zero: the options that help' stderr "P: '-1' is negative" '--zero' '--noise'

@@ -3,7 +3,7 @@ module changed_joints
    use case_control, only: solver_tree
    use deck_models, only: model_of_cards, sample_cards, some_forces, some_stiffnesses
    use equations, only: equation_system, form_body_stiffness, form_structure_stiffness, start_equations
-   use failures, only: failure_type
+   use equation_solver, only: failure_type
    use kinds, only: wp
    use model_data, only: model_type
    use tree_solver, only: tree_solver_type

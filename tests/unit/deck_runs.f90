@@ -6,7 +6,7 @@ module deck_runs
    use deck_input, only: deck_type, read_deck
    use deck_models, only: read_lines
    use equations, only: equation_system, form_body_stiffness, start_equations
-   use failures, only: failure_type
+   use equation_solver, only: failure_type
    use load_path, only: recover_bodies, start_increment, start_stage
    use model_build, only: build_model
    use model_data, only: model_type

@@ -1,7 +1,7 @@
 !> The solver behind an equation_system, for tests that look inside, whose system is a target then; and the way through it.
 module solver_access
    use equations, only: condense_load, equation_system, form_structure_stiffness, recover_displacements, solve_equations
-   use failures, only: failure_type
+   use equation_solver, only: failure_type
    use front_tree, only: front_tree_type
    use kinds, only: wp
    use model_data, only: model_type

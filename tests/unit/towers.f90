@@ -1,7 +1,7 @@
 !> Towers of nodes, each on a joint, for tests of the ways through an increment.
 module towers
    use equations, only: equation_system, form_body_stiffness, start_equations
-   use failures, only: failure_type
+   use equation_solver, only: failure_type
    use interface_operator, only: hang_on
    use joint_laws, only: joint_law
    use kinds, only: wp
