@@ -313,7 +313,8 @@ contains
          call card%finish(bolt%line)
       end associate
       if (all(card%given(['EID  ', 'PMARK']))) then
-         call card%error('PMARK', 'given beside EID; expected one of them: the CROD of a bolt, or the surface at which a solid bolt is cut')
+         call card%error('PMARK', 'given beside EID; expected one of them: the CROD of a bolt, or the surface at which a solid '// &
+                         'bolt is cut')
       else if (.not. any(card%given(['EID  ', 'PMARK']))) then
          call card%error('EID', 'blank, expected a CROD, or in field 6 the PMARK at which a solid is cut')
       end if

@@ -179,8 +179,8 @@ contains
             else if (c == 0) then
                call card%error(field, 'blank or 0, expected the component at G'//integer_text(k))
             else if (k == 1 .and. all(spring%components > 0) .and. (c > 3 .neqv. spring%components(3 - k) > 3)) then
-               call card%error(field, 'a displacement at one end and a rotation at the other; expected two displacements or two '// &
-                               'rotations')
+               call card%error(field, 'a displacement at one end and a rotation at the other; expected two '// &
+                               'displacements or two rotations')
             end if
          end associate
       end do
