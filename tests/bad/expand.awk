@@ -1,9 +1,9 @@
-# Makes the decks of the tables: from each case a deck INTO/NAME.bdf, and INTO/NAME.expected with the exit status and the
-# fragments of the message. README.md beside this file says what stands in a table.
+# Makes the decks of the tables: for each case a deck INTO/NAME.bdf, and INTO/NAME.expected with the exit status and the fragments
+# of the message. README.md describes the tables.
 #
 #     awk -v bases=FOLDER -v into=FOLDER -f expand.awk TABLE...
 #
-# What a table does not say clearly is refused with the place, and the case is not made; exit status 1 if there was any.
+# An ambiguous table is refused with the place, and the case is not made; exit status 1 then.
 
 function refuse(what, where) {
    print (where == "" ? FILENAME ", line " FNR : where) ": " what > "/dev/stderr"
@@ -55,6 +55,8 @@ function open_case(header) {
    close_case()
    case_name = header; sub(/ .*/, "", case_name)
    fault = substr(header, length(case_name) + 1); sub(/^ +/, "", fault)
+   first_edit = fault ~ /^([-!$>+]|eol) / ? fault : ""
+   if (first_edit != "") fault = case_name
    begun = FILENAME ", line " FNR
    usable = 1; status = ""; fragments = 0; edits = 0; line_end = "\n"
    split("", gone); split("", put)
@@ -128,7 +130,7 @@ function close_case(   file, i) {
 FNR == 1 { close_case(); has_base = 0 }
 /^#/ || /^ *$/ { next }
 /^base [a-z0-9_]+$/ { open_base($2); next }
-/^[a-z]/ { open_case($0); next }
+/^[a-z]/ { open_case($0); if (first_edit == "") next; $0 = "   " first_edit }
 !/^   [^ ]/ { refuse("a line that is neither a case nor part of one: three blanks expected before what belongs to a case"); next }
 case_name == "" { refuse("no case above this line"); next }
 { text = substr($0, 6) }

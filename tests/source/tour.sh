@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The worked examples of src/additions.md: each patch applies to src as it stands, alone and with the others; the program with all four
-# is built, and runs their decks to their exact answers; the snippets and names in src/additions.md are those of the examples and of src.
+# The worked examples of src/additions.md: each patch applies to src as it stands, alone and with the others; the program with all
+# four is built and runs their decks to their exact answers; the page shows the lines of the patches.
 #
 #    tour.sh QUERY WORK_FOLDER
 #
@@ -40,6 +40,9 @@ for example in $examples; do
    source_tree "$top/alone/$example"
    applies "$example alone" "$top/alone/$example" $example
    applies "$example with the others" "$top/next" $example
+   if command -v git > /dev/null; then # which counts the lines of the hunks too
+      if git apply --check $here/$example.patch; then passed=$((passed + 1)); else fail "git apply --check $here/$example.patch"; fi
+   fi
 done
 becomes "$top/tree" "$top/next"
 if [ $failed -gt 0 ] || ! ${MAKE:-make} --no-print-directory -s -j2 -C "$top/tree" BUILD=build BIN=bin \
