@@ -1,4 +1,4 @@
-!> Tables of the bodies: displacements, rotations, stresses, reactions, and the balance of the external forces. Where OUTPUT
+!> Tables of the bodies: displacements, rotations, stresses, reactions, balance of the external forces, condensed stiffness. Where OUTPUT
 !! limits a stage to some nodes, the tables have the rows of these nodes and of the elements with any of them. Nodal vectors are
 !! given along the axes of the model, or with OUTPUT = CD along those of the displacement system of each node, whose number
 !! follows the row.
@@ -9,17 +9,17 @@ module body_tables
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use interface_operator, only: named_node
    use kinds, only: wp
-   use table_writer, only: axes, column, column_type, in_units, table_type, noise, page_type, page_width, shows
+   use table_writer, only: axes, column, heading, in_units, table_type, noise, page_type, page_width, shows
    use model_data, only: a_point, corners_of, has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, &
                          n_points, n_rotations, node_kind, supported
    use node_coupling, only: held_forces, node_axes
    use stage_entries, only: output_request
    use structural_results, only: list_structural
-   use text_tools, only: clean
+   use text_tools, only: clean, integer_text, upper
    implicit none
    private
 
-   public :: list_bodies
+   public :: list_bodies, list_condensed
 
    ! All threads write long tables: rows are printed in blocks, and each thread writes pieces of a block.
    integer, parameter :: block_rows = 16384, piece = 512, few = 4096
@@ -51,37 +51,63 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      type(table_type) :: table
       integer, allocatable :: list(:)
-      real(wp) :: floor
-      integer  :: node
+      integer :: node
 
-      call table%start('DISPLACEMENTS OF NODES'//direction_words(page)//page%now//in_units(page%labels%length), &
-                       [column('NODE', 'i11'), column(axes(:model%dimension), 'es13.5'), &
-                        direction_columns(page, 'U', model%dimension)], page%file)
-      floor = noise*maxval(abs(analysis%all_u(:, :n_points(model))))
-      if (.not. page%along_cd) then
-         list = pack([(node, node = 1, n_points(model))], &
-                     [(model%used(node) .and. shows(page, [node]), node = 1, n_points(model))])
-         call print_rows(page, table, model%node_id(list), clean(model%x(:model%dimension, list)), &
-                         clean(analysis%all_u(:, list), floor))
-         return
-      end if
-      do node = 1, n_points(model)
-         if (.not. model%used(node) .or. .not. shows(page, [node])) cycle
-         call table%add([model%node_id(node)], clean(model%x(:model%dimension, node)))
-         call add_directed(page, model, node, analysis%all_u(:, node), floor, table)
-         call table%print_row(page%file)
-      end do
+      list = pack([(node, node = 1, n_points(model))], [(model%used(node) .and. shows(page, [node]), node = 1, n_points(model))])
+      call list_vectors(page, model, [character(22) :: 'DISPLACEMENTS OF NODES', 'U.', page%labels%length], list, &
+                        analysis%all_u(:, list), spread(noise*maxval(abs(analysis%all_u(:, :n_points(model)))), 1, size(list)))
    end subroutine list_displacements
 
-   !> Print the rows of TABLE: ID, the place X, VALUES.
-   subroutine print_rows(page, table, id, x, values)
+   !> Print a table of the VECTORS at NODES, given in global axes; values below the FLOORS of their rows are zero. Rotations and
+   !! moments of a plane model have one component, about z, and their rows no places.
+   subroutine list_vectors(page, model, words, nodes, vectors, floors, turns)
+      type(page_type), intent(inout) :: page
+      type(model_type), intent(in)   :: model
+      character(*), intent(in)       :: words(3)      !! title; name of the components before a point; unit
+      integer, intent(in)            :: nodes(:)
+      real(wp), intent(in)           :: vectors(:, :) !! (components, nodes)
+      real(wp), intent(in)           :: floors(:)     !! (nodes)
+      logical, intent(in), optional  :: turns         !! rotations or moments; default: no
+      character(1), parameter :: numbers(3) = ['1', '2', '3']
+      type(table_type) :: table
+      real(wp), allocatable :: along(:, :)
+      integer, allocatable  :: system(:)
+      real(wp) :: directions(3, 3)
+      integer  :: first, i, last, n_places
+
+      first = 1
+      last = size(vectors, 1)
+      n_places = model%dimension
+      if (present(turns)) n_places = 0
+      if (n_places == 0) first = 4 - last
+      if (n_places == 0) last = 3
+      allocate (along, source=vectors)
+      allocate (system(size(nodes)), source=0)
+      do i = 1, merge(size(nodes), 0, page%along_cd)
+         directions = node_axes(model, nodes(i))
+         along(:, i) = matmul(along(:, i), directions(first:last, first:last))
+         if (allocated(model%node_system)) system(i) = model%node_system(nodes(i))
+         if (system(i) > 0) system(i) = model%systems(system(i))%id
+      end do
+      associate (names => merge(numbers, axes, page%along_cd))
+         call table%start(trim(words(1))//trim(merge(' ALONG THEIR SYSTEMS CD (0: X, Y, Z)', repeat(' ', 36), page%along_cd))// &
+                          page%now//in_units(words(3)), [column('NODE', 'i11'), column(axes(:n_places), 'es13.5'), &
+                          column(words(2)(:index(words(2), '.') - 1)//names(first:last), 'es13.5'), &
+                          column('CD', 'i11', is_listed=page%along_cd)], page%file)
+      end associate
+      call print_rows(page, table, model%node_id(nodes), clean(model%x(:n_places, nodes)), &
+                      clean(along, spread(floors, 1, size(along, 1))), system)
+   end subroutine list_vectors
+
+   !> Print the rows of TABLE: ID, the place X, VALUES, and the number of a SYSTEM if given.
+   subroutine print_rows(page, table, id, x, values, system)
       type(page_type), intent(inout)       :: page
       type(table_type), intent(in)         :: table
       integer, intent(in)                  :: id(:)        !! (rows)
       real(wp), intent(in)                 :: x(:, :)      !! (dimension, rows)
       real(wp), intent(in)                 :: values(:, :) !! (n, rows)
+      integer, intent(in), optional        :: system(:)    !! (rows)
       character(piece*(page_width + 1)), allocatable :: lines(:)
       integer :: first, last, part, used(block_rows/piece)
 
@@ -113,12 +139,14 @@ contains
          do k = from, until
             call mine%add([id(k)], x(:, k))
             call mine%add(values(:, k))
+            if (present(system)) call mine%add([system(k)])
             call mine%take_line(lines, used)
          end do
       end subroutine write_piece
 
    end subroutine print_rows
 
+   !> Stresses at the centres of elements, and if PRINCIPAL the principal stresses and the equivalent stress of von Mises there.
    subroutine list_stresses(page, principal, model, analysis)
       type(page_type), intent(inout)  :: page
       logical, intent(in)             :: principal
@@ -127,8 +155,8 @@ contains
       type(table_type) :: table
       real(wp), allocatable :: stress(:, :), centre(:, :)
       integer, allocatable  :: list(:)
-      real(wp) :: floor
-      integer  :: e, n
+      real(wp) :: floor, full(max_stresses)
+      integer  :: e, i, n
 
       allocate (stress(max_stresses, model%n_elements), source=0.0_wp)
       allocate (centre(model%dimension, model%n_elements))
@@ -147,7 +175,15 @@ contains
                         column(stress_names(model), 'es13.5')], page%file)
       list = pack([(e, e = 1, model%n_elements)], [(shows_body(page, model, e), e = 1, model%n_elements)])
       call print_rows(page, table, model%element_id(list), clean(centre(:, list)), clean(stress(:n, list), floor))
-      if (principal) call list_principal(page, model, analysis, floor)
+      if (.not. principal) return
+      call table%start('PRINCIPAL STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
+                       [column('ELEMENT', 'i11'), &
+                        column([character(9) :: 'SIGMA 1', 'SIGMA 2', 'SIGMA 3', 'VON MISES'], 'es13.5')], page%file)
+      do i = 1, size(list)
+         full = whole_stress(model, list(i), analysis%all_u, analysis%now%temperature)
+         call table%add([model%element_id(list(i))], clean([principal_stresses(full), von_mises(full)], floor))
+         call table%print_row(page%file)
+      end do
    end subroutine list_stresses
 
    !> Whether the tables of bodies have element E.
@@ -205,53 +241,25 @@ contains
       end do
    end subroutine list_node_stresses
 
-   !> Principal stresses and the equivalent stress of von Mises at the centres.
-   subroutine list_principal(page, model, analysis, floor)
-      type(page_type), intent(inout) :: page
-      type(model_type), intent(in)   :: model
-      type(analysis_type), intent(in) :: analysis
-      real(wp), intent(in)           :: floor
-      type(table_type) :: table
-      real(wp) :: full(max_stresses)
-      integer  :: e
-
-      call table%start('PRINCIPAL STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
-                       [column('ELEMENT', 'i11'), &
-                        column([character(9) :: 'SIGMA 1', 'SIGMA 2', 'SIGMA 3', 'VON MISES'], 'es13.5')], page%file)
-      do e = 1, model%n_elements
-         if (.not. shows_body(page, model, e)) cycle
-         full = whole_stress(model, e, analysis%all_u, analysis%now%temperature)
-         call table%add([model%element_id(e)], clean([principal_stresses(full), von_mises(full)], floor))
-         call table%print_row(page%file)
-      end do
-   end subroutine list_principal
-
    !> Reactions at supports, and the balance of all external forces: loads, supports, rigid bases.
    subroutine list_reactions(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(table_type) :: table
-      real(wp), dimension(model%dimension) :: reaction, supports, base, ground, loads
+      real(wp), dimension(model%dimension) :: supports, base, ground, loads
       real(wp), allocatable :: held(:, :)
+      integer, allocatable  :: list(:)
       real(wp) :: floor, force(3)
-      integer  :: first, i, node
+      integer  :: first, i
 
-      call table%start('REACTIONS AT SUPPORTS'//direction_words(page)//page%now//in_units(page%labels%force), &
-                       [column('NODE', 'i11'), column(axes(:model%dimension), 'es13.5'), &
-                        direction_columns(page, 'R', model%dimension)], page%file)
       floor = noise*max(page%largest_force, tiny(1.0_wp))
-      supports = 0.0_wp
-      allocate (held, source=held_forces(model, analysis%all_unbalanced))
-      do node = 1, n_points(model)
-         if (.not. any(supported(model, node)) .or. .not. model%used(node)) cycle
-         reaction = -held(:, node)
-         supports = supports + reaction
-         if (.not. shows(page, [node])) cycle
-         call table%add([model%node_id(node)], clean(model%x(:model%dimension, node)))
-         call add_directed(page, model, node, reaction, floor, table)
-         call table%print_row(page%file)
-      end do
+      allocate (held, source=-held_forces(model, analysis%all_unbalanced))
+      list = pack([(i, i = 1, n_points(model))], [(any(supported(model, i)) .and. model%used(i), i = 1, n_points(model))])
+      supports = sum(held(:, list), dim=2)
+      list = pack(list, [(shows(page, list(i:i)), i = 1, size(list))])
+      call list_vectors(page, model, [character(21) :: 'REACTIONS AT SUPPORTS', 'R.', page%labels%force], list, held(:, list), &
+                        spread(floor, 1, size(list)))
       base = 0.0_wp
       do i = 1, size(model%interface)
          if (named_node(model%interface(i), 2) /= 0) cycle
@@ -290,81 +298,19 @@ contains
 
    end subroutine list_reactions
 
-   !> Columns of a vector whose parts are called PART, along M directions: the first ones, or BEHIND the last ones.
-   function direction_columns(page, part, m, behind) result(columns)
-      type(page_type), intent(in)   :: page
-      character(*), intent(in)      :: part
-      integer, intent(in)           :: m
-      logical, intent(in), optional :: behind !! default: the first ones
-      type(column_type), allocatable :: columns(:)
-      character(1), parameter :: numbers(3) = ['1', '2', '3']
-      integer :: first
-
-      first = 1
-      if (present(behind)) first = merge(4 - m, 1, behind)
-      associate (names => merge(numbers, axes, page%along_cd))
-         columns = [column(part//names(first:first + m - 1), 'es13.5'), column('CD', 'i11', is_listed=page%along_cd)]
-      end associate
-   end function direction_columns
-
-   !> The words behind the title of such a table.
-   pure function direction_words(page) result(words)
-      type(page_type), intent(in) :: page
-      character(:), allocatable :: words
-
-      words = ''
-      if (page%along_cd) words = ' ALONG THEIR SYSTEMS CD (0: X, Y, Z)'
-   end function direction_words
-
-   !> Add the VECTOR at NODE, given in global axes, to the row of TABLE, with values below FLOOR as zero, and the node's system.
-   subroutine add_directed(page, model, node, vector, floor, table)
-      type(page_type), intent(in)             :: page
-      type(model_type), intent(in)            :: model
-      integer, intent(in)                     :: node
-      real(wp), intent(in)                    :: vector(:), floor
-      type(table_type), intent(inout)         :: table
-      real(wp) :: directions(3, 3)
-      integer  :: system
-
-      if (.not. page%along_cd) then
-         call table%add(clean(vector, floor))
-         return
-      end if
-      directions = node_axes(model, node)
-      system = 0
-      if (allocated(model%node_system)) system = model%node_system(node)
-      if (system > 0) system = model%systems(system)%id
-      if (size(vector) == 1) then ! about z for a plane model
-         call table%add(clean(vector*directions(3, 3), floor))
-      else
-         associate (d => size(vector))
-            call table%add(clean(matmul(vector, directions(:d, :d)), floor))
-         end associate
-      end if
-      call table%add([system])
-   end subroutine add_directed
-
    !> Rotations in radians about the global axes, or those of the systems CD.
    subroutine list_rotations(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      type(table_type) :: table
-      real(wp) :: floor
-      integer  :: i, m
+      integer :: m
 
       if (n_rotations(model) == 0) return
       m = merge(3, 1, model%dimension == 3)
-      call table%start('ROTATIONS OF REFERENCE NODES'//direction_words(page)//page%now//'   (RADIANS)', &
-                       [column('NODE', 'i11'), direction_columns(page, 'THETA ', m, behind=.true.)], page%file)
       associate (rotations => model%rotations)
-         floor = noise*maxval(abs(analysis%all_u)) ! of displacements
-         do i = 1, size(rotations)
-            call table%add([model%node_id(rotations(i)%point)])
-            call add_directed(page, model, rotations(i)%point, analysis%all_u(:m, rotations(i)%node)/rotations(i)%arm, &
-                              floor/rotations(i)%arm, table)
-            call table%print_row(page%file)
-         end do
+         call list_vectors(page, model, [character(28) :: 'ROTATIONS OF REFERENCE NODES', 'THETA .', 'RADIANS'], rotations%point, &
+                           analysis%all_u(:m, rotations%node)/spread(rotations%arm, 1, m), &
+                           noise*maxval(abs(analysis%all_u))/rotations%arm, turns=.true.)
       end associate
    end subroutine list_rotations
 
@@ -373,25 +319,72 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      type(table_type) :: table
       real(wp), allocatable :: held(:, :)
-      real(wp) :: floor
-      integer  :: i, m
+      integer, allocatable  :: list(:)
+      integer :: i, m
 
-      if (.not. any([(any(supported(model, model%rotations(i)%node)), i = 1, n_rotations(model))])) return
+      list = pack([(i, i = 1, n_rotations(model))], [(any(supported(model, model%rotations(i)%node)), i = 1, n_rotations(model))])
+      if (size(list) == 0) return
       m = merge(3, 1, model%dimension == 3)
-      call table%start('MOMENTS AT SUPPORTS'//direction_words(page)//page%now, &
-                       [column('NODE', 'i11'), direction_columns(page, 'M', m, behind=.true.)], page%file)
       held = held_forces(model, analysis%all_unbalanced)
-      do i = 1, size(model%rotations)
-         associate (rotation => model%rotations(i))
-            if (.not. any(supported(model, rotation%node))) cycle
-            floor = noise*max(page%largest_force, tiny(1.0_wp))*rotation%arm
-            call table%add([model%node_id(rotation%point)])
-            call add_directed(page, model, rotation%point, -held(:m, rotation%node)*rotation%arm, floor, table)
-            call table%print_row(page%file)
-         end associate
-      end do
+      associate (rotations => model%rotations(list))
+         call list_vectors(page, model, [character(19) :: 'MOMENTS AT SUPPORTS', 'M.', ''], rotations%point, &
+                           -held(:m, rotations%node)*spread(rotations%arm, 1, m), &
+                           noise*max(page%largest_force, tiny(1.0_wp))*rotations%arm, turns=.true.)
+      end associate
    end subroutine list_moments
+
+   !> [k_b] condensed on the joint unknowns, and the condensed loads before and after the stage; columns in groups.
+   subroutine list_condensed(page, model, analysis)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, parameter :: across = 8
+      type(table_type) :: table
+      character(12), allocatable :: names(:)
+      real(wp), allocatable :: scale(:)
+      real(wp) :: k_floor, load_floor
+      integer  :: i, first, k, last, n
+
+      associate (condensed => analysis%record%condensed)
+         if (condensed%problem /= '') then
+            call heading(page%file, '[K_B] CONDENSED ON THE INTERFACE, '//page%stage//': NOT PRINTED, '//upper(condensed%problem))
+            return
+         end if
+         n = size(condensed%node)
+         k_floor = noise*maxval(abs(condensed%k))
+         load_floor = noise*max(page%largest_force, maxval(abs(condensed%load)))
+         allocate (names(n))
+         allocate (scale(n), source=1.0_wp)
+         do i = 1, n ! 12Y, or 900RZ for a rotation of node 900, whose rows hold moments over its arm
+            associate (node => condensed%node(i), d => condensed%direction(i))
+               k = 0
+               if (n_rotations(model) > 0) k = findloc(model%rotations%node, node, dim=1)
+               if (k == 0) names(i) = integer_text(model%node_id(node))//axes(d)
+               if (k == 0) cycle
+               names(i) = integer_text(model%node_id(model%rotations(k)%point))//'R'//axes(merge(d, 3, model%dimension == 3))
+               scale(i) = model%rotations(k)%arm
+            end associate
+         end do
+         do first = 1, n, across
+            last = min(n, first + across - 1)
+            call table%start('[K_B] CONDENSED ON THE INTERFACE, '//page%stage, &
+                             [column('UNKNOWN', 'a13'), column(names(first:last), 'es13.5', page%labels%stiffness)], page%file)
+            do i = 1, n
+               call table%add(adjustr(names(i)))
+               call table%add(clean(condensed%k(i, first:last), k_floor)*scale(i)*scale(first:last))
+               call table%print_row(page%file)
+            end do
+         end do
+         call table%start('LOAD CONDENSED ON THE INTERFACE, '//page%stage//': AN INCREMENT BRINGS ITS SHARE OF THE DIFFERENCE', &
+                          [column('UNKNOWN', 'a13'), column([character(10) :: 'BEFORE', 'AFTER', 'DIFFERENCE'], 'es13.5', &
+                           page%labels%force)], page%file)
+         do i = 1, n
+            call table%add(adjustr(names(i)))
+            call table%add(clean([condensed%load(i, :), condensed%load(i, 2) - condensed%load(i, 1)], load_floor)*scale(i))
+            call table%print_row(page%file)
+         end do
+      end associate
+   end subroutine list_condensed
 
 end module body_tables

@@ -15,7 +15,7 @@ module joint_tables
    implicit none
    private
 
-   public :: history_titles, write_history, list_joints, plot_joints
+   public :: history_titles, write_history, list_joints, list_energy, plot_joints
 
    ! subjects of the tables
    integer, parameter :: of_elements = 1, of_stiffness = 2, of_removed = 3, of_shear = 4, of_state = 5, of_shear_state = 6
@@ -115,31 +115,27 @@ contains
       integer, intent(in), optional   :: k
       character(43), parameter :: titles(6) = [character(43) :: 'INTERFACE ELEMENTS', 'NORMAL STIFFNESS', &
          'ELEMENTS REMOVED FROM JOINT', 'SHEAR IN DIRECTION', 'STATE OF THE INTERFACE ELEMENTS', 'STATE OF SHEAR IN DIRECTION']
-      type(table_type)  :: table
+      type(table_type) :: table
       character(:), allocatable :: title
+      integer, allocatable :: list(:)
       integer :: i
 
-      title = trim(titles(subject))
-      if (present(k)) title = title//' '//axes(k)
-      if (subject /= of_removed) title = title//' OF JOINT'
-      call table%start(title//' '//integer_text(model%joints(j)%id)//page%now, &
-                       [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), columns_of(page, subject, model)])
-      if (subject /= of_removed) call table%print_head(page%file)
-      do i = model%joints(j)%first, model%joints(j)%last
-         if (.not. shows(page, model%interface(i)%node)) cycle
-         associate (state => analysis%states(i)%normal)
-            if (subject == of_removed .and. (state%branch /= branch_open .or. force_reached(state) >= 0.0_wp)) cycle
-         end associate
-         call table%add([model%interface(i)%id, joint_node_id(model, i, 1)])
-         if (present(k)) then
-            call add_shear(table, subject, model, analysis, i, k)
-         else
-            call add_normal(table, subject, model, analysis, i)
-         end if
-         if (subject == of_removed) call table%keep_row()
-         if (subject /= of_removed) call table%print_row(page%file)
+      associate (joint => model%joints(j), normal => analysis%states%normal)
+         list = pack([(i, i = joint%first, joint%last)], [(shows(page, model%interface(i)%node), i = joint%first, joint%last)])
+         if (subject == of_removed) list = pack(list, normal(list)%branch == branch_open .and. force_reached(normal(list)) < 0.0_wp)
+         if (subject == of_removed .and. size(list) == 0) return
+         title = trim(titles(subject))
+         if (present(k)) title = title//' '//axes(k)
+         if (subject /= of_removed) title = title//' OF JOINT'
+         call table%start(title//' '//integer_text(joint%id)//page%now, &
+                          [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), columns_of(page, subject, model)], page%file)
+      end associate
+      do i = 1, size(list)
+         call table%add([model%interface(list(i))%id, joint_node_id(model, list(i), 1)])
+         if (present(k)) call add_shear(table, subject, model, analysis, list(i), k)
+         if (.not. present(k)) call add_normal(table, subject, model, analysis, list(i))
+         call table%print_row(page%file)
       end do
-      call table%print_kept(page%file) ! no elements removed: no table
    end subroutine list_elements
 
    !> The columns of a table of SUBJECT after element and node.
@@ -254,6 +250,39 @@ contains
          end if
       end associate
    end subroutine add_shear
+
+   !> Work on the joints in the stage, by normal forces, by shear and on friction. Over a closed loop the difference of work put
+   !! in and given back is lost; the work on friction is lost at once.
+   subroutine list_energy(page, model, analysis)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      character(10), parameter :: names(3) = [character(10) :: 'PUT IN', 'GIVEN BACK', 'KEPT']
+      type(table_type) :: table
+      real(wp) :: floor
+      integer  :: j, k
+      logical  :: slides
+
+      if (size(model%joints) == 0) return
+      slides = any(model%joints%law%has_friction)
+      call heading(page%file, 'ENERGY OF JOINTS, '//page%stage)
+      call page%file%put('                 ------------- NORMAL -------------------   -------------- SHEAR -------------------'// &
+                         trim(merge('   SLIDING', '          ', slides)))
+      call table%start('', [column('JOINT', 'i11', heading_shift=-1), column(names, ['es14.5', 'es13.5', 'es13.5']), &
+                            column(names, ['es15.5', 'es13.5', 'es13.5']), column('LOST', 'es15.5', is_listed=slides)], page%file)
+      if (page%labels%moment /= '') call page%file%put('                 ('//trim(page%labels%moment)//')')
+      do j = 1, size(model%joints)
+         associate (energy => analysis%energy(j))
+            floor = noise*sum(energy%put_in)
+            call table%add([model%joints(j)%id])
+            do k = 2, 1, -1
+               call table%add([energy%put_in(k), energy%given_back(k), energy%put_in(k) - energy%given_back(k)], floor)
+            end do
+            call table%add(energy%put_in(3:), floor)
+            call table%print_row(page%file)
+         end associate
+      end do
+   end subroutine list_energy
 
    !> A plot for each joint; a map where the joint has a plane in space.
    subroutine plot_joints(page, model, analysis)

@@ -21,51 +21,49 @@ contains
    subroutine write_echo(file, deck)
       type(output_file_type), intent(inout) :: file
       type(deck_type), intent(in)           :: deck
+      integer, parameter :: outside = 0, begins = 1, a_card = 2, in_card = 3 ! where a line is: in the bulk data or not
+      integer, allocatable :: part(:)
       character(10) :: counter
       character(8)  :: name
       integer :: cards, i, hidden !! lines of INCLUDE files since the last one shown
-      logical :: begins, in_bulk, ended, is_own, shows_cards
+      logical :: ended, shows_cards
 
       if (.not. deck%control%echo) then
          call heading(file, 'DECK: '//integer_text(deck%bulk%n_cards)//' CARDS, NOT ECHOED')
          return
       end if
       call heading(file, 'DECK ECHO')
-      shows_cards = deck%control%echo_asked
-      if (.not. shows_cards) shows_cards = .not. has_many_cards(deck)
-      cards = 0
-      hidden = 0
-      in_bulk = .false.
-      ended = .false.
-      do i = 1, deck%text%n
-         is_own = deck%text%file_number(i) == 1
-         counter = ''
-         begins = .false.
-         if (in_bulk) then
-            name = name_at(deck%text, i)
-            if (name == 'ENDDATA') then
-               in_bulk = .not. is_own
-               ended = is_own
-            else if (name /= '') then
-               cards = cards + 1
-               if (shows_cards) write (counter, '(i9, a)') cards, '-'
+      associate (text => deck%text, is_own => [(deck%text%file_number(i) == 1, i = 1, deck%text%n)])
+         allocate (part(0:text%n), source=outside)
+         ended = .false.
+         do i = 1, text%n
+            if (part(i - 1) /= outside) then
+               name = name_at(text, i)
+               part(i) = merge(in_card, a_card, name == '' .or. name == 'ENDDATA')
+               ended = name == 'ENDDATA' .and. is_own(i)
+               if (ended) part(i) = outside
+            else if (.not. ended) then
+               if (index(adjustl(upper(text%card_part(i))), 'BEGIN') == 1) part(i) = begins
             end if
-         else if (.not. ended) then
-            begins = begins_bulk(deck%text%card_part(i))
-         end if
-         if (.not. is_own) then
-            hidden = hidden + 1
-         else if (shows_cards .or. .not. in_bulk) then
-            call count_hidden()
-            call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
-         end if
-         if (begins) then
-            in_bulk = .true.
-            if (.not. shows_cards) cycle
+         end do
+         shows_cards = deck%control%echo_asked .or. count(is_own .and. part(1:) == a_card) <= most_echoed
+         cards = 0
+         hidden = 0
+         do i = 1, text%n
+            if (part(i) == a_card) cards = cards + 1
+            counter = ''
+            if (shows_cards .and. part(i) == a_card) write (counter, '(i9, a)') cards, '-'
+            if (.not. is_own(i)) then
+               hidden = hidden + 1
+            else if (shows_cards .or. part(i) <= begins) then
+               call count_hidden()
+               call file%put(' '//counter//' '//cut(text%line(i), page_width - 13))
+            end if
+            if (part(i) /= begins .or. .not. shows_cards) cycle
             call file%put('   CARD')
             call file%put('  COUNT-    .   1  ..   2  ..   3  ..   4  ..   5  ..   6  ..   7  ..   8  ..   9  ..  10  .')
-         end if
-      end do
+         end do
+      end associate
       call count_hidden()
       call file%put('')
       call file%put('  TOTAL COUNT '//integer_text(cards)//' CARDS')
@@ -81,28 +79,6 @@ contains
 
    end subroutine write_echo
 
-   !> Whether the deck itself, without INCLUDE files, has more cards than are echoed without ECHO.
-   logical function has_many_cards(deck)
-      type(deck_type), intent(in) :: deck
-      character(8) :: name
-      integer :: i, n
-      logical :: in_bulk
-
-      n = 0
-      in_bulk = .false.
-      do i = 1, deck%text%n
-         if (deck%text%file_number(i) > 1) cycle
-         if (in_bulk) then
-            name = name_at(deck%text, i)
-            if (name == 'ENDDATA' .or. n > most_echoed) exit
-            if (name /= '') n = n + 1
-         else
-            in_bulk = begins_bulk(deck%text%card_part(i))
-         end if
-      end do
-      has_many_cards = n > most_echoed
-   end function has_many_cards
-
    !> The name of the card that begins on line I of the bulk data, or ENDDATA; blank where none begins. The line is examined in
    !! place: copies of a long deck would take more time than the rest of the head.
    pure function name_at(text, i) result(name)
@@ -116,12 +92,5 @@ contains
       name = card_name(text%files(file)%bytes(first:last), comma)
       if (is_include(text%files(file)%bytes(first:last))) name = ''
    end function name_at
-
-   !> Whether LINE of the case control is BEGIN BULK.
-   pure logical function begins_bulk(line)
-      character(*), intent(in) :: line
-
-      begins_bulk = index(adjustl(upper(line)), 'BEGIN') == 1
-   end function begins_bulk
 
 end module listing_echo

@@ -1,8 +1,9 @@
-!> Result files that appear under their names only when complete: written as NAME.abcdef.part, renamed at the end. Without a
-!! name the lines go to the standard output at the end.
+!> Result files that appear under their names only when complete: written as NAME.abcdef.part, closed, and renamed at the end of
+!! the run. Without a name the lines go to the standard output at the end.
 module output_file
    use c_library, only: close_file, remove_file, write_bytes
    use incomplete_results, only: create_part, name_part
+   use kinds, only: long
    use restart_stream, only: restart_stream_type
    implicit none
    private
@@ -10,12 +11,14 @@ module output_file
    type, public :: output_file_type
       private
       character(:), allocatable :: path          ! empty: standard output
-      character(:), allocatable :: part          ! its name until complete
+      character(:), allocatable, public :: part  !! its name until the end
       character(:), allocatable :: buffer
       integer :: used = 0
       integer :: descriptor = -1
-      logical :: fault = .false.                 ! some write has failed
+      logical, public :: fault = .false.         !! some write has failed, or the writer has found a fault
       logical, public :: is_open = .false.
+      logical :: waits = .false.                 ! complete and closed, not yet named
+      logical, public :: is_named = .false.      !! has its name
    contains
       procedure :: start
       procedure :: put
@@ -23,6 +26,7 @@ module output_file
       procedure :: length
       procedure :: text_behind
       procedure :: failed
+      procedure :: close
       procedure :: finish
       procedure :: discard
       procedure :: record
@@ -32,11 +36,13 @@ module output_file
 
 contains
 
-   !> Open the file that will be PATH (empty: standard output).
+   !> Open the file that will be PATH (empty: standard output). A file that is still open is discarded.
    subroutine start(self, path)
       class(output_file_type), intent(inout) :: self
       character(*), intent(in)               :: path
 
+      self%is_named = .false.
+      call self%discard()
       self%path = path
       if (allocated(self%buffer)) deallocate (self%buffer)
       allocate (character(room) :: self%buffer)
@@ -61,12 +67,19 @@ contains
       self%buffer(self%used:self%used) = new_line('a')
    end subroutine put
 
-   !> Write TEXT, whole lines with their ends.
+   !> Write TEXT, whole lines with their ends, or bytes.
    subroutine put_lines(self, text)
       class(output_file_type), intent(inout) :: self
       character(*), intent(in)               :: text
+      logical :: ok
 
       if (self%fault) return
+      if (self%path /= '' .and. len(text, long) > room) then
+         call empty(self)
+         if (.not. self%fault) call write_bytes(self%descriptor, text, ok)
+         self%fault = self%fault .or. .not. ok
+         return
+      end if
       if (self%used + len(text) > len(self%buffer)) call make_room(self, len(text))
       if (self%fault) return
       self%buffer(self%used + 1:self%used + len(text)) = text
@@ -89,18 +102,23 @@ contains
       text = self%buffer(n + 1:self%used)
    end function text_behind
 
-   !> Empty the buffer into the file; for the standard output, make the buffer larger.
+   !> Empty the buffer into the file.
+   subroutine empty(self)
+      class(output_file_type), intent(inout) :: self
+      logical :: ok
+
+      if (.not. self%fault) call write_bytes(self%descriptor, self%buffer(:self%used), ok)
+      self%fault = self%fault .or. .not. ok
+      self%used = 0
+   end subroutine empty
+
+   !> Make room for the NEEDED bytes in the buffer; for the standard output, make the buffer larger.
    subroutine make_room(self, needed)
       class(output_file_type), intent(inout) :: self
       integer, intent(in)                    :: needed
       character(:), allocatable :: wider
-      logical :: ok
 
-      if (self%path /= '') then
-         call write_bytes(self%descriptor, self%buffer(:self%used), ok)
-         self%fault = .not. ok
-         self%used = 0
-      end if
+      if (self%path /= '') call empty(self)
       if (self%used + needed <= len(self%buffer)) return
       allocate (character(2*len(self%buffer) + needed) :: wider)
       wider(:self%used) = self%buffer(:self%used)
@@ -114,49 +132,58 @@ contains
       failed = self%fault
    end function failed
 
+   !> Write the rest and close the file, which has no name yet.
+   subroutine close(self)
+      class(output_file_type), intent(inout) :: self
+      logical :: closed
+
+      if (.not. self%is_open .or. self%path == '') return
+      call empty(self)
+      call close_file(self%descriptor, closed)
+      deallocate (self%buffer)
+      self%is_open = .false.
+      self%fault = self%fault .or. .not. closed
+      self%waits = .not. self%fault
+      if (self%fault) call remove_file(self%part)
+   end subroutine close
+
    !> Close the file and give it its name. If that fails, OK is false and the file is removed.
    subroutine finish(self, ok)
       class(output_file_type), intent(inout) :: self
       logical, intent(out)                   :: ok
-      logical :: closed
 
       ok = .false.
-      if (.not. self%is_open) return
-      if (.not. self%fault) then
-         call write_bytes(merge(1, self%descriptor, self%path == ''), self%buffer(:self%used), ok)
+      if (.not. (self%is_open .or. self%waits)) return
+      if (self%path == '') then
+         if (.not. self%fault) call write_bytes(1, self%buffer(:self%used), ok)
          self%used = 0
+         self%is_open = .false.
+      else
+         call self%close()
+         if (self%waits) call name_part(self%part, self%path, ok)
+         self%waits = .false.
+         self%is_named = ok
       end if
-      if (self%path /= '') then
-         call close_file(self%descriptor, closed)
-         ok = ok .and. closed
-         if (ok) then
-            call name_part(self%part, self%path, ok)
-         else
-            call remove_file(self%part)
-         end if
-      end if
-      self%is_open = .false.
       self%fault = .not. ok
    end subroutine finish
 
-   !> Discard the file.
+   !> Discard the file, unless it already has its name.
    subroutine discard(self)
       class(output_file_type), intent(inout) :: self
       logical :: closed
 
-      if (.not. self%is_open) return
+      if (self%is_open) self%waits = self%path /= ''
+      if (self%is_open .and. self%waits) call close_file(self%descriptor, closed)
+      if (self%waits) call remove_file(self%part)
       self%is_open = .false.
-      if (self%path == '') return
-      call close_file(self%descriptor, closed)
-      call remove_file(self%part)
+      self%waits = .false.
    end subroutine discard
 
-   !> Write the present content of the file to a restart file, or replace it by that of the restart file.
+   !> Write the present content of the file to a restart file, or replace it by that of the restart file; the file is then open.
    subroutine record(self, stream)
       class(output_file_type), intent(inout)   :: self
       type(restart_stream_type), intent(inout) :: stream
       character(:), allocatable :: text
-      logical :: ok
 
       if (self%path == '') then
          if (stream%writes) text = self%buffer(:self%used)
@@ -167,12 +194,9 @@ contains
          self%used = len(text)
          self%buffer(:self%used) = text
       else if (stream%writes) then
-         if (self%used > 0) call write_bytes(self%descriptor, self%buffer(:self%used), ok)
-         if (self%used > 0) self%fault = self%fault .or. .not. ok
-         self%used = 0
+         if (self%is_open) call empty(self)
          call stream%file(self%part, self%descriptor)
       else
-         call self%discard()
          call self%start(self%path)
          if (self%is_open) call stream%file(self%part, self%descriptor)
       end if

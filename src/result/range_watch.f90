@@ -5,10 +5,11 @@
 module range_watch
    use analysis_state, only: analysis_type, free_norm
    use branch_cubic, only: cubic_slope
+   use case_control, only: method_back
    use element_kinds, only: kind_tetra4
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
-   use table_writer, only: axes, table_type, page_width
+   use table_writer, only: axes, page_type, page_width, table_type
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, branch_unload
@@ -16,17 +17,16 @@ module range_watch
    use restart_stream, only: restart_stream_type
    use shear_loops, only: loop_closure, wide_gap, worst_closure
    use shear_stiffness, only: curve_deflection, shear_law, shear_slope
-   use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, plural, real_text, upper
    use unknowns, only: unknown_name
    implicit none
    private
 
-   public :: start_watch, watch_shear_laws, watch_ranges, say_ranges, watch_unloading, watch_balance, note_condition, &
-             note_division, record_watch, tetra_words
+   public :: start_watch, watch_increment, watch_stage, record_watch, tetra_words, distance_words
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: a smaller remainder gives no warning
    real(wp), parameter :: rounding = 1.0e-9_wp
+   real(wp), parameter :: far = 0.02_wp  ! of the largest deflection or stress: beyond it the answer is not that of the laws
 
    integer, parameter :: beyond_p = 1, beyond_d = 2, no_slope = 3 ! bounds of a shear law
 
@@ -40,9 +40,20 @@ module range_watch
       real(wp) :: bound = 0.0_wp
    end type tally_type
 
+   !> The largest distance from a law in a run.
+   type, public :: farthest_type
+      real(wp) :: relative = 0.0_wp           !! of the largest deflection or stress of the joint in the increment
+      integer  :: node = 0                    !! its number
+      character(:), allocatable :: quantity, place !! in words
+   end type farthest_type
+
    type, public :: range_watch_type
       integer :: n_warnings = 0               !! total
-      type(table_type) :: rows        !! of the stage so far
+      type(table_type) :: rows                !! of the stage so far
+      type(farthest_type) :: farthest
+      character(:), allocatable :: poor_condition !! last warning of the condition for the screen, '': none
+      character(:), allocatable :: divided    !! message about the last divided increment, '': none
+      character(:), allocatable, private :: place ! stage and increment
       integer, allocatable, private :: stage(:, :)   ! (bounds, n) stage in which an element was last found beyond a bound
       type(tally_type), allocatable, private :: tallies(:, :) ! (bounds, joints)
       logical, allocatable, private :: soft_line(:)  ! whether the E_u of a joint was warned of
@@ -62,7 +73,38 @@ contains
       allocate (watch%soft_line(size(model%joints)), watch%soft_unloading(2*size(model%joints)), source=.false.)
       allocate (watch%first_of(2, size(model%joints)), source=-1)
       if (tetra_words(model) /= '') watch%n_warnings = 1
+      watch%poor_condition = ''
+      watch%divided = ''
    end subroutine start_watch
+
+   !> Warn of the increment just completed.
+   subroutine watch_increment(page, model, analysis, method, watch)
+      type(page_type), intent(in)           :: page
+      type(model_type), intent(in)          :: model
+      type(analysis_type), intent(in)       :: analysis
+      integer, intent(in)                   :: method !! of case control
+      type(range_watch_type), intent(inout) :: watch
+
+      watch%place = page%place
+      if (analysis%record%condition%is_new) call note_condition(model, analysis, watch)
+      if (analysis%record%n_parts > 1 .and. .not. analysis%record%is_partial) call note_division(analysis, watch)
+      call watch_ranges(model, analysis, watch)
+      if (method == method_back) return
+      if (any(watch%first_of < 0)) call watch_closures(model, watch)
+      call watch_shear_laws(model, analysis, watch)
+      call watch_unloading(model, analysis, watch)
+   end subroutine watch_increment
+
+   !> Warn of the stage just completed.
+   subroutine watch_stage(page, model, analysis, watch)
+      type(page_type), intent(in)           :: page
+      type(model_type), intent(in)          :: model
+      type(analysis_type), intent(in)       :: analysis
+      type(range_watch_type), intent(inout) :: watch
+
+      call say_ranges(model, page%stage, watch)
+      call watch_balance(model, analysis, page%largest_force, watch)
+   end subroutine watch_stage
 
    !> The warning for a model whose bodies are of linear tetrahedra only; otherwise empty.
    pure function tetra_words(model) result(words)
@@ -74,16 +116,14 @@ contains
          'usual meshes 10 to 35 % too stiff in bending: mesh with second order'
    end function tetra_words
 
-   !> Warn, in the first increment, of laws whose loops stay open. Warn of laws of which an element has begun to unload less
-   !! steeply than it was loaded: there a branch leaves its loading curve on the wrong side.
-   subroutine watch_shear_laws(model, plan, analysis, watch)
+   !> Warn of laws of which an element has begun to unload less steeply than it was loaded: there a branch leaves its loading curve
+   !! on the wrong side.
+   subroutine watch_shear_laws(model, analysis, watch)
       type(model_type), intent(in)          :: model
-      type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
       integer :: i, k, law
 
-      if (any(watch%first_of < 0)) call watch_closures(model, watch)
       do i = 1, size(model%interface)
          do k = 1, model%dimension - 1
             law = watch%first_of(k, model%interface(i)%joint)
@@ -95,7 +135,7 @@ contains
                    (1.0_wp - rounding)*cubic_slope(curves%load, state%d_r, p)) cycle
                watch%soft_unloading(law) = .true.
                call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
-                  upper(where_in_plan(plan, analysis%stage, analysis%increment))//': SHEAR LAW OF JOINT '// &
+                  upper(watch%place)//': SHEAR LAW OF JOINT '// &
                   integer_text(model%joints(model%interface(i)%joint)%id)//', '//axes(k)// &
                   ': UNLOADING IS LESS STEEP THAN LOADING AT P = '//real_text(p)//', D = '//real_text(state%d_r))
             end associate
@@ -187,10 +227,9 @@ contains
    end subroutine watch_ranges
 
    !> At the end of a stage print a line for each joint and bound of its shear law that elements have exceeded.
-   subroutine say_ranges(model, plan, analysis, watch)
+   subroutine say_ranges(model, stage, watch)
       type(model_type), intent(in)          :: model
-      type(stage_plan_type), intent(in)     :: plan
-      type(analysis_type), intent(in)       :: analysis
+      character(*), intent(in)              :: stage !! 'STAGE 2'
       type(range_watch_type), intent(inout) :: watch
       character(:), allocatable :: words
       integer :: j, which
@@ -202,10 +241,9 @@ contains
                words = 'WITHOUT A POSITIVE SLOPE'
                if (which == beyond_p) words = 'BEYOND P = '//real_text(tally%bound)
                if (which == beyond_d) words = 'BEYOND D = '//real_text(tally%bound)
-               call warn(watch, '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', STAGE '// &
-                  integer_text(plan%stages(analysis%stage)%id)//': '//upper(plural(tally%n, 'element'))//' '// &
-                  words//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)//' (INCREMENT '// &
-                  integer_text(tally%increment)//'),', &
+               call warn(watch, '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', '//stage//': '// &
+                  upper(plural(tally%n, 'element'))//' '//words//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)// &
+                  ' (INCREMENT '//integer_text(tally%increment)//'),', &
                   ' WORST '//integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d))
             end associate
          end do
@@ -233,9 +271,8 @@ contains
 
    !> Warn of joints of which an element has reached a point where the loading curve is steeper than its line of unloading, of
    !! slope E_u.
-   subroutine watch_unloading(model, plan, analysis, watch)
+   subroutine watch_unloading(model, analysis, watch)
       type(model_type), intent(in)          :: model
-      type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
       real(wp) :: slope
@@ -249,7 +286,7 @@ contains
                if (law%e_u >= slope*(1.0_wp - rounding)) cycle
                watch%soft_line(j) = .true.
                call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
-                  upper(where_in_plan(plan, analysis%stage, analysis%increment))//': E_U = '//real_text(law%e_u)//' OF JOINT '// &
+                  upper(watch%place)//': E_U = '//real_text(law%e_u)//' OF JOINT '// &
                   integer_text(model%joints(j)%id)//' IS BELOW THE LOADING SLOPE '//real_text(slope)//' AT P = '//real_text(p)// &
                   trim(merge(': NEGATIVE SET', '              ', p/law%e_u > loading_deflection(law, max(p, 0.0_wp)))))
             end associate
@@ -258,9 +295,8 @@ contains
    end subroutine watch_unloading
 
    !> At the end of a stage: the unbalanced force, and the remaining excess over the friction limits.
-   subroutine watch_balance(model, plan, analysis, largest_force, watch)
+   subroutine watch_balance(model, analysis, largest_force, watch)
       type(model_type), intent(in)          :: model
-      type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
       real(wp), intent(in)                  :: largest_force !! ever applied at a node
       type(range_watch_type), intent(inout) :: watch
@@ -268,7 +304,7 @@ contains
       real(wp) :: excess, limit, unbalanced
       integer  :: i
 
-      words = '  WARNING: '//upper(where_in_plan(plan, analysis%stage, analysis%increment))//': '
+      words = '  WARNING: '//upper(watch%place)//': '
       unbalanced = free_norm(analysis%unbalanced, analysis%held)
       if (unbalanced > much*largest_force) then
          call warn(watch, words//real_text(unbalanced)//' OF FORCE REMAIN UNBALANCED BY REMOVED ELEMENTS: '// &
@@ -291,45 +327,50 @@ contains
       end if
    end subroutine watch_balance
 
-   !> Warn of the condition of the stiffness where it is the poorest so far; WORDS are the same for the screen. Only powers of
-   !! ten are given: the digits are rounding.
-   subroutine note_condition(model, plan, analysis, watch, words)
-      type(model_type), intent(in)           :: model
-      type(stage_plan_type), intent(in)      :: plan
-      type(analysis_type), intent(in)        :: analysis
-      type(range_watch_type), intent(inout)  :: watch
-      character(:), allocatable, intent(out) :: words
+   !> Warn of the condition of the stiffness, the poorest so far. Only powers of ten are given: the digits are rounding.
+   subroutine note_condition(model, analysis, watch)
+      type(model_type), intent(in)          :: model
+      type(analysis_type), intent(in)       :: analysis
+      type(range_watch_type), intent(inout) :: watch
       character(:), allocatable :: first, second
       integer :: power
 
       associate (condition => analysis%record%condition)
          power = nint(log10(condition%number))
-         first = where_in_plan(plan, analysis%stage, analysis%increment)//': condition of the stiffness about 1E'// &
+         first = watch%place//': condition of the stiffness about 1E'// &
                  integer_text(power)//', about '//integer_text(max(0, 16 - power))//' of 16 digits remain'
          second = 'softest at '//unknown_name(model, condition%node, condition%direction)
       end associate
       call warn(watch, '  WARNING: '//upper(first)//': ', upper(second))
-      words = first//': '//second
+      watch%poor_condition = first//': '//second
    end subroutine note_condition
 
-   !> Note a divided increment, and warn where its answer depends on the parts; WORDS are the same for the screen.
-   subroutine note_division(plan, analysis, watch, words)
-      type(stage_plan_type), intent(in)      :: plan
-      type(analysis_type), intent(in)        :: analysis
-      type(range_watch_type), intent(inout)  :: watch
-      character(:), allocatable, intent(inout) :: words
+   !> Note a divided increment, and warn where its answer depends on the parts.
+   subroutine note_division(analysis, watch)
+      type(analysis_type), intent(in)       :: analysis
+      type(range_watch_type), intent(inout) :: watch
       character(:), allocatable :: first, second
 
-      if (analysis%record%n_parts <= 1 .or. analysis%record%is_partial) return
-      first = where_in_plan(plan, analysis%stage, analysis%increment)//': divided into '// &
+      first = watch%place//': divided into '// &
               integer_text(analysis%record%n_parts)//' parts'
       second = 'then repeated as a whole from the state that they reached'
       if (.not. analysis%record%is_whole) then
          second = 'it did not converge as a whole, and the answer depends on the parts: more increments show by how much'
       end if
       call warn(watch, merge('  NOTE:    ', '  WARNING: ', analysis%record%is_whole)//upper(first)//', ', upper(second))
-      words = first//', '//second
+      watch%divided = first//', '//second
    end subroutine note_division
+
+   !> The line on the screen after a run FAR from its laws; '' otherwise.
+   pure function distance_words(farthest) result(words)
+      type(farthest_type), intent(in) :: farthest
+      character(:), allocatable :: words
+
+      words = ''
+      if (farthest%relative > far) words = 'STEP is up to '//real_text(0.1_wp*anint(1000.0_wp*farthest%relative))// &
+         ' % of the largest '//farthest%quantity//' away from its law, at node '//integer_text(farthest%node)//' in '// &
+         farthest%place//'; METHOD = NEWTON follows the laws'
+   end function distance_words
 
    !> Write the state of the warnings to a restart file, or read it.
    subroutine record_watch(stream, watch)

@@ -3,7 +3,7 @@ module results
    use analysis_state, only: analysis_type
    use answer_tables, only: bolt_columns, print_answer, print_bolts, print_reactions, print_watched, reaction_columns, &
                             split_columns, stage_columns, watch_columns
-   use backbone, only: backbone_type
+   use body_tables, only: list_bodies, list_condensed
    use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, keep_bolts, n_bolts, record_bolts, start_bolts
    use c_library, only: close_file, lock_folder
    use deck_input, only: deck_type
@@ -11,30 +11,33 @@ module results
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
+   use joint_tables, only: history_titles, list_energy, list_joints, plot_joints, write_history
    use kinds, only: wp
-   use listing, only: finish_listing, list_increment, list_stage, listing_type, record_listing, start_listing
-   use joint_tables, only: history_titles, write_history
-   use table_writer, only: backbone_table, bend_table, bolt_table, csv_titles, energy_table, joint_table, loop_table, &
-                            modes_table, &
-                            reaction_table, response_table, shell_table, split_table, stage_table, table_endings, watch_table
-   use modal_response, only: response_type
+   use listing_opening, only: write_opening
    use mode_values, only: modes_type
    use model_data, only: model_type
+   use node_coupling, only: held_forces
+   use range_watch, only: range_watch_type, record_watch, start_watch, watch_increment, watch_stage
    use restart_stream, only: restart_stream_type
    use stage_answer, only: fault_of_answer, find_answer, stage_answer_type
-   use stage_plan, only: any_backbone, any_modes, any_response, any_watched, stage_plan_type, where_in_plan
-   use structural_results, only: shell_columns
+   use stage_entries, only: output_all, output_joint, output_last
+   use stage_plan, only: any_backbone, any_modes, any_response, any_watched, planned_stage, stage_plan_type
+   use stage_tables, only: n_stage_tables, note_stage_tables, pass_rows
+   use structural_results, only: list_shell_forces, shell_columns
    use support_reactions, only: find_reactions, reactions_type
-   use text_tools, only: real_text
-   use vibration_tables, only: backbone_columns, bend_columns, energy_columns, list_backbone, list_modes, list_response, &
-                               loop_columns, modes_columns, response_columns
+   use table_writer, only: backbone_table, bend_table, bolt_table, csv_titles, energy_table, joint_table, loop_table, modes_table, &
+                           page_type, reaction_table, response_table, set_labels, shell_table, split_table, stage_table, &
+                           table_endings, table_type, watch_table
+   use text_tools, only: integer_text, plural, real_text, upper
+   use vibration_tables, only: backbone_columns, bend_columns, energy_columns, list_modes, loop_columns, modes_columns, &
+                               response_columns
    use vtu_lists, only: is_vtu_ending, remove_old_vtu
    use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, write_modes, write_vtu
    use watched_nodes, only: find_watched, keep_watched, record_watched, start_watched, watch_answer, watch_state
    implicit none
    private
 
-   public :: start_results, print_increment, print_stage, print_modes, print_backbone, print_response, finish_results, &
+   public :: start_results, print_increment, print_stage, print_modes, finish_results, &
              discard_results, record_results, remove_old_results, show_answers, is_result_ending
 
    character(*), parameter, public :: listing_ending = '.out', restart_ending = '.restart'
@@ -51,14 +54,18 @@ module results
 
    type, public :: results_type
       type(digest_type)      :: digest
-      type(watch_answer)     :: watched       !! of the last stage with watched nodes
-      type(listing_type)     :: listing
-      logical, private       :: has_table(size(table_endings)) = .false.
-      type(vtu_results_type) :: vtu
-      type(bolt_history), private :: bolts
-      type(watch_state), private :: watched_before      ! likewise, where nodes are watched
-      character(:), allocatable :: missing_vtu !! why requested files for ParaView are missing; '': they exist
-      character(:), allocatable :: base !! beginning of the names of the files, folder included
+      type(page_type)        :: page
+      type(watch_answer)     :: watched             !! of the last stage with watched nodes
+      type(range_watch_type) :: watch
+      character(:), allocatable :: missing_vtu      !! why requested files for ParaView are missing; '': they exist
+      character(:), allocatable :: base             !! beginning of the names of the files, folder included
+      integer, private :: method = 0                ! of case control
+      integer, private :: n_removed = 0             ! interface elements
+      type(table_type), private :: stage_tables(n_stage_tables) ! of the stage so far
+      type(vtu_results_type), private :: vtu
+      type(bolt_history), private     :: bolts
+      type(watch_state), private      :: watched_before ! at the end of the last stage, where nodes are watched
+      logical, private :: has_table(size(table_endings)) = .false.
    end type results_type
 
 contains
@@ -78,14 +85,20 @@ contains
       call all_complete()
       results%base = base
       results%missing_vtu = ''
+      results%method = deck%control%method
       call start_bolts(model, results%bolts)
       if (any_watched(plan)) call start_watched(model, results%watched_before)
-      if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
-      if (base /= '') call start_listing(results%listing, base//listing_ending, deck, model, plan, system)
-      if (base /= '' .and. any(plan%stages%output%vtu)) call distribute_bodies(model, system, dealt)
-      call start_vtu(results%vtu, base, results%listing%page%labels, plan, dealt)
-      ok = .not. results%listing%page%file%failed()
-      call results%listing%page%screen%start('')
+      call start_watch(model, results%watch)
+      associate (page => results%page, control => deck%control)
+         if (base == '') call page%file%start('')
+         if (base /= '') call page%file%start(base//listing_ending)
+         if (control%length_unit /= '') call set_labels(trim(control%length_unit), trim(control%force_unit), page%labels)
+         call write_opening(page, deck, model, plan, system)
+         if (base /= '' .and. any(plan%stages%output%vtu)) call distribute_bodies(model, system, dealt)
+         call start_vtu(results%vtu, base, page%labels, plan, dealt)
+         ok = .not. page%file%failed()
+         call page%screen%start('')
+      end associate
       if (base /= '') call start_tables(model, plan, results, ok)
    end subroutine start_results
 
@@ -96,7 +109,7 @@ contains
       type(results_type), intent(inout) :: results
       logical, intent(inout)            :: ok
 
-      associate (labels => results%listing%page%labels, d => model%dimension)
+      associate (labels => results%page%labels, d => model%dimension)
          call open_table(joint_table, .true., history_titles(model))
          call open_table(stage_table, .true., csv_titles(stage_columns(labels)))
          call open_table(bolt_table, n_bolts(model) > 0, csv_titles(bolt_columns(labels, 1)))
@@ -121,7 +134,7 @@ contains
 
          if (.not. is_wanted) return
          results%has_table(i) = .true.
-         associate (table => results%listing%page%tables(i))
+         associate (table => results%page%tables(i))
             call table%start(results%base//trim(table_endings(i)))
             ok = ok .and. .not. table%failed()
             call table%put(titles)
@@ -130,26 +143,67 @@ contains
 
    end subroutine start_tables
 
-   !> Write the results of the completed increment.
+   !> Note the increment just completed; write the tables that OUTPUT = ALL or JOINT asks for, VTU with STEPS, and the rows of the
+   !! CSV files.
    subroutine print_increment(model, plan, analysis, results)
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
       type(results_type), intent(inout) :: results
       type(bolt_answer_type), allocatable :: bolts(:)
+      character(40) :: words
 
-      call list_increment(results%listing, model, plan, analysis)
       results%digest%increments = results%digest%increments + 1
       results%digest%iterations = results%digest%iterations + analysis%record%n_iterations
-      if (plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
-      call find_bolt_answers(model, analysis, results%listing%page%largest_force, results%bolts, bolts)
-      if (results%base == '') return
-      call write_history(results%listing%page, model, analysis)
-      if (n_bolts(model) == 0) return
-      call print_bolts(results%listing%page, analysis, bolts, in_answer=.false.)
+      results%n_removed = results%n_removed + analysis%record%n_removed
+      associate (stage => plan%stages(analysis%stage), page => results%page)
+         call turn_page(page, model, stage, analysis)
+         call note_stage_tables(page, results%method, model, analysis, results%stage_tables, results%watch%farthest)
+         call watch_increment(page, model, analysis, results%method, results%watch)
+         if (stage%output%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
+         if (stage%output%level >= merge(output_last, output_joint, analysis%increment == size(stage%fractions))) then
+            write (words, '(2(a, f8.5))') '   SHARE', analysis%increment_fraction, '   LOAD', analysis%fraction
+            call page%file%put('')
+            call page%file%put(' '//upper(page%place)//trim(words))
+         end if
+         if (analysis%increment < size(stage%fractions)) then ! print_stage prints the tables of the last increment
+            if (stage%output%level >= output_joint) call list_joints(page, stage%output, model, analysis)
+            if (stage%output%level == output_all) call list_bodies(page, stage%output, model, analysis)
+         end if
+         if (stage%output%steps) call write_vtu(results%vtu, model, plan, analysis)
+         call find_bolt_answers(model, analysis, page%largest_force, results%bolts, bolts)
+         if (results%base == '') return
+         call write_history(page, model, analysis)
+         call print_bolts(page, analysis, bolts, in_answer=.false.)
+      end associate
    end subroutine print_increment
 
-   !> Write the results of the completed stage. FAILURE is raised where a value of its answer is beyond all bounds.
+   !> Set what PAGE shows in the increment of STAGE just completed, and the scale of its forces.
+   subroutine turn_page(page, model, stage, analysis)
+      type(page_type), intent(inout)   :: page
+      type(model_type), intent(in)     :: model
+      type(planned_stage), intent(in)  :: stage
+      type(analysis_type), intent(in)  :: analysis
+
+      page%stage_id = stage%id
+      page%stage = 'STAGE '//integer_text(stage%id)
+      page%place = 'stage '//integer_text(stage%id)//', increment '//integer_text(analysis%increment)
+      page%now = ', '//upper(page%place)//stage%shown_words
+      page%label = trim(stage%label)
+      page%along_cd = stage%output%along_cd
+      if (analysis%increment == 1) then
+         if (allocated(page%shown)) deallocate (page%shown)
+         if (allocated(stage%shown)) page%shown = stage%shown
+      end if
+      page%largest_force = max(page%largest_force, maxval(abs(analysis%now%load(:, analysis%loaded))))
+      if (analysis%is_moved) page%largest_force = &
+         max(page%largest_force, maxval(abs(held_forces(model, analysis%all_unbalanced)))) ! forces that move the supports
+      if (any(model%interface%gap < 0.0_wp)) page%largest_force = &
+         max(page%largest_force, maxval(abs(analysis%states%normal%sumf)))              ! forces of interference
+   end subroutine turn_page
+
+   !> Write the results of the completed stage: the tables of its last increment, those of the whole stage, and the answer. FAILURE
+   !! is raised where a value of the answer is beyond all bounds.
    subroutine print_stage(model, plan, analysis, results, failure)
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
@@ -159,13 +213,25 @@ contains
       type(stage_answer_type) :: answer
       type(reactions_type)    :: reactions
       character(:), allocatable :: fault, title
-      integer :: before
+      integer :: before, i
 
-      call list_stage(results%listing, model, plan, analysis)
-      associate (stage => plan%stages(analysis%stage), page => results%listing%page)
-         call find_answer(model, analysis, results%listing%method, page%largest_force, results%bolts, answer)
+      associate (stage => plan%stages(analysis%stage), page => results%page)
+         if (stage%output%level >= output_last) call list_joints(page, stage%output, model, analysis)
+         if (stage%output%plot) call plot_joints(page, model, analysis)
+         if (any(stage%output%level == [output_all, output_last])) then
+            call list_bodies(page, stage%output, model, analysis)
+         else if (stage%output%forces) then
+            call list_shell_forces(page, model, analysis, is_listed=.false.)
+         end if
+         call watch_stage(page, model, analysis, results%watch)
+         do i = 1, n_stage_tables
+            if (i == pass_rows) call results%watch%rows%print_kept(page%file)
+            call results%stage_tables(i)%print_kept(page%file)
+         end do
+         call list_energy(page, model, analysis)
+         call find_answer(model, analysis, results%method, page%largest_force, results%bolts, answer)
          fault = fault_of_answer(model, answer)
-         if (fault /= '') call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': '//fault// &
+         if (fault /= '') call failure%raise(page%place//': '//fault// &
                                              ' is too large; are loads, lengths and stiffnesses in consistent units?')
          title = 'ANSWER AT THE END OF '//page%stage//'   '//stage%label
          if (analysis%record%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
@@ -207,39 +273,12 @@ contains
       do m = size(modes%modes), 1, -1
          if (.not. modes%modes(m)%is_rigid) results%digest%frequency = modes%modes(m)%frequency
       end do
-      associate (planned => plan%stages(stage), page => results%listing%page)
+      associate (planned => plan%stages(stage), page => results%page)
          page%stage_id = planned%id
          call list_modes(page, model, planned%vibration, modes)
          if (results%base /= '' .and. planned%output%vtu) call write_modes(results%vtu, model, planned%id, modes)
       end associate
    end subroutine print_modes
-
-   !> Frequency and loss of a mode over its amplitude, about that state.
-   subroutine print_backbone(model, plan, stage, found, results)
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      integer, intent(in)               :: stage !! its position
-      type(backbone_type), intent(in)   :: found
-      type(results_type), intent(inout) :: results
-
-      results%listing%page%stage_id = plan%stages(stage)%id
-      call list_backbone(results%listing%page, model, found)
-      if (found%problem /= '') results%listing%watch%n_warnings = results%listing%watch%n_warnings + 1
-   end subroutine print_backbone
-
-   !> The response to an oscillating load about that state.
-   subroutine print_response(plan, stage, response, results)
-      type(stage_plan_type), intent(in) :: plan
-      integer, intent(in)               :: stage !! its position
-      type(response_type), intent(in)   :: response
-      type(results_type), intent(inout) :: results
-
-      results%listing%page%stage_id = plan%stages(stage)%id
-      call list_response(results%listing%page, response)
-      associate (watch => results%listing%watch)
-         watch%n_warnings = watch%n_warnings + size(response%missed) + merge(1, 0, size(response%frequency) == 0)
-      end associate
-   end subroutine print_response
 
    !> Give the files their names, all or none: OK is false where a file could not be written. Files for ParaView, the largest,
    !! are an exception: where they cannot be written the tables and the listing stay, and MISSING_VTU gives the reason.
@@ -255,18 +294,37 @@ contains
       call remove_all(results%base) ! of two runs of one name the later one leaves its own files only
       ok = .true.
       do i = 1, size(table_endings)
-         if (ok .and. results%listing%page%tables(i)%is_open) call results%listing%page%tables(i)%finish(ok)
+         if (ok .and. results%page%tables(i)%is_open) call results%page%tables(i)%finish(ok)
       end do
       if (ok) then
          call finish_vtu(results%vtu, has_vtu)
          if (.not. has_vtu) results%missing_vtu = what_is_in_the_way()
          if (.not. has_vtu .and. results%missing_vtu == '') results%missing_vtu = 'is there room on the disk?'
       end if
-      if (ok) call finish_listing(results%listing, plan, failure, ok)
+      if (ok) call finish_listing(plan, failure, results, ok)
       if (.not. ok) call discard_results(results)
       if (ok) call all_complete()
       call close_file(hold, closed)
    end subroutine finish_results
+
+   !> Close the listing under its name.
+   subroutine finish_listing(plan, failure, results, ok)
+      type(stage_plan_type), intent(in) :: plan
+      type(failure_type), intent(in)    :: failure !! raised: the listing ends before it
+      type(results_type), intent(inout) :: results
+      logical, intent(out)              :: ok
+
+      call results%page%file%put('')
+      if (failure%raised) then
+         call results%page%file%put(' *** THE RUN ENDED EARLY, ABOVE IS THE LAST STATE IN EQUILIBRIUM ***')
+         call results%page%file%put('  '//upper(failure%message))
+         call results%page%file%put('')
+      end if
+      call results%page%file%put(trim(merge(' ENDED EARLY   ', ' END OF LISTING', failure%raised))//'   '// &
+         upper(plural(size(plan%stages), 'stage')//', '//plural(results%digest%increments, 'increment')//', '// &
+         plural(results%n_removed, 'interface element'))//' REMOVED, '//upper(plural(results%watch%n_warnings, 'warning')))
+      call results%page%file%finish(ok)
+   end subroutine finish_listing
 
    !> The folder of the files that begin with BASE.
    pure function folder_of(base) result(folder)
@@ -290,9 +348,9 @@ contains
       do i = joint_table + 1, size(table_endings)
          if (results%has_table(i)) names = names//', '//trim(table_endings(i))
       end do
-      call results%listing%page%screen%put('')
-      call results%listing%page%screen%put(' RESULTS: '//names//vtu_names(results%vtu))
-      call results%listing%page%screen%finish(ok)
+      call results%page%screen%put('')
+      call results%page%screen%put(' RESULTS: '//names//vtu_names(results%vtu))
+      call results%page%screen%finish(ok)
    end subroutine show_answers
 
    !> Discard all partial results of this run; files of another run are not touched.
@@ -300,30 +358,50 @@ contains
       type(results_type), intent(inout) :: results
       integer :: i
 
-      call results%listing%page%file%discard()
+      call results%page%file%discard()
       do i = 1, size(table_endings)
-         call results%listing%page%tables(i)%discard()
+         call results%page%tables(i)%discard()
       end do
-      call results%listing%page%screen%discard()
+      call results%page%screen%discard()
       call discard_vtu(results%vtu)
       call give_up_parts()
    end subroutine discard_results
 
-   !> Write all results so far to a restart file, or read them into files that start_results has opened for the same deck.
+   !> Write all results so far to a restart file, or read them into files that start_results has opened for the same deck. Units
+   !! and limits of the tables come from the deck; the date is in the head of the listing.
    subroutine record_results(stream, results)
       type(restart_stream_type), intent(inout) :: stream
       type(results_type), intent(inout)        :: results
-      integer :: i
+      integer :: i, n_shown
 
-      call record_listing(stream, results%listing)
-      do i = 1, size(table_endings)
-         if (results%listing%page%tables(i)%is_open) call results%listing%page%tables(i)%record(stream)
-      end do
-      call results%listing%page%screen%record(stream)
-      call record_vtu(results%vtu, stream)
-      call record_bolts(stream, results%bolts)
-      call record_watched(stream, results%watched_before)
-      associate (d => results%digest)
+      associate (page => results%page, watch => results%watch, d => results%digest)
+         call page%file%record(stream)
+         n_shown = -1
+         if (allocated(page%shown)) n_shown = size(page%shown)
+         call stream%extent(n_shown, 4)
+         if (.not. stream%writes) then
+            if (allocated(page%shown)) deallocate (page%shown)
+            if (n_shown >= 0) allocate (page%shown(n_shown))
+         end if
+         if (n_shown >= 0) call stream%item(page%shown)
+         call stream%any_text(page%stage)
+         call stream%any_text(page%now)
+         call stream%any_text(watch%farthest%quantity)
+         call stream%any_text(watch%farthest%place)
+         call stream%any_text(watch%poor_condition)
+         call stream%any_text(watch%divided)
+         call stream%item(page%largest_force, watch%farthest%relative, watch%farthest%node, d%increments, results%n_removed)
+         do i = 1, n_stage_tables
+            call results%stage_tables(i)%record(stream)
+         end do
+         call record_watch(stream, watch)
+         do i = 1, size(table_endings)
+            if (page%tables(i)%is_open) call page%tables(i)%record(stream)
+         end do
+         call page%screen%record(stream)
+         call record_vtu(results%vtu, stream)
+         call record_bolts(stream, results%bolts)
+         call record_watched(stream, results%watched_before)
          call stream%item(d%stages, d%increments, d%iterations, d%u_max, d%mises_max, d%contact)
          call stream%item(d%safety, d%frequency, d%strained)
       end associate

@@ -1,23 +1,26 @@
 !> The answer at the end of a stage: the values of interest for the bodies, each joint and each bolt. Values at the level of
-!! rounding are zero; values without meaning are absent.
+!! rounding are zero; values without meaning are absent. For a joint these are the resultant, the rigid-body movement of its sides
+!! against each other and its six stiffnesses, in the joint's axes: forces (movements) along x, y and the normal z, moments
+!! (rotations) about them.
 module stage_answer
-   use analysis_state, only: analysis_type
+   use analysis_state, only: analysis_type, element_force
    use body_elements, only: element_centre, node_stresses, whole_stress
    use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, remainder
    use elasticity, only: max_stresses, von_mises
-   use joint_motion, only: find_resultant, joint_resultant, rigid_movement, stiffness_about
+   use interface_operator, only: at_first_end
+   use joint_sides, only: straight
    use kinds, only: wp
    use law_error, only: tangents_now
-   use table_writer, only: noise
-   use model_data, only: joint_type, model_type, n_points
+   use model_data, only: joint_frame, joint_type, model_type, n_points
    use normal_stiffness, only: branch_open, normal_state
-   use numbers, only: first_largest, is_measure
+   use numbers, only: cross, first_largest, identity, is_measure
    use structural_results, only: node_peaks
+   use table_writer, only: noise
    use text_tools, only: above, integer_text
    implicit none
    private
 
-   public :: find_answer, stands_apart, fault_of_answer
+   public :: find_answer, find_resultant, rigid_movement, stiffness_about, stands_apart, fault_of_answer
 
    !> The largest value of a kind, and its place.
    type, public :: peak_type
@@ -26,6 +29,15 @@ module stage_answer
       integer  :: id = 0                       !! of a node, or of an element
       real(wp) :: x(3) = 0.0_wp                !! position [length]
    end type peak_type
+
+   !> The force and moment of side 1 on side 2.
+   type, public :: joint_resultant
+      real(wp) :: normal = 0.0_wp           !! N: sum of the normal forces of the elements, compression positive [force]
+      real(wp) :: along(2) = 0.0_wp         !! sums of the shear forces in the elements' own x and y [force]
+      real(wp) :: shear(3) = 0.0_wp         !! the same as a vector, global axes [force]
+      real(wp) :: force(3) = 0.0_wp         !! total, global axes [force]
+      real(wp) :: moment(3) = 0.0_wp        !! about the centroid of the area, global axes [force x length]
+   end type joint_resultant
 
    type, public :: joint_answer
       real(wp) :: contact = 0.0_wp             !! share of the area that is not open
@@ -172,6 +184,126 @@ contains
          where (answer%has_secant) answer%secant = answer%force/answer%movement
       end associate
    end subroutine describe_joint
+
+   !> The present resultant of JOINT.
+   pure function find_resultant(model, analysis, joint) result(total)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(joint_type), intent(in)    :: joint
+      type(joint_resultant) :: total
+      real(wp) :: force(3)
+      integer  :: i
+
+      do i = joint%first, joint%last
+         associate (element => model%interface(i), state => analysis%states(i))
+            force = element_force(element, state)
+            total%force = total%force + force
+            total%moment = total%moment + cross(at_first_end(element, model%x) - joint%frame%centroid, force)
+            total%normal = total%normal + state%normal%sumf
+            total%along = total%along + state%shear%tau*element%area
+            total%shear = total%shear + matmul(element%axes(:, :2), state%shear%tau*element%area)
+         end associate
+      end do
+   end function find_resultant
+
+   !> Rigid-body movement of side 1 against side 2, fitted to the deflections {d} of the elements that are not open (delta_x,
+   !! delta_y, lambda as in the joint history) by least squares weighted with their areas. The translation at the centroid s of
+   !! these elements is the mean of {d}. The rotation is the smallest {t} with [J] {t} = sum a (r - s) x {d}, [J] their inertia. The
+   !! result is the movement of the point at the centroid of the joint. Elements on one line do not determine the rotation about
+   !! it: it is set to 0 [length; radians].
+   pure function rigid_movement(model, analysis, joint) result(q)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(joint_type), intent(in)    :: joint
+      real(wp) :: q(6), area, arm(3), d(3), determinant, inertia(3, 3), j, mean(3), minors(3, 3), moment(3), place(3)
+      integer  :: i
+
+      q = 0.0_wp
+      area = 0.0_wp
+      place = 0.0_wp
+      mean = 0.0_wp
+      do i = joint%first, joint%last
+         if (analysis%states(i)%normal%branch == branch_open) cycle
+         area = area + model%interface(i)%area
+         place = place + model%interface(i)%area*arm_of(model, joint%frame, i)
+         mean = mean + model%interface(i)%area*deflection_of(model, analysis, joint, i)
+      end do
+      if (.not. area > 0.0_wp) return
+      place = place/area
+      mean = mean/area
+      inertia = 0.0_wp
+      moment = 0.0_wp
+      do i = joint%first, joint%last
+         if (analysis%states(i)%normal%branch == branch_open) cycle
+         arm = arm_of(model, joint%frame, i) - place
+         d = deflection_of(model, analysis, joint, i) - mean
+         inertia = inertia + model%interface(i)%area* &
+                   (dot_product(arm, arm)*identity - spread(arm, 2, 3)*spread(arm, 1, 3))
+         moment = moment + model%interface(i)%area*cross(arm, d)
+      end do
+      j = 0.5_wp*(inertia(1, 1) + inertia(2, 2) + inertia(3, 3))
+      if (j > straight*area*joint%frame%extent**2) then  ! else all elements are at one point
+         minors(:, 1) = cross(inertia(:, 2), inertia(:, 3))
+         minors(:, 2) = cross(inertia(:, 3), inertia(:, 1))
+         minors(:, 3) = cross(inertia(:, 1), inertia(:, 2))
+         determinant = dot_product(inertia(:, 1), minors(:, 1))
+         if (determinant > straight*j**3) then
+            q(4:) = matmul(minors, moment)/determinant
+         else                                            ! on one line along e: [J] = J ([1] - e e^T)
+            q(4:) = moment/j
+         end if
+      end if
+      q(4:) = merge(q(4:), 0.0_wp, joint%frame%exists(4:))
+      q(:3) = merge(mean - cross(q(4:), place), 0.0_wp, joint%frame%exists(:3))
+   end function rigid_movement
+
+   !> Deflection of interface element I in the axes of JOINT [length].
+   pure function deflection_of(model, analysis, joint, i) result(d)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(joint_type), intent(in)    :: joint
+      integer, intent(in)             :: i
+      real(wp) :: d(3)
+
+      d(:2) = merge(analysis%states(i)%shear%delta, analysis%movement(:2, i), joint%law%shear%given)
+      d(3) = analysis%states(i)%normal%lambda
+      d = matmul(model%interface(i)%axes, d)
+      d = matmul(d, joint%frame%axes)
+   end function deflection_of
+
+   !> The stiffness of each of the six rigid-body movements with the five others held: {m}^T [k] {m} summed over the elements
+   !! [force/length; force x length].
+   pure function stiffness_about(model, joint, k) result(total)
+      type(model_type), intent(in)  :: model
+      type(joint_type), intent(in)  :: joint
+      real(wp), intent(in)          :: k(:, :) !! (3, n) of all interface elements, in their own axes [force/length]
+      real(wp) :: total(6), moved(3) ! by a unit rigid-body movement along or about an axis
+      integer  :: c, i
+
+      total = 0.0_wp
+      do i = joint%first, joint%last
+         do c = 1, 6
+            moved = 0.0_wp
+            moved(modulo(c - 1, 3) + 1) = 1.0_wp
+            if (c > 3) moved = cross(moved, arm_of(model, joint%frame, i))
+            moved = matmul(joint%frame%axes, moved)
+            moved = matmul(moved, model%interface(i)%axes)
+            total(c) = total(c) + dot_product(k(:, i), moved**2)
+         end do
+      end do
+      total = merge(total, 0.0_wp, joint%frame%exists)
+   end function stiffness_about
+
+   !> Vector from the centroid to the point of interface element I, in the axes of FRAME [length].
+   pure function arm_of(model, frame, i) result(arm)
+      type(model_type), intent(in)  :: model
+      type(joint_frame), intent(in) :: frame
+      integer, intent(in)           :: i
+      real(wp) :: arm(3)
+
+      arm = at_first_end(model%interface(i), model%x) - frame%centroid
+      arm = matmul(arm, frame%axes)
+   end function arm_of
 
    !> The first value of ANSWER beyond all bounds, in words; '' where all are finite.
    pure function fault_of_answer(model, answer) result(words)

@@ -5,50 +5,40 @@ module stage_tables
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
    use case_control, only: method_back, method_newton
    use determinate_joints, only: carried_resultant
-   use joint_motion, only: find_resultant, joint_resultant
    use kinds, only: wp
    use law_error, only: distance_type, normal_distance, shear_distance
    use table_writer, only: axes, column, table_type, noise, page_type
    use model_data, only: a_spring, bar_nodes, joint_node_id, joint_type, model_type, n_bars, n_sections, point_of, stage_load_type
    use normal_stiffness, only: branch_open
    use numbers, only: first_largest
-   use stage_plan, only: stage_plan_type, where_in_plan
+   use range_watch, only: farthest_type
+   use stage_answer, only: find_resultant, joint_resultant
    use step_method, only: reanalyses_shown
-   use text_tools, only: above, clean, integer_text, real_text
+   use text_tools, only: above, clean, integer_text
    implicit none
    private
 
-   public :: note_stage_tables, distance_words
+   public :: note_stage_tables
 
    ! the tables in the order of printing; warnings come before the passes
    integer, parameter, public :: increment_rows = 1, distance_rows = 2, pass_rows = 3, slip_rows = 4, resultant_rows = 5, &
                                  bar_rows = 6, &
                                  spring_rows = 7, section_rows = 8, n_stage_tables = 8
 
-   real(wp), parameter :: far = 0.02_wp !! of the largest deflection or stress: beyond it the answer is not that of the laws
-
-   !> The largest distance from a law in a run.
-   type, public :: farthest_type
-      real(wp) :: relative = 0.0_wp        !! of the largest deflection or stress of the joint in the increment
-      integer  :: node = 0                 !! its number
-      character(:), allocatable :: quantity, place !! in words
-   end type farthest_type
-
 contains
 
    !> Add the completed increment to all TABLES, and the distance of the joints from their laws to FARTHEST.
-   subroutine note_stage_tables(page, method, model, plan, analysis, tables, farthest)
+   subroutine note_stage_tables(page, method, model, analysis, tables, farthest)
       type(page_type), intent(in)             :: page
       integer, intent(in)                     :: method !! of case control
       type(model_type), intent(in)            :: model
-      type(stage_plan_type), intent(in)       :: plan
       type(analysis_type), intent(in)         :: analysis
       type(table_type), intent(inout)         :: tables(:)
       type(farthest_type), intent(inout)      :: farthest
 
-      call note_increment(page, trim(plan%stages(analysis%stage)%label), model, analysis, tables(increment_rows))
+      call note_increment(page, model, analysis, tables(increment_rows))
       if (allocated(analysis%exact) .and. size(model%joints) > 0) &
-         call note_distances(page, model, plan, analysis, tables(distance_rows), farthest)
+         call note_distances(page, model, analysis, tables(distance_rows), farthest)
       call note_passes(page, method, analysis, tables(pass_rows))
       call note_slips(page, model, analysis, tables(slip_rows))
       call note_resultants(page, model, analysis, tables(resultant_rows))
@@ -57,9 +47,8 @@ contains
    end subroutine note_stage_tables
 
    !> A row for each joint, or one row without joints.
-   subroutine note_increment(page, label, model, analysis, table)
+   subroutine note_increment(page, model, analysis, table)
       type(page_type), intent(in)             :: page
-      character(*), intent(in)                :: label
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
       type(table_type), intent(inout)         :: table
@@ -69,7 +58,7 @@ contains
 
       associate (labels => page%labels)
          ! here the unit of LAMBDA ends two characters behind its numbers
-         if (table%is_empty()) call table%start('INCREMENTS OF '//page%stage//'   '//label, &
+         if (table%is_empty()) call table%start('INCREMENTS OF '//page%stage//'   '//page%label, &
             [column('INCR', 'i6'), column('SHARE', 'f8.5'), column('LOAD', 'f7.4'), column('JOINT', 'i11'), column('OPEN', 'i5'), &
              column('LAMBDA MAX', 'es13.5', labels%length, unit_shift=2), column('AT NODE', 'i11'), &
              column('P MAX', 'es13.5', labels%pressure), column('AT NODE', 'i11'), &
@@ -118,10 +107,9 @@ contains
    end subroutine note_increment
 
    !> The distance of the joints from their laws, and its maximum in the run.
-   subroutine note_distances(page, model, plan, analysis, table, farthest)
+   subroutine note_distances(page, model, analysis, table, farthest)
       type(page_type), intent(in)             :: page
       type(model_type), intent(in)            :: model
-      type(stage_plan_type), intent(in)       :: plan
       type(analysis_type), intent(in)         :: analysis
       type(table_type), intent(inout)         :: table
       type(farthest_type), intent(inout)      :: farthest
@@ -176,21 +164,10 @@ contains
          farthest%relative = distance%relative
          farthest%node = joint_node_id(model, distance%element, 1)
          farthest%quantity = quantity
-         farthest%place = where_in_plan(plan, analysis%stage, analysis%increment)
+         farthest%place = page%place
       end subroutine remember
 
    end subroutine note_distances
-
-   !> The line on the screen after a run FAR from its laws; '' otherwise.
-   pure function distance_words(farthest) result(words)
-      type(farthest_type), intent(in) :: farthest
-      character(:), allocatable :: words
-
-      words = ''
-      if (farthest%relative > far) words = 'STEP is up to '//real_text(0.1_wp*anint(1000.0_wp*farthest%relative))// &
-         ' % of the largest '//farthest%quantity//' away from its law, at node '//integer_text(farthest%node)//' in '// &
-         farthest%place//'; METHOD = NEWTON follows the laws'
-   end function distance_words
 
    !> The slipping elements before and after each re-analysis, t_1 and t_1' of Fig. 5(b).
    subroutine note_slips(page, model, analysis, table)

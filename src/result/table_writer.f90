@@ -16,7 +16,7 @@ module table_writer
    implicit none
    private
 
-   public :: column, csv, csv_titles, heading, cut, in_form, in_units, shows
+   public :: column, csv, csv_titles, heading, cut, in_form, in_units, set_labels, shows
 
    integer, parameter, public      :: page_width = 132
    real(wp), parameter, public     :: noise = 1.0e-9_wp !! of the largest number of its kind: smaller values are rounding
@@ -45,6 +45,7 @@ module table_writer
       type(label_type)       :: labels
       integer :: stage_id = 0                 !! number of the stage
       character(:), allocatable :: stage, now !! 'STAGE 2'; ', STAGE 2, INCREMENT 5' behind a title
+      character(:), allocatable :: label, place !! of the stage; 'stage 2, increment 5' in messages
       real(wp) :: largest_force = 0.0_wp      !! largest applied so far, the scale of rounding
       logical, allocatable :: shown(:)        !! nodes to which the tables of this stage are limited; not allocated: all
       logical :: along_cd = .false.           !! nodal tables of this stage are along the systems CD
@@ -89,6 +90,20 @@ module table_writer
    end type table_type
 
 contains
+
+   !> The units above the columns, from those of LENGTH and FORCE. (A structure constructor is freed twice by gfortran 12 at -O0.)
+   pure subroutine set_labels(length, force, labels)
+      character(*), intent(in)        :: length, force
+      type(label_type), intent(inout) :: labels
+
+      labels%length = length
+      labels%force = force
+      labels%pressure = force//'/'//length//'2'
+      labels%area = length//'2'
+      labels%stiffness = force//'/'//length
+      labels%moment = force//' '//length
+      labels%slope = force//'/'//length//'2/'//length
+   end subroutine set_labels
 
    !> A column. FORM is the edit descriptor of its values: i11, es13.5, f9.4, a8; 'a' is text to the end of the row. Heading and
    !! unit end where the values end, or the given number of characters behind.

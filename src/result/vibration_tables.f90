@@ -229,11 +229,12 @@ contains
 
    end subroutine list_energies
 
-   !> The backbone FOUND, a row for each amplitude, and the contribution of every joint to the loss.
-   subroutine list_backbone(page, model, found)
+   !> The backbone FOUND, a row for each amplitude, and the contribution of every joint to the loss. N_WARNINGS counts warnings.
+   subroutine list_backbone(page, model, found, n_warnings)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(backbone_type), intent(in) :: found
+      integer, intent(inout)          :: n_warnings
       type(table_type) :: table
       real(wp) :: linear
       integer  :: i, k
@@ -260,6 +261,7 @@ contains
          if (size(model%joints) > 1) call list_shares(page, model, found)
          if (allocated(found%answers)) call list_resonances(page, found)
       end if
+      if (found%problem /= '') n_warnings = n_warnings + 1
       if (found%is_limited) then
          call page%file%put('  WARNING: LARGER AMPLITUDES HAVE NO EQUILIBRIUM; THE LAST ROW IS FOR THE LARGEST LOAD FOUND')
          call page%file%put('  '//upper(found%problem))
@@ -320,12 +322,14 @@ contains
    end subroutine list_shares
 
    !> The largest amplitude of every wanted component, with its frequency.
-   subroutine list_response(page, response)
+   subroutine list_response(page, response, n_warnings)
       type(page_type), intent(inout)  :: page
       type(response_type), intent(in) :: response
+      integer, intent(inout)          :: n_warnings
       type(table_type) :: table
       integer :: at, c, i
 
+      n_warnings = n_warnings + size(response%missed) + merge(1, 0, size(response%frequency) == 0)
       if (size(response%frequency) == 0) then
          call page%file%put('')
          call page%file%put('  WARNING: NO RESPONSE TO THE OSCILLATING LOAD: NO MODE FOUND IS IN THE RANGE OF FREQ4')

@@ -15,21 +15,16 @@
 !!    byte data_start     the arrays as in memory, each after its length in bytes (UInt64)
 !!    then                the closing tags
 !!
-!! The header contains the offset of every array. It is therefore written last, into the space reserved for it. As every result,
-!! the file has the name PATH.abcdef.part until it is complete.
-!!
-!! For a file that another process writes, START is divided in two. This process keeps the file by RESERVE, FINISH and DISCARD.
-!! The other process writes it by OPEN_PART and then from POINTS on, and ends with COMPLETE.
+!! The header contains the offset of every array. It is therefore written last, into the space reserved for it. After COMPLETE the
+!! component FILE is the closed file, not yet named.
 !!
 !! A failed or inconsistent call makes FAILED true. Inconsistent are: a size of an array that differs from that of the points, a
 !! node number without a point, no points at all, more arrays than the header holds. Later calls do nothing, and FINISH leaves
 !! no file. The compiler copies arrays that are not contiguous.
 module vtu_file
-   use c_library, only: close_file, remove_file
-   use incomplete_results, only: create_part, name_part
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
    use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
-   use restart_stream, only: restart_stream_type
+   use output_file, only: output_file_type
    use text_tools, only: integer_text
    implicit none
    private
@@ -48,37 +43,23 @@ module vtu_file
    character(*), parameter :: newline = new_line('a')
    character(*), parameter :: closing = newline//'  </AppendedData>'//newline//'</VTKFile>'//newline ! behind the data
 
-   integer, parameter :: wrong_call = -huge(0) ! a status of this module
-
    !> The lines of a section of the header, one for each array.
    type :: section_type
       character(:), allocatable :: lines
    end type section_type
 
    type, public :: vtu_file_type
-      private
-      character(:), allocatable :: path
-      character(:), allocatable, public :: part !! its name until complete
-      integer :: unit   = 0
-      integer :: status = 0                  ! of the first call that failed
-      integer :: n_points = -1, n_cells = -1 ! -1: not yet given
-      integer(int64) :: n_bytes = 0          ! of data so far
-      type(section_type) :: sections(size(section_tags))
-      logical, public :: is_open = .false.
-      logical :: waits = .false.             ! complete, not yet named
-      logical :: is_named = .false.          ! has its name
+      type(output_file_type) :: file
+      integer, private :: n_points = -1, n_cells = -1 ! -1: not yet given
+      integer(int64), private :: n_bytes = 0          ! of data so far
+      type(section_type), private :: sections(size(section_tags))
    contains
       procedure :: start
-      procedure :: reserve
-      procedure :: open_part
       procedure :: points
       procedure :: cells
       generic   :: add => add_reals, add_integers
-      procedure :: failed
       procedure :: complete
       procedure :: finish
-      procedure :: discard
-      procedure :: record
       procedure, private :: add_reals, add_integers
    end type vtu_file_type
 
@@ -88,47 +69,17 @@ contains
    subroutine start(self, path)
       class(vtu_file_type), intent(inout) :: self
       character(*), intent(in)            :: path
-
-      call self%reserve(path)
-      if (self%waits) call self%open_part((self%part)) ! a copy: the call sets it
-      if (.not. self%is_open) call self%discard()
-   end subroutine start
-
-   !> Create the empty file that will be PATH. Another process opens it by the name PART; then it is finished or discarded here.
-   subroutine reserve(self, path)
-      class(vtu_file_type), intent(inout) :: self
-      character(*), intent(in)            :: path
-      integer :: descriptor
-      logical :: ok
-
-      if (self%is_open .or. self%waits) call self%discard()
-      self%path = path
-      self%is_named = .false.
-      call create_part(path, self%part, descriptor)
-      call close_file(descriptor, ok)
-      self%status = merge(0, wrong_call, ok)
-      self%waits = ok
-   end subroutine reserve
-
-   !> Open the reserved file PART.
-   subroutine open_part(self, part)
-      class(vtu_file_type), intent(inout) :: self
-      character(*), intent(in)            :: part
       integer :: i
 
-      self%part = part
       self%n_points = -1
       self%n_cells = -1
       self%n_bytes = 0
       do i = 1, size(self%sections)
          self%sections(i)%lines = ''
       end do
-      open (newunit=self%unit, file=self%part, status='old', action='write', access='stream', form='unformatted', &
-            iostat=self%status)
-      self%is_open = self%status == 0
-      if (self%is_open) self%waits = .false.
-      if (self%is_open) write (self%unit, iostat=self%status) repeat(' ', data_start)
-   end subroutine open_part
+      call self%file%start(path)
+      call self%file%put_lines(repeat(' ', data_start))
+   end subroutine start
 
    !> The points: the first array, and the only one of its kind.
    subroutine points(self, x)
@@ -196,25 +147,34 @@ contains
       integer, intent(in)                :: bytes      !! of a number
       integer, intent(in)                :: n          !! tuples required
       type(*), intent(in), contiguous, target :: values(..) !! (n) or (components, n)
-      integer(int8), pointer :: as_bytes(:)
       character(:), allocatable :: line
       character(20)  :: offset
       integer        :: components
-      integer(int64) :: n_bytes
 
       components = 1
       if (rank(values) == 2) components = size(values, 1)
-      n_bytes = int(bytes, int64)*components*n
       ! an empty array constructor has an extent of -1 in gfortran 12
-      call require(self, self%is_open .and. components > 0 .and. max(0, size(values, rank(values))) == n)
-      if (self%status /= 0) return
+      call require(self, self%file%is_open .and. components > 0 .and. max(0, size(values, rank(values))) == n)
+      if (self%file%fault) return
       write (offset, '(i0)') self%n_bytes
       line = '        <DataArray type="'//number//'" Name="'//xml_text(name)//'"'
       if (components > 1) line = line//' NumberOfComponents="'//integer_text(components)//'"' ! 1: a matrix to some readers
       self%sections(section)%lines = self%sections(section)%lines//line//' format="appended" offset="'//trim(offset)//'"/>'//newline
-      call c_f_pointer(c_loc(values), as_bytes, [n_bytes])
-      write (self%unit, iostat=self%status) n_bytes, as_bytes
-      self%n_bytes = self%n_bytes + storage_size(n_bytes)/8 + n_bytes
+      call put_bytes(int(bytes, int64)*components*n)
+
+   contains
+
+      !> Write the number N of bytes, and the bytes of VALUES.
+      subroutine put_bytes(n)
+         integer(int64), intent(in) :: n
+         character(n), pointer :: as_bytes
+
+         call c_f_pointer(c_loc(values), as_bytes)
+         call self%file%put_lines(transfer(n, '12345678'))
+         call self%file%put_lines(as_bytes)
+         self%n_bytes = self%n_bytes + storage_size(n)/8 + n
+      end subroutine put_bytes
+
    end subroutine write_array
 
    !> Mark the file as failed unless a call FITS the state.
@@ -222,40 +182,26 @@ contains
       type(vtu_file_type), intent(inout) :: self
       logical, intent(in)                :: fits
 
-      if (self%status == 0 .and. .not. fits) self%status = wrong_call
+      self%file%fault = self%file%fault .or. .not. fits
    end subroutine require
-
-   !> Whether anything could not be written.
-   pure logical function failed(self)
-      class(vtu_file_type), intent(in) :: self
-
-      failed = self%status /= 0
-   end function failed
 
    !> Write the header and close the file, which has no name yet.
    subroutine complete(self)
       class(vtu_file_type), intent(inout) :: self
       character(:), allocatable :: header
-      integer(int64) :: n_written
+      integer :: status, unit
 
-      if (.not. self%is_open) return
+      if (.not. self%file%is_open) return
       header = header_text(self%n_points, self%n_cells, self%sections)
       call require(self, self%n_cells >= 0 .and. len(header) == data_start)
-      if (self%status == 0) write (self%unit, iostat=self%status) closing
-      if (self%status == 0) write (self%unit, pos=1, iostat=self%status) header
-      if (self%status == 0) flush (self%unit, iostat=self%status)
-      if (self%status /= 0) then
-         call self%discard()
-         return
-      end if
-      close (self%unit, iostat=self%status)
-      self%is_open = .false.
-      if (self%status == 0) then ! a full disk may show only in the size
-         inquire (file=self%part, size=n_written)
-         call require(self, n_written == data_start + self%n_bytes + len(closing))
-      end if
-      self%waits = self%status == 0
-      if (.not. self%waits) call remove_file(self%part)
+      call self%file%put_lines(closing)
+      call self%file%close()
+      if (self%file%fault) return
+      open (newunit=unit, file=self%file%part, status='old', action='readwrite', access='stream', form='unformatted', iostat=status)
+      if (status == 0) write (unit, pos=1, iostat=status) header
+      if (status == 0) close (unit, iostat=status)
+      call require(self, status == 0)
+      if (self%file%fault) call self%file%discard()
    end subroutine complete
 
    !> Complete the file and give it its name. If that fails, OK is false and the file is removed.
@@ -263,50 +209,9 @@ contains
       class(vtu_file_type), intent(inout) :: self
       logical, intent(out)                :: ok
 
-      ok = .false.
       call self%complete()
-      if (.not. self%waits) return
-      self%waits = .false.
-      call name_part(self%part, self%path, ok)
-      self%is_named = ok
-      call require(self, ok)
+      call self%file%finish(ok)
    end subroutine finish
-
-   !> Discard the file, even if it already has its name.
-   subroutine discard(self)
-      class(vtu_file_type), intent(inout) :: self
-      integer :: status
-
-      if (self%is_named) call remove_file(self%path)
-      self%is_named = .false.
-      if (.not. (self%is_open .or. self%waits)) return
-      if (self%is_open) close (self%unit, iostat=status)
-      self%is_open = .false.
-      self%waits = .false.
-      call remove_file(self%part)
-   end subroutine discard
-
-   !> Write the complete file to a restart file, or read it as the file that will be PATH, not yet named.
-   subroutine record(self, path, stream)
-      class(vtu_file_type), intent(inout)      :: self
-      character(*), intent(in)                 :: path
-      type(restart_stream_type), intent(inout) :: stream
-      integer :: descriptor
-      logical :: ok
-
-      if (stream%writes) then
-         call stream%file(self%part, -1)
-         return
-      end if
-      self%path = path
-      self%is_named = .false.
-      call create_part(path, self%part, descriptor)
-      self%status = merge(0, wrong_call, descriptor >= 0)
-      call stream%file(self%part, descriptor)
-      call close_file(descriptor, ok)
-      call require(self, ok)
-      self%waits = self%status == 0
-   end subroutine record
 
    !> The header, at least data_start bytes long; longer for too many arrays.
    pure function header_text(n_points, n_cells, sections) result(text)

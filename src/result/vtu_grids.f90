@@ -111,7 +111,7 @@ contains
       notes = labels%length//labels%pressure
    end function notes_for_pieces
 
-   !> The piece_writer of the results: write a PIECE as write_bodies does, into a reserved file.
+   !> The piece_writer of the results: write a PIECE as write_bodies does, in the place of the reserved FILE.
    subroutine write_piece(piece, u, temperature, notes, file, ok)
       type(body_piece_type), intent(in)  :: piece
       real(wp), intent(in)               :: u(:, :) !! (dimension, nodes of its model) [length]
@@ -123,10 +123,9 @@ contains
 
       labels%length = notes(:len(labels%length))
       labels%pressure = notes(len(labels%length) + 1:)
-      call part%open_part(file)
+      call part%start(file)
       call write_bodies(part, labels, piece%model, piece%shown, u, temperature)
-      call part%complete()
-      ok = .not. part%failed()
+      call part%finish(ok)
    end subroutine write_piece
 
    !> The shapes of the MODES: a nodal vector for each mode, named by its number and frequency.
@@ -173,7 +172,6 @@ contains
       call file%add(point_data, 'node', model%node_id(:m))
    end subroutine write_mesh
 
-
    !> Write all joints into FILE. BRANCH is 1 load, 2 unload, 3 open, 4 reload as in the chart. TAU is the shear stress on side
    !! 2 in global axes. GAP is the distance of the faces. A node of a face without an element of its own, such as a corner of a
    !! second-order face, has the mean of the adjacent nodes and the branch of the first of them.
@@ -185,17 +183,14 @@ contains
       type(grid_type) :: grid
       integer :: cells, i, j, n, points
 
-      points = 0 ! upper bounds of points and cells
-      cells = 0
+      points = size(model%interface) ! upper bounds of points and cells
+      cells = points
       do j = 1, size(model%joints)
-         if (model%joints(j)%side_1 > 0) then
-            associate (surface => model%surfaces(model%joints(j)%side_1))
-               points = points + sum(surface%n_nodes(:surface%n))
-               cells = cells + surface%n
-            end associate
-         end if
-         points = points + model%joints(j)%last - model%joints(j)%first + 1
-         cells = cells + model%joints(j)%last - model%joints(j)%first + 1
+         if (model%joints(j)%side_1 == 0) cycle
+         associate (surface => model%surfaces(model%joints(j)%side_1))
+            points = points + sum(surface%n_nodes(:surface%n))
+            cells = cells + surface%n
+         end associate
       end do
       allocate (grid%x(3, points), grid%element(points), grid%corners(points), grid%ends(cells), grid%types(cells))
       allocate (grid%u(3, points), grid%values(n_values, points), source=0.0_wp)
@@ -232,7 +227,7 @@ contains
       type(joint_type), intent(in)    :: joint
       type(surface_type), intent(in)  :: surface
       type(grid_type), intent(inout)  :: grid
-      integer, allocatable :: all_nodes(:), own(:), point(:), share(:)
+      integer, allocatable :: all_nodes(:), near(:), own(:), point(:), share(:)
       logical, allocatable :: second(:)
       integer :: before, f, i, k
 
@@ -263,15 +258,11 @@ contains
          associate (nodes => surface%nodes(:surface%n_nodes(f), f))
             if (all(own(nodes) == 0)) cycle
             do k = 1, size(nodes)
-               if (own(nodes(k)) > 0) then
-                  call take(own(nodes(k)), point(nodes(k)), .true.)
-               else
-                  associate (near => beside(k, surface%corners(f), size(nodes)))
-                     do i = 1, size(near)
-                        if (own(nodes(near(i))) > 0) call take(own(nodes(near(i))), point(nodes(k)), .false.)
-                     end do
-                  end associate
-               end if
+               near = beside(k, surface%corners(f), size(nodes))
+               if (own(nodes(k)) > 0) near = [k]
+               do i = 1, size(near)
+                  if (own(nodes(near(i))) > 0) call take(own(nodes(near(i))), point(nodes(k)), own(nodes(k)) > 0)
+               end do
             end do
             call add_cell(point(nodes), cell_type(surface%corners(f), size(nodes)), grid)
          end associate

@@ -11,6 +11,7 @@ module vtu_results
    use table_writer, only: label_type
    use mode_values, only: modes_type
    use model_data, only: model_type
+   use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text
@@ -26,7 +27,7 @@ module vtu_results
 
    !> A file of the run, or its pieces.
    type :: part_type
-      type(vtu_file_type), allocatable :: files(:)
+      type(output_file_type), allocatable :: files(:)
       logical :: is_index = .false.               ! the files are pieces, and the name is that of their index
       logical :: is_indexed = .false.             ! the index has its name
       character(48) :: ending = ''                ! of its name
@@ -78,6 +79,7 @@ contains
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
+      type(vtu_file_type) :: grid
       character(:), allocatable :: words
       real(wp) :: time
 
@@ -90,28 +92,26 @@ contains
             call begin_part(results, stage%id, words//'.pvtu', time, of_bodies, results%dealt%n)
             call write_pieces(results, results%parts(results%n), analysis)
          else if (model%n_elements > 0) then
-            call begin_part(results, stage%id, words//'.vtu', time, of_bodies)
-            associate (file => results%parts(results%n)%files(1))
-               call write_bodies(file, results%labels, model, all_shown(model), analysis%all_u, analysis%now%temperature)
-               call file%complete()
-            end associate
+            call begin_part(results, stage%id, words//'.vtu', time, of_bodies, 0)
+            call grid%start(path_of(results, results%n, 1))
+            call write_bodies(grid, results%labels, model, all_shown(model), analysis%all_u, analysis%now%temperature)
+            call end_part(results, grid)
          end if
          if (size(model%interface) == 0) return
-         call begin_part(results, stage%id, words//'.joint.vtu', time, of_joints)
-         associate (file => results%parts(results%n)%files(1))
-            call write_joints(file, results%labels, model, analysis)
-            call file%complete()
-         end associate
+         call begin_part(results, stage%id, words//'.joint.vtu', time, of_joints, 0)
+         call grid%start(path_of(results, results%n, 1))
+         call write_joints(grid, results%labels, model, analysis)
+         call end_part(results, grid)
       end associate
    end subroutine write_vtu
 
-   !> Begin the next part of RESULTS in the stage with the number STAGE; its file is open unless it has PIECES.
+   !> Begin the next part of RESULTS in the stage with the number STAGE: one file, or PIECES.
    subroutine begin_part(results, stage, ending, time, part, pieces)
       type(vtu_results_type), intent(inout) :: results
       integer, intent(in)                   :: stage, part
       character(*), intent(in)              :: ending !! of its name, behind the number of the stage where there are several
       real(wp), intent(in)                  :: time
-      integer, intent(in), optional         :: pieces
+      integer, intent(in)                   :: pieces !! 0: none
 
       results%n = results%n + 1
       associate (next => results%parts(results%n))
@@ -119,14 +119,19 @@ contains
          next%part = part
          next%ending = ending
          if (results%many) next%ending = '.'//integer_text(stage)//ending
-         if (present(pieces)) then
-            call make_room(next, pieces, .true.)
-         else
-            call make_room(next, 1, .false.)
-            call next%files(1)%start(path_of(results, results%n, 1))
-         end if
+         call make_room(next, max(1, pieces), pieces > 0)
       end associate
    end subroutine begin_part
+
+   !> Complete the file of the present part of RESULTS, a GRID.
+   subroutine end_part(results, grid)
+      type(vtu_results_type), intent(inout) :: results
+      type(vtu_file_type), intent(inout)    :: grid
+
+      call grid%complete()
+      results%parts(results%n)%files(1) = grid%file
+      grid%file = output_file_type()
+   end subroutine end_part
 
    !> Give PART N_FILES files, none of them open; with IS_INDEX they are pieces.
    pure subroutine make_room(part, n_files, is_index)
@@ -162,7 +167,8 @@ contains
 
       longest = 0
       do k = 1, size(part%files)
-         call part%files(k)%reserve(results%name//piece_ending(trim(part%ending), k - 1))
+         call part%files(k)%start(results%name//piece_ending(trim(part%ending), k - 1))
+         call part%files(k)%close()
          longest = max(longest, len(part%files(k)%part))
       end do
       ok = .not. any([(part%files(k)%failed(), k = 1, size(part%files))])
@@ -188,13 +194,13 @@ contains
       type(model_type), intent(in)          :: model
       integer, intent(in)                   :: stage
       type(modes_type), intent(in)          :: modes
+      type(vtu_file_type) :: grid
 
       if (results%name == '' .or. model%n_elements == 0) return
-      call begin_part(results, stage, '.modes.vtu', real(stage, wp), of_modes)
-      associate (file => results%parts(results%n)%files(1))
-         call write_shapes(file, model, modes)
-         call file%complete()
-      end associate
+      call begin_part(results, stage, '.modes.vtu', real(stage, wp), of_modes, 0)
+      call grid%start(path_of(results, results%n, 1))
+      call write_shapes(grid, model, modes)
+      call end_part(results, grid)
    end subroutine write_modes
 
    !> Give all files their names, all or none: OK is false where a file could not be written.
@@ -249,6 +255,7 @@ contains
          associate (part => results%parts(i))
             do k = 1, size(part%files)
                call part%files(k)%discard()
+               if (part%files(k)%is_named) call remove_file(path_of(results, i, k))
             end do
             if (part%is_indexed) call remove_file(results%name//trim(part%ending))
             part%is_indexed = .false.
@@ -279,7 +286,9 @@ contains
             call stream%extent(n_files, 8)
             if (.not. stream%writes) call make_room(part, n_files, is_index)
             do k = 1, n_files
-               call part%files(k)%record(path_of(results, i, k), stream)
+               if (.not. stream%writes) call part%files(k)%start(path_of(results, i, k))
+               call part%files(k)%record(stream)
+               call part%files(k)%close()
             end do
          end associate
          results%n = max(results%n, i)

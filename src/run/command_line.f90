@@ -15,6 +15,7 @@ module command_line
    public :: read_command_line, is_result_of
 
    character(*), parameter :: program = 'jointfem'
+   character(9), parameter :: options_with_value(5) = [character(9) :: '-o', '--threads', '--watch', '--summary', '--set']
 
    !> One deck of the command.
    type, extends(input_argument), public :: deck_argument
@@ -50,7 +51,7 @@ contains
       type(command_type), intent(out) :: command
       logical, intent(out)            :: finished
       integer, intent(out)            :: status
-      character(:), allocatable :: argument
+      character(:), allocatable :: argument, value
       type(setting_type), allocatable :: settings(:)
       integer :: i, n
       logical :: options, ok
@@ -64,23 +65,29 @@ contains
       status = 1
       n = command_argument_count()
       options = .true.
-      i = 0
-      do while (i < n)
-         i = i + 1
+      i = 1
+      do while (i <= n)
          argument = argument_text(i)
+         i = i + 1
          if (.not. is_option(argument, options)) then
             call add_deck(command%decks, argument)
             cycle
+         end if
+         value = argument_text(i)
+         ok = .true.
+         if (any(argument == options_with_value)) then
+            if (i > n) then
+               call complain(program, argument//' needs a value')
+               return
+            end if
+            i = i + 1
          end if
          select case (argument)
          case ('--')
             options = .false.
          case ('--help', '-h')
-            if (i < n) then
-               call print_entry(upper(argument_text(i + 1)), status)
-            else
-               call print_help(status)
-            end if
+            if (i <= n) call print_entry(upper(value), status)
+            if (i > n) call print_help(status)
             return
          case ('--version')
             call say(program//' '//version, status)
@@ -97,53 +104,30 @@ contains
             command%dated = .true.
          case ('--resume')
             command%resume = .true.
-         case ('-o', '--threads', '--watch', '--summary', '--set')
-            if (i == n) then
-               call complain(program, argument//' needs a value')
-               return
-            end if
-            i = i + 1
-            select case (argument)
-            case ('-o')
-               command%folder = argument_text(i)//'/'
-               if (command%folder == '/') command%folder = './'
-            case ('--summary')
-               command%summary = argument_text(i)
-            case ('--watch')
-               command%watched = argument_text(i)
-               if (command%watched == '' .or. verify(command%watched, '0123456789,') > 0) then
-                  call complain(program, '--watch '//command%watched//': expected node numbers separated by commas')
-                  return
-               end if
-            case ('--set')
-               call read_setting(argument_text(i), settings, ok)
-               if (.not. ok) return
-            case default
-               call parse_integer(argument_text(i), command%threads, ok)
-               if (.not. ok .or. command%threads < 1) then
-                  call complain(program, '--threads '//argument_text(i)//': expected a number of 1 or more')
-                  return
-               end if
-            end select
+         case ('-o')
+            command%folder = value//'/'
+            if (len(value) == 0) command%folder = './'
+         case ('--summary')
+            command%summary = value
+         case ('--set')
+            call read_setting(value, settings, ok)
+         case ('--watch')
+            command%watched = value
+            ok = value /= '' .and. verify(value, '0123456789,') == 0
+            if (.not. ok) call complain(program, '--watch '//value//': expected node numbers separated by commas')
+         case ('--threads')
+            call parse_integer(value, command%threads, ok)
+            ok = ok .and. command%threads >= 1
+            if (.not. ok) call complain(program, '--threads '//value//': expected a number of 1 or more')
          case default
+            ok = .false.
             call complain(program, 'unknown option '//argument)
-            return
          end select
+         if (.not. ok) return
       end do
-      ok = size(command%decks) > 0
-      if (.not. ok) call complain(program, 'no deck given')
-      if (command%resume) then
-         do i = 1, size(command%decks)
-            if (command%decks(i)%path /= standard_input) cycle
-            call complain(program, '--resume: a deck from the standard input has no restart file')
-            return
-         end do
-      end if
-      if (ok) call vary(command, settings)
-      if (ok) call name_results(command, ok)
-      if (.not. ok) return
-      finished = .false.
-      status = 0
+      call name_results(command, settings, ok)
+      finished = .not. ok
+      if (ok) status = 0
    end subroutine read_command_line
 
    !> Read TEXT, 'NAME=V,V,V', into SETTINGS.
@@ -169,8 +153,8 @@ contains
       settings = [settings, setting_type(text(:equals - 1), text(equals + 1:))]
    end subroutine read_setting
 
-   !> A run of every deck with every combination of values of SETTINGS, the last setting changing fastest. The values of a setting with
-   !! several values become part of the names.
+   !> A run of every deck with every combination of values of SETTINGS, the last setting changing fastest. The values of a setting
+   !! with several values become part of the names.
    subroutine vary(command, settings)
       type(command_type), intent(inout) :: command
       type(setting_type), intent(in)    :: settings(:)
@@ -241,14 +225,26 @@ contains
       call move_alloc(more, decks)
    end subroutine add_deck
 
-   !> Name the results: beam.bdf gives beam.out and beam.joint.csv. No two decks may write the same file, and no result may replace a deck.
-   subroutine name_results(command, ok)
+   !> The runs of COMMAND, and the names of their results: beam.bdf gives beam.out and beam.joint.csv. No two runs may write the same
+   !! file, and no result may replace a deck.
+   subroutine name_results(command, settings, ok)
       type(command_type), intent(inout) :: command
+      type(setting_type), intent(in)    :: settings(:)
       logical, intent(out)              :: ok
       character(:), allocatable :: name
       integer :: dot, i, k
 
       ok = .false.
+      if (size(command%decks) == 0) then
+         call complain(program, 'no deck given')
+         return
+      end if
+      do i = 1, size(command%decks)
+         if (.not. command%resume .or. command%decks(i)%path /= standard_input) cycle
+         call complain(program, '--resume: a deck from the standard input has no restart file')
+         return
+      end do
+      call vary(command, settings)
       do i = 1, size(command%decks)
          associate (deck => command%decks(i))
             if (deck%path == standard_input) cycle

@@ -2,7 +2,7 @@
 !! The progress line has the phase, the increment and the time left; it appears only where standard error is a terminal. With --times
 !! the run ends with a table: the seconds of each phase, operations, memory.
 module progress
-   use command_line, only: deck_argument
+   use command_line, only: command_type, deck_argument
    use deck_errors, only: deck_error_list
    use distribution, only: memory_of_all
    use equation_solver, only: solver_description
@@ -38,7 +38,6 @@ module progress
       procedure :: start
       procedure :: enter
       procedure :: expect
-      procedure :: skip
       procedure :: advance
       procedure :: finish
    end type progress_type
@@ -68,18 +67,17 @@ module progress
 
 contains
 
-   !> Begin a run of DECK with the phase of reading.
-   subroutine start(self, deck, quiet, timed, number, of)
+   !> Begin a run of COMMAND, of the deck of ARGUMENT, with the phase of reading.
+   subroutine start(self, command, argument)
       class(progress_type), intent(inout) :: self
-      character(*), intent(in)            :: deck
-      logical, intent(in)                 :: quiet
-      integer, intent(in)                 :: number, of !! run NUMBER of the runs of the command
-      logical, intent(in)                 :: timed !! print the seconds of the phases at the end
+      type(command_type), intent(in)      :: command
+      type(deck_argument), intent(in)     :: argument
 
-      if (of == 1) call open_line(deck, quiet)
-      if (of > 1) call open_line(deck//' ('//integer_text(number)//' of '//integer_text(of)//')', quiet)
-      self%timed = timed
-      self%deck = deck
+      self%deck = argument%name
+      if (argument%of == 1) call open_line(self%deck, command%quiet)
+      if (argument%of > 1) call open_line(self%deck//' ('//integer_text(argument%number)//' of '//integer_text(argument%of)//')', &
+                                          command%quiet)
+      self%timed = command%times
       self%ticks = 0
       call system_clock(self%entered, self%rate)
       self%phase = phase_read
@@ -98,26 +96,18 @@ contains
       if (phase < phase_increments .or. phase >= phase_modes) call show_line(trim(phase_name(phase)), at_once=.true.)
    end subroutine enter
 
-   !> Count the increments of PLAN from now on.
-   subroutine expect(self, plan)
+   !> Count the increments of PLAN from now on; an earlier run has done the first N of them.
+   subroutine expect(self, plan, n)
       class(progress_type), intent(inout) :: self
       type(stage_plan_type), intent(in)   :: plan
-      integer :: s
-
-      self%done = 0
-      self%before = 0
-      self%total = sum([(size(plan%stages(s)%fractions), s = 1, size(plan%stages))])
-      call system_clock(self%increments_began)
-   end subroutine expect
-
-   !> Count N increments of an earlier run.
-   subroutine skip(self, n)
-      class(progress_type), intent(inout) :: self
       integer, intent(in)                 :: n
+      integer :: s
 
       self%before = n
       self%done = n
-   end subroutine skip
+      self%total = sum([(size(plan%stages(s)%fractions), s = 1, size(plan%stages))])
+      call system_clock(self%increments_began)
+   end subroutine expect
 
    !> Count one more increment. The first one of a run is always shown.
    subroutine advance(self, stage, increment, increments)

@@ -12,11 +12,10 @@ module restart_file
    use deck_text, only: checksum_of
    use equation_solver, only: equation_system
    use incomplete_results, only: create_part, name_part, say_at_interrupts
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use model_data, only: model_type
    use progress, only: goes_on, is_over, is_refused, run_type
    use restart_stream, only: open_restart, restart_stream_type
-   use results, only: record_results, restart_ending, results_type
+   use results, only: record_results, restart_ending
    use stage_plan, only: stage_plan_type, where_in_plan
    use terminal, only: say_line, version
    use text_tools, only: integer_text
@@ -46,8 +45,8 @@ contains
       name = restart_name(run%argument%base)
       inquire (file=name, exist=there)
       if (.not. there) then
-         write (error_unit, '(5a)') run%argument%name, ': there is no ', name, ', the run ', &
-            trim(merge('would start from the beginning', 'starts from the beginning     ', run%check_only))
+         call say_line(run%argument%name//': there is no '//name//', the run '// &
+                       trim(merge('would start from the beginning', 'starts from the beginning     ', run%check_only)))
          return
       end if
       run%ending = is_refused
@@ -59,8 +58,7 @@ contains
       if (run%problem /= '') return
       run%resumes = .not. run%check_only
       run%ending = goes_on
-      if (run%check_only) write (error_unit, '(4a)') run%argument%name, ': ', name, ' is complete and belongs to this deck and '// &
-         'this program'
+      if (run%check_only) call say_line(run%argument%name//': '//name//' is complete and belongs to this deck and this program')
    end subroutine open_restart_file
 
    !> TAKE UP FROM THE RESTART FILE: the state of ANALYSIS, of the bolts in the equations of SYSTEM, and the results so far.
@@ -74,7 +72,8 @@ contains
       integer :: s
 
       if (is_over(run) .or. .not. run%resumes) return
-      call record_state(run%restart, analysis, run%results)
+      call record_analysis(run%restart, analysis)
+      call record_results(run%restart, run%results)
       if (.not. run%restart%is_at_end()) then
          run%ending = is_refused
          run%problem = 'it holds more than the state of this deck'
@@ -89,7 +88,7 @@ contains
       call system%forget_past()
       analysis%goes_on = analysis%increment < size(plan%stages(analysis%stage)%fractions)
       call say_at_interrupts(run%argument%name//': interrupted; '//restart_name(run%argument%base)//' stays as it was')
-      call run%progress%skip(sum([(size(plan%stages(s)%fractions), s = 1, analysis%stage - 1)]) + analysis%increment)
+      call run%progress%expect(plan, sum([(size(plan%stages(s)%fractions), s = 1, analysis%stage - 1)]) + analysis%increment)
       words = ': resumed from '//restart_name(run%argument%base)//' after stage '// &
               integer_text(plan%stages(analysis%stage)%id)//', increment '//integer_text(analysis%increment)
       if (allocated(analysis%kept)) then
@@ -126,8 +125,8 @@ contains
       end if
       if (run%deck_sum == 0) run%deck_sum = checksum_of(deck%text)
       call write_state(run, analysis, ok)
-      if (.not. (ok .or. run%misses_restart)) write (error_unit, '(4a)') run%argument%name, ': the restart file ', &
-         restart_name(run%argument%base), ' cannot be written; the run continues'
+      if (.not. (ok .or. run%misses_restart)) call say_line(run%argument%name//': the restart file '// &
+         restart_name(run%argument%base)//' cannot be written; the run continues')
       run%misses_restart = run%misses_restart .or. .not. ok
       if (ok) call say_at_interrupts(run%argument%name//': interrupted; '//restart_name(run%argument%base)// &
          ' keeps the state behind '//where_in_plan(plan, analysis%stage, analysis%increment)//': --resume goes on from there')
@@ -148,7 +147,8 @@ contains
       ok = descriptor >= 0
       if (.not. ok) return
       call stream%start(descriptor, version, run%deck_sum)
-      call record_state(stream, analysis, run%results)
+      call record_analysis(stream, analysis)
+      call record_results(stream, run%results)
       call stream%complete(ok)
       if (ok) call keep_on_disk(descriptor, ok) ! before the older one is replaced: a power failure leaves one of the two
       call close_file(descriptor, closed)
@@ -159,16 +159,6 @@ contains
          ok = .false.
       end if
    end subroutine write_state
-
-   !> Write or read the whole state.
-   subroutine record_state(stream, analysis, results)
-      type(restart_stream_type), intent(inout) :: stream
-      type(analysis_type), intent(inout)       :: analysis
-      type(results_type), intent(inout)        :: results
-
-      call record_analysis(stream, analysis)
-      call record_results(stream, results)
-   end subroutine record_state
 
    !> Write A, or read it into one that start_analysis has just made for the same model. Two components are left out: condensed, which
    !! does not change in an increment and which the first increment prints, and goes_on, which is true only while the run resumes.

@@ -27,18 +27,17 @@ module run_boxes
    use mode_values, only: evaluate_modes, modes_type
    use model_build, only: build_model
    use model_data, only: model_type
-   use natural_modes, only: find_natural_modes, spectrum_type
+   use natural_modes, only: find_natural_modes, let_go, oscillating_type, spectrum_type, start_oscillation
    use newton_method, only: seat_joints
-   use oscillating_structure, only: let_go, oscillating_type, start_oscillation
    use progress, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, phase_recover, &
                        phase_write, goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, &
                        was_searched, would_overwrite
    use restart_file, only: open_restart_file, take_up, write_restart
-   use results, only: list_results => print_increment, print_backbone, print_modes, print_response, &
-                      print_stage, remove_old_results, start_results
+   use results, only: list_results => print_increment, print_modes, print_stage, remove_old_results, start_results
    use run_end, only: end_program
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
    use unit_watch, only: unit_words
+   use vibration_tables, only: list_backbone, list_response
    use vtu_grids, only: write_piece
    use terminal, only: say_line
    use text_tools, only: integer_text
@@ -109,10 +108,12 @@ contains
       end if
       call print_modes(model, plan, analysis%stage, modes, run%results)
       if (run%failure%raised) return
-      if (allocated(wanted%backbone)) call print_backbone(model, plan, analysis%stage, found, run%results)
-      if (.not. allocated(wanted%response)) return
-      call find_response(model, structure, wanted%response, modes, shifted, response, run%failure)
-      if (.not. run%failure%raised) call print_response(plan, analysis%stage, response, run%results)
+      associate (page => run%results%page, n_warnings => run%results%watch%n_warnings)
+         if (allocated(wanted%backbone)) call list_backbone(page, model, found, n_warnings)
+         if (.not. allocated(wanted%response)) return
+         call find_response(model, structure, wanted%response, modes, shifted, response, run%failure)
+         if (.not. run%failure%raised) call list_response(page, response, n_warnings)
+      end associate
 
    contains
 
@@ -156,7 +157,7 @@ contains
       run%suggests = command%suggest
       run%is_dated = command%dated
       call say_at_interrupts(argument%name//': interrupted; nothing of this run is kept (RESTART would keep its stages)')
-      call run%progress%start(argument%name, command%quiet, command%times, argument%number, argument%of)
+      call run%progress%start(command, argument)
       call read_deck(argument%path, deck, run%errors, readable, argument%parameters, command%watched)
       if (.not. readable) then
          run%ending = is_unreadable
@@ -227,11 +228,11 @@ contains
       call run%progress%enter(phase_write)
       run%progress%solver = system%description
       call date_and_time(date, time)
-      if (run%is_dated) run%results%listing%page%date = date(:4)//'-'//date(5:6)//'-'//date(7:8)//' '//time(:2)//':'//time(3:4)
+      if (run%is_dated) run%results%page%date = date(:4)//'-'//date(5:6)//'-'//date(7:8)//' '//time(:2)//':'//time(3:4)
       call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
       if (ok .and. run%argument%of > 1 .and. run%argument%base /= '') then
-         call run%results%listing%page%screen%put('')
-         call run%results%listing%page%screen%put(' DECK: '//run%argument%name)
+         call run%results%page%screen%put('')
+         call run%results%page%screen%put(' DECK: '//run%argument%name)
       end if
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies
@@ -252,7 +253,7 @@ contains
          if (deck%control%method /= method_back) call seat_joints(model, analysis, system, run%failure)
          call interface_stiffness(model, system, analysis, run%failure)
       end if
-      call run%progress%expect(plan)
+      call run%progress%expect(plan, 0)
       call run%progress%enter(phase_increments)
       call take_up(run, model, plan, system, analysis)
       if (allocated(analysis%kept)) call go_on(run, deck, model, plan, system, analysis)

@@ -15,14 +15,14 @@ module run_end
    use output_file, only: output_file_type
    use progress, only: phase_write, has_errors, is_over, is_refused, is_unreadable, is_unsolved, is_unwritten, run_type, &
                        status_of, was_checked, was_searched, would_overwrite
-   use range_watch, only: tetra_words
+   use range_watch, only: distance_words, tetra_words
    use restart_file, only: restart_name
-   use results, only: discard_results, finish_results, listing_ending, show_answers
+   use results, only: digest_type, discard_results, finish_results, listing_ending, show_answers
    use stage_plan, only: stage_plan_type
-   use stage_tables, only: distance_words
-   use terminal, only: clear_line, complain_of_input
+   use terminal, only: clear_line, complain_of_input, say_line
    use text_tools, only: plural
    use unit_watch, only: stress_words
+   use watched_nodes, only: watched_node
    implicit none
    private
 
@@ -34,12 +34,11 @@ module run_end
 
    type :: row_type
       character(:), allocatable :: name
-      integer  :: status = 0, counts(3) = 0            ! stages, increments, iterations
-      real(wp) :: figures(5) = 0.0_wp                  ! u_max, mises_max, contact, safety, frequency
-      logical  :: is_there(5) = .false.
-      integer  :: node = 0                             ! first watched node, 0: none
-      real(wp) :: along = 0.0_wp, stiffness = 0.0_wp
-      logical  :: is_loaded = .false., moves = .false.
+      integer  :: status = 0
+      type(digest_type) :: digest
+      logical  :: is_there(5) = .false.                ! u_max, mises_max, contact, safety, frequency
+      integer  :: node = 0                             ! number of the first watched node, 0: none
+      type(watched_node) :: watched
       real(wp) :: seconds = 0.0_wp
    end type row_type
 
@@ -58,31 +57,25 @@ contains
       type(deck_type), intent(in)       :: deck
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
-      character(:), allocatable :: words
       logical :: ok, shown
 
       if (run%keeps .or. .not. is_over(run)) then
          call run%progress%enter(phase_write)
          call finish_results(plan, run%failure, run%results, ok)
          call run%progress%finish()
-         associate (n => run%results%listing%watch%n_warnings)
-            if (n > 0) write (error_unit, '(4a)') run%argument%name, ': ', plural(n, 'warning'), ' in the listing'
-         end associate
-         words = run%results%listing%poor_condition
-         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
-         words = stress_words(run%results%digest%strained)
-         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
-         words = run%results%listing%divided
-         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
-         words = distance_words(run%results%listing%farthest)
-         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
-         if (tetra_words(model) /= '') write (error_unit, '(3a)') run%argument%name, ': ', tetra_words(model)
+         if (run%results%watch%n_warnings > 0) &
+            call say_line(run%argument%name//': '//plural(run%results%watch%n_warnings, 'warning')//' in the listing')
+         call tell(run%results%watch%poor_condition)
+         call tell(stress_words(run%results%digest%strained))
+         call tell(run%results%watch%divided)
+         call tell(distance_words(run%results%watch%farthest))
+         call tell(tetra_words(model))
          call say_of_deck(run, deck)
          if (ok) then
             call show_answers(run%results, shown)
             if (.not. shown) call miss_output(run%argument%name)
             if (run%results%missing_vtu /= '') then
-               write (error_unit, '(3a)') run%argument%name, ': the files for ParaView cannot be written: ', run%results%missing_vtu
+               call tell('the files for ParaView cannot be written: '//run%results%missing_vtu)
                exit_status = max(exit_status, status_of(is_unwritten))
             end if
          else
@@ -95,6 +88,16 @@ contains
       call say_at_interrupts('')
       call say_how_it_ended(run, deck, model, plan)
       exit_status = max(exit_status, status_of(run%ending))
+
+   contains
+
+      !> Print WORDS about the deck, if any.
+      subroutine tell(words)
+         character(*), intent(in) :: words
+
+         if (words /= '') call say_line(run%argument%name//': '//words)
+      end subroutine tell
+
    end subroutine finish_run
 
    !> Report the entries without effect, and how NASTRAN would read the deck differently.
@@ -102,9 +105,9 @@ contains
       type(run_type), intent(in)  :: run
       type(deck_type), intent(in) :: deck
 
-      if (deck%bulk%ignored%n > 0) write (error_unit, '(3a)') run%argument%name, ': ', deck%bulk%ignored%words()
-      if (deck%control%of_nastran .and. size(deck%control%stages) > 1) write (error_unit, '(4a)') run%argument%name, ': ', &
-         plural(size(deck%control%stages), 'SUBCASE'), ' are stages of one history: each starts from the end of the previous one'
+      if (deck%bulk%ignored%n > 0) call say_line(run%argument%name//': '//deck%bulk%ignored%words())
+      if (deck%control%of_nastran .and. size(deck%control%stages) > 1) call say_line(run%argument%name//': '// &
+         plural(size(deck%control%stages), 'SUBCASE')//' are stages of one history: each starts from the end of the previous one')
    end subroutine say_of_deck
 
    !> Report the error, or that a deck is in order. A run that did not finish leaves no result.
@@ -121,12 +124,12 @@ contains
          case (is_unreadable)
             call complain_of_input(run%argument, 'a deck')
          case (is_refused)
-            write (error_unit, '(5a)') name, ': ', restart_name(base), ' cannot be resumed: ', run%problem
+            call say_line(name//': '//restart_name(base)//' cannot be resumed: '//run%problem)
             call discard_results(run%results)
          case (would_overwrite)
             do i = 2, deck%text%n_files
-               if (is_result_of(deck%text%files(i)%true_path, run%argument)) write (error_unit, '(3a)') name, &
-                  ': its results would overwrite the INCLUDE file ', deck%text%files(i)%path
+               if (is_result_of(deck%text%files(i)%true_path, run%argument)) &
+                  call say_line(name//': its results would overwrite the INCLUDE file '//deck%text%files(i)%path)
             end do
          case (has_errors)
             call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, run%errors)
@@ -142,18 +145,18 @@ contains
             call run%suggestions%finish(ok)
             if (.not. ok) call miss_output(name)
          case (is_unsolved)
-            write (error_unit, '(4a)') name, ': ', run%failure%message, &
-               trim(merge('; the results end there', '; no results           ', run%keeps))
+            call say_line(name//': '//run%failure%message// &
+                          trim(merge('; the results end there', '; no results           ', run%keeps)))
             if (.not. run%keeps) call discard_results(run%results)
          case (is_unwritten)
             if (base == '') then
-               write (error_unit, '(2a)') name, ': the listing cannot be written to the standard output'
+               call say_line(name//': the listing cannot be written to the standard output')
             else if (what_is_in_the_way() /= '') then
-               write (error_unit, '(4a)') name, ': the results cannot be written: ', what_is_in_the_way(), &
-                  '; remove it, or take another folder by -o'
+               call say_line(name//': the results cannot be written: '//what_is_in_the_way()// &
+                             '; remove it, or take another folder by -o')
             else
-               write (error_unit, '(5a)') name, ': the results ', base//listing_ending, ' and ', base//history_ending, &
-                  ' cannot be written: is the folder there, and is there room on the disk?'
+               call say_line(name//': the results '//base//listing_ending//' and '//base//history_ending// &
+                             ' cannot be written: is the folder there, and is there room on the disk?')
             end if
             call discard_results(run%results)
          end select
@@ -164,7 +167,7 @@ contains
    subroutine miss_output(name)
       character(*), intent(in) :: name
 
-      write (error_unit, '(2a)') name, ': the standard output cannot be written'
+      call say_line(name//': the standard output cannot be written')
       exit_status = max(exit_status, status_of(is_unwritten))
    end subroutine miss_output
 
@@ -190,19 +193,13 @@ contains
          row%name = run%argument%name
          row%status = status_of(run%ending)
          row%seconds = real(now - batch%began, wp)/real(rate, wp)
-         row%counts = [digest%stages, digest%increments, digest%iterations]
+         row%digest = digest
          if (digest%stages == 0) return
-         row%figures = [digest%u_max, digest%mises_max, digest%contact, digest%safety, digest%frequency]
          row%is_there = [.true., model%n_elements > 0, size(model%joints) > 0, digest%safety < huge(1.0_wp), &
                          digest%frequency >= 0.0_wp]
          if (.not. allocated(run%results%watched%nodes)) return
-         associate (watched => run%results%watched%nodes(1))
-            row%node = model%node_id(watched%node)
-            row%is_loaded = watched%is_loaded
-            row%moves = watched%moves
-            row%along = watched%along
-            row%stiffness = watched%stiffness
-         end associate
+         row%watched = run%results%watched%nodes(1)
+         row%node = model%node_id(row%watched%node)
       end associate
    end subroutine end_run_of_batch
 
@@ -230,21 +227,22 @@ contains
       call table%start('', columns, screen)
       if (summary%is_open) call summary%put(csv_titles(columns))
       do i = 1, batch%n
-         associate (row => batch%rows(i), f => batch%rows(i)%figures)
+         associate (row => batch%rows(i), d => batch%rows(i)%digest)
             name = row%name(max(1, len(row%name) - name_width + 1):)
             call table%add('"'//row%name//'"')
             call table%add(' '//name)
-            call table%add([row%status, row%counts])
-            call table%add([f(1:3), 100.0_wp*f(3), f(4), min(f(4), 99999.0_wp), f(5)], where=row%is_there([1, 2, 3, 3, 4, 4, 5]))
+            call table%add([row%status, d%stages, d%increments, d%iterations])
+            call table%add([d%u_max, d%mises_max, d%contact, 100.0_wp*d%contact, d%safety, min(d%safety, 99999.0_wp), &
+                            d%frequency], where=row%is_there([1, 2, 3, 3, 4, 4, 5]))
             call table%add([row%node], where=[row%node > 0])
-            call table%add([row%along, row%stiffness], where=[row%is_loaded, row%moves])
+            call table%add([row%watched%along, row%watched%stiffness], where=[row%watched%is_loaded, row%watched%moves])
             call table%add([row%seconds])
          end associate
          call table%print_row(screen, summary)
       end do
       ok = .true.
       if (command%summary /= '') call summary%finish(ok)
-      if (.not. ok) write (error_unit, '(3a)') 'the summary ', command%summary, ' cannot be written'
+      if (.not. ok) call say_line('the summary '//command%summary//' cannot be written')
       if (batch%n < 2 .or. command%check_only) return
       call screen%finish(shown)
       ok = ok .and. shown

@@ -19,8 +19,8 @@ module modal_response
    use kinds, only: wp
    use mode_values, only: modes_type
    use model_data, only: model_type
+   use natural_modes, only: factorise_at, oscillating_type
    use numbers, only: first_largest
-   use oscillating_structure, only: factorise_at, oscillating_type
    use stage_plan, only: asked_frequencies, loss_at, response_plan
    use text_tools, only: real_text
    implicit none

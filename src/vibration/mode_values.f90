@@ -28,10 +28,9 @@ module mode_values
    use mass_matrix, only: mass_times, total_mass
    use model_build, only: find_bodies
    use model_data, only: bar_nodes, model_type, n_bars, n_points
-   use natural_modes, only: spectrum_type
+   use natural_modes, only: oscillating_type, spectrum_type
    use node_coupling, only: felt_nodes
    use normal_stiffness, only: touches
-   use oscillating_structure, only: oscillating_type
    use shear_loops, only: loop_loss, no_limit
    use stage_plan, only: vibration_plan_type
    implicit none

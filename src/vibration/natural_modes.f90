@@ -1,22 +1,30 @@
-!> Natural modes of an oscillating structure: choice of eigenvalues, shift, and count that proves none is missing.
+!> Natural modes of a structure about the state at the end of a stage: its equations [k] - sigma [m], choice of eigenvalues, shift,
+!! and count that proves none is missing.
+!!
+!! The structure has the bodies, bars, tightened bolts, and the joints with their stiffness under oscillation. Its equations are
+!! ordered once and factorised at any shift.
 !!
 !! The factor of [k] - sigma [m] has as many negative pivots as there are eigenvalues below sigma (Sylvester's law of inertia).
 !! A range of frequencies is counted at both ends before the search. The lowest modes are counted behind the last one.
 !! Source: Parlett, The Symmetric Eigenvalue Problem, SIAM 1998, sections 3.3 and 15.
 module natural_modes
+   use analysis_state, only: analysis_type
+   use case_control, only: solver_skyline, solver_tree
    use eigenpairs, only: find_eigenpairs, needs_all
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system
+   use equations, only: add_bar, form_body_stiffness, form_structure_stiffness, lock_unknown, start_equations
    use failures, only: failure_type
    use kinds, only: wp
-   use model_data, only: a_point, model_type, n_points, node_kind
-   use oscillating_structure, only: factorise_at, hold_bolts, oscillating_type
+   use mass_matrix, only: form_mass, mass_matrix_type
+   use model_data, only: a_point, model_type, n_bars, n_points, n_sections, node_kind, supported
+   use shear_loops, only: oscillation_stiffness
    use stage_plan, only: vibration_plan_type
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: find_natural_modes
+   public :: let_go, start_oscillation, factorise_at, find_natural_modes
 
    real(wp), parameter :: clear = 1.0e-6_wp       ! of an eigenvalue: a wider gap is safe for a count
    real(wp), parameter :: near_pole = 1.0e-7_wp   ! distance by which a shift moves away from an eigenvalue
@@ -25,6 +33,14 @@ module natural_modes
    real(wp), parameter :: barely_held = 1.0e-8_wp ! smallest pivot relative to its diagonal entry
    integer, parameter  :: beyond = 3              ! extra modes: the last wanted one may have equals
    integer, parameter  :: most_trials = 4
+
+   type, public :: oscillating_type
+      real(wp), allocatable :: k(:, :)       !! (3, n) k_sx, k_sy, k_n of interface elements [force/length]
+      logical, allocatable  :: is_elastic(:) !! bars: no bolts, or tightened ones
+      logical, allocatable  :: is_locked(:)  !! tightened pretension sections of solid bolts
+      type(mass_matrix_type) :: mass
+      class(equation_system), allocatable :: started !! ordered, without a matrix
+   end type oscillating_type
 
    type, public :: spectrum_type
       real(wp), allocatable :: lambda(:)          !! ascending, 0 for a rigid-body mode [1/time^2]
@@ -38,6 +54,81 @@ module natural_modes
    end type spectrum_type
 
 contains
+
+   !> MODEL without its supports; the condition on the axis of a ring remains.
+   pure subroutine let_go(model)
+      type(model_type), intent(inout) :: model
+      logical :: free(model%dimension)
+      integer :: i
+
+      do i = 1, model%n_nodes - n_sections(model)
+         free = supported(model, i)
+         if (model%axisymmetric) free(1) = free(1) .and. abs(model%x(1, i)) > 0.0_wp
+         model%held(:, i) = model%held(:, i) .and. .not. free
+      end do
+   end subroutine let_go
+
+   !> Stiffness and mass about the state of ANALYSIS, and the order of the equations. The solver is SKYLINE if SYSTEM is
+   !! SKYLINE, else TREE.
+   subroutine start_oscillation(model, analysis, system, on_loading, structure, failure)
+      type(model_type), intent(in)        :: model
+      type(analysis_type), intent(in)     :: analysis
+      class(equation_system), intent(in)  :: system
+      logical, intent(in)                 :: on_loading !! STIFFNESS = LOAD
+      type(oscillating_type), intent(out) :: structure
+      type(failure_type), intent(inout)   :: failure
+      integer :: i
+
+      allocate (structure%k(3, size(model%interface)))
+      do i = 1, size(model%interface)
+         structure%k(:, i) = oscillation_stiffness(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, &
+                                                   analysis%states(i), on_loading)
+      end do
+      structure%is_elastic = [(model%bars(i)%bolt == 0 .or. model%bars(i)%stage <= analysis%stage, i = 1, n_bars(model))]
+      structure%is_locked = [(model%sections(i)%stage <= analysis%stage, i = 1, n_sections(model))]
+      call form_mass(model, structure%mass)
+      call start_equations(model, structure%started, failure, &
+                           merge(solver_skyline, solver_tree, system%description%name == 'SKYLINE'), factorisations=1, shift=0.0_wp)
+   end subroutine start_oscillation
+
+   !> Factorise [k] - SHIFT [m] of STRUCTURE in SYSTEM. FAILURE where the matrix is singular, as without shift for a structure
+   !! without sufficient supports, or where memory is missing.
+   subroutine factorise_at(model, structure, shift, system, failure)
+      type(model_type), intent(in)       :: model
+      type(oscillating_type), intent(in) :: structure
+      real(wp), intent(in)               :: shift !! sigma [1/time^2]
+      class(equation_system), allocatable, intent(out) :: system
+      type(failure_type), intent(inout)  :: failure
+      real(wp) :: k(3, 3, size(structure%k, 2))
+      integer  :: c, i
+
+      if (failure%raised) return
+      allocate (system, source=structure%started)
+      system%shift = shift
+      call form_body_stiffness(model, system, failure)
+      if (failure%raised) return
+      do i = 1, n_bars(model)
+         if (model%bars(i)%bolt > 0 .and. structure%is_elastic(i)) call add_bar(model, i, system)
+      end do
+      call hold_bolts(model, structure, system)
+      k = 0.0_wp
+      do c = 1, 3
+         k(c, c, :) = structure%k(c, :)
+      end do
+      call form_structure_stiffness(model, k, 'natural modes', system, failure)
+   end subroutine factorise_at
+
+   !> Hold the overlap of tightened solid bolts.
+   subroutine hold_bolts(model, structure, system)
+      type(model_type), intent(in)          :: model
+      type(oscillating_type), intent(in)    :: structure
+      class(equation_system), intent(inout) :: system
+      integer :: i
+
+      do i = 1, n_sections(model)
+         if (structure%is_locked(i)) call lock_unknown(model%sections(i)%node, 1, system)
+      end do
+   end subroutine hold_bolts
 
    !> The modes of STRUCTURE for PLAN, in the numbering of SYSTEM, which has no factor. There is never more than one factor at a
    !! time.
