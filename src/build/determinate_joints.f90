@@ -118,7 +118,6 @@ contains
    pure subroutine list_pairs(model, pair)
       type(model_type), intent(in)      :: model
       integer, allocatable, intent(out) :: pair(:, :) !! (3, pairs)
-      integer, allocatable :: longer(:, :)
       integer :: i, k, n, side, this(3)
 
       allocate (pair(3, size(model%interface)))
@@ -132,11 +131,7 @@ contains
                      if (n > 0) then
                         if (all(this == pair(:, n))) cycle
                      end if
-                     if (n == size(pair, 2)) then
-                        allocate (longer(3, 2*n))
-                        longer(:, :n) = pair
-                        call move_alloc(longer, pair)
-                     end if
+                     if (n == size(pair, 2)) pair = reshape([pair, pair], [3, 2*n])
                      n = n + 1
                      pair(:, n) = this
                   end do
@@ -215,11 +210,9 @@ contains
             resultant = 0.0_wp
             if (joint%determinate) then
                resultant = first_share*carried_resultant(model, joint, loads)
-               if (.not. touches_body(model, joint)) then
-                  if (opens_first(model, joint, loads)) then
-                     call turn_round(model, joint)
-                     resultant = -resultant
-                  end if
+               if (opens_first(model, joint, loads) .and. .not. touches_body(model, joint)) then
+                  call turn_round(model, joint)
+                  resultant = -resultant
                end if
             end if
             if (joint%p0 > 0.0_wp) then
@@ -330,14 +323,13 @@ contains
    pure logical function touches_body(model, joint)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
-      integer :: i, k, node
+      integer :: i
 
       touches_body = .false.
       do i = joint%first, joint%last
-         do k = 1, size(model%interface(i)%node)
-            node = model%interface(i)%node(k)
-            touches_body = touches_body .or. model%first_at(node + 1) > model%first_at(node)
-         end do
+         associate (nodes => model%interface(i)%node)
+            touches_body = touches_body .or. any(model%first_at(nodes + 1) > model%first_at(nodes))
+         end associate
       end do
    end function touches_body
 

@@ -2,7 +2,7 @@
 !! A system may depend on other systems in any order. Nodes with CD have their unknowns along the directions of their system, so that
 !! supports and prescribed displacements act along these directions.
 module displacement_systems
-   use bulk_data, only: system_card
+   use bulk_data, only: grid_card
    use coordinate_systems, only: coordinate_system, directions_at, make_system, position_in, rectangular
    use deck_check, only: checked_deck
    use kinds, only: wp
@@ -14,7 +14,7 @@ module displacement_systems
    implicit none
    private
 
-   public :: build_systems, find_system, find_directions, rectangular_axes, place_grids, to_global, build_frames
+   public :: build_systems, find_system, find_directions, rectangular_axes, place_grids, build_frames
 
 contains
 
@@ -121,64 +121,50 @@ contains
       if (system > size(systems)) system = 0
    end subroutine find_system
 
-   !> X of all GRID cards in global axes; each card is placed once its system is known.
-   subroutine place_grids(deck, systems, x)
+   !> Transform X of GRID CARDS to global axes; each card is placed once its system is known.
+   subroutine place_grids(deck, systems, cards)
       type(checked_deck), intent(in)      :: deck
       type(coordinate_system), intent(in) :: systems(:)
-      real(wp), intent(inout)             :: x(:, :) !! (3, at least as many as GRID cards) set here [length]
-      integer :: i, system
+      type(grid_card), intent(inout)      :: cards(:)
       real(wp), parameter :: rounding = 1.0e-12_wp ! of the distance of points and systems: a smaller distance from an axis is zero
+      integer :: i, system
 
-      do i = 1, size(deck%bulk%grid)
-         associate (grid => deck%bulk%grid(i))
-            x(:, i) = grid%x
-            if (grid%cp <= 0) cycle
-            call find_system(deck, grid%line, 'CP', grid%cp, systems, system)
+      do i = 1, size(cards)
+         associate (x => cards(i)%x)
+            if (cards(i)%cp <= 0) cycle
+            call find_system(deck, cards(i)%line, 'CP', cards(i)%cp, systems, system)
             if (system == 0) cycle
-            x(:, i) = position_in(systems(system), grid%x)
-            where (abs(x(:, i)) <= rounding*(norm2(x(:, i)) + norm2(systems(system)%origin))) x(:, i) = 0.0_wp
+            x = position_in(systems(system), x)
+            where (abs(x) <= rounding*(norm2(x) + norm2(systems(system)%origin))) x = 0.0_wp
          end associate
       end do
    end subroutine place_grids
 
-   !> VECTOR, given in system CID at the point X, in global axes; CID is read from FIELD of the card on LINE.
-   !! Errors: no such system, a point on the axis of a cylindrical or spherical one.
-   subroutine to_global(deck, systems, line, cid, x, vector)
+   !> The directions, columns, of the system CID of the card on LINE at the point X; global axes for CID 0. OK is false, with an error,
+   !! for a missing system, and on the axis of a cylindrical or spherical one.
+   subroutine find_directions(deck, systems, line, cid, x, directions, ok, field, point)
       type(checked_deck), intent(in)      :: deck
       type(coordinate_system), intent(in) :: systems(:)
       integer, intent(in)                 :: line, cid
       real(wp), intent(in)                :: x(3)      !! global axes [length]
-      real(wp), intent(inout)             :: vector(3)
-      real(wp) :: directions(3, 3)
-      integer  :: system
-      logical  :: ok
-
-      if (cid == 0) return
-      call find_system(deck, line, 'CID', cid, systems, system)
-      if (system == 0) return
-      call find_directions(deck, line, 'CID', systems(system), x, directions, ok)
-      if (ok) vector = matmul(directions, vector)
-   end subroutine to_global
-
-   !> The DIRECTIONS of SYSTEM, named in FIELD of the card on LINE, at the point X, columns. OK is false, with an error, on the axis of a
-   !! cylindrical or spherical system.
-   subroutine find_directions(deck, line, field, system, x, directions, ok, point)
-      type(checked_deck), intent(in)      :: deck
-      integer, intent(in)                 :: line
-      character(*), intent(in)            :: field
-      type(coordinate_system), intent(in) :: system
-      real(wp), intent(in)                :: x(3)      !! global axes [length]
       real(wp), intent(out)               :: directions(3, 3)
       logical, intent(out)                :: ok
+      character(*), intent(in), optional  :: field     !! of the system; default 'CID'
       character(*), intent(in), optional  :: point     !! the name of the point on the card; default 'the node'
-      character(:), allocatable :: name
+      character(:), allocatable :: at, name
+      integer :: system
 
-      call directions_at(system, x, directions, ok)
-      if (ok) return
+      at = 'CID'
+      if (present(field)) at = field
       name = 'the node'
       if (present(point)) name = point
-      call deck%field_error(line, field, name//' lies on the axis of system '//integer_text(system%id)// &
-                            ', where its first two directions are not defined')
+      directions = identity
+      call find_system(deck, line, at, cid, systems, system)
+      ok = system > 0 .or. cid <= 0
+      if (system == 0) return
+      call directions_at(systems(system), x, directions, ok)
+      if (.not. ok) call deck%field_error(line, at, name//' lies on the axis of system '//integer_text(cid)// &
+                                          ', where its first two directions are not defined')
    end subroutine find_directions
 
    !> The axes, columns, of the rectangular system CID of the card on LINE; global axes for CID 0. Errors: no such system; a system of
@@ -212,11 +198,11 @@ contains
       do i = 1, size(deck%bulk%grid)
          associate (grid => deck%bulk%grid(i))
             if (grid%cd <= 0) cycle
-            call find_system(deck, grid%line, 'CD', grid%cd, model%systems, system)
             node = model%node_table%find(grid%id)
-            if (system == 0 .or. node == 0) cycle
-            call find_directions(deck, grid%line, 'CD', model%systems(system), model%x(:, node), directions, ok)
+            if (node == 0) cycle
+            call find_directions(deck, model%systems, grid%line, grid%cd, model%x(:, node), directions, ok, 'CD')
             if (.not. ok) cycle
+            system = findloc(model%systems%id, grid%cd, dim=1)
             if (model%dimension == 2 .and. any(abs(directions(3, :2)) > 1.0e-10_wp)) then
                call deck%field_error(grid%line, 'CD', 'the first two directions of the system do not lie in the plane of the '// &
                                      'model, x-y')

@@ -1,16 +1,16 @@
-!> Body elements and their properties, from cards and block generators to positions; checks of their shape.
+!> Body elements, their properties and marked sides, from cards to positions; checks of their shape.
 module element_build
-   use block_mesh, only: block_type
-   use bulk_data, only: element_card, property_card
+   use bulk_data, only: element_card, grid_card, property_card
    use deck_check, only: checked_deck
    use elasticity, only: axisymmetric, beam, plane_stress, shell, solid
-   use element_kinds, only: element_table, kind_edge2, kind_quad4, kind_quad8, kind_tria3, kind_tria6
+   use element_kinds, only: element_table, kind_edge2, kind_quad4, kind_quad8, kind_tria3, kind_tria6, max_side_nodes
    use element_mapping, only: smallest_jacobian
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order
    use model_data, only: corners_of, model_type, property_type
-   use node_build, only: blank_node, find_nodes, raw_nodes
+   use node_build, only: blank_node, find_nodes
    use shell_membrane, only: flat_coordinates
+   use spring_build, only: is_bar
    use structural_build, only: is_beam_edge
    use text_tools, only: integer_text
    implicit none
@@ -18,7 +18,18 @@ module element_build
 
    integer, parameter :: few = 4096 ! number of elements up to which one thread is used
 
-   public :: resolve_properties, collect_elements, check_element_numbers, check_elements, check_one_state, is_face
+   public :: resolve_properties, collect_elements, collect_sides, check_element_numbers, check_elements, check_one_state, is_face
+
+   !> A side that carries a mark, before it is sorted into a surface.
+   type, public :: marked_side
+      integer :: mark = 0                  !! PMARK id
+      integer :: id = 0                    !! of the edge or face, 0: of a block
+      integer :: corners = 0               !! 2, 3 or 4
+      integer :: n_nodes = 0               !! corners, and mid-side nodes if the mark is second-order
+      integer :: line = 0                  !! of its card
+      integer :: of_block = 0              !! k: the mark is that of side Sk of a block; 0: PID of an edge or face
+      integer :: nodes(max_side_nodes) = 0 !! 0 for a mid-side node left blank
+   end type marked_side
 
 contains
 
@@ -73,63 +84,38 @@ contains
       end do
    end subroutine resolve_properties
 
-   !> Elements of cards and of blocks, in ascending order of their numbers; blank mid-side nodes become blank_node.
-   subroutine collect_elements(deck, blocks, raw, position, model)
+   !> The elements of CARDS, blocks included, and the beams, in ascending order of their numbers; blank mid-side nodes become blank_node.
+   subroutine collect_elements(deck, cards, model)
       type(checked_deck), intent(in)  :: deck
-      type(block_type), intent(in)    :: blocks(:)
-      type(raw_nodes), intent(in)     :: raw
-      integer, intent(in)             :: position(:)
+      type(element_card), intent(in)  :: cards(:)
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: properties
       integer, allocatable :: id(:), kind(:), nodes(:, :), property(:), line(:), order(:)
-      integer :: b, corners, i, k, most, n, total
+      integer :: corners, i, k, n, total
 
       call properties%build(model%properties%id)
-      total = size(deck%bulk%element) + size(deck%bulk%edge) + n_elements(blocks)
+      total = size(cards) + size(deck%bulk%edge)
       allocate (id(total), kind(total), property(total), line(total))
-      most = max(4, maxval(element_table(deck%bulk%element%kind)%n_nodes), maxval(element_table(blocks%kind)%n_nodes))
-      allocate (nodes(most, total), source=0)
+      allocate (nodes(max(4, maxval(element_table(cards%kind)%n_nodes)), total), source=0)
       n = 0
-      do i = 1, size(deck%bulk%element)
-         associate (element => deck%bulk%element(i))
+      do i = 1, size(cards)
+         associate (element => cards(i))
             if (is_face(model, element)) cycle
-            n = n + 1
-            id(n) = element%id
-            kind(n) = element%kind
-            line(n) = element%line
+            call add(element, element%kind)
             k = element_table(element%kind)%n_nodes
             corners = element_table(element%kind)%n_corners
             call find_nodes(deck, element%line, element%nodes(:k), model, nodes(:k, n))
             where (element%nodes(corners + 1:k) == 0) nodes(corners + 1:k, n) = blank_node
             property(n) = properties%find(element%property)
-            call check_property(deck, model, element%line, element%property, element%kind, property(n))
+            call check_property(deck, model, element, property(n))
          end associate
       end do
       do i = 1, size(deck%bulk%edge)
          associate (edge => deck%bulk%edge(i))
             if (.not. is_beam_edge(deck, edge)) cycle
-            n = n + 1
-            id(n) = edge%id
-            kind(n) = kind_edge2
-            line(n) = edge%line
+            call add(edge%element_card, kind_edge2)
             call find_nodes(deck, edge%line, edge%nodes(:2), model, nodes(:2, n))
             property(n) = findloc(model%properties%id == edge%property .and. model%properties%state == beam, .true., dim=1)
-         end associate
-      end do
-      do b = 1, size(blocks)
-         associate (block => blocks(b))
-            k = properties%find(block%property)
-            call check_property(deck, model, block%line, block%property, block%kind, k)
-            corners = element_table(block%kind)%n_corners
-            do i = 1, size(block%element_id)
-               n = n + 1
-               id(n) = block%element_id(i)
-               kind(n) = block%kind
-               line(n) = block%line
-               property(n) = k
-               nodes(:corners, n) = position(raw%place(raw%block_start(b) + block%places(:corners, i)))
-               nodes(corners + 1:element_table(block%kind)%n_nodes, n) = blank_node
-            end do
          end associate
       end do
       call sorted_order(id(:n), order)
@@ -139,74 +125,118 @@ contains
       model%element_nodes = nodes(:maxval([4, element_table(kind(:n))%n_nodes]), order)
       model%element_property = property(order)
       model%element_line = line(order)
+
+   contains
+
+      subroutine add(card, kind_of_card)
+         type(element_card), intent(in) :: card
+         integer, intent(in)            :: kind_of_card
+
+         n = n + 1
+         id(n) = card%id
+         kind(n) = kind_of_card
+         line(n) = card%line
+      end subroutine add
+
    end subroutine collect_elements
 
-   pure integer function n_elements(blocks)
-      type(block_type), intent(in) :: blocks(:)
-      integer :: b
-
-      n_elements = sum([(size(blocks(b)%element_id), b = 1, size(blocks))])
-   end function n_elements
-
-   !> The property ID of an element of a KIND must be a property for this kind; PROPERTY is its position, 0 for a missing property or one
-   !! for another kind.
-   subroutine check_property(deck, model, line, id, kind, property)
+   !> The property of the element CARD must be one for its kind; PROPERTY is its position, 0 for a missing property or one for another
+   !! kind.
+   subroutine check_property(deck, model, card, property)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
-      integer, intent(in)            :: line, id, kind
+      type(element_card), intent(in) :: card
       integer, intent(inout)         :: property
       character(:), allocatable :: wanted
 
-      if (model%dimension == 3 .and. element_table(kind)%dimension == 2 .and. any(deck%bulk%block%line == line)) then
-         call deck%errors%add(line, 'BLOCK2: plane bodies cannot stand in a model of space')
-         return
-      end if
       if (property > 0) then
-         if (model%properties(property)%state == shell .and. element_table(kind)%linear /= kind) then
-            call deck%errors%add(line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells in a model of space')
+         if (model%properties(property)%state == shell .and. element_table(card%kind)%linear /= card%kind) then
+            call deck%errors%add(card%line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells in a model of space')
             property = 0
             return
          end if
          if (model%properties(property)%state /= beam .and. &
-             ((model%properties(property)%state == solid) .eqv. element_table(kind)%dimension == 3)) return
+             ((model%properties(property)%state == solid) .eqv. element_table(card%kind)%dimension == 3)) return
          property = 0
       end if
-      if (id == 0) return
+      if (card%property == 0) return
       wanted = 'PSHELL or PAXIS '
-      if (element_table(kind)%dimension == 3) wanted = 'PSOLID '
-      if (any(deck%bulk%pmark%id == id) .and. element_table(kind)%dimension == 2) then
-         call deck%field_error(line, 'PID', integer_text(id)//' is a PMARK: a surface of a plane body is '// &
+      if (element_table(card%kind)%dimension == 3) wanted = 'PSOLID '
+      if (any(deck%bulk%pmark%id == card%property) .and. element_table(card%kind)%dimension == 2) then
+         call deck%field_error(card%line, 'PID', integer_text(card%property)//' is a PMARK: a surface of a plane body is '// &
                                'marked with CBAR or CROD edges')
       else
-         call deck%field_error(line, 'PID', 'there is no '//wanted//integer_text(id))
+         call deck%field_error(card%line, 'PID', 'there is no '//wanted//integer_text(card%property))
       end if
    end subroutine check_property
 
    !> Errors: an element number that is given twice. Bodies, faces, edges, interface elements and rigid elements share one numbering, as
    !! in NASTRAN.
-   subroutine check_element_numbers(deck, blocks)
+   subroutine check_element_numbers(deck, cards)
       type(checked_deck), intent(in) :: deck
-      type(block_type), intent(in)   :: blocks(:)
-      integer, allocatable :: id(:), line(:)
-      integer :: b, n, n_cards, k
+      type(element_card), intent(in) :: cards(:) !! those of DECK, then those of blocks
 
-      associate (bulk => deck%bulk)
-         n_cards = size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + size(bulk%rigid) + &
-                   size(bulk%spring) + size(bulk%mass)
-         allocate (id(n_cards + n_elements(blocks)), line(n_cards + n_elements(blocks)))
-         id(:n_cards) = [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id, bulk%rigid%id, bulk%spring%id, bulk%mass%id]
-         line(:n_cards) = [bulk%element%line, bulk%edge%line, bulk%cjoint%line, bulk%conrod%line, bulk%rigid%line, &
-                           bulk%spring%line, bulk%mass%line]
+      associate (bulk => deck%bulk, of_blocks => cards(size(deck%bulk%element) + 1:))
+         call deck%report_repeated('element', &
+            [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id, bulk%rigid%id, bulk%spring%id, bulk%mass%id, &
+             of_blocks%id], &
+            [bulk%element%line, bulk%edge%line, bulk%cjoint%line, bulk%conrod%line, bulk%rigid%line, bulk%spring%line, &
+             bulk%mass%line, of_blocks%line], &
+            n_cards=size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + size(bulk%rigid) + &
+                    size(bulk%spring) + size(bulk%mass))
       end associate
-      n = n_cards
-      do b = 1, size(blocks)
-         k = size(blocks(b)%element_id)
-         id(n + 1:n + k) = blocks(b)%element_id
-         line(n + 1:n + k) = blocks(b)%line
-         n = n + k
-      end do
-      call deck%report_repeated('element', id, line, n_cards=n_cards)
    end subroutine check_element_numbers
+
+   !> Marked sides: CBAR and CROD edges in the plane, faces of solids from cards of plane elements, and sides of blocks.
+   subroutine collect_sides(deck, of_blocks, model, sides)
+      type(checked_deck), intent(in) :: deck
+      type(element_card), intent(in) :: of_blocks(:)
+      type(model_type), intent(in)   :: model
+      type(marked_side), allocatable, intent(out) :: sides(:)
+      integer :: i, n, total
+
+      total = size(deck%bulk%edge) + size(of_blocks)
+      if (model%dimension == 3) total = total + size(deck%bulk%element)
+      allocate (sides(total))
+      n = 0
+      do i = 1, size(deck%bulk%edge)
+         associate (edge => deck%bulk%edge(i))
+            if (is_bar(deck, edge) .or. is_beam_edge(deck, edge)) cycle
+            if (model%dimension == 3 .and. all(model%properties%state /= shell)) then
+               call deck%errors%add(edge%line, 'a CBAR, or a CROD without a PROD, marks an edge of a plane body; surfaces of '// &
+                               'solids are marked with CTRIA3 and CQUAD4 faces; the PID of a beam is that of a PBAR, PBARL, '// &
+                               'PBEAM or PBEAML')
+               cycle
+            end if
+            call add_card(edge%element_card, 2, merge(3, 2, edge%nodes(3) /= 0))
+         end associate
+      end do
+      do i = 1, size(deck%bulk%element)
+         associate (face => deck%bulk%element(i))
+            if (is_face(model, face)) call add_card(face, element_table(face%kind)%n_corners, element_table(face%kind)%n_nodes)
+         end associate
+      end do
+      do i = 1, size(of_blocks)
+         associate (corners => count(of_blocks(i)%nodes > 0))
+            call add_card(of_blocks(i), corners, corners)
+            sides(n)%of_block = -of_blocks(i)%id
+         end associate
+      end do
+      sides = sides(:n)
+
+   contains
+
+      !> Append the side that a CARD marks.
+      subroutine add_card(card, corners, n_nodes)
+         type(element_card), intent(in) :: card
+         integer, intent(in)            :: corners, n_nodes
+
+         n = n + 1
+         sides(n) = marked_side(mark=card%property, id=card%id, corners=corners, n_nodes=n_nodes, line=card%line)
+         call find_nodes(deck, card%line, card%nodes(:n_nodes), model, sides(n)%nodes(:n_nodes))
+      end subroutine add_card
+
+   end subroutine collect_sides
 
    !> Plane and axisymmetric bodies must not be mixed: forces of a plane body are those of its thickness, forces of an axisymmetric
    !! body those of the whole ring.
@@ -234,20 +264,19 @@ contains
    end subroutine check_one_state
 
    !> Errors: an element whose det J is not positive: in a plane element at the corners, in a solid at its integration points.
-   subroutine check_elements(deck, model)
+   subroutine check_elements(deck, nodes, model)
       type(checked_deck), intent(in) :: deck
+      type(grid_card), intent(in)    :: nodes(:)    !! of DECK, then of blocks, in global axes
       type(model_type), intent(in)   :: model
-      type(id_table_type)  :: doubtful_blocks ! lines of the block cards already reported
-      logical, allocatable :: doubtful(:), sound(:)
+      logical, allocatable :: doubtful(:), sound(:) ! doubtful: the position of a node is not known, which has been reported
       integer :: e, i, last_line, node
 
-      allocate (doubtful(model%n_nodes), source=.false.)
-      do i = 1, size(deck%bulk%grid)
-         if (.not. deck%bulk%grid(i)%doubtful) cycle
-         node = model%node_table%find(deck%bulk%grid(i)%id)
-         if (node > 0) doubtful(node) = .true.
+      allocate (doubtful(0:model%n_nodes), source=.false.)
+      do i = 1, size(nodes)
+         node = model%node_table%find(nodes(i)%id)
+         doubtful(node) = doubtful(node) .or. nodes(i)%doubtful
+         if (i > size(deck%bulk%grid)) doubtful(node) = doubtful(node) .or. any(abs(nodes(i)%x - model%x(:, node)) > 0.0_wp) ! repeated
       end do
-      call doubtful_blocks%build(pack(deck%bulk%block%line, deck%bulk%block%doubtful))
       allocate (sound(model%n_elements))
       !$omp parallel do schedule(dynamic, 512) default(shared) if(model%n_elements > few)
       do e = 1, model%n_elements
@@ -272,7 +301,6 @@ contains
          associate (nodes => corners_of(model, e))
             if (any(nodes == 0)) return
             if (any(doubtful(nodes))) return
-            if (doubtful_blocks%find(model%element_line(e)) > 0) return
             if (model%element_kind(e) == kind_edge2) return ! a beam: its length is checked with its offsets
             if (model%dimension == 3 .and. element_table(model%element_kind(e))%dimension == 2) then
                if (size(nodes) > 4) return ! second order: reported already

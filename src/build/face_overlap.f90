@@ -10,8 +10,8 @@ module face_overlap
    implicit none
    private
 
-   public :: make_frame, in_frame, find_point, map_point, surface_vector, clip_polygon, drop_straight_corners, polygon_area, &
-             polygon_centroid, overlap_points, seen_area
+   public :: make_frame, edge_lengths, in_frame, find_point, map_point, surface_vector, clip_polygon, drop_straight_corners, &
+             polygon_area, polygon_centroid, overlap_points, seen_area
 
    !> Axes of a face: columns s and t in its plane (for an edge, s along it), and the normal h out of the body.
    type, public :: face_frame
@@ -76,6 +76,14 @@ contains
       frame%axes(:, 3) = normal/norm2(normal)
       frame%axes(:, 2) = cross(frame%axes(:, 3), frame%axes(:, 1))
    end subroutine make_frame
+
+   !> The lengths of the edges of a face with corners X, from each corner to the next [length].
+   pure function edge_lengths(x) result(lengths)
+      real(wp), intent(in) :: x(:, :) !! (3, corners) [length]
+      real(wp) :: lengths(size(x, 2))
+
+      lengths = norm2(cshift(x, 1, dim=2) - x, dim=1)
+   end function edge_lengths
 
    !> The face with nodes X in the coordinates of FRAME.
    pure function in_frame(dimension, x, frame) result(face)
@@ -390,15 +398,11 @@ contains
    pure subroutine add_point(place, weight, points)
       real(wp), intent(in)              :: place(2), weight
       type(plane_points), intent(inout) :: points
-      type(plane_points) :: larger
 
-      if (.not. allocated(points%weight)) allocate (points%place(2, 0), points%weight(0))
+      if (.not. allocated(points%weight)) allocate (points%place(2, 64), points%weight(64))
       if (points%n == size(points%weight)) then
-         allocate (larger%place(2, 2*points%n + 64), larger%weight(2*points%n + 64))
-         larger%place(:, :points%n) = points%place
-         larger%weight(:points%n) = points%weight
-         call move_alloc(larger%place, points%place)
-         call move_alloc(larger%weight, points%weight)
+         points%weight = [points%weight, points%weight]
+         points%place = reshape([points%place, points%place], [2, 2*points%n])
       end if
       points%n = points%n + 1
       points%place(:, points%n) = place

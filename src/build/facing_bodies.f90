@@ -3,11 +3,12 @@
 module facing_bodies
    use element_kinds, only: element_table
    use element_mapping, only: two_pi
+   use face_overlap, only: edge_lengths
    use interface_operator, only: named_node
    use kinds, only: wp
    use lists, only: join, list_owners, root_of
-   use model_build, only: find_bodies
-   use model_data, only: corners_of, is_shell, model_type, n_bars, n_points, supported
+   use connected_bodies, only: find_bodies
+   use model_data, only: corners_of, is_shell, model_type, n_bars, n_points, side_corners, supported
    use node_pairing, only: opposed => facing, reach => default_reach
    use numbers, only: cross
    use spatial_search, only: spatial_search_type
@@ -98,7 +99,7 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: body(:) !! (n_elements)
       type(outer_side), allocatable, intent(out) :: sides(:)
-      integer, allocatable :: corners(:, :), element(:), side(:), first(:), owners(:), least(:, :)
+      integer, allocatable :: first(:), owners(:), least(:, :)
       logical, allocatable :: is_outer(:)
       integer :: e, i, j, n, s
 
@@ -106,53 +107,33 @@ contains
       do e = 1, model%n_elements
          n = n + merge(2, element_table(model%element_kind(e))%n_sides, is_shell(model, e))
       end do
-      allocate (corners(4, n), element(n), side(n), least(1, n), is_outer(n))
-      corners = 0
+      allocate (sides(n), is_outer(n), least(1, n))
       i = 0
       do e = 1, model%n_elements
-         if (is_shell(model, e)) then
-            associate (own => corners_of(model, e))
-               do s = 0, -1, -1
-                  i = i + 1
-                  element(i) = e
-                  side(i) = s
-                  corners(:size(own), i) = own
-                  if (s == -1) corners(:size(own), i) = own(size(own):1:-1)
-                  least(1, i) = 0 ! never equal to another side
-               end do
+         do s = 1, merge(2, element_table(model%element_kind(e))%n_sides, is_shell(model, e))
+            i = i + 1
+            sides(i)%element = e
+            sides(i)%side = merge(1 - s, s, is_shell(model, e))
+            sides(i)%body = body(e)
+            associate (own => side_corners(model, e, max(0, sides(i)%side)))
+               sides(i)%n = size(own)
+               sides(i)%corners(:size(own)) = own
+               if (sides(i)%side < 0) sides(i)%corners(:size(own)) = own(size(own):1:-1)
+               least(1, i) = merge(minval(own), 0, sides(i)%side > 0) ! the face of a shell is equal to no other side
             end associate
-            cycle
-         end if
-         associate (kind => element_table(model%element_kind(e)))
-            do s = 1, kind%n_sides
-               i = i + 1
-               element(i) = e
-               side(i) = s
-               corners(:kind%side_corners(s), i) = model%element_nodes(kind%side_nodes(:kind%side_corners(s), s), e)
-               least(1, i) = minval(corners(:kind%side_corners(s), i))
-            end do
-         end associate
-      end do
-      call list_owners(model%n_nodes, least, first, owners)
-      do i = 1, n
-         is_outer(i) = .true.
-         if (side(i) <= 0) cycle
-         do j = first(least(1, i)), first(least(1, i) + 1) - 1
-            if (owners(j) == i) cycle
-            is_outer(i) = is_outer(i) .and. .not. are_same(corners(:, i), corners(:, owners(j)))
          end do
       end do
-      allocate (sides(count(is_outer)))
-      j = 0
+      call list_owners(model%n_nodes, least, first, owners)
+      is_outer = .true.
       do i = 1, n
-         if (.not. is_outer(i)) cycle
-         j = j + 1
-         sides(j)%element = element(i)
-         sides(j)%side = side(i)
-         sides(j)%body = body(element(i))
-         sides(j)%n = count(corners(:, i) > 0)
-         sides(j)%corners = corners(:, i)
-         call measure(model, sides(j))
+         if (sides(i)%side <= 0) cycle
+         do j = first(least(1, i)), first(least(1, i) + 1) - 1
+            if (owners(j) /= i) is_outer(i) = is_outer(i) .and. .not. are_same(sides(i)%corners, sides(owners(j))%corners)
+         end do
+      end do
+      sides = pack(sides, is_outer)
+      do i = 1, size(sides)
+         call measure(model, sides(i))
       end do
    end subroutine list_outer_sides
 
@@ -175,9 +156,7 @@ contains
          x(:, k) = model%x(:, side%corners(k))
       end do
       side%centre = sum(x(:, :side%n), dim=2)/side%n
-      do k = 1, side%n
-         side%size = max(side%size, norm2(x(:, 1 + modulo(k, side%n)) - x(:, k)))
-      end do
+      side%size = maxval(edge_lengths(x(:, :side%n)))
       select case (side%n)
       case (2) ! body on the left of the edge
          vector = [x(2, 2) - x(2, 1), x(1, 1) - x(1, 2), 0.0_wp]

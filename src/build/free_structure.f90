@@ -2,12 +2,12 @@
 !! The reference state of the modes needs them: as many components are held as the structure has rigid-body motions. A
 !! self-equilibrated load causes no reactions there.
 module free_structure
-   use bulk_data, only: rigid_card
+   use connected_bodies, only: find_bodies
    use deck_check, only: checked_deck
    use interface_operator, only: named_node
    use kinds, only: wp
-   use lists, only: join, root_of
    use model_data, only: a_point, a_rotation, corners_of, is_face_node, model_type, node_kind, place_in_kind, support_group
+   use node_coupling, only: rotation_at
    use numbers, only: cross, first_largest
    use support_build, only: hold
    implicit none
@@ -24,7 +24,7 @@ contains
    subroutine hold_free_structure(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
-      integer  :: parent(model%n_nodes), members(model%n_nodes), a, b, c, e, i, k
+      integer  :: body(model%n_elements), body_of(model%n_nodes), a, b, c, e, i, k, n
       logical  :: may_be(model%n_nodes)
       real(wp) :: along(3), off(model%n_nodes), turn(3)
 
@@ -35,28 +35,18 @@ contains
          if (named_node(model%interface(i), 2) == 0) return                               ! a rigid base
       end do
       if (model%n_elements == 0) return
-      parent = [(i, i = 1, size(parent))]
+      call find_bodies(model, body, n)
+      body_of = 0
       do e = 1, model%n_elements
-         associate (nodes => corners_of(model, e))
-            do i = 2, size(nodes)
-               call join(parent, nodes(1), nodes(i))
-            end do
-         end associate
+         body_of(corners_of(model, e)) = body(e)
       end do
-      members = 0
-      do i = 1, size(parent)
-         members(root_of(parent, i)) = members(root_of(parent, i)) + 1
-      end do
-      k = maxloc(members, dim=1)
-      do i = 1, size(may_be)
-         may_be(i) = root_of(parent, i) == k
-      end do
+      may_be = body_of == maxloc([(count(body_of == i), i = 1, n)], dim=1)
       if (allocated(model%node_system)) may_be = may_be .and. model%node_system(:size(may_be)) == 0
       do i = 1, size(deck%rigid)
-         call pass_over(deck%rigid(i))
+         call skip([deck%rigid(i)%nodes, deck%rigid(i)%node])
       end do
       do i = 1, size(deck%bulk%equation)
-         call pass_over(rigid_card(nodes=deck%bulk%equation(i)%node))
+         call skip(deck%bulk%equation(i)%node)
       end do
       do i = 1, size(may_be)
          may_be(i) = may_be(i) .and. .not. is_face_node(model, i) .and. model%duplicate(i) == 0
@@ -65,12 +55,10 @@ contains
       if (a == 0) return
       model%floats = .true.
       model%support_groups = [support_group('FREE')]
-      if (allocated(model%rotation_of)) then
-         if (model%rotation_of(a) > 0) then
-            if (model%rotations(model%rotation_of(a))%of_element) then
-               call hold(model, a, merge(123456, 126, model%dimension == 3))
-               return
-            end if
+      if (rotation_at(model, a) > 0) then
+         if (model%rotations(rotation_at(model, a))%of_element) then
+            call hold(model, a, merge(123456, 126, model%dimension == 3))
+            return
          end if
       end if
       if (model%axisymmetric) then
@@ -98,18 +86,16 @@ contains
 
    contains
 
-      !> Skip the nodes of CARD, because they depend on each other.
-      subroutine pass_over(card)
-         type(rigid_card), intent(in) :: card
+      !> Skip the nodes with these numbers, because they depend on each other.
+      subroutine skip(id)
+         integer, intent(in) :: id(:)
          integer :: k, node
 
-         do k = 1, size(card%nodes)
-            node = model%node_table%find(card%nodes(k))
+         do k = 1, size(id)
+            node = model%node_table%find(id(k))
             if (node > 0) may_be(node) = .false.
          end do
-         node = model%node_table%find(card%node)
-         if (node > 0) may_be(node) = .false.
-      end subroutine pass_over
+      end subroutine skip
 
    end subroutine hold_free_structure
 

@@ -2,13 +2,13 @@
 !! FORCE, FORCE1 and FORCE2 are vectors in global axes; MOMENT acts on rotations.
 module load_build
    use body_loads, only: add_beam_loads, add_gravity, check_beam_loads, check_gravity
-   use bulk_data, only: force_card
+   use bulk_data, only: force_card, surface_load_card
    use case_entries, only: set_reference
    use deck_check, only: checked_deck
-   use displacement_systems, only: to_global
+   use displacement_systems, only: find_directions
    use element_kinds, only: max_side_nodes
    use kinds, only: wp
-   use load_checks, only: check_load_cards, check_plane, has_set, nor_others
+   use load_checks, only: check_combinations, check_displacements, check_plane, check_surface_loads, has_set, nor_others
    use model_data, only: model_type, stage_load_type, surface_type
    use node_coupling, only: coupling_parts, add_section_share, node_axes, rotation_at, rotation_component
    use numbers, only: cross, identity
@@ -30,7 +30,9 @@ contains
       type(model_type), intent(in)       :: model
       integer, allocatable, intent(out)  :: node(:)     !! (cards)
       real(wp), allocatable, intent(out) :: force(:, :) !! (3, cards)
-      integer :: i
+      real(wp) :: axes(3, 3)
+      integer  :: i
+      logical  :: ok
 
       allocate (node(size(deck%bulk%force)), source=0)
       allocate (force(3, size(deck%bulk%force)), source=0.0_wp)
@@ -41,7 +43,8 @@ contains
             if (card%ends(1) > 0) then
                call along_lines(deck, model, card, force(:, i))
             else if (node(i) > 0) then
-               call to_global(deck, model%systems, card%line, card%system, model%x(:, node(i)), force(:, i))
+               call find_directions(deck, model%systems, card%line, card%system, model%x(:, node(i)), axes, ok)
+               if (ok .and. card%system > 0) force(:, i) = matmul(axes, force(:, i))
             end if
             if (card%is_moment) then
                if (node(i) > 0) call onto_rotations(deck, model, card, node(i), force(:, i))
@@ -159,7 +162,9 @@ contains
       integer :: s
 
       call find_nodal_forces(deck, model, node, force)
-      call check_load_cards(deck, model)
+      call check_surface_loads(deck, model)
+      call check_displacements(deck, model)
+      call check_combinations(deck)
       call check_gravity(deck, model)
       call check_beam_loads(deck, model)
       call check_kept(deck, model)
@@ -229,12 +234,7 @@ contains
          do i = 1, size(bulk%surface_load)
             if (bulk%surface_load(i)%set /= set) cycle
             s = findloc(model%surfaces%id, bulk%surface_load(i)%surface, dim=1)
-            if (s == 0) cycle
-            if (bulk%surface_load(i)%is_pressure) then
-               call add_surface_pressure(model, model%surfaces(s), factor*bulk%surface_load(i)%pressure, spread_out)
-            else
-               call add_surface_force(model, model%surfaces(s), factor*bulk%surface_load(i)%force, spread_out)
-            end if
+            if (s > 0) call add_surface_load(model, model%surfaces(s), bulk%surface_load(i), factor, spread_out)
          end do
       end associate
       call add_gravity(deck, model, set, factor, loads, spread_out)
@@ -259,49 +259,31 @@ contains
       loads%force(:, loads%n) = force
    end subroutine add_force
 
-   !> Nodal forces of a pressure P on a surface, positive into its body.
-   pure subroutine add_surface_pressure(model, surface, p, force)
-      type(model_type), intent(in)   :: model
-      type(surface_type), intent(in) :: surface
-      real(wp), intent(in)           :: p
-      real(wp), intent(inout)        :: force(:, :) !! (3, n_nodes)
-      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes)
+   !> Nodal forces of CARD on SURFACE, times FACTOR: a pressure, positive into the body, or a total force distributed uniformly over the area.
+   pure subroutine add_surface_load(model, surface, card, factor, force)
+      type(model_type), intent(in)        :: model
+      type(surface_type), intent(in)      :: surface
+      type(surface_load_card), intent(in) :: card
+      real(wp), intent(in)                :: factor
+      real(wp), intent(inout)             :: force(:, :) !! (3, n_nodes)
+      real(wp) :: area(max_side_nodes), f(3, max_side_nodes), normal(3, max_side_nodes), total_area
       integer  :: k, s
 
+      total_area = 0.0_wp
+      do s = 1, merge(0, surface%n, card%is_pressure)
+         call side_influence(model, surface, s, area, normal)
+         total_area = total_area + sum(area)
+      end do
+      if (total_area <= 0.0_wp .and. .not. card%is_pressure) return
       do s = 1, surface%n
          call side_influence(model, surface, s, area, normal)
          do k = 1, surface%n_nodes(s)
-            force(:, surface%nodes(k, s)) = force(:, surface%nodes(k, s)) - p*normal(:, k)
+            if (card%is_pressure) f(:, k) = -factor*card%pressure*normal(:, k)
+            if (.not. card%is_pressure) f(:, k) = area(k)/total_area*(factor*card%force)
+            force(:, surface%nodes(k, s)) = force(:, surface%nodes(k, s)) + f(:, k)
          end do
-         call add_section_share(model, surface%element(s), surface%nodes(:surface%n_nodes(s), s), -p*normal, force)
+         call add_section_share(model, surface%element(s), surface%nodes(:surface%n_nodes(s), s), f, force)
       end do
-   end subroutine add_surface_pressure
-
-   !> Nodal forces of a total force distributed uniformly over the area of a surface.
-   pure subroutine add_surface_force(model, surface, total, force)
-      type(model_type), intent(in)   :: model
-      type(surface_type), intent(in) :: surface
-      real(wp), intent(in)           :: total(3)
-      real(wp), intent(inout)        :: force(:, :) !! (3, n_nodes)
-      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), sum_of_areas
-      integer  :: k, pass, s
-
-      sum_of_areas = 0.0_wp
-      do pass = 1, 2
-         do s = 1, surface%n
-            call side_influence(model, surface, s, area, normal)
-            if (pass == 1) then
-               sum_of_areas = sum_of_areas + sum(area)
-               cycle
-            end if
-            do k = 1, surface%n_nodes(s)
-               force(:, surface%nodes(k, s)) = force(:, surface%nodes(k, s)) + area(k)/sum_of_areas*total
-            end do
-            call add_section_share(model, surface%element(s), surface%nodes(:surface%n_nodes(s), s), &
-                                   spread(total/sum_of_areas, 2, max_side_nodes)*spread(area, 1, 3), force)
-         end do
-         if (sum_of_areas <= 0.0_wp) return
-      end do
-   end subroutine add_surface_force
+   end subroutine add_surface_load
 
 end module load_build

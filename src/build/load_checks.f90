@@ -11,22 +11,12 @@ module load_checks
    implicit none
    private
 
-   public :: check_load_cards, check_plane, has_set
+   public :: check_surface_loads, check_displacements, check_combinations, check_plane, has_set
 
    character(*), parameter :: others = 'PLOAD4, PLOADE, PLOAD, PLOAD1, PLOAD2, PLOADM, FORCEM, GRAV or SPCD' ! the other load cards
    character(*), parameter, public :: nor_others = ', nor a '//others                 !! behind the text `there is no FORCE`
 
 contains
-
-   !> Check loads on surfaces, SPCD and LOAD; add errors to the deck.
-   subroutine check_load_cards(deck, model)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-
-      call check_surface_loads(deck, model)
-      call check_displacements(deck, model)
-      call check_combinations(deck)
-   end subroutine check_load_cards
 
    !> Whether any load card belongs to SET.
    pure logical function has_set(bulk, set)

@@ -105,7 +105,7 @@ contains
          'I11', 'not a possible inertia tensor: it must be positive semidefinite')
       call find_system(deck, card%line, 'CID', card%system, model%systems, system)
       if (system == 0 .or. all(abs(card%inertia) <= 0.0_wp)) return
-      call find_directions(deck, card%line, 'CID', model%systems(system), x, axes, ok)
+      call find_directions(deck, model%systems, card%line, card%system, x, axes, ok)
       if (ok) inertia = matmul(axes, matmul(inertia, transpose(axes)))
    end subroutine find_inertia
 

@@ -2,38 +2,23 @@
 !! The nodes that cards of loads, supports and masses name are checked before anything else is built from these cards, so that missing
 !! nodes are reported for a deck with mesh errors too.
 module mesh_build
-   use block_mesh, only: block_type, generate_block
-   use bulk_data, only: element_card
+   use block_mesh, only: collect_cards, mesh_card_type
    use case_control, only: model_axisymmetric, model_plane, model_space
    use deck_check, only: checked_deck
    use displacement_systems, only: build_systems
-   use element_build, only: check_element_numbers, check_elements, check_one_state, collect_elements, is_face, &
+   use element_build, only: check_element_numbers, check_elements, check_one_state, collect_elements, collect_sides, marked_side, &
                             resolve_properties
-   use elasticity, only: shell
-   use element_kinds, only: element_table, max_side_nodes
+   use element_kinds, only: element_table
    use kinds, only: wp
    use lists, only: list_owners
    use model_data, only: model_type
-   use node_build, only: fill_mid_sides, collect_nodes, find_nodes, order_nodes, raw_nodes
-   use placed_nodes, only: add_reference_nodes, find_places
-   use spring_build, only: is_bar
-   use structural_build, only: is_beam_edge
+   use node_build, only: build_nodes, fill_mid_sides
+   use placed_nodes, only: place_nodes
    use text_tools, only: integer_text
    implicit none
    private
 
    public :: build_mesh, check_named_nodes
-
-   !> A side that carries a mark, before it is sorted into a surface.
-   type, public :: marked_side
-      integer :: mark = 0                  !! PMARK id
-      integer :: id = 0                    !! of the edge or face, 0: of a block
-      integer :: corners = 0               !! 2, 3 or 4
-      integer :: n_nodes = 0               !! corners, and mid-side nodes if the mark is second-order
-      integer :: line = 0                  !! of its card
-      integer :: of_block = 0              !! k: the mark is that of side Sk of a block; 0: PID of an edge or face
-      integer :: nodes(max_side_nodes) = 0 !! 0 for a mid-side node left blank
-   end type marked_side
 
 contains
 
@@ -42,34 +27,31 @@ contains
       type(checked_deck), intent(inout) :: deck
       type(model_type), intent(inout)   :: model
       type(marked_side), allocatable, intent(out) :: sides(:)
-      type(block_type), allocatable :: blocks(:)
-      type(raw_nodes) :: raw
-      integer, allocatable :: position(:) ! raw node -> node of the model
+      type(mesh_card_type) :: cards
       integer :: b
       logical :: has_solids
 
       has_solids = any(deck%bulk%block%dimension == 3) .or. any(element_table(deck%bulk%element%kind)%dimension == 3)
       model%dimension = merge(3, 2, has_solids)
-      allocate (blocks(size(deck%bulk%block)))
-      do b = 1, size(blocks)
-         call generate_block(deck%bulk%block(b), blocks(b))
-      end do
       call build_systems(deck, model%systems)
-      call collect_nodes(deck, model%systems, blocks, raw)
-      if (any(abs(raw%x(3, :raw%n)) > 0.0_wp) .and. .not. is_plane(deck)) model%dimension = 3
+      call collect_cards(deck, cards)
+      call build_nodes(deck, cards%grid, model)
+      if (any(abs(model%x(3, :)) > 0.0_wp) .and. .not. is_plane(deck)) model%dimension = 3
       call take_model(deck, has_solids, model)
-      call add_reference_nodes(deck, blocks, raw)
-      call order_nodes(raw, model, position)
-      if (any(deck%rigid%surface > 0) .or. size(deck%bulk%place) > 0) call find_places(deck, blocks, raw, position, model)
+      do b = 1, size(deck%bulk%block)
+         if (deck%bulk%block(b)%dimension < model%dimension) call deck%errors%add(deck%bulk%block(b)%line, &
+            'BLOCK2: plane bodies cannot stand in a model of space')
+      end do
+      if (any(deck%rigid%surface > 0) .or. size(deck%bulk%place) > 0) call place_nodes(deck, cards%side, model)
       call resolve_properties(deck, model)
-      call collect_elements(deck, blocks, raw, position, model)
+      call collect_elements(deck, cards%element, model)
       call fill_mid_sides(deck, model)
-      call check_element_numbers(deck, blocks)
+      call check_element_numbers(deck, cards%element)
       call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
       call check_one_state(deck, model)
       call check_nodes(deck, model)
-      call check_elements(deck, model)
-      call collect_sides(deck, blocks, raw, position, model, sides)
+      call check_elements(deck, cards%grid, model)
+      call collect_sides(deck, cards%side, model, sides)
    end subroutine build_mesh
 
    !> Whether a deck without solids is plane, whatever X3 of its nodes: it has a PAXIS or a BLOCK2, or it has PSHELL and none of them has a
@@ -135,63 +117,6 @@ contains
       end do
    end subroutine check_nodes
 
-   !> Marked sides: CBAR and CROD edges in the plane, faces of solids from cards of plane elements, and sides of blocks.
-   subroutine collect_sides(deck, blocks, raw, position, model, sides)
-      type(checked_deck), intent(in)  :: deck
-      type(block_type), intent(in)    :: blocks(:)
-      type(raw_nodes), intent(in)     :: raw
-      integer, intent(in)             :: position(:)
-      type(model_type), intent(in)    :: model
-      type(marked_side), allocatable, intent(out) :: sides(:)
-      integer :: b, i, n, total
-
-      total = size(deck%bulk%edge) + sum(blocks%n_sides)
-      if (model%dimension == 3) total = total + size(deck%bulk%element)
-      allocate (sides(total))
-      n = 0
-      do i = 1, size(deck%bulk%edge)
-         associate (edge => deck%bulk%edge(i))
-            if (is_bar(deck, edge) .or. is_beam_edge(deck, edge)) cycle
-            if (model%dimension == 3 .and. all(model%properties%state /= shell)) then
-               call deck%errors%add(edge%line, 'a CBAR, or a CROD without a PROD, marks an edge of a plane body; surfaces of '// &
-                               'solids are marked with CTRIA3 and CQUAD4 faces; the PID of a beam is that of a PBAR, PBARL, '// &
-                               'PBEAM or PBEAML')
-               cycle
-            end if
-            call add_card(edge%element_card, 2, merge(3, 2, edge%nodes(3) /= 0))
-         end associate
-      end do
-      do i = 1, size(deck%bulk%element)
-         associate (face => deck%bulk%element(i))
-            if (is_face(model, face)) call add_card(face, element_table(face%kind)%n_corners, element_table(face%kind)%n_nodes)
-         end associate
-      end do
-      do b = 1, size(blocks)
-         do i = 1, blocks(b)%n_sides
-            associate (corners => blocks(b)%side(:count(blocks(b)%side(:, i) > 0), i))
-               n = n + 1
-               sides(n) = marked_side(mark=blocks(b)%mark(i), corners=size(corners), n_nodes=size(corners), line=blocks(b)%line, &
-                                      of_block=blocks(b)%number(i))
-               sides(n)%nodes(:size(corners)) = position(raw%place(raw%block_start(b) + corners))
-            end associate
-         end do
-      end do
-      sides = sides(:n)
-
-   contains
-
-      !> Append the side that a CARD marks.
-      subroutine add_card(card, corners, n_nodes)
-         type(element_card), intent(in) :: card
-         integer, intent(in)            :: corners, n_nodes
-
-         n = n + 1
-         sides(n) = marked_side(mark=card%property, id=card%id, corners=corners, n_nodes=n_nodes, line=card%line)
-         call find_nodes(deck, card%line, card%nodes(:n_nodes), model, sides(n)%nodes(:n_nodes))
-      end subroutine add_card
-
-   end subroutine collect_sides
-
    !> Report the missing nodes of every FORCE, MOMENT, SPC, SPC1, SPCD and CONM2. A number that could not be read is 0 and is not
    !! reported again.
    subroutine check_named_nodes(deck, model)
@@ -201,51 +126,42 @@ contains
 
       do i = 1, size(deck%bulk%force)
          associate (card => deck%bulk%force(i))
-            if (is_missing(card%node)) call deck%field_error(card%line, 'G', there_is_no(card%node))
+            call require(card%line, 2, card%node)
             do k = 1, 4
-               if (is_missing(card%ends(k))) call deck%field_error(card%line, k + 3, there_is_no(card%ends(k)))
+               call require(card%line, k + 3, card%ends(k))
             end do
          end associate
       end do
       do i = 1, size(deck%bulk%support)
          associate (card => deck%bulk%support(i))
             if (card%surface > 0) cycle
-            do k = 1, size(card%first)
-               if (card%first(k) /= card%last(k)) cycle ! G1 THRU G2 means the nodes that exist
-               if (is_missing(card%first(k))) &
-                  call deck%field_error(card%line, card%at(k), there_is_no(card%first(k)), called='G')
+            do k = 1, size(card%first) ! G1 THRU G2 means the nodes that exist
+               if (card%first(k) == card%last(k)) call require(card%line, card%at(k), card%first(k), called='G')
             end do
          end associate
       end do
       do i = 1, size(deck%bulk%displacement)
          associate (card => deck%bulk%displacement(i))
-            if (is_missing(card%node)) call deck%field_error(card%line, card%field, there_is_no(card%node), called='G')
+            call require(card%line, card%field, card%node, called='G')
          end associate
       end do
       do i = 1, size(deck%bulk%mass)
          associate (card => deck%bulk%mass(i))
-            if (is_missing(card%node)) call deck%field_error(card%line, trim(merge('G1', 'G ', card%component > 0)), &
-                                                             there_is_no(card%node))
+            call require(card%line, merge(3, 2, card%component > 0), card%node)
          end associate
       end do
 
    contains
 
-      !> Whether node ID is named and missing.
-      pure logical function is_missing(id)
-         integer, intent(in) :: id
+      !> Error: data field K of the card on LINE names a missing node ID.
+      subroutine require(line, k, id, called)
+         integer, intent(in)                :: line, k, id
+         character(*), intent(in), optional :: called
 
-         is_missing = id > 0
-         if (is_missing) is_missing = model%node_table%find(id) == 0
-      end function is_missing
+         if (id <= 0) return
+         if (model%node_table%find(id) == 0) call deck%field_error(line, k, 'there is no GRID '//integer_text(id), called)
+      end subroutine require
 
    end subroutine check_named_nodes
-
-   pure function there_is_no(id) result(words)
-      integer, intent(in)       :: id
-      character(:), allocatable :: words
-
-      words = 'there is no GRID '//integer_text(id)
-   end function there_is_no
 
 end module mesh_build

@@ -1,22 +1,21 @@
-!> From a deck to the model that is solved: the sequence of all build steps, and the parts of the model.
-!! Bodies, and parts (bodies and nodes that bars and bolts connect), are found here; joints do not connect parts.
+!> From a deck to the model that is solved: the sequence of all build steps.
 module model_build
    use case_control, only: method_step
+   use connected_bodies, only: find_parts
    use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use determinate_joints, only: find_determinate_joints, find_first_pressures
    use displacement_systems, only: build_frames
+   use element_build, only: marked_side
    use free_structure, only: check_balance, hold_free_structure
    use joint_build, only: build_joints
    use joint_gaps, only: build_gaps
    use joint_sides, only: find_frame
-   use lists, only: join, root_of
    use load_build, only: build_loads
    use mass_build, only: build_masses, check_mass
-   use mesh_build, only: build_mesh, marked_side, check_named_nodes
-   use model_data, only: model_type, n_bars, n_rotations, n_sections, stage_load_type
-   use node_coupling, only: coupling_parts, section_node
+   use mesh_build, only: build_mesh, check_named_nodes
+   use model_data, only: model_type, n_sections, stage_load_type
    use pretension_section, only: build_sections
    use rigid_elements, only: build_dependents, name_surface_nodes
    use shell_faces, only: build_shell_faces, couple_shell_faces
@@ -32,100 +31,9 @@ module model_build
    implicit none
    private
 
-   public :: find_bodies, find_parts, build_model
+   public :: build_model
 
 contains
-
-   !> The BODY of each element, numbered in the order of their first elements. Elements that share nodes, and the halves of a solid bolt,
-   !! form one body.
-   pure subroutine find_bodies(model, body, n_bodies)
-      type(model_type), intent(in) :: model
-      integer, intent(out)         :: body(:) !! (n_elements)
-      integer, intent(out)         :: n_bodies
-      integer :: parent(model%n_nodes), number(model%n_nodes), e, k, root
-
-      parent = [(k, k = 1, model%n_nodes)]
-      call join_elements(model, parent)
-      do k = 1, n_sections(model)
-         call join(parent, model%sections(k)%node, model%sections(k)%point)
-      end do
-      number = 0
-      n_bodies = 0
-      do e = 1, model%n_elements
-         root = root_of(parent, uncut(model, e, 1))
-         if (number(root) == 0) then
-            n_bodies = n_bodies + 1
-            number(root) = n_bodies
-         end if
-         body(e) = number(root)
-      end do
-   end subroutine find_bodies
-
-   !> Number the connected parts. A node without a body is a part of its own; a dependent node belongs to the part of its masters.
-   pure subroutine find_parts(model, with_bolts)
-      type(model_type), intent(inout) :: model
-      logical, intent(in)             :: with_bolts !! whether bolts connect bodies, as other bars do
-      integer, allocatable :: parent(:)
-      integer :: k, node, root
-
-      allocate (parent(model%n_nodes))
-      parent = [(node, node = 1, model%n_nodes)]
-      call join_elements(model, parent)
-      do k = 1, n_bars(model)
-         if (model%bars(k)%nodes(2) == 0) cycle ! the ground
-         if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
-      end do
-      do node = 1, model%n_nodes
-         associate (parts => coupling_parts(model, node))
-            do k = parts(1), parts(2)
-               call join(parent, node, model%coupling%node(k))
-            end do
-         end associate
-      end do
-      do k = 1, n_rotations(model)
-         call join(parent, model%rotations(k)%point, model%rotations(k)%node)
-      end do
-      if (with_bolts) then
-         do k = 1, n_sections(model)
-            call join(parent, model%sections(k)%node, model%sections(k)%point)
-         end do
-      end if
-      if (allocated(model%part)) deallocate (model%part)
-      allocate (model%part(model%n_nodes), source=0)
-      model%n_parts = 0
-      do node = 1, model%n_nodes
-         root = root_of(parent, node)
-         if (model%part(root) == 0) then
-            model%n_parts = model%n_parts + 1
-            model%part(root) = model%n_parts
-         end if
-         model%part(node) = model%part(root)
-      end do
-   end subroutine find_parts
-
-   !> Join the nodes of every element. For an element behind a pretension section the section node replaces the nodes that are cut.
-   pure subroutine join_elements(model, parent)
-      type(model_type), intent(in) :: model
-      integer, intent(inout)       :: parent(:)
-      integer :: e, first, k
-
-      do e = 1, model%n_elements
-         first = uncut(model, e, 1)
-         do k = 2, size(model%element_nodes, 1)
-            call join(parent, first, uncut(model, e, k))
-         end do
-      end do
-   end subroutine join_elements
-
-   !> Corner I of element E, or the section node that replaces it.
-   pure integer function uncut(model, e, i) result(corner)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e, i
-
-      corner = model%element_nodes(i, e)
-      if (corner == 0 .or. section_node(model, e) == 0) return
-      if (model%node_section(corner) == model%element_section(e)) corner = section_node(model, e)
-   end function uncut
 
    !> Build MODEL and the PLAN of its stages from DECK; inconsistencies are added to ERRORS, and then neither may be solved. After
    !! mesh errors nothing else is built, because areas, projections and loads would rest on wrong numbers. Errors that do not depend on

@@ -81,7 +81,7 @@ contains
       integrals%normal = 0.0_wp
       integrals%own = 0.0_wp
       integrals%n = 0
-      if (.not. allocated(integrals%node)) allocate (integrals%node(0), integrals%opposite(max_side_nodes, 0))
+      if (.not. allocated(integrals%node)) allocate (integrals%node(32), integrals%opposite(max_side_nodes, 32))
    end subroutine start_integrals
 
    !> Add the integrals over the part of FACE that the face OPPOSITE, given in the frame of FACE, covers. A point is covered where the
@@ -131,17 +131,12 @@ contains
       integer, intent(in)                  :: nodes(:)
       type(cover_integrals), intent(inout) :: integrals
       integer, intent(out)                 :: column(:)
-      integer, allocatable  :: node(:)
-      real(wp), allocatable :: opposite(:, :)
       integer :: k
 
-      if (integrals%n + size(nodes) > size(integrals%node)) then
-         allocate (node(2*integrals%n + 32), opposite(max_side_nodes, 2*integrals%n + 32))
-         node(:integrals%n) = integrals%node(:integrals%n)
-         opposite(:, :integrals%n) = integrals%opposite(:, :integrals%n)
-         call move_alloc(node, integrals%node)
-         call move_alloc(opposite, integrals%opposite)
-      end if
+      do while (integrals%n + size(nodes) > size(integrals%node))
+         integrals%node = [integrals%node, integrals%node]
+         integrals%opposite = reshape([integrals%opposite, integrals%opposite], [max_side_nodes, size(integrals%node)])
+      end do
       do k = 1, size(nodes)
          column(k) = findloc(integrals%node(:integrals%n), nodes(k), dim=1)
          if (column(k) > 0) cycle
@@ -274,7 +269,7 @@ contains
       self%n = 0
       allocate (self%area(n), self%around(n), source=0.0_wp)
       allocate (self%normal(3, n), source=0.0_wp)
-      allocate (self%owner(0), self%key(0), self%weight(0))
+      allocate (self%owner(100), self%key(100), self%weight(100))
    end subroutine start
 
    !> Add the contribution of a face to the elements at its nodes.
@@ -304,18 +299,12 @@ contains
       type(interface_sums_type), intent(inout) :: self
       integer, intent(in)  :: owner, key
       real(wp), intent(in) :: weight
-      integer, allocatable  :: owners(:), keys(:)
-      real(wp), allocatable :: weights(:)
 
       if (abs(weight) <= 0.0_wp) return
       if (self%n == size(self%owner)) then
-         allocate (owners(2*self%n + 100), keys(2*self%n + 100), weights(2*self%n + 100))
-         owners(:self%n) = self%owner
-         keys(:self%n) = self%key
-         weights(:self%n) = self%weight
-         call move_alloc(owners, self%owner)
-         call move_alloc(keys, self%key)
-         call move_alloc(weights, self%weight)
+         self%owner = [self%owner, self%owner]
+         self%key = [self%key, self%key]
+         self%weight = [self%weight, self%weight]
       end if
       self%n = self%n + 1
       self%owner(self%n) = owner

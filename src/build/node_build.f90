@@ -1,31 +1,20 @@
-!> Nodes from GRID cards and block generators in ascending order, mid-side nodes, and nodes for other unknowns.
+!> Nodes of GRID cards and blocks in ascending order, mid-side nodes, and nodes for other unknowns.
 !! A mid-side node that cards leave blank is placed at the middle of its edge, one for all elements that share the edge. All elements at
 !! an edge must have the same mid-side node, or none. Nodes that no card gives follow the nodes of the deck; their unknowns are
 !! not displacements of points.
 module node_build
-   use block_mesh, only: block_type
-   use coordinate_systems, only: coordinate_system
+   use bulk_data, only: grid_card
    use deck_check, only: checked_deck
    use displacement_systems, only: place_grids
    use element_kinds, only: element_table
    use kinds, only: wp
    use lists, only: sorted_order, list_owners
    use model_data, only: has_second_order, model_type
-   use spatial_search, only: spatial_search_type
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: collect_nodes, order_nodes, append_nodes, find_nodes, fill_mid_sides, append_unknowns, append_rotations
-
-   !> Nodes before sorting, and the nodes of each block.
-   type, public :: raw_nodes
-      integer :: n = 0
-      integer, allocatable  :: id(:), line(:)
-      real(wp), allocatable :: x(:, :)
-      integer, allocatable  :: place(:)        !! of all blocks, one after another: raw node
-      integer, allocatable  :: block_start(:)  !! place(block_start(b) + 1 : block_start(b + 1))
-   end type raw_nodes
+   public :: build_nodes, append_nodes, find_nodes, fill_mid_sides, append_unknowns, append_rotations, highest_number
 
    integer, parameter, public :: blank_node = -1   !! in element_nodes, until fill_mid_sides: left blank on the card
 
@@ -41,127 +30,41 @@ module node_build
 
 contains
 
-   !> All GRID cards and all nodes of blocks; a welded block uses the coincident nodes of the block it is welded to.
-   subroutine collect_nodes(deck, systems, blocks, raw)
-      type(checked_deck), intent(in)      :: deck
-      type(coordinate_system), intent(in) :: systems(:)
-      type(block_type), intent(in)        :: blocks(:)
-      type(raw_nodes), intent(out)        :: raw
-      integer :: b, k, n, total
-
-      allocate (raw%block_start(size(blocks) + 1), source=0)
-      do b = 1, size(blocks)
-         raw%block_start(b + 1) = raw%block_start(b) + size(blocks(b)%node_id)
-      end do
-      n = size(deck%bulk%grid)
-      total = n + raw%block_start(size(blocks) + 1)
-      allocate (raw%id(total), raw%line(total), raw%x(3, total), raw%place(total - n))
-      raw%id(:n) = deck%bulk%grid%id
-      raw%line(:n) = deck%bulk%grid%line
-      call place_grids(deck, systems, raw%x)
-      do b = 1, size(blocks)
-         associate (places => raw%place(raw%block_start(b) + 1:raw%block_start(b + 1)))
-            call weld_block(deck, blocks, b, raw, places)
-            do k = 1, size(places)
-               if (places(k) > 0) cycle
-               n = n + 1
-               places(k) = n
-               raw%id(n) = blocks(b)%node_id(k)
-               raw%line(n) = blocks(b)%line
-               raw%x(:, n) = blocks(b)%x(:, k)
-            end do
-         end associate
-      end do
-      raw%n = n
-      call deck%report_repeated('node', raw%id(:n), raw%line(:n), n_cards=size(deck%bulk%grid))
-   end subroutine collect_nodes
-
-   !> PLACES(k) is the node of the earlier block at X(:, k) to which block B is welded there, else 0.
-   subroutine weld_block(deck, blocks, b, raw, places)
-      type(checked_deck), intent(in) :: deck
-      type(block_type), intent(in)   :: blocks(:)
-      integer, intent(in)            :: b
-      type(raw_nodes), intent(in)    :: raw
-      integer, intent(inout)         :: places(:)
-      type(spatial_search_type) :: search
-      integer, allocatable :: near_this(:), near_other(:)
-      real(wp) :: reach, distance
-      integer  :: k, other, found
-
-      places = 0
-      associate (block => blocks(b))
-         if (block%weld == 0) return
-         do other = b - 1, 1, -1
-            if (blocks(other)%id == block%weld) exit
-         end do
-         if (other == 0) then
-            call deck%field_error(block%line, 'WELD', 'no BLOCK'//integer_text(element_table(block%kind)%dimension)//' '// &
-                                  integer_text(block%weld)//' stands before this one')
-            return
-         end if
-      end associate
-      reach = 1.0e-6_wp*maxval(maxval(blocks(b)%x, dim=2) - minval(blocks(b)%x, dim=2))
-      call nodes_near(blocks(other)%x, blocks(b)%x, reach, near_this)
-      call nodes_near(blocks(b)%x, blocks(other)%x, reach, near_other)
-      call search%build(blocks(other)%x(:, near_this))
-      do k = 1, size(near_other)
-         call search%nearest(blocks(b)%x(:, near_other(k)), reach, found, distance)
-         if (found > 0) places(near_other(k)) = raw%place(raw%block_start(other) + near_this(found))
-      end do
-      if (all(places == 0)) call deck%field_error(blocks(b)%line, 'WELD', 'the two blocks have no node in common')
-   end subroutine weld_block
-
-   !> The NODES of X within REACH of the box around OTHERS: for two adjacent blocks those of one face only.
-   pure subroutine nodes_near(x, others, reach, nodes)
-      real(wp), intent(in)              :: x(:, :), others(:, :) !! (3, n) [length]
-      real(wp), intent(in)              :: reach                 !! [length]
-      integer, allocatable, intent(out) :: nodes(:)
-      logical, allocatable :: is_near(:)
-      integer :: k
-
-      allocate (is_near(size(x, 2)), source=.true.)
-      do k = 1, 3
-         is_near = is_near .and. x(k, :) >= minval(others(k, :)) - reach .and. x(k, :) <= maxval(others(k, :)) + reach
-      end do
-      nodes = pack([(k, k = 1, size(x, 2))], is_near)
-   end subroutine nodes_near
-
-   !> The nodes of the model in ascending order of their numbers.
-   subroutine order_nodes(raw, model, position)
-      type(raw_nodes), intent(in)       :: raw
-      type(model_type), intent(inout)   :: model
-      integer, allocatable, intent(out) :: position(:)
+   !> The nodes of the GRID cards of DECK and its blocks, in ascending order of their numbers; CARDS get their coordinates in global axes.
+   subroutine build_nodes(deck, cards, model)
+      type(checked_deck), intent(in)  :: deck
+      type(grid_card), intent(inout)  :: cards(:) !! those of blocks last
+      type(model_type), intent(inout) :: model
       integer, allocatable :: order(:)
       integer :: i
 
-      call sorted_order(raw%id(:raw%n), order)
-      allocate (position(raw%n))
-      position(order) = [(i, i = 1, raw%n)]
-      model%n_nodes = raw%n
-      model%node_id = raw%id(order)
-      model%x = raw%x(:, order)
+      call place_grids(deck, model%systems, cards)
+      call deck%report_repeated('node', cards%id, cards%line, n_cards=size(deck%bulk%grid))
+      call sorted_order(cards%id, order)
+      model%n_nodes = size(cards)
+      model%node_id = cards(order)%id
+      allocate (model%x(3, model%n_nodes))
+      do i = 1, model%n_nodes
+         model%x(:, i) = cards(order(i))%x
+      end do
       call model%node_table%build(model%node_id)
-   end subroutine order_nodes
+   end subroutine build_nodes
 
    !> Append nodes at X to MODEL, numbered from the highest number on, and enter them in the table of numbers. Numbers stop at the
    !! largest integer.
    subroutine append_nodes(model, x)
       type(model_type), intent(inout) :: model
       real(wp), intent(in)            :: x(:, :) !! (3, new nodes) [length]
-      real(wp), allocatable :: all_x(:, :)
-      integer :: highest, k, n
+      integer :: highest, k
 
-      n = model%n_nodes
-      allocate (all_x(3, n + size(x, 2)))
-      all_x(:, :n) = model%x
-      all_x(:, n + 1:) = x
-      call move_alloc(all_x, model%x)
       highest = highest_number(model)
       model%node_id = [model%node_id, (highest + min(k, huge(1) - highest), k = 1, size(x, 2))]
-      model%n_nodes = n + size(x, 2)
+      model%n_nodes = size(model%node_id)
+      model%x = reshape([model%x, x], [3, model%n_nodes])
+      if (allocated(model%duplicate)) model%duplicate = [model%duplicate, spread(0, 1, size(x, 2))]
       call model%node_table%build(model%node_id)
       if (.not. allocated(model%placed)) return
-      associate (named => model%placed%id > 0)
+      associate (named => model%placed%id > 0 .and. model%placed%node > 0)
          call model%node_table%add(pack(model%placed%id, named), pack(model%placed%node, named))
       end associate
    end subroutine append_nodes

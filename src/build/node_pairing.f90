@@ -1,7 +1,7 @@
 !> Pairs of facing nodes for matching sides of a joint, and the search of facing faces for the mortar projection.
 module node_pairing
    use element_kinds, only: max_side_nodes
-   use face_overlap, only: face_frame, in_frame, make_frame, plane_points, seen_area
+   use face_overlap, only: edge_lengths, face_frame, in_frame, make_frame, plane_points, seen_area
    use kinds, only: wp
    use lists, only: id_table_type
    use model_data, only: joint_cover, model_type, surface_type, whole_share
@@ -62,10 +62,20 @@ contains
       character(:), allocatable :: place
 
       fault%words = ''
-      tolerance = merge(tol, default_tolerance*shortest_edge(model, model%surfaces(surface(1))), tol > 0.0_wp)
+      tolerance = tol
+      if (tol <= 0.0_wp) then
+         associate (side => model%surfaces(surface(1)))
+            tolerance = default_tolerance*minval([(minval(edge_lengths(model%x(:, side%nodes(:side%corners(k), k)))), &
+                                                   k = 1, side%n)])
+         end associate
+      end if
       call search%build(model%x(:, side2%node))
       allocate (taken(side2%n), source=.false.)
-      lonely = 0; turned = 0; shared = 0; worst = 0.0_wp; worst_node = 0
+      lonely = 0
+      turned = 0
+      shared = 0
+      worst = 0.0_wp
+      worst_node = 0
       do k = 1, side1%n
          call search%nearest(model%x(:, side1%node(k)), tolerance, found, distance)
          if (found == 0) then
@@ -104,45 +114,22 @@ contains
       end if
    end subroutine pair_nodes
 
-   !> Length of the shortest edge of SURFACE, between neighbouring nodes.
-   pure real(wp) function shortest_edge(model, surface) result(shortest)
-      type(model_type), intent(in)   :: model
-      type(surface_type), intent(in) :: surface
-      integer :: e, k
-
-      shortest = huge(1.0_wp)
-      do e = 1, surface%n
-         associate (n => surface%corners(e))
-            do k = 1, n
-               shortest = min(shortest, norm2(model%x(:, surface%nodes(modulo(k, n) + 1, e)) - model%x(:, surface%nodes(k, e))))
-            end do
-         end associate
-      end do
-   end function shortest_edge
-
    !> Whether corners have corners as partners, and mid-side nodes have mid-side nodes.
    pure logical function same_order(model, surface, side1, partner)
       type(model_type), intent(in)        :: model
       integer, intent(in)                 :: surface(2)
       type(surface_node_list), intent(in) :: side1
       integer, intent(in)                 :: partner(:) !! of its nodes, all different
-      type(id_table_type) :: between(2)
-      integer :: k
+      type(id_table_type) :: between(2) ! mid-side nodes
+      integer :: k, s
 
       do k = 1, 2
-         call between(k)%build(nodes_between(model%surfaces(surface(k))))
+         associate (side => model%surfaces(surface(k)))
+            call between(k)%build([(side%nodes(side%corners(s) + 1:side%n_nodes(s), s), s = 1, side%n)])
+         end associate
       end do
       same_order = all([(between(1)%find(side1%node(k)) > 0 .eqv. between(2)%find(partner(k)) > 0, k = 1, side1%n)])
    end function same_order
-
-   !> The mid-side nodes of SURFACE, each once per side.
-   pure function nodes_between(surface) result(nodes)
-      type(surface_type), intent(in) :: surface
-      integer, allocatable :: nodes(:)
-      integer :: k
-
-      nodes = [(surface%nodes(surface%corners(k) + 1:surface%n_nodes(k), k), k = 1, surface%n)]
-   end function nodes_between
 
    !> The mortar projection of the elements at the NODES of SIDE1. REACH of the search along the normal, 0: the default.
    subroutine fit_side(model, side1, side2, nodes, reach, sums, found)
@@ -241,17 +228,11 @@ contains
       real(wp), intent(in)           :: reach
       type(own_face), intent(out)    :: face
       real(wp) :: longest
-      integer  :: corners, k, n
 
-      n = side1%n_nodes(s)
-      corners = side1%corners(s)
-      associate (x => model%x(:, side1%nodes(:n, s)))
+      associate (x => model%x(:, side1%nodes(:side1%n_nodes(s), s)))
          call make_frame(model%dimension, x, face%frame)
          face%seen = in_frame(model%dimension, x, face%frame)
-         longest = 0.0_wp
-         do k = 1, corners
-            longest = max(longest, norm2(x(:, modulo(k, corners) + 1) - x(:, k)))
-         end do
+         longest = maxval(edge_lengths(x(:, :side1%corners(s))))
       end associate
       face%on_ring = model%axisymmetric
       if (model%dimension == 2) face%thickness = model%properties(model%element_property(side1%element(s)))%thickness

@@ -8,7 +8,7 @@ module pressure_loads
    use isoparametric, only: side_forces
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, is_shell, model_type
+   use model_data, only: corners_of, is_shell, model_type, side_corners
    use node_coupling, only: add_section_share
    use text_tools, only: integer_text
    implicit none
@@ -31,6 +31,11 @@ module pressure_loads
       real(wp) :: direction(3) = 0.0_wp       !! unit direction of a traction P; zero: along the normal
    end type pressed_side
 
+   type :: pressed_list
+      integer :: n = 0
+      type(pressed_side), allocatable :: side(:) ! (at least n)
+   end type pressed_list
+
 contains
 
    !> The FACE whose corners have the numbers ID, in either sense. There is none, and a PROBLEM, where the face is missing, or where bodies
@@ -48,12 +53,14 @@ contains
       node = model%node_table%find(id(1))
       do while (node > 0)
          do i = model%first_at(node), model%first_at(node + 1) - 1
-            do s = 0, element_table(model%element_kind(model%elements_at(i)))%n_sides
-               call compare_corners(model, model%elements_at(i), s, id, tried)
-               if (tried%element == 0) cycle
-               found = found + 1
-               face = tried
-            end do
+            associate (e => model%elements_at(i))
+               do s = merge(0, 1, is_shell(model, e)), element_table(model%element_kind(e))%n_sides
+                  call compare_corners(model, e, s, id, tried)
+                  if (tried%element == 0) cycle
+                  found = found + 1
+                  face = tried
+               end do
+            end associate
          end do
          if (node /= model%node_table%find(id(1))) exit
          node = model%duplicate(node)
@@ -67,24 +74,20 @@ contains
       end if
    end subroutine find_face
 
-   !> Side S of element E if ID are its corners, else none; side 0: the face of a shell.
+   !> Side S of element E if the nodes with the numbers ID, or their twins, are its corners in cyclic order, else none.
    pure subroutine compare_corners(model, e, s, id, face)
       type(model_type), intent(in)  :: model
       integer, intent(in)           :: e, s, id(:)
       type(named_face), intent(out) :: face
-      integer :: k, place(size(id))
+      integer :: k, node, place(size(id))
       logical :: outward
 
-      if (s == 0) then
-         if (.not. is_shell(model, e) .or. size(corners_of(model, e)) /= size(id)) return
-         place = [(own_corner(model, e, id(k)), k = 1, size(id))]
-      end if
-      associate (kind => element_table(model%element_kind(e)))
-         if (s > 0) then
-            if (kind%dimension /= 3 .or. kind%side_corners(s) /= size(id)) return
-         end if
-         do k = 1, merge(size(id), 0, s > 0)
-            place(k) = findloc(kind%side_nodes(:size(id), s), own_corner(model, e, id(k)), dim=1)
+      associate (own => side_corners(model, e, s))
+         if (size(own) /= size(id)) return
+         do k = 1, size(id)
+            node = model%node_table%find(id(k))
+            if (node == 0) return
+            place(k) = findloc(own == node .or. own == model%duplicate(node), .true., dim=1)
          end do
       end associate
       if (any(place == 0)) return
@@ -125,22 +128,25 @@ contains
       type(model_type), intent(in)                 :: model
       type(pressed_side), allocatable, intent(out) :: pressed(:)
       type(id_table_type) :: elements, faces
-      integer :: e, i, k, n
-      logical :: names_shell
+      type(pressed_list)  :: list
+      type(pressed_side)  :: new
+      real(wp) :: axes(3, 3)
+      integer  :: e, i, k
+      logical  :: names_shell
 
-      allocate (pressed(size(deck%bulk%pressure)))
-      if (size(pressed) == 0) return ! append doubles a room that is not empty
+      allocate (list%side(size(deck%bulk%pressure)))
       call elements%build(model%element_id)
       call faces%build(pack(deck%bulk%element%id, is_face(model, deck%bulk%element)))
-      n = 0
       do i = 1, size(deck%bulk%pressure)
          associate (card => deck%bulk%pressure(i))
+            call rectangular_axes(deck, model%systems, card%line, card%system, 'the pressure on a face has one direction', axes)
+            new = pressed_side(card=i, direction=matmul(axes, card%direction/max(norm2(card%direction), tiny(1.0_wp))))
             if (card%kind == of_nodes) then
-               call press_on_corners(deck, model, i, pressed, n)
+               call press_on_corners(deck, model, new, list)
                cycle
             else if (card%kind == of_marks) then
                do k = 1, size(card%ranges%first)
-                  call press_on_marked(deck, model, i, card%ranges%at(k), [card%ranges%first(k), card%ranges%last(k)], pressed, n)
+                  call press_on_marked(deck, model, new, card%ranges%at(k), [card%ranges%first(k), card%ranges%last(k)], list)
                end do
                cycle
             end if
@@ -149,7 +155,7 @@ contains
             names_shell = e > 0
             if (names_shell) names_shell = is_shell(model, e)
             if (card%kind == of_face .and. (card%last > card%first .or. faces%find(card%first) > 0 .or. names_shell)) then
-               call press_on_marked(deck, model, i, 2, [card%first, card%last], pressed, n)
+               call press_on_marked(deck, model, new, 2, [card%first, card%last], list)
             else if (e == 0) then
                call deck%field_error(card%line, 'EID', 'there is no body element '//integer_text(card%first))
             else if (element_table(model%element_kind(e))%dimension /= merge(3, 2, card%kind == of_face)) then
@@ -161,62 +167,53 @@ contains
             else if (card%corners(1) == 0) then
                if (card%kind == of_face) call deck%field_error(card%line, 'G1', 'blank, expected a corner of the face')
             else
-               call press_on_side(deck, model, i, e, pressed, n)
+               call press_on_side(deck, model, e, new, list)
             end if
          end associate
       end do
-      pressed = pressed(:n)
+      pressed = list%side(:list%n)
    end subroutine find_pressed_sides
 
    !> Append a side; the room is doubled when it is full.
-   pure subroutine append(side, pressed, n)
-      type(pressed_side), intent(in)                 :: side
-      type(pressed_side), allocatable, intent(inout) :: pressed(:)
-      integer, intent(inout)                         :: n
+   pure subroutine append(side, pressed)
+      type(pressed_side), intent(in)   :: side
+      type(pressed_list), intent(inout) :: pressed
 
-      if (n == size(pressed)) pressed = [pressed, pressed]
-      n = n + 1
-      pressed(n) = side
+      if (pressed%n == size(pressed%side)) pressed%side = [pressed%side, pressed%side]
+      pressed%n = pressed%n + 1
+      pressed%side(pressed%n) = side
    end subroutine append
 
-   !> The direction of the PLOAD4 I; zero where it has none.
-   subroutine find_direction(deck, model, i, direction)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      integer, intent(in)            :: i
-      real(wp), intent(out)          :: direction(3)
-      real(wp) :: axes(3, 3)
-
-      associate (card => deck%bulk%pressure(i))
-         call rectangular_axes(deck, model%systems, card%line, card%system, &
-                               'the pressure on a face has one direction', axes)
-         direction = matmul(axes, card%direction/max(norm2(card%direction), tiny(1.0_wp)))
-      end associate
-   end subroutine find_direction
-
-   !> PLOAD4 or PLOAD2 I on faces that elements mark, with numbers from RANGE(1) to RANGE(2) in data field AT. The pressure acts along the
-   !! right-hand normals of these elements, or along the direction of the card.
-   subroutine press_on_marked(deck, model, i, at, range, pressed, n)
-      type(checked_deck), intent(in)                 :: deck
-      type(model_type), intent(in)                   :: model
-      integer, intent(in)                            :: i, at, range(2)
-      type(pressed_side), allocatable, intent(inout) :: pressed(:)
-      integer, intent(inout)                         :: n
+   !> The PLOAD4 or PLOAD2 of NEW on the shells with numbers from RANGE(1) to RANGE(2), and on the faces that elements with these numbers,
+   !! in data field AT, mark. The pressure acts along the right-hand normals of these elements, or along the direction of the card.
+   subroutine press_on_marked(deck, model, new, at, range, pressed)
+      type(checked_deck), intent(in)    :: deck
+      type(model_type), intent(in)      :: model
+      type(pressed_side), intent(in)    :: new
+      integer, intent(in)               :: at, range(2)
+      type(pressed_list), intent(inout) :: pressed
       type(pressed_side) :: side
       type(named_face)   :: found
       character(:), allocatable :: problem
-      integer :: f
-      logical :: any_face
+      integer :: e, f
+      logical :: any_face, is_normal
 
-      associate (card => deck%bulk%pressure(i))
-         call press_on_shells(deck, model, i, range, pressed, n, any_face)
+      side = new
+      is_normal = norm2(side%direction) <= 0.0_wp
+      any_face = .false.
+      associate (card => deck%bulk%pressure(new%card))
+         do e = 1, merge(model%n_elements, 0, allocated(model%structural%place))
+            if (model%element_id(e) < range(1) .or. model%element_id(e) > range(2) .or. .not. is_shell(model, e)) cycle
+            any_face = .true.
+            side%element = e
+            side%p = merge(-card%pressure, card%pressure, is_normal)
+            call append(side, pressed)
+         end do
          if (card%corners(1) > 0) then
             call deck%field_error(card%line, 'G1', 'element '//integer_text(card%first)//' marks a face; expected a blank, or '// &
                                   'in EID the solid that the face belongs to')
             return
          end if
-         side%card = i
-         call find_direction(deck, model, i, side%direction)
          do f = 1, size(deck%bulk%element)
             associate (face => deck%bulk%element(f))
                if (face%id < range(1) .or. face%id > range(2)) cycle
@@ -230,17 +227,14 @@ contains
                side%element = found%element
                side%side = found%side
                associate (c => element_table(face%kind)%n_corners)
-                  if (c == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
-                     call no_fourth_corner(deck, card)
-                     return
-                  end if
+                  if (lacks_corner(deck, card, c)) return
                   if (found%outward) then
                      side%p(:c) = cshift(card%pressure(:c), 1 - found%first)
                   else
                      side%p(:c) = cshift(card%pressure(c:1:-1), -found%first)
                   end if
-                  if (found%outward .and. norm2(side%direction) <= 0.0_wp) side%p = -side%p
-                  call append(side, pressed, n)
+                  if (found%outward .and. is_normal) side%p = -side%p
+                  call append(side, pressed)
                end associate
             end associate
          end do
@@ -251,86 +245,55 @@ contains
       end associate
    end subroutine press_on_marked
 
-   !> PLOAD4 or PLOAD2 I on the shells with numbers from RANGE(1) to RANGE(2), along their normals or the direction of the card.
-   subroutine press_on_shells(deck, model, i, range, pressed, n, any_shell)
-      type(checked_deck), intent(in)                 :: deck
-      type(model_type), intent(in)                   :: model
-      integer, intent(in)                            :: i, range(2)
-      type(pressed_side), allocatable, intent(inout) :: pressed(:)
-      integer, intent(inout)                         :: n
-      logical, intent(out)                           :: any_shell
-      type(pressed_side) :: side
-      integer :: e
-
-      any_shell = .false.
-      if (.not. allocated(model%structural%place)) return
-      associate (card => deck%bulk%pressure(i))
-         side%card = i
-         do e = 1, model%n_elements
-            if (model%element_id(e) < range(1) .or. model%element_id(e) > range(2) .or. .not. is_shell(model, e)) cycle
-            if (.not. any_shell) call find_direction(deck, model, i, side%direction)
-            any_shell = .true.
-            side%element = e
-            side%p = card%pressure
-            if (norm2(side%direction) <= 0.0_wp) side%p = -side%p
-            call append(side, pressed, n)
-         end do
-      end associate
-   end subroutine press_on_shells
-
-   !> PLOAD I, on the face with the corners on the card.
-   subroutine press_on_corners(deck, model, i, pressed, n)
-      type(checked_deck), intent(in)                 :: deck
-      type(model_type), intent(in)                   :: model
-      integer, intent(in)                            :: i
-      type(pressed_side), allocatable, intent(inout) :: pressed(:)
-      integer, intent(inout)                         :: n
+   !> The PLOAD of NEW, on the face with the corners on the card.
+   subroutine press_on_corners(deck, model, new, pressed)
+      type(checked_deck), intent(in)    :: deck
+      type(model_type), intent(in)      :: model
+      type(pressed_side), intent(in)    :: new
+      type(pressed_list), intent(inout) :: pressed
       type(named_face) :: face
       character(:), allocatable :: problem
 
-      associate (card => deck%bulk%pressure(i))
+      associate (card => deck%bulk%pressure(new%card))
          if (any(card%corners(:3) == 0)) return ! reported already
          call find_face(model, card%corners(:merge(4, 3, card%corners(4) > 0)), face, problem)
          if (problem /= '') then
             call deck%field_error(card%line, 'G1', problem)
             return
          end if
-         call append(pressed_side(card=i, element=face%element, side=face%side, &
-                                  p=merge(-card%pressure, card%pressure, face%outward)), pressed, n)
+         call append(pressed_side(card=new%card, element=face%element, side=face%side, &
+                                  p=merge(-card%pressure, card%pressure, face%outward)), pressed)
       end associate
    end subroutine press_on_corners
 
-   subroutine no_fourth_corner(deck, card)
+   !> Whether CARD gives a pressure at a fourth corner of a face with C corners, 3; this is an error.
+   logical function lacks_corner(deck, card, c)
       type(checked_deck), intent(in)  :: deck
       type(pressure_card), intent(in) :: card
+      integer, intent(in)             :: c
 
-      call deck%field_error(card%line, 'P4', 'a triangular face has no fourth corner, expected a blank or P1')
-   end subroutine no_fourth_corner
+      lacks_corner = c == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp
+      if (lacks_corner) call deck%field_error(card%line, 'P4', 'a triangular face has no fourth corner, expected a blank or P1')
+   end function lacks_corner
 
-   !> PLOAD4 or PLOADE I, on the side of element E with the corners on the card.
-   subroutine press_on_side(deck, model, i, e, pressed, n)
-      type(checked_deck), intent(in)                 :: deck
-      type(model_type), intent(in)                   :: model
-      integer, intent(in)                            :: i, e
-      type(pressed_side), allocatable, intent(inout) :: pressed(:)
-      integer, intent(inout)                         :: n
-      type(pressed_side) :: new
-      integer :: c, first, side
+   !> The PLOAD4 or PLOADE of NEW, on the side of element E with the corners on the card.
+   subroutine press_on_side(deck, model, e, new, pressed)
+      type(checked_deck), intent(in)    :: deck
+      type(model_type), intent(in)      :: model
+      integer, intent(in)               :: e
+      type(pressed_side), intent(inout) :: new
+      type(pressed_list), intent(inout) :: pressed
+      integer :: first
 
-      associate (card => deck%bulk%pressure(i), kind => element_table(model%element_kind(e)))
-         call find_side(deck, model, card, e, side, first)
-         if (side == 0) return
-         c = kind%side_corners(side)
-         if (c == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
-            call no_fourth_corner(deck, card)
-            return
-         end if
-         new%card = i
+      associate (card => deck%bulk%pressure(new%card), kind => element_table(model%element_kind(e)))
+         call find_side(deck, model, card, e, new%side, first)
+         if (new%side == 0) return
          new%element = e
-         new%side = side
-         new%p(:c) = cshift(card%pressure(:c), 1 - first)
-         if (card%kind == of_face) call find_direction(deck, model, i, new%direction)
-         call append(new, pressed, n)
+         associate (c => kind%side_corners(new%side))
+            if (lacks_corner(deck, card, c)) return
+            new%p(:c) = cshift(card%pressure(:c), 1 - first)
+         end associate
+         call append(new, pressed)
       end associate
    end subroutine press_on_side
 

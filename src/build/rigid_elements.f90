@@ -90,15 +90,16 @@ contains
       end do
    end subroutine name_surface_nodes
 
-   !> The constraint equations of an RBE2: components CM of its nodes follow the rigid-body motion of GN, {u} + theta x arm.
+   !> The constraint equations of an RBE2: components CM of its nodes follow the rigid-body motion of GN, {u} + theta x arm and theta.
    subroutine add_rigid(deck, card, model, list, without)
       type(checked_deck), intent(in)       :: deck
       type(rigid_card), intent(in)         :: card
       type(model_type), intent(in)         :: model
       type(dependence_list), intent(inout) :: list
       logical, intent(inout)               :: without(:)
-      real(wp) :: direction(6), own(3, 3), motion(3, 6)
-      integer  :: c, digit, k, node, point
+      type(component_place) :: own_place, place
+      real(wp) :: direction(6), own(3, 3), motion(6, 6)
+      integer  :: c, digit, first, k, node, point
 
       call find_node(deck, card%line, card%node_at, card%node, model, without, point)
       if (no_displacement(model, card%components) .and. .not. turn_others()) call deck%field_error(card%line, &
@@ -116,18 +117,20 @@ contains
          own = node_axes(model, node)
          do digit = 1, 6
             direction = direction_of(model, point, digit)
-            motion(:, digit) = direction(:3) + matmul(by_rotation(model%x(:, node) - model%x(:, point)), direction(4:))
+            motion(:3, digit) = direction(:3) + matmul(by_rotation(model%x(:, node) - model%x(:, point)), direction(4:))
+            motion(4:, digit) = direction(4:)
          end do
-         do c = 1, model%dimension
-            if (.not. has_component(card%components, c)) cycle
-            call add_dependence(list, component_place(node, c), card%line, card%at(k))
+         do c = 1, 6
+            own_place = place_of_component(model, node, c)
+            if (own_place%node == 0 .or. .not. has_component(card%components, c)) cycle
+            call add_dependence(list, own_place, card%line, card%at(k))
+            first = merge(0, 3, c <= 3) ! of a displacement, or of a rotation
             do digit = 1, 6
-               associate (place => place_of_component(model, point, digit))
-                  if (place%node > 0) call add_term(list, place, dot_product(own(:, c), motion(:, digit))/place%scale)
-               end associate
+               place = place_of_component(model, point, digit)
+               if (place%node > 0) call add_term(list, place, dot_product(own(:, c - first), motion(first + 1:first + 3, digit))* &
+                                                 own_place%scale/place%scale)
             end do
          end do
-         call add_rotations(node, card%at(k))
       end do
 
    contains
@@ -139,28 +142,6 @@ contains
          turn_others = any([(has_component(card%components, c), c = 4, 6)]) .and. &
                        any([(rotation_at(model, max(1, model%node_table%find(card%nodes(i)))) > 0, i = 1, size(card%nodes))])
       end function turn_others
-
-      !> The rotations of a dependent NODE, if it has any, equal those of the rigid body.
-      subroutine add_rotations(node, at)
-         integer, intent(in) :: node, at
-         type(component_place) :: own_place, place
-         real(wp) :: body(3, 3)
-         integer  :: c, digit
-
-         if (rotation_at(model, node) == 0) return
-         own = node_axes(model, node)
-         body = node_axes(model, point)
-         do c = 4, 6
-            own_place = place_of_component(model, node, c)
-            if (own_place%node == 0 .or. .not. has_component(card%components, c)) cycle
-            call add_dependence(list, own_place, card%line, at)
-            do digit = 4, 6
-               place = place_of_component(model, point, digit)
-               if (place%node > 0) call add_term(list, place, dot_product(own(:, c - 3), body(:, digit - 3))* &
-                                                 own_place%scale/place%scale)
-            end do
-         end do
-      end subroutine add_rotations
 
    end subroutine add_rigid
 

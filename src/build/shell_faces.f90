@@ -194,7 +194,6 @@ contains
          model%first_at(n + k + 1) = m + 1
       end do
       call move_alloc(elements_at, model%elements_at)
-      model%duplicate = [model%duplicate, spread(0, 1, size(faces))]
       call append_nodes(model, x)
       allocate (model%face_of(model%n_nodes), source=0)
       do k = 1, size(faces)

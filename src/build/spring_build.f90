@@ -3,7 +3,7 @@
 module spring_build
    use bulk_data, only: bolt_card, edge_card, edge_crod, prod_card, spring_card
    use deck_check, only: checked_deck
-   use displacement_systems, only: find_directions, find_system
+   use displacement_systems, only: find_directions
    use kinds, only: wp
    use model_data, only: a_spring, bar_type, model_type
    use node_build, only: find_nodes
@@ -177,7 +177,7 @@ contains
       type(model_type), intent(inout) :: model
       type(bar_type), intent(inout)   :: bars(:)
       integer, intent(inout)          :: n
-      real(wp) :: stiffness(6), damping, directions(3, 3)
+      real(wp) :: stiffness(6), damping, directions(3, 3), axes(3, 3)
       integer  :: k, nodes(2)
       logical  :: ok
 
@@ -186,102 +186,97 @@ contains
          call find_nodes(deck, card%line, card%nodes, model, nodes)
          call find_axes(deck, card, model, nodes, stiffness, directions, ok)
          if (.not. ok) return
-         if (all(nodes > 0)) call check_levers()
+         if (all(nodes > 0)) call check_levers(deck, card, model, nodes, stiffness, directions)
          do k = 1, 6
-            if (stiffness(k) <= 0.0_wp) cycle
-            if (k > 3) call add_rotational(k, stiffness(k), spread(directions(:, k - 3), 2, 2))
-            if (k <= 3) call add(axis_names(k), stiffness(k), spread(directions(:, k), 2, 2), nodes)
+            if (stiffness(k) > 0.0_wp) call add(k, stiffness(k), spread(directions(:, modulo(k - 1, 3) + 1), 2, 2))
          end do
-      else
-         do k = 1, 2
-            call find_nodes(deck, card%line, card%nodes(k:k), model, nodes(k:k), first=2*k + 1)
-            directions(:, k) = 0.0_wp
-            if (nodes(k) == 0) cycle
-            if (card%components(k) == 3 .and. model%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
-               'a plane model has no component 3')
-            if (all(card%components(k) /= [1, 2, model%dimension, 4, 5, 6])) return ! reported
-            directions(:, k) = direction_of(model, nodes(k), card%components(k) - merge(3, 0, card%components(k) > 3))
-         end do
-         k = merge(1, 2, card%nodes(1) > 0) ! the first node that is not the ground
-         if (any(nodes == 0 .and. card%nodes > 0) .or. all(card%nodes == 0)) return
-         if (k == 1) directions(:, :2) = -directions(:, :2) ! the force of NASTRAN is k (u_1 - u_2)
-         if (k == 2) nodes = nodes([2, 1])
-         if (k == 2) directions(:, 1) = directions(:, 2)
-         if (card%components(k) > 3) then
-            call add_rotational(card%components(k), stiffness(1), directions(:, :2))
-         else
-            call add(axis_names(card%components(k)), stiffness(1), directions(:, :2), nodes)
-         end if
-         if (n > 0) bars(n)%ground_first = k == 2
+         return
       end if
+      do k = 1, 2
+         call find_nodes(deck, card%line, card%nodes(k:k), model, nodes(k:k), first=2*k + 1)
+         directions(:, k) = 0.0_wp
+         if (nodes(k) == 0) cycle
+         if (card%components(k) == 3 .and. model%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
+            'a plane model has no component 3')
+         if (all(card%components(k) /= [1, 2, model%dimension, 4, 5, 6])) return ! reported
+         axes = node_axes(model, nodes(k))
+         directions(:, k) = axes(:, modulo(card%components(k) - 1, 3) + 1)
+      end do
+      k = merge(1, 2, card%nodes(1) > 0) ! the first node that is not the ground
+      if (any(nodes == 0 .and. card%nodes > 0) .or. all(card%nodes == 0)) return
+      if (k == 1) directions(:, :2) = -directions(:, :2) ! the force of NASTRAN is k (u_1 - u_2)
+      if (k == 2) nodes = nodes([2, 1])
+      if (k == 2) directions(:, 1) = directions(:, 2)
+      call add(card%components(k), stiffness(1), directions(:, :2))
+      if (n > 0) bars(n)%ground_first = k == 2
 
    contains
 
-      !> Between nodes apart that have rotations no force may have a lever: the springs of this program apply no moments to their nodes.
-      subroutine check_levers()
-         real(wp) :: lever
-         integer  :: axis, end
-
-         lever = 0.0_wp
-         do axis = 1, model%dimension
-            if (stiffness(axis) > 0.0_wp) lever = max(lever, norm2(cross(model%x(:, nodes(2)) - model%x(:, nodes(1)), &
-                                                                          directions(:, axis))))
-         end do
-         do end = 1, 2
-            if (rotation_at(model, nodes(end)) == 0) cycle
-            if (lever <= 1.0e-6_wp*model%rotations(rotation_at(model, nodes(end)))%arm) cycle
-            call deck%field_error(card%line, 'GB', 'a spring across the line from GA to GB gives node '// &
-               integer_text(model%node_id(nodes(end)))//' a moment, since the nodes are apart; expected nodes in one place, '// &
-               'one of them tied to GA or GB by an RBAR')
-            return
-         end do
-      end subroutine check_levers
-
-      !> A spring between rotations about AXES, unit, and the nodes of these rotations, whose components are rotations times an arm.
-      subroutine add_rotational(component, k_axis, axes)
+      !> A spring along AXES, unit, or between rotations about them: the nodes of rotations have rotations times an arm as components.
+      subroutine add(component, k_axis, axes)
          integer, intent(in)  :: component
          real(wp), intent(in) :: k_axis, axes(3, 2)
          real(wp) :: along(3, 2)
-         integer  :: end, turned(2)
+         integer  :: end, ends(2)
 
-         turned = 0
-         along = 0.0_wp
-         if (model%dimension == 2 .and. component /= 6) return ! no rotation in the plane
-         do end = 1, 2
-            if (nodes(end) == 0) cycle
-            if (rotation_at(model, nodes(end)) == 0) then
-               call deck%errors%add(card%line, 'spring '//integer_text(card%id)//': node '// &
-                  integer_text(model%node_id(nodes(end)))// &
-                  ' has no rotations; expected a node of shells or beams, or the reference node of an RBE2')
-               return
-            end if
-            associate (rotation => model%rotations(rotation_at(model, nodes(end))))
-               turned(end) = rotation%node
-               along(:, end) = axes(:, end)/rotation%arm
-               if (model%dimension == 2) along(:, end) = [axes(3, end), 0.0_wp, 0.0_wp]/rotation%arm
-            end associate
-         end do
-         if (turned(2) == 0) along(:, 2) = along(:, 1)
-         call add(axis_names(component), k_axis, along, turned)
-      end subroutine add_rotational
-
-      subroutine add(axis, k_axis, along, nodes)
-         character(2), intent(in) :: axis
-         real(wp), intent(in)     :: k_axis, along(3, 2)
-         integer, intent(in)      :: nodes(2)
-
+         ends = nodes
+         along = axes
+         if (component > 3) then
+            if (model%dimension == 2 .and. component /= 6) return ! no rotation in the plane
+            along = 0.0_wp
+            do end = 1, 2
+               if (nodes(end) == 0) cycle
+               if (rotation_at(model, nodes(end)) == 0) then
+                  call deck%errors%add(card%line, 'spring '//integer_text(card%id)//': node '// &
+                     integer_text(model%node_id(nodes(end)))// &
+                     ' has no rotations; expected a node of shells or beams, or the reference node of an RBE2')
+                  return
+               end if
+               associate (rotation => model%rotations(rotation_at(model, nodes(end))))
+                  ends(end) = rotation%node
+                  along(:, end) = axes(:, end)/rotation%arm
+                  if (model%dimension == 2) along(:, end) = [axes(3, end), 0.0_wp, 0.0_wp]/rotation%arm
+               end associate
+            end do
+            if (ends(2) == 0) along(:, 2) = along(:, 1)
+         end if
          n = n + 1
          bars(n)%id = card%id
-         bars(n)%nodes = nodes
+         bars(n)%nodes = ends
          bars(n)%kind = a_spring
-         bars(n)%axis = axis
+         bars(n)%axis = axis_names(component)
          bars(n)%stiffness = k_axis
          bars(n)%damping = damping
          bars(n)%direction = along
-         model%used(pack(nodes, nodes > 0)) = .true.
+         model%used(pack(ends, ends > 0)) = .true.
       end subroutine add
 
    end subroutine build_spring
+
+   !> Between nodes apart that have rotations no force may have a lever: the springs of this program apply no moments to their nodes.
+   subroutine check_levers(deck, card, model, nodes, stiffness, directions)
+      type(checked_deck), intent(in) :: deck
+      type(spring_card), intent(in)  :: card
+      type(model_type), intent(in)   :: model
+      integer, intent(in)            :: nodes(2)
+      real(wp), intent(in)           :: stiffness(6), directions(3, 3)
+      real(wp) :: lever
+      integer  :: axis, end
+
+      lever = 0.0_wp
+      do axis = 1, model%dimension
+         if (stiffness(axis) > 0.0_wp) lever = max(lever, norm2(cross(model%x(:, nodes(2)) - model%x(:, nodes(1)), &
+                                                                       directions(:, axis))))
+      end do
+      do end = 1, 2
+         if (rotation_at(model, nodes(end)) == 0) cycle
+         if (lever <= 1.0e-6_wp*model%rotations(rotation_at(model, nodes(end)))%arm) cycle
+         call deck%field_error(card%line, 'GB', 'a spring across the line from GA to GB gives node '// &
+            integer_text(model%node_id(nodes(end)))//' a moment, since the nodes are apart; expected nodes in one place, '// &
+            'one of them tied to GA or GB by an RBAR')
+         return
+      end do
+   end subroutine check_levers
 
    !> The stiffness of the spring of CARD (for a CELAS in the first component), and its structural damping.
    subroutine find_stiffness(deck, card, stiffness, damping)
@@ -317,15 +312,12 @@ contains
       real(wp), intent(in)           :: stiffness(6)
       real(wp), intent(out)          :: directions(3, 3) !! columns, unit
       logical, intent(out)           :: ok
-      integer :: system
 
       directions = identity
       ok = nodes(1) > 0 .and. (nodes(2) > 0 .or. card%nodes(2) == 0)
       if (.not. ok) return
       if (card%system > 0) then
-         call find_system(deck, card%line, 'CID', card%system, model%systems, system)
-         ok = system > 0
-         if (ok) call find_directions(deck, card%line, 'CID', model%systems(system), model%x(:, nodes(1)), directions, ok, 'GA')
+         call find_directions(deck, model%systems, card%line, card%system, model%x(:, nodes(1)), directions, ok, point='GA')
       else if (card%system < 0 .and. nodes(2) > 0) then
          associate (along => model%x(:, nodes(2)) - model%x(:, nodes(1)))
             if (norm2(along) <= 0.0_wp) return
@@ -336,15 +328,5 @@ contains
          end associate
       end if
    end subroutine find_axes
-
-   !> Direction of COMPONENT of a node: global, or of its displacement system CD.
-   pure function direction_of(model, node, component) result(direction)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node, component
-      real(wp) :: direction(3), axes(3, 3)
-
-      axes = node_axes(model, node)
-      direction = axes(:, component)
-   end function direction_of
 
 end module spring_build

@@ -1,7 +1,7 @@
 !> Stages of the load history, fractions of their increments, and requests for the vibration after a stage.
 !! Case control and JINCR cards give them: modes, response to an oscillating load, and the damping of a table.
 module stage_plan
-   use bulk_data, only: freq4_card, tabdmp1_card
+   use bulk_data, only: eigrl_card, freq4_card, jampl_card, tabdmp1_card
    use case_control, only: method_back, method_newton
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
@@ -11,8 +11,7 @@ module stage_plan
    implicit none
    private
 
-   public :: loss_at, asked_frequencies, merged, any_modes, any_backbone, any_response, any_watched, plan_stages, where_in_plan, &
-             factorisations_of, shows_bodies
+   public :: loss_at, asked_frequencies, merged, plan_stages, where_in_plan, factorisations_of, shows_bodies
 
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping
    real(wp), parameter :: same_frequency = 1.0e-9_wp ! of the largest: nearer frequencies are equal
@@ -27,25 +26,17 @@ module stage_plan
       logical :: is_structural = .false.      !! KDAMP = -1: as structural damping
    end type response_plan
 
-   !> BACKBONE of a stage: one mode is followed through loops of increasing amplitude.
-   type, public :: backbone_plan
-      integer  :: mode = 0                    !! its number in the table of frequencies
+   !> BACKBONE of a stage: one mode is followed through loops of increasing amplitude, as its JAMPL says. NODE is the position of the node
+   !! whose displacement is the amplitude, 0: the node that moves most.
+   type, extends(jampl_card), public :: backbone_plan
       real(wp), allocatable :: amplitudes(:)  !! ascending [length]
-      integer  :: cycles = 0                  !! largest number of loops after the second
-      integer  :: increments = 0              !! from rest to a turning point
-      real(wp) :: tolerance = 0.0_wp          !! of the loss [-]
-      integer  :: node = 0                    !! position of the node whose displacement is the amplitude, 0: the node that moves most
    end type backbone_plan
 
    !> MODES of a stage.
-   type, public :: vibration_plan_type
-      integer  :: id = 0                      !! of the EIGRL
+   !! The range of its EIGRL: MOST is the number of modes from the lowest of the range on (0: all up to its end); LOWEST > 0 where the
+   !! range has a beginning. UNIT_MASS: shapes have generalised mass 1; else their largest component is 1.
+   type, extends(eigrl_card), public :: vibration_plan_type
       logical  :: free = .false.              !! without supports
-      integer  :: most = 0                    !! number of modes from the lowest of the range on; 0: all up to its end
-      logical  :: has_lowest = .false., has_highest = .false.
-      real(wp) :: lowest = 0.0_wp             !! V1, > 0 where the range has a beginning [1/time]
-      real(wp) :: highest = 0.0_wp            !! V2 [1/time]
-      logical  :: unit_mass = .true.          !! shapes have generalised mass 1; else their largest component is 1
       logical  :: on_loading = .false.        !! STIFFNESS = LOAD
       real(wp) :: amplitude = 0.0_wp          !! largest displacement for the loss factors of the joints [length]; 0: none
       real(wp) :: damping = 0.0_wp            !! PARAM G, structural damping of the whole structure [-]
@@ -67,6 +58,11 @@ module stage_plan
 
    type, public :: stage_plan_type
       type(planned_stage), allocatable :: stages(:)
+      ! whether any stage has
+      logical :: has_modes = .false.          !! natural modes
+      logical :: has_backbones = .false.      !! a backbone
+      logical :: has_responses = .false.      !! the response to an oscillating load
+      logical :: has_watched_nodes = .false.  !! nodes of WATCH
    end type stage_plan_type
 
 contains
@@ -172,44 +168,6 @@ contains
          end associate
       end do
    end subroutine plan_stages
-
-   !> Whether natural modes are requested after any stage.
-   pure logical function any_modes(plan)
-      type(stage_plan_type), intent(in) :: plan
-      integer :: s
-
-      any_modes = any([(allocated(plan%stages(s)%vibration), s = 1, size(plan%stages))])
-   end function any_modes
-
-   !> Whether a backbone is requested after any stage.
-   pure logical function any_backbone(plan)
-      type(stage_plan_type), intent(in) :: plan
-      integer :: s
-
-      any_backbone = .false.
-      do s = 1, size(plan%stages)
-         if (allocated(plan%stages(s)%vibration)) any_backbone = any_backbone .or. allocated(plan%stages(s)%vibration%backbone)
-      end do
-   end function any_backbone
-
-   !> Whether a response with movements of nodes is requested after any stage.
-   pure logical function any_watched(plan)
-      type(stage_plan_type), intent(in) :: plan
-      integer :: s
-
-      any_watched = any([(allocated(plan%stages(s)%watched), s = 1, size(plan%stages))])
-   end function any_watched
-
-   !> Whether the response to an oscillating load is requested after any stage.
-   pure logical function any_response(plan)
-      type(stage_plan_type), intent(in) :: plan
-      integer :: s
-
-      any_response = .false.
-      do s = 1, size(plan%stages)
-         if (allocated(plan%stages(s)%vibration)) any_response = any_response .or. allocated(plan%stages(s)%vibration%response)
-      end do
-   end function any_response
 
    !> Text such as 'stage 2, increment 7', for messages.
    pure function where_in_plan(plan, stage, increment) result(words)

@@ -1,18 +1,18 @@
 !> Marked surfaces: the body elements and the orientation of their sides, and the tributary areas of their nodes.
 module surface_build
    use deck_check, only: checked_deck
+   use element_build, only: marked_side
    use element_kinds, only: element_table, max_side_nodes
    use isoparametric, only: side_areas, side_forces
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
-   use mesh_build, only: marked_side
-   use model_data, only: corners_of, has_second_order, is_shell, model_type, surface_type
+   use model_data, only: has_second_order, is_shell, model_type, side_corners, surface_type
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_surfaces, find_surface, surface_nodes, side_of_element, side_influence, side_name
+   public :: build_surfaces, find_surface, surface_nodes, side_influence, side_name
 
    !> The nodes of a surface, each once, in ascending order of their numbers.
    type, public :: surface_node_list
@@ -226,37 +226,20 @@ contains
       integer, intent(in)          :: e, nodes(:)
       integer, intent(out)         :: side
       logical, intent(out)         :: same_sense
-      integer :: at, k, n
+      integer :: at, k
 
-      n = size(nodes)
-      same_sense = .false.
-      if (is_shell(model, e) .and. n > 2) then
-         side = -1
-         associate (own => corners_of(model, e))
-            if (size(own) /= n) return
-            if (any([(all(own /= nodes(k)), k = 1, n)])) return
-            side = 0
-            same_sense = own(modulo(findloc(own, nodes(1), dim=1), n) + 1) == nodes(2)
+      do side = merge(0, 1, is_shell(model, e)), element_table(model%element_kind(e))%n_sides
+         associate (own => side_corners(model, e, side), n => size(nodes))
+            if (size(own) /= n) cycle
+            if (any([(all(own /= nodes(k)) .or. all(nodes /= own(k)), k = 1, n)])) cycle
+            at = findloc(own, nodes(1), dim=1)
+            same_sense = at == 1
+            if (n > 2) same_sense = own(modulo(at, n) + 1) == nodes(2)
+            return
          end associate
-         return
-      end if
-      associate (kind => element_table(model%element_kind(e)))
-         do side = 1, kind%n_sides
-            if (kind%side_corners(side) /= n) cycle
-            associate (own => model%element_nodes(kind%side_nodes(:n, side), e))
-               if (any([(all(own /= nodes(k)), k = 1, n)])) cycle
-               if (any([(all(nodes /= own(k)), k = 1, n)])) cycle
-               at = findloc(own, nodes(1), dim=1)
-               if (n == 2) then
-                  same_sense = at == 1
-               else
-                  same_sense = own(modulo(at, n) + 1) == nodes(2)
-               end if
-               return
-            end associate
-         end do
-      end associate
+      end do
       side = -1
+      same_sense = .false.
    end subroutine side_of_element
 
    !> Error: a side that occurs twice in a surface, so that its area would count twice.

@@ -4,7 +4,7 @@ module surface_sides
    use deck_check, only: checked_deck
    use element_kinds, only: element_table
    use kinds, only: wp
-   use lists, only: distinct, id_table_type, list_owners
+   use lists, only: distinct, id_table_type, join, list_owners, root_of
    use model_data, only: model_type, surface_type
    use node_build, only: append_nodes
    use text_tools, only: integer_text
@@ -139,45 +139,24 @@ contains
       type(side_list), intent(in)       :: at        !! its sides at its nodes
       integer, intent(in)               :: k
       integer, allocatable, intent(out) :: behind(:)
-      integer, allocatable :: around(:), group(:)
-      logical, allocatable :: touch(:, :)
-      integer :: i, j, n, node
-      logical :: is_tip, more
+      integer, allocatable :: around(:), parent(:)
+      logical, allocatable :: in_front(:), at_back(:) ! sets of connected elements
+      integer :: i, j
 
-      node = at%node(k)
-      n = model%first_at(node + 1) - model%first_at(node)
-      allocate (around, source=model%elements_at(model%first_at(node):model%first_at(node + 1) - 1))
-      allocate (group(n), source=0)
-      do i = at%first(k), at%first(k + 1) - 1
-         where (around == model%surfaces(s)%element(at%side(i))) group = 1
-         where (around == model%surfaces(s)%other(at%side(i))) group = 2
-      end do
-      allocate (touch(n, n), source=.false.)
-      do i = 1, n
+      allocate (around, source=model%elements_at(model%first_at(at%node(k)):model%first_at(at%node(k) + 1) - 1))
+      allocate (in_front(size(around)), at_back(size(around)), source=.false.)
+      parent = [(i, i = 1, size(around))]
+      do i = 1, size(around)
          do j = 1, i - 1
-            touch(i, j) = common_side(model, s, at, k, around(i), around(j))
-            touch(j, i) = touch(i, j)
+            if (common_side(model, s, at, k, around(i), around(j))) call join(parent, i, j)
          end do
       end do
-      more = .true.
-      do while (more)                        ! spread over common sides that do not belong to the surface
-         more = .false.
-         do i = 1, n
-            if (group(i) /= 0) cycle
-            do j = 1, n
-               if (group(j) == 0 .or. .not. touch(i, j)) cycle
-               group(i) = group(j)
-               more = .true.
-               exit
-            end do
-         end do
+      do i = at%first(k), at%first(k + 1) - 1
+         in_front(root_of(parent, findloc(around, model%surfaces(s)%element(at%side(i)), dim=1))) = .true.
+         at_back(root_of(parent, findloc(around, model%surfaces(s)%other(at%side(i)), dim=1))) = .true.
       end do
-      is_tip = .false.
-      do i = 1, n
-         if (group(i) == 1) is_tip = is_tip .or. any(touch(:, i) .and. group == 2)
-      end do
-      allocate (behind(merge(0, count(group == 2), is_tip)))
-      if (.not. is_tip) behind(:) = pack(around, group == 2)
+      behind = [integer ::]
+      if (.not. any(in_front .and. at_back)) behind = pack(around, [(at_back(root_of(parent, i)), i = 1, size(around))])
    end subroutine elements_behind
 
    !> Whether elements A and B share a side at node PLACE of surface S that does not belong to S.
@@ -242,7 +221,6 @@ contains
       twins = pack([(k, k = 1, model%n_nodes)], model%duplicate > 0)
       twins(model%duplicate(twins) - model%n_nodes) = twins ! in the order of their numbers
       call append_nodes(model, model%x(:, twins))
-      model%duplicate = [model%duplicate, spread(0, 1, n_duplicates)]
       call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
       call move_other_surfaces(model)
    end subroutine split_shared_surfaces

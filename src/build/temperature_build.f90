@@ -230,29 +230,18 @@ contains
       type(model_type), intent(in)   :: model
       integer, intent(in)            :: s
       logical, intent(in)            :: given(:)
+      logical :: needs_one(model%n_nodes)
       integer :: i
 
+      needs_one = model%first_at(2:) > model%first_at(:model%n_nodes)
+      do i = 1, n_bars(model)
+         if (model%bars(i)%kind == a_bar) needs_one(model%bars(i)%nodes) = .true.
+      end do
+      i = findloc(needs_one(:n_points(model)) .and. .not. given(:n_points(model)), .true., dim=1)
       associate (reference => deck%control%stages(s)%temperature)
-         do i = 1, n_points(model)
-            if (given(i) .or. .not. is_warmed(i)) cycle
-            call deck%errors%add(reference%line, 'TEMPERATURE: node '//integer_text(model%node_id(i))// &
-               ' has no temperature in set '//integer_text(reference%id)//'; expected a TEMP of it, or a TEMPD')
-            return
-         end do
+         if (i > 0) call deck%errors%add(reference%line, 'TEMPERATURE: node '//integer_text(model%node_id(i))// &
+            ' has no temperature in set '//integer_text(reference%id)//'; expected a TEMP of it, or a TEMPD')
       end associate
-
-   contains
-
-      pure logical function is_warmed(node)
-         integer, intent(in) :: node
-         integer :: k
-
-         is_warmed = model%first_at(node + 1) > model%first_at(node)
-         do k = 1, n_bars(model)
-            is_warmed = is_warmed .or. (model%bars(k)%kind == a_bar .and. any(model%bars(k)%nodes == node))
-         end do
-      end function is_warmed
-
    end subroutine check_whole
 
 end module temperature_build

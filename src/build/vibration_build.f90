@@ -32,15 +32,18 @@ contains
       do s = 1, size(plan%stages)
          associate (asked => deck%control%stages(s)%vibration)
             if (asked%modes%id == 0) cycle
+            plan%has_modes = .true.
             allocate (plan%stages(s)%vibration)
             call plan_modes(deck, model, asked, plan%stages(s)%vibration)
             if (asked%backbone%id > 0) call plan_backbone(deck, model, asked, plan%stages(s)%vibration)
+            plan%has_backbones = plan%has_backbones .or. asked%backbone%id > 0
             if (asked%frequency%id == 0) cycle
             if (asked%damping%id == 0 .and. .not. plan%stages(s)%vibration%has_losses .and. asked%frequency%line /= undamped) then
                undamped = asked%frequency%line ! one warning for an entry above all stages
                call deck%errors%add(undamped, 'FREQUENCY: expected damping: SDAMPING, AMPLITUDE for the loss factors of the '// &
                   'joints, PARAM G, or GE on a MAT1; without it peaks are unbounded')
             end if
+            plan%has_responses = .true.
             allocate (plan%stages(s)%vibration%response)
             call plan_response(deck, model, asked, oscillating(s), plan%stages(s)%vibration%response)
          end associate
@@ -67,15 +70,10 @@ contains
          call deck%errors%add(asked%modes%line, 'MODES: there is no EIGRL '//integer_text(asked%modes%id))
          return
       end if
-      associate (card => deck%bulk%eigrl(k))
-         vibration%most = card%most
-         if (card%most == 0 .and. .not. card%has_highest) vibration%most = 1
-         vibration%has_lowest = card%has_lowest .and. card%lowest > 0.0_wp
-         if (vibration%has_lowest) vibration%lowest = card%lowest
-         vibration%has_highest = card%has_highest
-         if (vibration%has_highest) vibration%highest = card%highest
-         vibration%unit_mass = card%unit_mass
-      end associate
+      vibration%eigrl_card = deck%bulk%eigrl(k)
+      if (vibration%most == 0 .and. .not. vibration%has_highest) vibration%most = 1
+      vibration%has_lowest = vibration%has_lowest .and. vibration%lowest > 0.0_wp
+      if (.not. vibration%has_lowest) vibration%lowest = 0.0_wp
    end subroutine plan_modes
 
    !> BACKBONE of one stage, with ascending amplitudes.
@@ -95,10 +93,8 @@ contains
          return
       end if
       associate (card => deck%bulk%jampl(k))
-         backbone%mode = card%mode
-         backbone%cycles = card%cycles
-         backbone%increments = card%increments
-         backbone%tolerance = card%tolerance
+         backbone%jampl_card = card
+         backbone%node = 0
          backbone%amplitudes = [(card%largest*card%ratio**(real(card%n - i, wp)/max(1, card%n - 1)), i = 1, card%n)]
          if (vibration%most > 0 .and. .not. vibration%has_lowest .and. card%mode > vibration%most) &
             call deck%errors%add(card%line, 'JAMPL: mode '//integer_text(card%mode)//' is not among the '// &
@@ -188,6 +184,7 @@ contains
       do s = 1, size(plan%stages)
          associate (given => deck%control%stages(s), stage => plan%stages(s))
             if (allocated(given%watch)) then
+               plan%has_watched_nodes = .true.
                call find_limited_nodes(deck%control%sets, model, 'WATCH', given%watch, are_named, errors)
                stage%watched = pack([(i, i = 1, model%n_nodes)], are_named .and. model%used .and. model%node_id > 0)
                if (size(stage%watched) == 0) call errors%add(given%watch(1)%line, 'WATCH: names no node of an element')

@@ -51,11 +51,8 @@ contains
       integer, intent(in)                 :: end
       integer, allocatable :: nodes(:)
 
-      if (end == 1) then
-         nodes = element%node(:element%n_1)
-      else
-         nodes = element%node(element%n_1 + 1:)
-      end if
+      if (end == 1) nodes = element%node(:element%n_1)
+      if (end == 2) nodes = element%node(element%n_1 + 1:)
    end function nodes_of_end
 
    !> The weights of the nodes of END 1 or 2, as positive numbers.
@@ -64,11 +61,8 @@ contains
       integer, intent(in)                 :: end
       real(wp), allocatable :: weights(:)
 
-      if (end == 1) then
-         weights = abs(element%weight(:element%n_1))
-      else
-         weights = abs(element%weight(element%n_1 + 1:))
-      end if
+      if (end == 1) weights = abs(element%weight(:element%n_1))
+      if (end == 2) weights = abs(element%weight(element%n_1 + 1:))
    end function weights_of_end
 
    !> The node that output and messages name for END 1 or 2: 0 for a rigid base, -1 where the end has several nodes and none is
@@ -76,12 +70,11 @@ contains
    pure integer function named_node(element, end) result(node)
       type(interface_element), intent(in) :: element
       integer, intent(in)                 :: end
-      integer :: first, n
 
-      first = merge(1, element%n_1 + 1, end == 1)
-      n = merge(element%n_1, size(element%node) - element%n_1, end == 1)
-      node = merge(0, -1, n == 0)
-      if (n == 1) node = element%node(first)
+      associate (nodes => nodes_of_end(element, end))
+         node = merge(0, -1, size(nodes) == 0)
+         if (size(nodes) == 1) node = nodes(1)
+      end associate
       if (end == 1 .and. element%named > 0) node = element%named
    end function named_node
 

@@ -15,7 +15,7 @@ module model_data
 
    public :: bar_nodes, corners_of, has_gaps, has_ground_springs, has_second_order, is_beam, is_coarser, is_face_node, is_shell, &
              joint_centroid, joint_node_id, n_bars, n_points, n_rotations, n_sections, n_springs, node_kind, own_nodes, &
-             place_in_kind, point_of, supported
+             place_in_kind, point_of, side_corners, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -392,6 +392,18 @@ contains
 
       nodes = model%element_nodes(:size(nodes), e)
    end function corners_of
+
+   !> The corners of side S of element E, counter-clockwise as seen from outside; 0: the face of a shell along its normal.
+   pure function side_corners(model, e, s) result(nodes)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e, s
+      integer, allocatable :: nodes(:)
+
+      associate (kind => element_table(model%element_kind(e)))
+         if (s == 0) nodes = model%element_nodes(:kind%n_nodes, e)
+         if (s > 0) nodes = model%element_nodes(kind%side_nodes(:kind%side_corners(s), s), e)
+      end associate
+   end function side_corners
 
    !> Whether element E is a shell.
    pure logical function is_shell(model, e)

@@ -21,7 +21,7 @@ module results
    use restart_stream, only: restart_stream_type
    use stage_answer, only: fault_of_answer, find_answer, stage_answer_type
    use stage_entries, only: output_all, output_joint, output_last
-   use stage_plan, only: any_backbone, any_modes, any_response, any_watched, planned_stage, stage_plan_type
+   use stage_plan, only: planned_stage, stage_plan_type
    use stage_tables, only: n_stage_tables, note_stage_tables, pass_rows
    use structural_results, only: list_shell_forces, shell_columns
    use support_reactions, only: find_reactions, reactions_type
@@ -87,7 +87,7 @@ contains
       results%missing_vtu = ''
       results%method = deck%control%method
       call start_bolts(model, results%bolts)
-      if (any_watched(plan)) call start_watched(model, results%watched_before)
+      if (plan%has_watched_nodes) call start_watched(model, results%watched_before)
       call start_watch(model, results%watch)
       associate (page => results%page, control => deck%control)
          if (base == '') call page%file%start('')
@@ -113,14 +113,14 @@ contains
          call open_table(joint_table, .true., history_titles(model))
          call open_table(stage_table, .true., csv_titles(stage_columns(labels)))
          call open_table(bolt_table, n_bolts(model) > 0, csv_titles(bolt_columns(labels, 1)))
-         call open_table(modes_table, any_modes(plan), csv_titles(modes_columns()))
-         call open_table(energy_table, any_modes(plan), csv_titles(energy_columns()))
-         call open_table(response_table, any_response(plan), csv_titles(response_columns()))
-         call open_table(backbone_table, any_backbone(plan), csv_titles(backbone_columns(labels)))
-         call open_table(loop_table, any_backbone(plan), csv_titles(loop_columns()))
-         call open_table(bend_table, any_backbone(plan) .and. any_response(plan), csv_titles(bend_columns(labels)))
-         call open_table(watch_table, any_watched(plan), csv_titles(watch_columns(labels, d)))
-         call open_table(split_table, any_watched(plan), csv_titles(split_columns()))
+         call open_table(modes_table, plan%has_modes, csv_titles(modes_columns()))
+         call open_table(energy_table, plan%has_modes, csv_titles(energy_columns()))
+         call open_table(response_table, plan%has_responses, csv_titles(response_columns()))
+         call open_table(backbone_table, plan%has_backbones, csv_titles(backbone_columns(labels)))
+         call open_table(loop_table, plan%has_backbones, csv_titles(loop_columns()))
+         call open_table(bend_table, plan%has_backbones .and. plan%has_responses, csv_titles(bend_columns(labels)))
+         call open_table(watch_table, plan%has_watched_nodes, csv_titles(watch_columns(labels, d)))
+         call open_table(split_table, plan%has_watched_nodes, csv_titles(split_columns()))
          call open_table(reaction_table, .true., csv_titles(reaction_columns(labels, d)))
          call open_table(shell_table, any(plan%stages%output%forces), csv_titles(shell_columns(labels)))
       end associate
@@ -256,7 +256,7 @@ contains
          digest%safety = min(digest%safety, minval(answer%joints%safety, mask=answer%joints%has_safety))
       end associate
       call keep_bolts(answer%bolts, results%bolts)
-      if (any_watched(plan)) call keep_watched(model, analysis, results%watched_before)
+      if (plan%has_watched_nodes) call keep_watched(model, analysis, results%watched_before)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
 

@@ -15,7 +15,7 @@ module watched_nodes
    use bolt_locking, only: bar_tension
    use interface_operator, only: joint_movement
    use kinds, only: wp
-   use model_build, only: find_bodies
+   use connected_bodies, only: find_bodies
    use model_data, only: a_spring, bar_nodes, corners_of, model_type, n_bars, n_points
    use restart_stream, only: restart_stream_type
    implicit none

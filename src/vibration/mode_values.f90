@@ -26,7 +26,7 @@ module mode_values
    use joint_laws, only: friction_limit
    use kinds, only: wp
    use mass_matrix, only: mass_times, total_mass
-   use model_build, only: find_bodies
+   use connected_bodies, only: find_bodies
    use model_data, only: bar_nodes, model_type, n_bars, n_points
    use natural_modes, only: oscillating_type, spectrum_type
    use node_coupling, only: felt_nodes
