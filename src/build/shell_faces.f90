@@ -174,19 +174,26 @@ contains
    subroutine append_faces(model, faces)
       type(model_type), intent(inout)  :: model
       type(face_node_type), intent(in) :: faces(:)
+      integer, allocatable :: elements_at(:)
       real(wp) :: x(3, size(faces))
-      integer  :: k, n
+      integer  :: k, m, n
 
       n = model%n_nodes
+      m = size(model%elements_at)
       model%faces = faces
+      allocate (elements_at(m + sum(model%first_at(faces%point + 1) - model%first_at(faces%point))))
+      elements_at(:m) = model%elements_at
+      model%first_at = [model%first_at, spread(0, 1, size(faces))]
       do k = 1, size(faces)
          model%faces(k)%node = n + k
          x(:, k) = model%x(:, faces(k)%point) + faces(k)%lever
          associate (at => model%first_at(faces(k)%point:faces(k)%point + 1))
-            model%elements_at = [model%elements_at, model%elements_at(at(1):at(2) - 1)]
+            elements_at(m + 1:m + at(2) - at(1)) = model%elements_at(at(1):at(2) - 1)
+            m = m + at(2) - at(1)
          end associate
-         model%first_at = [model%first_at, size(model%elements_at) + 1]
+         model%first_at(n + k + 1) = m + 1
       end do
+      call move_alloc(elements_at, model%elements_at)
       call append_nodes(model, x)
       allocate (model%face_of(model%n_nodes), source=0)
       do k = 1, size(faces)
