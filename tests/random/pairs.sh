@@ -4,7 +4,7 @@
 #
 #     pairs.sh [-s SEED] [-n DECKS] [-f FROM] [-x] PROGRAM FOLDER
 #
-# -x: decks in space whose top is a plate of shells.
+# -x: decks in space whose top is a plate of shells or, every second one, bears a wall of shells tied by SHELLTO.
 # FROM: the first deck, or several with commas, DECKS from each. What fails is kept in FOLDER/failed with how it is made again. Ends with
 # "N passed, N failed"; exit status 1 if anything failed.
 set -u

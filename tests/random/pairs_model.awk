@@ -126,10 +126,19 @@ function block_s(b, nx, ny, z0, t, offset, tri,   i, j, p, q, r, s) {
    }
 }
 
+# A wall of shells on the top block, at Y along most of its LENGTH from X0 and upright from Z0; marked 95 on its lower edge
+function stand_wall(x0, length_of, y, z0,   i, k, n, w) {
+   wall_thickness = 0.05 * length_of
+   n = 3 + random(3)
+   for (k = 0; k <= 2; k++) for (i = 0; i <= n; i++) w[i, k] = node(x0 + length_of * (0.15 + 0.7 * i / n), y, z0 + 0.1 * length_of * k)
+   for (k = 0; k < 2; k++) for (i = 0; i < n; i++) element("CQUAD4", 9, w[i, k] " " w[i + 1, k] " " w[i + 1, k + 1] " " w[i, k + 1])
+   for (i = 0; i < n; i++) element("CBAR", 95, w[i, 0] " " w[i + 1, 0])
+}
+
 function forget(   k) {
    split("", X); split("", Y); split("", Z); split("", mid); split("", at); split("", on_bottom); split("", on_top); split("", within)
    split("", depends); split("", e_offset)
-   shell_thickness = 0
+   shell_thickness = wall_thickness = 0
    split("", e_node); split("", held); split("", sign_of)
    nn = ne = n_frames = n_loads = n_mpc = n_springs = n_spc = n_temps = 0
    rbe2 = rbe3 = bolt = 0
@@ -219,6 +228,7 @@ function make_model(   b, i, j, n, x0, x1, y0, z, length_, width, h, e, list, to
       z += h + apart
    }
    top = n_blocks
+   if (on["wall"]) stand_wall(left[top], right[top] - left[top], front[top] + between(0.4, 0.6) * (back_[top] - front[top]), top_at[top])
    # areas of the joints: what both sides have in common
    for (j = 1; j <= n_joints; j++) {
       b = on["base"] ? j : j + 1 # the block above

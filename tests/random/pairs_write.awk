@@ -174,6 +174,7 @@ function write_variant(name,   i, k, s, j, file, n, text, f, set, e, kept, t, cd
       put("PMARK," 10 * k + 1)
       if (!on["split"] || k == n_blocks) put("PMARK," 10 * k + 2)
    }
+   if (wall_thickness) put("PSHELL,9," n_blocks "," real(wall_thickness * s_l) "," n_blocks ",," n_blocks "\nPMARK,95\nSHELLTO,95," 10 * n_blocks + 2)
    # joints
    for (j = 1; j <= n_joints; j++) put("JOINT," j ",1," side_1[j] "," (side_2[j] ? side_2[j] : "") "," (gap_kind == "TRUE" && side_2[j] ? real(0.05 * s_l) : ""))
    put("PJOINT,1,1," (sheared ? "1,1" : ",") "," (rough ? real(mu) "," nrean : ",") "," (p0 ? real(p0 * stress) : ""))
