@@ -55,6 +55,8 @@ function open_case(header) {
    close_case()
    case_name = header; sub(/ .*/, "", case_name)
    fault = substr(header, length(case_name) + 1); sub(/^ +/, "", fault)
+   first_edit = fault ~ /^([-!$>+]|eol) / ? fault : ""
+   if (first_edit != "") fault = case_name
    begun = FILENAME ", line " FNR
    usable = 1; status = ""; fragments = 0; edits = 0; line_end = "\n"
    split("", gone); split("", put)
@@ -128,7 +130,7 @@ function close_case(   file, i) {
 FNR == 1 { close_case(); has_base = 0 }
 /^#/ || /^ *$/ { next }
 /^base [a-z0-9_]+$/ { open_base($2); next }
-/^[a-z]/ { open_case($0); next }
+/^[a-z]/ { open_case($0); if (first_edit == "") next; $0 = "   " first_edit }
 !/^   [^ ]/ { refuse("a line that is neither a case nor part of one: three blanks expected before what belongs to a case"); next }
 case_name == "" { refuse("no case above this line"); next }
 { text = substr($0, 6) }
