@@ -2,7 +2,7 @@
 !! Row (node - 1) dimension + direction, held components and all.
 module dense_structure
    use body_elements, only: coupled_stiffness, law_of
-   use element_kinds, only: max_dofs, max_nodes
+   use element_kinds, only: max_nodes
    use isoparametric, only: lump, shape_products
    use kinds, only: wp
    use model_data, only: corners_of, model_type, n_bars

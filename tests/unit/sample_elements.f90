@@ -1,16 +1,36 @@
 !> Elements for tests of shapes, stiffnesses and loads.
 module sample_elements
-   use elasticity, only: axisymmetric
-   use element_kinds, only: element_table, max_nodes, node_point
-   use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes
+   use elasticity, only: axisymmetric, solid
+   use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_quad4, max_nodes, node_point
+   use element_mapping, only: element_law, element_map, make_element_law, map_element, map_point, max_shapes
    use kinds, only: wp
    use quadrature, only: integration_rule, volume_rule
    implicit none
    private
 
-   public :: distorted, element_volume
+   public :: belong, cross, distorted, element_volume, law_of
+
+   real(wp), parameter, public :: e = 210.0_wp, nu = 0.3_wp
 
 contains
+
+   !> E, nu and the thickness 0.7.
+   pure type(element_law) function law_of(kind, state, incompatible)
+      integer, intent(in) :: kind, state
+      logical, intent(in) :: incompatible
+
+      law_of = make_element_law(kind, state, e, nu, 0.7_wp, incompatible)
+   end function law_of
+
+   !> Whether a kind of element, a state and the modes go together.
+   pure logical function belong(kind, state, incompatible)
+      integer, intent(in) :: kind, state
+      logical, intent(in) :: incompatible
+
+      belong = (element_table(kind)%dimension == 3) .eqv. (state == solid)
+      if (incompatible) belong = belong .and. (any(kind == [kind_hexa8, kind_penta6]) .or. &
+                                               (kind == kind_quad4 .and. state /= axisymmetric))
+   end function belong
 
    !> A distorted element of a kind, x > 0.
    pure function distorted(kind) result(x)
@@ -26,6 +46,14 @@ contains
          end do
       end do
    end function distorted
+
+   !> a x b, by hand: independent of the program.
+   pure function cross(a, b) result(c)
+      real(wp), intent(in) :: a(3), b(3)
+      real(wp) :: c(3)
+
+      c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+   end function cross
 
    !> Volume of an element: area times thickness in the plane, of the whole ring in an axisymmetric body [length^3].
    pure real(wp) function element_volume(law, x) result(total)
