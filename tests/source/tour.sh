@@ -40,6 +40,9 @@ for example in $examples; do
    source_tree "$top/alone/$example"
    applies "$example alone" "$top/alone/$example" $example
    applies "$example with the others" "$top/next" $example
+   if command -v git > /dev/null; then # which counts the lines of the hunks too
+      if git apply --check $here/$example.patch; then passed=$((passed + 1)); else fail "git apply --check $here/$example.patch"; fi
+   fi
 done
 becomes "$top/tree" "$top/next"
 if [ $failed -gt 0 ] || ! ${MAKE:-make} --no-print-directory -s -j2 -C "$top/tree" BUILD=build BIN=bin \
