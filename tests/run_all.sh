@@ -1,13 +1,12 @@
 #!/usr/bin/env bash
-# Everything that `make test` runs, part after part, and one sum at the end.
+# Runs all parts of `make test` and prints one sum.
 #
 #    run_all.sh PROGRAM CHECKED_PROGRAM COMPARE QUERY BUILD_FOLDER [PROGRAM_MPI]
 #
-# CHECKED_PROGRAM is the program with run-time checks; bad decks and those made at random go through it, so that a bound exceeded or a
-# floating-point exception is seen. Every part ends with a line `N passed, N failed`; a part without one has failed. As many parts
-# run side by side as there are cores (TOGETHER=n: n of them); each has a folder of its own.
-# WITHOUT in the environment: a pattern of titles that are passed over. A part names what it leaves out, and why, in lines
-# `skipped: WHAT: WHY`; these lines and the time of each part are shown before the sum.
+# CHECKED_PROGRAM is the program with run-time checks; it runs the bad decks and the random decks, so that an index out of bounds or
+# a floating-point exception is detected. A part without a last line `N passed, N failed` has failed. As many parts run side by side
+# as there are cores (TOGETHER=n: n of them), each in a folder of its own. WITHOUT in the environment: a pattern of titles to skip.
+# A part names what it skips in lines `skipped: WHAT: WHY`; these lines and the time of each part are printed before the sum.
 set -u
 program=$1 checked=$2 compare=$3 query=$4 build=$5 without=${WITHOUT:-}
 together=${TOGETHER:-$(nproc)}

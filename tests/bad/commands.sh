@@ -1,5 +1,5 @@
-# Wrong and unlucky commands: a part of run.sh, which has the tools. Every section works in the folder "$work/command", with
-# the decks good.bdf and other.bdf (the same), faulty.bdf (a letter O in line 7) and free.bdf (nothing holds it in x).
+# Wrong commands, a part of run.sh, which has the functions. Every section works in the folder "$work/command", with the decks
+# good.bdf and other.bdf (the same), faulty.bdf (a letter O in line 7) and free.bdf (nothing holds it in x).
 
 # ---- the command line ----
 

@@ -1,9 +1,9 @@
-# Makes the decks of the tables: from each case a deck INTO/NAME.bdf, and INTO/NAME.expected with the exit status and the
-# fragments of the message. README.md beside this file says what stands in a table.
+# Makes the decks of the tables: for each case a deck INTO/NAME.bdf, and INTO/NAME.expected with the exit status and the fragments
+# of the message. README.md describes the tables.
 #
 #     awk -v bases=FOLDER -v into=FOLDER -f expand.awk TABLE...
 #
-# What a table does not say clearly is refused with the place, and the case is not made; exit status 1 if there was any.
+# An ambiguous table is refused with the place, and the case is not made; exit status 1 then.
 
 function refuse(what, where) {
    print (where == "" ? FILENAME ", line " FNR : where) ": " what > "/dev/stderr"

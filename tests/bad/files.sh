@@ -1,4 +1,4 @@
-# Files in the way of results, runs that meet in one folder, runs that are killed: a part of run.sh, like commands.sh and after it.
+# Obstructed result files, two runs in one folder, killed runs: a part of run.sh after commands.sh.
 
 # ---- what has the name of a result ----
 

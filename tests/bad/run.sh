@@ -1,11 +1,10 @@
 #!/bin/bash
-# Decks with faults, and wrong or unlucky commands: the program must say what is wrong, return the right status, and
-# leave no file that could be taken for a result.
+# Decks with faults and wrong commands: the program must name the fault, return the right status, and leave no file that could be
+# taken for a result.
 #
 #     run.sh PROGRAM
 #
-# The decks come out of the tables of this folder (README.md), the commands are those of commands.sh and files.sh.
-# Ends with "N passed, N failed"; exit status 1 if anything failed, 2 wrong usage.
+# expand.awk makes the decks from the tables of this folder (README.md); commands.sh and files.sh have the commands.
 set -u
 export LC_ALL=C
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# The present results of decks of input/ become their references.
+# Makes the present results of decks of input/ their references.
 #
 #    accept.sh PROGRAM WORK_FOLDER NAME...
 #    accept.sh PROGRAM WORK_FOLDER --failed CHECK_FOLDER      of the decks that failed the last check.sh in CHECK_FOLDER
 #
-# Listing and joint history; tables of stages, bolts, modes, their energy and response where there are references of them, or where
+# Listing and joint history always; the tables of stages, bolts, modes, their energy and response where a reference exists, or where
 # TABLES='stage bolt modes modes.energy response backbone' in the environment asks for them.
 set -eu
 program=$1 work=$2

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Every deck of input/ against its listing and history in reference_output/, and against its other tables (stages, bolts, modes, their
-# energy, response) where a reference of these is there: first diff, then, where the text differs,
-# a comparison with a tolerance per quantity (tests/compare/tolerances.txt).
+# Compares every deck of input/ with its reference listing, joint history and other tables in reference_output/: first by diff,
+# then, where the text differs, with a tolerance per quantity (tests/compare/tolerances.txt).
 #
 #    check.sh PROGRAM COMPARE WORK_FOLDER [NAME...]     all decks, or those named
 #
-# WORK_FOLDER/failed names the decks that failed. Prints the differences and a last line `N passed, N failed`; fails on any failure, and on a missing or surplus reference.
+# WORK_FOLDER/failed names the decks that failed. Prints the differences; fails on any difference, and on a missing or surplus
+# reference.
 set -u
 program=$1 compare=$2 work=$3
 shift 3

@@ -1,13 +1,11 @@
-!> Compare a result file with its reference, number by number, with a tolerance for each quantity.
+!> Compares a result file with its reference, number by number, with a tolerance for each quantity.
 !!
 !!     compare_results TOLERANCES REFERENCE ACTUAL
 !!
-!! Files that end in `.csv` are compared by column name, all others line by line as listings.
-!! Exit status: 0 equal within tolerance; 1 different, the differences on standard output;
-!! 2 wrong usage or unreadable file.
-!!
-!! Different are also: lines, rows, columns or words more or less; another word; a word for a number;
-!! NaN, Infinity or an overflow field (****) in either file, even in both; an empty file.
+!! Files that end in `.csv` are compared by column name, all others line by line as listings. Differences are also: missing or
+!! surplus lines, rows, columns or words; another word; a word for a number; NaN, Infinity or an overflow field (****) in either
+!! file, even in both; an empty file. Exit status: 0 equal within tolerance; 1 different, the differences on standard output; 2
+!! wrong usage or unreadable file.
 program compare_results
    use, intrinsic :: iso_fortran_env, only: real64
    use comparison_rules, only: rule, rule_set, read_rules, csv_rule, listing_rule, find_block, allowed

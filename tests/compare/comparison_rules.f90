@@ -1,5 +1,4 @@
-!> The tolerance file: which deviation each quantity may have. Its syntax stands at the top of
-!! tolerances.txt.
+!> The tolerance file: the tolerance of each quantity. tolerances.txt describes its syntax.
 module comparison_rules
    use, intrinsic :: iso_fortran_env, only: real64
    use comparison_text, only: text_file, open_text, next_line, close_text, next_token, word, &

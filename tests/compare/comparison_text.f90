@@ -1,5 +1,5 @@
-!> Text as the comparison sees it: files read line by line without a limit on
-!! the length of a line, tokens between blanks, numbers, defects.
+!> The text that is compared: files read line by line without a limit on the length of a line, tokens between blanks, numbers,
+!! defects.
 module comparison_text
    use, intrinsic :: iso_fortran_env, only: error_unit, real64, int64
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite

@@ -1,4 +1,4 @@
-!> A CSV file as a whole: titles and cells.
+!> A whole CSV file: titles and cells.
 module csv_table
    use comparison_text, only: text_file, open_text, next_line, close_text, next_field, text_of
    implicit none

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# Every deck against its reference on other processors: under the kernels that OpenBLAS has for them, and built for this processor alone,
-# which multiplies and adds in one instruction. A kernel whose instructions
-# this processor does not have is skipped. Of the listings LEAST must be the same bytes under all kernels; one that is not is named with
-# the first line that differs.
+# Compares every deck with its reference under the OpenBLAS kernels of other processors, and compiled for this processor alone,
+# which multiplies and adds in one instruction. A kernel is skipped if this processor lacks its instructions. At least LEAST
+# listings must be identical under all kernels; the others are named with their first different line.
 #
 #    processors.sh PROGRAM COMPARE BUILD_FOLDER LEAST
 set -u

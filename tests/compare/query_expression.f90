@@ -1,13 +1,5 @@
-!> Expressions over the rows of a CSV file: one value for each row, found as the expression is read.
-!!
-!!     or   and   not              0 is false, anything else true
-!!     =  !=  <  <=  >  >=         A = B within T: not farther apart than T; texts: = and != alone
-!!     +  -  *  /  ^               in the usual order, -2^2 is -4
-!!     abs sqrt exp log sin cos int of A;  min(A, B);  max(A, B);  if(CONDITION, A, B)
-!!     sum min max first last of A, count(): of the rows of a group; before(A): in the row before, 0 in the first
-!!     pressure  "OPEN"  1.0E-3  pi   a column, a text, numbers; other.pressure: of the second file
-!!
-!! What is compared or added up must be finite numbers.
+!> Expressions over the rows of a CSV file (tests/README.md): one value for each row, found while the expression is parsed. 0 is
+!! false, anything else true; -2^2 is -4; texts allow = and != only. Compared or added values must be finite numbers.
 module query_expression
    use, intrinsic :: iso_fortran_env, only: real64
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite

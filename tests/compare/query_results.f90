@@ -1,18 +1,10 @@
-!> Ask a CSV file, such as a history of joints.
+!> Queries a CSV file, such as a history of joints.
 !!
 !!     query_results FILE ACTION...           `-` for FILE: one row without columns
 !!
-!!     rows CONDITION    of the rows so far only those for which it holds
-!!     by A              rows with the same A are a group, within the groups so far; without it all rows are one group
-!!     with FILE         other.COLUMN is that of another file, row by row in the order of both, which must have as many
-!!     on COLUMN=A       behind `with`: of the one row there whose COLUMN is A; COLUMN alone: the same as here
-!!     count N           so many rows are left
-!!     all CONDITION     it holds for every row
-!!     print A           it is the same in every row; printed at the end, all of them on one line
-!!
-!! Actions are taken in their order. CONDITION and A are expressions, see query_expression.f90. Where no row is left nothing
-!! holds. Exit status: 0 all hold; 1 one does not: its first rows are on standard output; 2 wrong usage, no row left, no such
-!! column, a value that is no finite number, an unreadable file.
+!! tests/README.md describes the actions and expressions. Where no row is left no condition holds. Exit status: 0 all conditions
+!! hold; 1 one does not: its first rows are on standard output; 2 wrong usage, no row left, no such column, a value that is not a
+!! finite number, an unreadable file.
 program query_results
    use, intrinsic :: iso_fortran_env, only: output_unit, real64
    use comparison_text, only: argument, give_up, not_a_number, number_kind, text_of

@@ -1,12 +1,10 @@
 #!/bin/bash
-# Does the comparison see what it must see? Result files are damaged in every way that has passed
-# unseen through the tests of other programs, and the comparison must fail; copies that are equal within the
-# tolerance must pass.
+# Tests the comparison: it must reject result files that are damaged in every way that has passed unseen through the tests of other
+# programs, and accept copies that are equal within the tolerance.
 #
 #     test_compare.sh COMPARE_RESULTS REFERENCE_FOLDER TOLERANCES
 #
-# The files damaged are small samples written here, and the first listing and history of the folder.
-# Ends with "N passed, N failed"; exit status 1 if anything failed, 2 wrong usage.
+# The damaged files are small samples written here, and the first listing and history of REFERENCE_FOLDER.
 set -u
 export LC_ALL=C
 

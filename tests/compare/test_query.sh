@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Does query_results answer right, and does it refuse what it must: a wrong value, a number that is none, a column or a row that is
-# not there? Every line below is one test.
+# Tests query_results: right answers, and an error for a wrong value, a value that is not a number, a missing column or row. Every
+# line below is one test.
 #
 #     test_query.sh QUERY_RESULTS
 set -u

@@ -1,10 +1,11 @@
-# STEP tends to NEWTON: the error of the step-wise method on every loading deck, against NEWTON in many increments, as the
-# number of increments of each stage is doubled. Prints one table; fails where an error does not fall. On a history that unloads and
-# reloads much it does not: that deck is shown, and must be off by more than 2 % somewhere in the second half of the counts.
+# STEP tends to NEWTON: the error of the step-wise method on every loading deck, against NEWTON with many increments, as the number
+# of increments of each stage is doubled. Prints one table; fails where an error does not fall. On one history with much unloading
+# and reloading the error does not fall: that deck is shown, and its error must exceed 2 % somewhere in the second half of the
+# counts.
 #
-# The error is the largest difference of lambda and delta_x over the nodes at the end of the loading, as a share of the largest
-# lambda; a run without its rows is a failure. It need not fall at first order: the first increment is a secant, and for m = 0.5
-# that alone leaves order 1/2.
+# The error is the largest difference of lambda and delta_x over the nodes at the end of loading, relative to the largest lambda; a
+# run without its rows fails. The order may be below 1: the first increment is a secant, and for m = 0.5 the secant alone leaves
+# order 1/2.
 
 counts='10 20 40 80 160'
 

@@ -1,9 +1,9 @@
-# A deck: a column of 100 x 100 mm, 600 mm high, clamped at its foot, 1000 N across spread over its top.
+# A deck: a column of 100 x 100 mm, 600 mm high, clamped at its foot, 1000 N in the transverse direction spread over its top.
 #
 #    awk -v kind=KIND -v n=4 -v nz=24 -f elements.awk
 #
-# KIND  CTETRA, CPENTA, CHEXA, CPENTA_PLAIN, CHEXA_PLAIN, CTETRA10, CPENTA15 or CHEXA20; n x n x nz bricks, or what they are cut into:
-#       a brick is six tetrahedra, or two wedges. Corners 1, 2, 3, 4 of the top are the nodes 1 to 4.
+# KIND: CTETRA, CPENTA, CHEXA, CPENTA_PLAIN, CHEXA_PLAIN, CTETRA10, CPENTA15 or CHEXA20; n x n x nz bricks, each cut into six
+# tetrahedra or two wedges where needed. Corners 1, 2, 3, 4 of the top are the nodes 1 to 4.
 
 BEGIN {
    card = kind; sub(/[0-9]+$/, "", card); sub(/_PLAIN$/, "", card)

@@ -1,9 +1,9 @@
-# The table of input/README.md, "Which elements to take": a column of 100 x 100 x 600 mm clamped at its foot, a force across on its
-# top (elements.awk). Errors of how far the top moves, at equal numbers of nodes: 600 and 4,000. With TABLE=yes in the environment
-# 28,000 nodes too, a minute: the table on the standard output.
+# The table of input/README.md, "Which elements to take": a column of 100 x 100 x 600 mm, clamped at its foot, with a transverse
+# force on its top (elements.awk). Errors of the displacement of the top at equal numbers of nodes: 600 and 4,000. TABLE=yes in the
+# environment adds 28,000 nodes (a minute) and prints the table.
 #
-# The exact movement is what CHEXA of twenty nodes tend to, 3 to 10 of them a side: differences fall as n**-1.47, and 0.041575 mm
-# is left, the last digit uncertain by one. (A beam with shear has 0.0420 mm; a clamped foot cannot widen.)
+# The exact displacement is the limit of CHEXA with twenty nodes, 3 to 10 elements along a side: the differences fall as n**-1.47
+# and tend to 0.041575 mm, the last digit uncertain by one. (A beam with shear gives 0.0420 mm; a clamped foot cannot widen.)
 exact=0.041575
 
 # error KIND N NZ: of the movement along x of the corners of the top, in per cent

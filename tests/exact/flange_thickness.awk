@@ -1,4 +1,4 @@
-# The clamping of input/flange_pair.bdf with rings T thick (there 16), in elements of half a millimetre along the radius.
+# input/flange_pair.bdf with rings of thickness T (there 16), in elements of half a millimetre along the radius.
 #
 #    awk -v t=8 -f flange_thickness.awk input/flange_pair.bdf
 function ny() { return t < 4 ? 2 * t : t < 10 ? t : 10 }

@@ -1,4 +1,4 @@
-# NAME.stage.csv, NAME.out: every node of the largest pressure that the table of increments and the answer name otherwise
+# NAME.stage.csv, NAME.out: prints every node of the largest pressure that differs between the table of increments and the answer.
 FNR == 1 { split("", column); n_files++ }
 n_files == 1 && FNR == 1 { for (i = split($0, title, ","); i > 0; i--) at[title[i]] = i; next }
 n_files == 1 { split($0, cell, ","); if (cell[at["p_node"]] != "") node[cell[1], cell[2]] = cell[at["p_node"]]; next }

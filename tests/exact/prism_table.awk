@@ -1,5 +1,5 @@
-# The prism with different numbers of increments, from the joint histories: deflection and pressure along the interface
-# after the last increment, a column a deck.
+# The prism with different numbers of increments, from the joint histories: deflection and pressure along the interface after the
+# last increment, a column for each deck.
 #
 #    awk -f prism_table.awk prism03.joint.csv prism05.joint.csv ...
 BEGIN { FS = "," }

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
-# Whole runs against exact answers and independent computations.
+# Compares whole runs with exact answers and independent computations.
 #
 #    run.sh PROGRAM QUERY WORK_FOLDER [PART...]      all parts, or those named
-#
-# Prints what fails and a last line `N passed, N failed`.
 set -u
 program=$1 query=$2 work=$3
 shift 3

@@ -3,12 +3,11 @@
 #
 #     sweep.sh PROGRAM FOLDER [METHOD...]
 #
-# A block pressed evenly on its joint, which has an exact answer, over more decades than any structure has: 1,764 runs a method (E
-# 1E-6 to 1E15, c 1E-12 to 1E6, m 0.001 to 1, pressure and size 1E-12 to 1E12, nu -0.99 to 0.4999999), by NEWTON and STEP or the METHODs
-# named. Each is right to 1E-6 or ends with status 3.
-# The same problems in 13 systems of units, powers of ten apart: the same results, to 1E-9 of the largest of their kind.
-# What fields hold: a deck of the largest numbers of everything, forces of 1E13, MU of 1000, long words; and what overflows.
-# Ends with "N passed, N failed".
+# 1. A block under uniform pressure on its joint, which has an exact answer: 1,764 runs by NEWTON and by STEP, or by each METHOD
+# named (E 1E-6 to 1E15, c 1E-12 to 1E6, m 0.001 to 1, pressure and size 1E-12 to 1E12, nu -0.99 to 0.4999999). Each run is correct
+# to 1E-6 or ends with status 3.
+# 2. The same problems in 13 systems of units, powers of ten apart: equal results, to 1E-9 of the largest value of each kind.
+# 3. The width of fields: a deck with the largest numbers of everything, forces of 1E13, MU of 1000, long words; and overflow.
 set -u
 export LC_ALL=C
 program=$(realpath "$1")

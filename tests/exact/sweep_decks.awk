@@ -1,6 +1,6 @@
-# The block of the sweep, pressed evenly, in every combination of modulus, joint law, pressure, size and Poisson's ratio.
+# The block of the sweep under uniform pressure, in every combination of modulus, joint law, pressure, size and Poisson's ratio.
 #
-#     awk -v method=NEWTON -v folder=OUT -f decks.awk
+#     awk -v method=NEWTON -v folder=OUT -f sweep_decks.awk
 #
 # Writes OUT/d1.bdf, OUT/d2.bdf, ... and prints a line for each: number, E, c, m, p, size, nu.
 

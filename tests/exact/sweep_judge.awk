@@ -1,9 +1,9 @@
-# Whether every run of the sweep is right or has ended with status 3.
+# Checks that every run of the sweep is correct or has ended with status 3.
 #
-#     awk -f judge.awk LIST STDERR d1.joint.csv d1.stage.csv ...
+#     awk -f sweep_judge.awk LIST STDERR d1.joint.csv d1.stage.csv ...
 #
-# Exact: every node bears p, lambda = c p^m, and the corner that moves farthest hypot(nu p s/E, lambda + p s/E).
-# Prints what is wrong, then how many are right, how many ended with status 3.
+# Exact: every node bears p, lambda = c p^m, and the corner that moves farthest hypot(nu p s/E, lambda + p s/E). Prints the faults,
+# then how many runs are correct, and how many ended with status 3.
 
 BEGIN { FS = "[ ,]"; tolerance = 1e-6 }
 FILENAME == ARGV[1] { for (i = 2; i <= 7; i++) given[$1, i] = $i; runs++; next }

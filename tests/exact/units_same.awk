@@ -1,10 +1,10 @@
-# Whether histories in other units are the same as in those of the first.
+# Compares histories in other units with those in the first.
 #
-#     awk -v length_power=-3 -v force_power=2 -v tolerance=1e-9 -f same.awk FIRST OTHER
+#     awk -v length_power=-3 -v force_power=2 -v tolerance=1e-9 -f units_same.awk FIRST OTHER
 #
-# Prints nothing where they are: words and numbers of things alike, every other column to TOLERANCE of its largest value
-# (secants to 100 times that). The measure of a moment is the largest force times the largest coordinate, that of an angle the
-# largest movement over that coordinate: a joint pressed evenly has moments and angles that are small differences.
+# Prints the differences: words and counts must be equal, every other column within TOLERANCE of its largest value (secants within
+# 100 times that). The scale of a moment is the largest force times the largest coordinate, that of an angle the largest
+# displacement over that coordinate: a joint under uniform pressure has moments and angles that are small differences.
 
 BEGIN {
    FS = ","

@@ -1,11 +1,11 @@
-# A problem of joints in one of many systems of units: every number of the deck times the powers of ten that its unit has.
+# A problem of joints in one of many systems of units: every number of the deck times the powers of ten of its unit.
 #
-#     awk -v problem=block -v method=STEP -v length_power=-3 -v force_power=2 -f scaled.awk
+#     awk -v problem=block -v method=STEP -v length_power=-3 -v force_power=2 -f units_scaled.awk
 #
-# block: pressed, pushed until it slips and tilts, let go, relieved; shear law, friction.
+# block: pressed, pushed until it slips and tilts, released, relieved; shear law, friction.
 # beams: two bodies across a crowned gap with a little interference, bent together, pushed, relieved.
 #
-# The powers of force are even, so that c, which has a root of the pressure in it, is scaled by a power of ten too.
+# The powers of force are even, so that c, whose unit has a root of the pressure, is scaled by a power of ten too.
 
 BEGIN {
    print "METHOD = " method

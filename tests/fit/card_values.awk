@@ -1,6 +1,6 @@
-# The numbers of the cards in the output of jointfit, one a line: `NAME FIELD VALUE`, data fields counted from 1 over all lines
-# of a card as jointfem counts them (1 the id; B11 is 9, C11 is 17, PMAX is 25). Reads small and large fields; a card of
-# more than 80 columns, or anything else that is no card, is an error.
+# Prints the numbers of the cards in the output of jointfit, one a line: `NAME FIELD VALUE`. Data fields are counted from 1 over all
+# lines of a card, as jointfem counts them (1 is the id, B11 is 9, C11 is 17, PMAX is 25). Reads small and large fields; a card
+# beyond column 80 and any other text is an error.
 #
 #    awk -f card_values.awk [-v name=JSHEAR] cards.bdf
 function number(text) {

@@ -1,10 +1,10 @@
 # Points of a shear test as in Fig. 1(b), O-A-1-A-B-2-B-C-3, at each of p = 0.2, 0.4, 0.6: loading by the cubic a, unloading and
-# reloading by b, each way of N points on from the last point of the one before.
+# reloading by b, each branch of N points from the last point of the previous one.
 #
 #    awk -v form=FORM [-v n=8] -f fig1b.awk
 #
-# FORM: record (d tau p), run (the ways numbered), words (their branches and numbers), stretches (their branches), unloading (only
-# the three ways down of each pressure, numbered), turned (a record of a test that loads in the negative sense first).
+# FORM: record (d tau p), run (numbered branches), words (branches and numbers), stretches (branches), unloading (only the three
+# unloading branches of each pressure, numbered), turned (a record of a test that first loads in the negative sense).
 function load(d, p)   { return (60 + 100 * p) * d - (500 + 300 * p) * d^2 + 1000 * d^3 }
 function unload(d, p) { return (40 + 90 * p) * d + (100 + 50 * p) * d^2 + 2000 * d^3 }
 function row(d, tau, branch) {

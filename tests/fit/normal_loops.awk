@@ -1,9 +1,9 @@
-# A record of a normal test, 200 points: lambda = 2.5 p^0.5 to p = 2, 4, 6, from each of these along a line of slope 3 down to
-# p = 0 and up again, and after the last loop on to p = 7. A quarter of the points are loading.
+# A record of a normal test, 200 points: lambda = 2.5 p^0.5 to p = 2, 4, 6, from each of these along a line of slope 3 down to p = 0
+# and up again, and after the last loop to p = 7. A quarter of the points are on loading.
 #
 #    awk [-v noise=0.01 -v seed=1] -f normal_loops.awk
 #
-# NOISE is the standard deviation of every reading as a share of it.
+# NOISE is the standard deviation of every reading, relative to the reading.
 function normal(  k, sum) {
    for (k = 0; k < 12; k++) { seed = (seed * 16807) % 2147483647; sum += seed / 2147483647 }
    return sum - 6

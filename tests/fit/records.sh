@@ -1,5 +1,5 @@
-# Part of run.sh: tests as they come. Runs with numbers, records in the order of time, loops of normal tests, units, offsets,
-# separators, pictures.
+# Test data as laboratories record them, a part of run.sh: numbered runs, records in the order of time, loops of normal tests,
+# units, offsets, separators, pictures.
 
 # ---- Fig. 1(b): three ways down at each of three pressures, exact ----
 

@@ -2,9 +2,6 @@
 # jointfit: the worked example, data with a known answer, bad data, and its cards read by jointfem.
 #
 #    run.sh JOINTFIT JOINTFEM
-#
-# Ends with "N passed, N failed"; exit status 1 if anything failed, 2 wrong usage. What cannot be tested yet is named as
-# skipped and counts as neither.
 set -u
 export LC_ALL=C
 

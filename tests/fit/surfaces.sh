@@ -1,11 +1,8 @@
 #!/usr/bin/env bash
-# The surfaces of input/surfaces: every file is read by jointfem, and every number on its cards is computed again from the
-# original constants in its comments.
+# The surfaces of input/surfaces: jointfem reads every file, and every number on its cards is computed again from the original
+# constants in its comments.
 #
 #    surfaces.sh JOINTFEM
-#
-# Ends with "N passed, N failed"; exit status 1 if anything failed, 2 wrong usage. What jointfem cannot read yet is named as
-# skipped and counts as neither.
 set -u
 export LC_ALL=C
 

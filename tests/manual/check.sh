@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
-# Is the committed verification manual the one that this program gives? And does the comparison notice a page that is not?
+# Checks that the verification manual is the output of this program, and that the comparison notices a page that is not.
 #
 #    check.sh PROGRAM QUERY WORK_FOLDER
-#
-# Ends with `N passed, N failed`.
 set -u
 export LC_ALL=C
 program=$1 query=$2 work=$3

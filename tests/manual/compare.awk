@@ -1,6 +1,6 @@
-# Two pages, line by line: the same text and the same numbers. What rounding rules may differ by one in its last digit: numbers with an
-# exponent, with five digits or more, and shares in per cent.
-#    awk -f compare.awk COMMITTED MADE       prints what differs; status 1 where anything does
+# Compares two pages line by line: the same text and the same numbers. Rounded numbers may differ by one in the last digit: numbers
+# with an exponent, with five digits or more, and percentages.
+#    awk -f compare.awk COMMITTED MADE       prints the differences; status 1 if there are any
 function next_number(s,   from, rest) {   # sets at, long: where a number stands in S
    if (!match(s, /[-+]?[0-9]+(\.[0-9]+)?(E-?[0-9]+)?/)) return 0
    at = RSTART; long = RLENGTH

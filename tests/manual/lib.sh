@@ -1,9 +1,9 @@
-# For make.sh: the words with which the shell of a chapter writes into the page. The page is open as file descriptor 3; faults go to the
-# standard output, through fail of ../exact/lib.sh. A case sets
-#    floor      differences below it are printed as "< floor"
+# For make.sh: the functions by which the shell code of a chapter writes into the page. The page is open as file descriptor 3;
+# faults go to the standard output, through fail of ../exact/lib.sh. A case sets
+#    floor      smaller differences are printed as "< floor"
 #    digits     of theory and program, six
-#    limit      larger ones are faults: a page with them is not written
-#    formulas   functions in awk that its theory calls; those of numbers.awk are there too
+#    limit      larger differences are faults: a page with one is not written
+#    formulas   functions in awk for its theory, beside those of numbers.awk
 
 page_numbers=$(cat tests/manual/numbers.awk)
 

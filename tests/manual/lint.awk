@@ -1,6 +1,6 @@
-# What would not be read as it is meant in a page of Markdown: rows with more or fewer cells than their head, a line of text that begins
-# as an item of a list or underlines the one above, links to headings that are not there.
-#    awk -f numbers.awk -f lint.awk PAGE       prints what is wrong
+# Prints text that Markdown would not show as meant: rows with more or fewer cells than their head, a line of text that begins like
+# a list item or underlines the line above, links to missing headings.
+#    awk -f numbers.awk -f lint.awk PAGE
 /^#+ / { title = $0; sub(/^#+ /, "", title); there[anchor(title)] = 1 }
 /^\|/ { n = gsub(/\|/, "|"); if (!width) width = n; else if (n != width) print NR ": " (n - 1) " cells, not " (width - 1) }
 !/^\|/ { width = 0 }

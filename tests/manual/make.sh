@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
-# The verification manual, reference_output/README.md, from the chapters beside this file and from runs of the program.
+# Writes the verification manual, reference_output/README.md, from the chapters in this folder and from runs of the program. `N
+# passed` counts rows of the tables. ../README.md tells how to write a chapter.
 #
-#    make.sh PROGRAM QUERY WORK_FOLDER PAGE      writes PAGE, where every number of the runs is within its limit
-#
-# Ends with `N passed, N failed`; of rows of the tables. How a chapter is written: ../README.md.
+#    make.sh PROGRAM QUERY WORK_FOLDER PAGE      writes PAGE if every number of the runs is within its limit
 set -u
 program=$1 query=$2 work=$3 page=$4
 mkdir -p "$work"

@@ -1,5 +1,5 @@
 # How the manual prints numbers, and what its scripts share. Theory and program have six digits (or DIGITS), which every processor
-# gives alike; a difference has two, and none below FLOOR, where rounding and the tolerances of iterations rule.
+# gives alike; a difference has two digits, and none below FLOOR, where rounding and the tolerances of iterations dominate.
 
 # what a link to a heading is
 function anchor(title) { title = tolower(title); gsub(/[^a-z0-9 _-]/, "", title); gsub(/ /, "-", title); return title }

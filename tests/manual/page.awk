@@ -1,4 +1,4 @@
-# A chapter as a shell script: its text goes into the page, its blocks "```sh run" are run where they stand.
+# Turns a chapter into a shell script: its text goes into the page, its blocks "```sh run" run in their places.
 function close_text() { if (open) print "END OF TEXT"; open = 0 }
 function text(line) { if (!open) print "cat >&3 <<'END OF TEXT'"; open = 1; print line }
 /^```sh run$/ { close_text(); code = 1; next }

@@ -1,10 +1,7 @@
 #!/usr/bin/env bash
-# README.md and input/README.md against the program: decks, examples of cards, exercises, messages, commands and numbers in them are
-# those of this program.
+# Checks README.md and input/README.md against the program: decks, examples of cards, exercises, messages, commands and numbers.
 #
 #    pages.sh PROGRAM QUERY WORK_FOLDER
-#
-# Ends with `N passed, N failed`.
 set -u
 query=$2 work=$3 cards=input/README.md
 program=$(realpath "$1")

@@ -1,5 +1,6 @@
-# The worked example without the program: 10 x 4 rectangles in plane stress, condensed on the 11 nodes of the joint, then the step-wise
-# method in N increments, or (N = 0) Newton's method for the whole load under the exact law. For chapter 11 of the manual.
+# The worked example, computed independently of the program, for chapter 11 of the manual: 10 x 4 rectangles in plane stress,
+# condensed on the 11 nodes of the joint, then the step-wise method in N increments, or (N = 0) Newton's method for the whole load
+# under the exact law.
 #    awk -v n=5 -f prism.awk          prints node, lambda, p, branch of the nodes 1, 6, ..., 51
 function gauss(k) { return k % 2 ? 1/sqrt(3) : -1/sqrt(3) }
 

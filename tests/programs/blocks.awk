@@ -1,11 +1,11 @@
-# Two blocks 60 x 20 x 30 mm, one on the other, 3000 N on a line across the top at x = 52.5: about half of the joint opens.
+# Two blocks of 60 x 20 x 30 mm, one on the other, 3000 N on a line across the top at x = 52.5: about half of the joint opens.
 #
 #    awk -v form=deck|ccx -v upper=16x4 -v lower=11x3 -v order=1|2 -f blocks.awk
 #
-# UPPER, LOWER  elements along x and y, UPPER such that a node stands at x = 52.5; `order` 1: CHEXA of 8 nodes, six layers a block,
-#               2: of 20 nodes, three layers
-# The joint follows lambda = c p**0.5 without friction; CalculiX gets the same as a table of 190 pressures, NODE TO SURFACE, upper
-# block slave. Bodies and joint are a thousand times as stiff as steel, so that what CalculiX makes of large displacements is small.
+# UPPER, LOWER: elements along x and y, UPPER such that a node stands at x = 52.5. ORDER 1: CHEXA with 8 nodes, six layers in a
+# block; 2: with 20 nodes, three layers. The joint follows lambda = c p**0.5 without friction; CalculiX gets this law as a table of
+# 190 pressures, NODE TO SURFACE, upper block slave. Bodies and joint are a thousand times as stiff as steel, so that the effect of
+# large displacements in CalculiX is small.
 
 BEGIN {
    young = 2.1e8; c = 1e-6; highest = 60

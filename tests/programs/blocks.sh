@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Two half-open blocks (blocks.awk) against CalculiX's contact with a table of pressure over overclosure: pressures of both on faces
-# that match and on faces that do not, beside those of the program on matching faces. calculix.md has the table.
+# Two half-open blocks (blocks.awk) against contact of CalculiX with a table of pressure over overclosure: pressures of both
+# programs on matching and non-matching faces, beside those of jointfem on matching faces. calculix.md has the table.
 #
 #    blocks.sh PROGRAM WORK_FOLDER
 #

@@ -1,14 +1,13 @@
 #!/usr/bin/env bash
-# Linear decks without joints against CalculiX, an independent program (ccx, Dhondt and Wittig): the displacements of all nodes and
-# the eight lowest natural frequencies, to five digits.
+# Linear decks without joints against CalculiX, an independent program (ccx, Dhondt and Wittig): displacements of all nodes and the
+# eight lowest natural frequencies, to five digits.
 #
 #    calculix.sh PROGRAM WORK_FOLDER [store]
 #
-# calculix_deck.awk writes every deck, a cantilever or a ring, calculix_convert.awk makes input of CalculiX from it, ccx solves it,
-# calculix_compare.awk compares. Where ccx is not installed (Debian: calculix-ccx) what is stored here, of CalculiX 2.20, takes its
-# place: displacements.dat, frequencies.dat; where it is, both are compared. `store` makes the stored ones anew. Which elements are
-# twins of which, and which are not: calculix.md.
-# Ends with `N passed, N failed`.
+# calculix_deck.awk writes each deck, a cantilever or a ring; calculix_convert.awk converts it into input of CalculiX; ccx solves
+# it; calculix_compare.awk compares. Where ccx is not installed (Debian: calculix-ccx), the stored results of CalculiX 2.20 are used
+# (displacements.dat, frequencies.dat); where ccx is installed, both are compared. `store` renews the stored results. calculix.md
+# lists which elements correspond.
 set -u
 export LC_ALL=C OMP_NUM_THREADS=1
 program=$1 work=$2 store=${3:-}

@@ -1,6 +1,6 @@
-# Displacements of nodes: those of CalculiX (NAME.dat of ccx, or displacements.dat, of the deck -v name=NAME), then the listing; every
-# stage, every node. A node differs where any component does by more than TOLERANCE of its displacement.
-# Prints what differs and a last line `checked N, largest difference D`.
+# Compares displacements: those of CalculiX (NAME.dat of ccx, or displacements.dat with the deck -v name=NAME), then the listing;
+# every stage, every node. A node differs where any component differs by more than TOLERANCE of its displacement. Prints the
+# differences and a last line `checked N, largest difference D`.
 function size(a, b, c) { return sqrt(a * a + b * b + c * c) }
 FNR == 1 { file++ }
 file == 1 && /displacements \(vx,vy,vz\)/ { stage++; next }

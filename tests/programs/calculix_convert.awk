@@ -1,10 +1,10 @@
-# A deck of the project, small or free field, as input of CalculiX: the cards below and no others, one step a SUBCASE.
+# Converts a deck of the project, small or free field, into input of CalculiX, one step for each SUBCASE; only these cards:
 #    GRID, CTETRA, CPENTA, CHEXA, CTRIA3, CTRIA6, CQUAD4, CQUAD8, PSOLID, PSHELL, PAXIS, MAT1, SPC1 (a list of nodes), FORCE, GRAV,
-#    PLOAD4 (even), PLOADE
-# CHEXA of a PSOLID with PLAIN or FULL become C3D8, others C3D8I, C3D20 where they have twenty nodes, and so on. On a PAXIS plane elements
-# become CAX. Others become CPE, plane strain: CalculiX expands CPS in its own way, so a plane-stress deck gets the constants with
-# which plane strain is the same, E (1+2 nu)/(1+nu)**2 and nu/(1+nu). With -v stress=CPS it gets CPS after all. With -v modes_wanted=8 the one
-# step is that of the eight lowest natural frequencies.
+#    PLOAD4 (uniform), PLOADE
+# CHEXA of a PSOLID with PLAIN or FULL becomes C3D8, otherwise C3D8I, with twenty nodes C3D20, and so on. Plane elements of PAXIS
+# become CAX, all others CPE, plane strain: CalculiX expands CPS in its own way, so a plane-stress deck gets the constants that make
+# plane strain equal, E (1+2 nu)/(1+nu)**2 and nu/(1+nu); -v stress=CPS keeps CPS. With -v modes_wanted=8 the only step finds the
+# eight lowest natural frequencies.
 function real(text) { sub(/^ */, "", text); if (text !~ /[Ee]/) { m = match(substr(text, 2), /[-+]/); if (m) text = substr(text, 1, m) "E" substr(text, m + 1) } return text == "" ? 0 : text + 0 }
 # element(KIND, ORDER): its nodes in the order of CalculiX, their places on the card in ORDER
 function element(kind, order,   k, count, place, line) {

@@ -1,11 +1,11 @@
-# The deck NAME: awk -v name=tetra -f deck.awk
+# Writes the deck NAME: awk -v name=tetra -f calculix_deck.awk
 #
-# A cantilever of skewed elements, 120 x 24 mm or 120 x 20 x 16 mm, under an end load and under its own weight; of second-order
-# elements also under pressure on its end or on one long side. Nodes stand in rows of nx + 1 along x, these in layers. Those that
-# are free to move along a line are off their places, but in `modes`, whose elements are bricks. Where elements are of second
-# order the rows have a node between any two corners, at the middle of these, or off it where the deck is `curved`.
-# Curved triangles, tetrahedra and wedges have the end load alone: for their weight and for pressure CalculiX takes fewer points.
-# `ring` is a thick ring, radii 30 and 80 mm, 40 mm high, under pressure on one end, under its own weight, and under inner pressure.
+# A cantilever of distorted elements, 120 x 24 mm or 120 x 20 x 16 mm, under an end load and under its own weight; with second-order
+# elements also under pressure on its end or on one long side. Nodes stand in rows of nx + 1 along x, rows in layers. Inner nodes
+# are moved off the regular mesh, except in `modes`, whose elements are bricks. With second-order elements a row has a node between
+# two corners, at their middle, or off it where the deck is `curved`. Curved triangles, tetrahedra and wedges have the end load
+# alone: for weight and pressure CalculiX takes fewer integration points. `ring` is a thick ring, radii 30 and 80 mm, 40 mm high,
+# under pressure on one end, under its own weight, and under inner pressure.
 
 BEGIN {
    split("tetra CTETRA 1 hexa CHEXA 1 modes CHEXA 1 tria CTRIA3 1 quad CQUAD4 1 strain CTRIA3 1 " \

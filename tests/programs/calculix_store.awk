@@ -1,5 +1,6 @@
-# Displacements as ccx prints them, as they are stored: the deck and its components, and in the line under it the displacements alone,
-# stage after stage, node after node.    awk -v name=NAME -f calculix_store.awk NAME.bdf NAME.dat
+# Stores displacements of ccx: the deck and its components, and on the next line the displacements, stage after stage, node after
+# node.
+#    awk -v name=NAME -f calculix_store.awk NAME.bdf NAME.dat
 /^CTETRA|^CPENTA|^CHEXA/ && FNR == NR { solid = 1 }
 FNR == NR { next }
 /displacements \(vx,vy,vz\)/ { stage++; next }

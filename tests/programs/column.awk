@@ -1,5 +1,5 @@
-# A mesh of column.geo, free field, as input of CalculiX: CTETRA of ten nodes, supports on surface 21, 10 kN along y spread evenly
-# over surface 22: of every straight triangle of six nodes its three mid-side nodes bear a third.
+# A mesh of column.geo in free field as input of CalculiX: CTETRA with ten nodes, supports on surface 21, 10 kN along y uniform over
+# surface 22: a straight triangle with six nodes loads each of its three mid-side nodes with a third.
 #
 #    awk -f column.awk MESH > NAME.inp
 BEGIN { FS = "," }

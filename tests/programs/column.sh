@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# A flanged column of 10-node tetrahedra, meshed by Gmsh (column.geo), which must be installed: how far its top moves under 10 kN.
-# Where ccx is installed it solves the same mesh, and the displacements of all nodes agree to five digits (2E-5 of each).
+# A flanged column of 10-node tetrahedra, meshed by Gmsh (column.geo), which must be installed: the displacement of its top under 10
+# kN. Where ccx is installed it solves the same mesh, and the displacements of all nodes agree to five digits (2E-5 of each).
 #
 #    column.sh PROGRAM WORK_FOLDER [SIZE...]
 #    column.sh --mesh WORK_FOLDER SIZE           mesh and deck alone
 #
-# SIZE  of the elements, default 48: 16,000 nodes, 1 s. A line each is printed: SIZE, nodes, movement of the top, that of CalculiX.
-# Status 1 where they differ, where the top does not move by 0.26 to 0.29, or where something fails.
+# SIZE is that of the elements, default 48: 16,000 nodes, 1 s. Prints a line for each: SIZE, nodes, displacement of the top, that of
+# CalculiX. Status 1 where they differ, where the displacement is not between 0.26 and 0.29, or where something fails.
 set -u
 export LC_ALL=C OMP_NUM_THREADS=1
 program=$1 work=$2

@@ -1,6 +1,7 @@
-# A mesh of Gmsh in small fields as Gmsh writes it in other ones: awk -v form=free (or large) -f field_format.awk SMALL.bdf
+# Converts a mesh of Gmsh from small fields into the other formats, as Gmsh writes them: awk -v form=free (or large) -f
+# field_format.awk SMALL.bdf
 #
-# Free fields have commas and no blanks; in large ones GRID alone has sixteen columns a field, numbers of all digits that they need, and
+# Free fields have commas and no blanks; in large fields only GRID has sixteen columns a field, numbers have all their digits, and
 # continuations have no names.
 BEGIN { OFS = "" }
 /^GRID/ && form == "large" {

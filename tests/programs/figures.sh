@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The pictures of any deck (make figures DECK=path) and the flow charts. Pictures are drawn where gnuplot is installed.
+# The pictures of any deck (make figures DECK=path), drawn where gnuplot is installed, and the flow charts.
 #
 #    figures.sh PROGRAM FOLDER
 set -u

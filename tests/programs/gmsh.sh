@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Meshes from Gmsh. A bar of every kind of second-order element (bar_*.bdf) in every field format (field_format.awk) has the stress
-# that it is pulled with. The joints of the examples carry the load. Where gmsh is installed meshes built anew, the bars and finer examples in every
-# field format and one of 50,000 nodes, do so too, and complete elements of second order are refused.
+# Meshes from Gmsh. A bar of every kind of second-order element (bar_*.bdf), in every field format (field_format.awk), is pulled to
+# the exact stress; the joints of the examples carry the load. Where gmsh is installed, so do new meshes of the bars and of finer
+# examples in every field format, and one of 50,000 nodes; complete second-order elements are refused.
 #
 #    gmsh.sh PROGRAM QUERY WORK_FOLDER
 set -u

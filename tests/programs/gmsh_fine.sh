@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The two blocks of input/gmsh, meshed with about 50,000 nodes, all tetrahedra: FOLDER/two_blocks_fine.bdf and its mesh. One third
-# of the unknowns is left after condensation, too much for NEWTON in a test: STEP.
+# Writes FOLDER/two_blocks_fine.bdf and its mesh: the two blocks of input/gmsh with about 50,000 nodes, all tetrahedra. The deck
+# uses STEP, because one third of the unknowns remains after condensation, too many for NEWTON in a test.
 #
 #    gmsh_fine.sh FOLDER
 set -eu

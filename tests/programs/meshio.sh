@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Meshes of other programs by the script of the card manual, where meshio is installed: a bar of CTETRA of ten and CHEXA of twenty nodes
-# as .inp, .msh and .med, its groups as bulk data, pulled: the same stress everywhere. By gmsh, where it is installed, as .unv.
+# Meshes of other programs, converted by the script of the card manual where meshio is installed: a bar of CTETRA with ten nodes and
+# CHEXA with twenty nodes as .inp, .msh and .med, its groups as bulk data, is pulled to the exact stress. Where gmsh is installed,
+# .unv too.
 #
 #    meshio.sh PROGRAM QUERY WORK_FOLDER
 #

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Decks to and from pyNastran, where it is installed: one that it writes runs unchanged, with the loads that it finds itself; decks of
-# the program without joints are read by it.
+# Decks to and from pyNastran, where it is installed: a deck written by pyNastran runs unchanged, with the sums of loads that
+# pyNastran finds; pyNastran reads the decks of this program that have no joints.
 #
 #    pynastran.sh PROGRAM WORK_FOLDER
 #
-# PYTHON names a python3 that has pyNastran. Ends with `N passed, N failed`.
+# PYTHON names a python3 that has pyNastran.
 set -u
 export LC_ALL=C
 program=$1 work=$2

@@ -1,14 +1,13 @@
 #!/usr/bin/env bash
-# The .vtu and .pvd files: sample files are written, and read back by meshio and vtk, as are those of decks with several stages, with
-# temperatures, with modes; a disk that is full leaves none.
+# The .vtu and .pvd files: meshio and vtk read back sample files, and files of decks with several stages, with temperatures and with
+# modes; a full disk leaves no file.
 #
 #    vtu.sh PROGRAM WORK_FOLDER [X.pvd[@T0:T1:...] ...]
 #
-# Compiles vtu_sample.f90 with the modules that it needs, from the root of the project (FC, default gfortran). Collections of
-# decks, and further ones, are opened and checked for sizes and finite values, and for temperatures: all nodes are at T0, T1, ... at the
-# times 0, 1, ... and between on straight lines; without @ there are none. PYTHON names a python3 that has meshio or vtk; without
-# it meshio is installed in WORK_FOLDER/venv where pip can, and the reading is skipped where not.
-# Ends with `N passed, N failed`.
+# Compiles vtu_sample.f90 with the modules that it needs, from the root of the project (FC, default gfortran). Collections of decks,
+# and those named, are opened and checked for sizes, finite values and temperatures: all nodes are at T0, T1, ... at the times 0, 1,
+# ... and on straight lines between; without @ there are none. PYTHON names a python3 that has meshio or vtk; without it meshio is
+# installed in WORK_FOLDER/venv where pip can, and otherwise reading is skipped.
 set -u
 export LC_ALL=C
 program=$1 work=$2

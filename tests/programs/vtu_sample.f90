@@ -1,9 +1,9 @@
-!> Files for vtu_read.py, which knows the formulas below.
+!> Writes files for vtu_read.py, which has the formulas below too.
 !!
 !!    vtu_sample FOLDER        sample.pvd and the files that it lists: cells of every type, points alone, nothing
-!!    vtu_sample FOLDER N      big.vtu with N points and as many cells; tells its size and time
+!!    vtu_sample FOLDER N      big.vtu with N points and N cells; prints its size and time
 !!
-!! Exit status 1 where a file could not be written.
+!! Exit status 1 if a file cannot be written.
 program vtu_sample
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8, real64
    use vtu_file, only: cell_data, point_data, vtk_vertex, vtu_file_type

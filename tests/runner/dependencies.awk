@@ -1,12 +1,12 @@
-# Which object needs which, as lines of a makefile, from the `use` lines of Fortran sources; a file is named as its module.
+# Writes the dependences of objects as lines of a makefile, from the `use` lines of Fortran sources; a file is named after its
+# module.
 #
 #    awk -f dependencies.awk -v folder=build/release -v objects='build/release/kinds.o ...' src/*/*.f90
 #
-# An object waits for the .mod files of the modules that it uses, which the compiler rewrites only when an interface changes: a change
-# inside a routine rebuilds one object. The including makefile has the rule `%.mod: %.o`. A submodule, `submodule(parent) name`, waits
-# for the object of its parent.
-#
-# FOLDER: where the objects of these sources go; OBJECTS: all that they may need. A module without an object is passed over.
+# FOLDER receives the objects of these sources; OBJECTS lists all objects that they may need; a module without an object is skipped.
+# An object depends on the .mod files of the modules that it uses. The compiler rewrites a .mod file only when an interface changes,
+# so a change inside a routine rebuilds one object. The including makefile has the rule `%.mod: %.o`. A submodule,
+# `submodule(parent) name`, depends on the object of its parent.
 
 BEGIN {
    n = split(objects, path, " ")

@@ -1,9 +1,9 @@
-!> What the unit tests need of pFUnit, for machines without it: the assertions, and the running of the tests.
+!> The part of pFUnit that the unit tests need, for machines without pFUnit: the assertions, and running the tests.
 !!
-!! `pf_to_fortran.awk` turns a directive such as `@assertEqual(a, b, tolerance=t)` into a call of this module. Operands are
-!! real64, default integer or logical of rank 0, 1 or 2, or a character scalar; both of one type and one shape. Of strings the
-!! trailing blanks do not count (for pFUnit the leading ones neither). No comparison holds for a NaN, nor raises a
-!! floating-point exception on one: the tests can run with these exceptions trapped.
+!! `pf_to_fortran.awk` turns a directive such as `@assertEqual(a, b, tolerance=t)` into a call of this module. Operands are real64,
+!! default integer or logical of rank 0, 1 or 2, or a character scalar; both of one type and one shape. Trailing blanks of strings
+!! do not count (for pFUnit leading ones neither). A comparison with a NaN fails, without a floating-point exception: the tests can
+!! run with exceptions trapped.
 module funit
    use, intrinsic :: iso_fortran_env, only: output_unit, wp => real64
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan

@@ -1,11 +1,11 @@
-# Translate a pFUnit 4 test file to Fortran for the module funit beside this script, one source line to one line, so that
-# the compiler's line numbers are those of the .pf file. After the module follows the routine <module>_suite, which runs its tests.
+# Translates a pFUnit 4 test file into Fortran for the module funit in this folder, line by line, so that the compiler's line
+# numbers are those of the .pf file. The routine <module>_suite, which runs the tests, follows the module.
 #
 #    awk -f pf_to_fortran.awk tests/unit/test_x.pf > test_x.f90
 #    awk -v mode=driver -f pf_to_fortran.awk test_x test_y > driver.f90      the main program, from the module names alone
 #
-# The dialect is what real pFUnit and funit both take. All else, and what pFUnit would take in silence for something else,
-# is refused: `file:line: reason` on standard error for each, and exit status 1. Written for any POSIX awk.
+# The dialect is what both pFUnit and funit accept. Everything else is refused with `file:line: reason` on standard error and exit
+# status 1, also what pFUnit would silently take for something else. Runs in any POSIX awk.
 
 BEGIN {
    if (mode == "driver") { write_driver(); finished = 1; exit }

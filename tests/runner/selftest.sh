@@ -1,6 +1,6 @@
 #!/bin/bash
-# Test the test runner: what must pass passes, and what must fail fails, in a small project in a temporary folder.
-# Runs the fallback, and pFUnit too where PFUNIT_DIR is set. The last line is `N passed, N failed`.
+# Tests the test runner: in a small project in a temporary folder, what must pass passes, and what must fail fails. Runs the
+# fallback, and pFUnit too where PFUNIT_DIR is set.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d) || exit 1

@@ -1,7 +1,8 @@
-# Tables of displacements, reactions and natural frequencies of two listings: awk -f compare.awk EXPECTED.out ACTUAL.out
+# Compares the tables of displacements, reactions and natural frequencies of two listings: awk -f compare.awk EXPECTED.out
+# ACTUAL.out
 #
-# A number may be off by 1E-9 of the largest of its quantity in tables of its title, and by a unit of its last digit. Words, and
-# numbers of something, must be the same. Prints what is too far off first, or how many rows there are; the exit status tells which.
+# A number may differ by 1E-9 of the largest value of its quantity in tables of its title, and by one unit of its last digit. Words
+# and counts must be equal. Prints the first difference, or how many rows there are; the exit status tells which.
 
 BEGIN { real = "^[-+]?[0-9]+[.][0-9]*([eE][-+]?[0-9]+)?$" }
 FNR == 1 { file++; in_table = 0 }

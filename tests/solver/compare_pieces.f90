@@ -1,12 +1,12 @@
-!> The bodies in pieces against the same bodies in one file: a reader of its own, of what the index and the headers say.
+!> Compares the bodies in pieces with the same bodies in one file, with a reader of its own.
 !!
 !!    compare_pieces WHOLE.vtu INDEX.pvtu SHARE
 !!
-!! Every element of WHOLE must stand in one piece, every node in one at least, in the same place and with the same neighbours in
-!! its elements. Values may be off by SHARE of the largest of their array, principal stresses by 6E-8: of two that are equal rounding
-!! leaves its square root. Where a node stands in several pieces these have the same to the last bit, and names, kinds and components
-!! of the arrays are those of the index. Says what is wrong, and ends with status 1; or how many pieces have elements, and how many
-!! nodes stand in several.
+!! Every element of WHOLE must stand in exactly one piece, every node in at least one, in the same place and with the same
+!! neighbours in its elements. Values may differ by SHARE of the largest of their array, principal stresses by 6E-8: two equal
+!! principal stresses are exact only to the root of rounding. A node in several pieces has the same values to the last bit; names,
+!! types and components of the arrays are those of the index. Prints a fault and ends with status 1, or prints how many pieces have
+!! elements, and how many nodes stand in several pieces.
 program compare_pieces
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8, real64
    implicit none

@@ -1,4 +1,4 @@
-# What the comparisons of solvers share; they set QUERY, the program query_results, before they call same_history.
+# Functions shared by the comparisons of solvers; QUERY must be set to the program query_results before same_history is called.
 
 # with_solver DECK SOLVER: the deck with SOLVER above its other case control. NEWTON stops where its tolerance is met, not at the
 # same place by both solvers: it has to go on to the last digits.

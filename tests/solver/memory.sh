@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Decks that do not fit into the memory there is, limited here by `ulimit -v`, so that the machine does not matter: refused with
-# what they need and what would fit, and wherever an allocation fails, a message, status 3 and no results.
+# Models that do not fit into the memory, limited here by `ulimit -v`: the program refuses them with the memory needed and the model
+# that would fit; where an allocation fails, it prints a message, ends with status 3 and leaves no results.
 #
 #    memory.sh PROGRAM WORK_FOLDER
 set -u

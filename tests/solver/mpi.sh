@@ -1,15 +1,14 @@
 #!/usr/bin/env bash
-# Runs on several processes, in parts; each is skipped, and nothing counted, where there is no mpirun or no program by `make mpi`.
+# Runs on several processes. A part is skipped, and nothing counted, where mpirun or the program of `make mpi` is missing.
 #
 #    mpi.sh PROGRAM PROGRAM_MPI QUERY WORK_FOLDER [PART...]      all parts, or those named
 #
-# decks       SOLVER = PETSC and MUMPS, on one process and on two, against TREE of the program without MPI, within 1E-8: some decks;
-#             all of them with ALL=yes in the environment
-# ranks       PETSC on one, two and three processes and MUMPS on one and three, histories equal to 1E-9; and to AUTO it is as if there
-#             were none: a small model gets the solver of the program without MPI, to the same bytes, and one whose factor TREE could
-#             not hold gets PETSC
+# decks       SOLVER = PETSC and MUMPS, on one process and on two, against TREE of the program without MPI, within 1E-8: some decks,
+#             or all decks with ALL=yes in the environment
+# ranks       PETSC on one, two and three processes and MUMPS on one and three: histories equal to 1E-9; AUTO takes the solver of
+#             the program without MPI for a small model, with the same bytes, and PETSC for a model whose factor does not fit into
+#             the memory
 # pieces, failures, iterations   mpi_PART.sh
-# Ends with `N passed, N failed`.
 set -u
 export LC_ALL=C
 program=$1 query=$3 top=$4

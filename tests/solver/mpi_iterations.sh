@@ -1,5 +1,5 @@
-# Steps of conjugate gradients with GAMG where it has it hard, each problem in two sizes, eight times the unknowns in the second: no
-# solution takes more than is stated here, and the larger ones hardly take more than the small ones. Steps are counted, nothing is timed.
+# Iterations of conjugate gradients with GAMG on difficult problems, each in two sizes, the second with eight times the unknowns: no
+# solution takes more iterations than stated here, and the larger problems take hardly more than the small ones.
 
 # tetrahedra KIND N: a column of 1 : 6, clamped
 tetrahedra() { awk -v kind="$1" -v n="$2" -v nz=$((6*$2)) -f tests/exact/elements.awk; }

@@ -1,5 +1,6 @@
-# The bodies in pieces, NAME.pvtu: on two and three processes each piece by the process that has it. Put together they are the bodies
-# of one process, value for value; compare_pieces.f90 reads them. Also what is not in pieces, and what becomes of those of a run before.
+# The bodies in pieces, NAME.pvtu: each of two or three processes writes its own piece. compare_pieces.f90 joins the pieces and
+# compares them with the bodies of one process, value by value. Also: results that are not written in pieces, and old pieces of an
+# earlier run.
 folders_of_decks "$work/decks"
 mkdir -p "$work"/{one,two,three,serial,again}
 compare=$work/compare_pieces

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Runs that are killed and go on from their restart files, compared byte for byte with runs that were left in peace; restart files
-# that are damaged, cut, or not those of the deck.
+# Runs that are killed and resumed from their restart files, compared byte for byte with uninterrupted runs; restart files that are
+# damaged, truncated, or of another deck.
 #
-#    run.sh PROGRAM WORK_FOLDER [SEED]
+#    restart.sh PROGRAM WORK_FOLDER [SEED]
 #
-# A run is killed by SIGKILL before the n-th of its calls that take memory or write, name or remove files (kill_at.c, where there is
-# a C compiler), n at random: that is exact, and the same for the same SEED. Where there is none, after a random time.
+# SIGKILL ends a run before its n-th call that allocates memory or writes, renames or removes a file (kill_at.c), n at random but
+# the same for the same SEED. Without a C compiler a run is killed after a random time.
 set -u
 export LC_ALL=C
 program=$(realpath "$1") work=$2 seed=${3:-20260114}

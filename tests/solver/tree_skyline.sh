@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Every deck of input/ (two large ones by TREE alone), and those beside this script, moved supports, one large enough for several threads, one large enough to be
-# ordered by a coarse graph, by SOLVER = TREE and by SOLVER = SKYLINE: the same results. By TREE with one thread and with several: the same bytes.
+# Every deck of input/ (two large ones by TREE alone), and the decks in this folder (moved supports, one large enough for several
+# threads, one large enough for an ordering by a coarse graph), by SOLVER = TREE and by SOLVER = SKYLINE: the same results. TREE
+# with one thread and with several: the same bytes.
 #
 #    tree_skyline.sh PROGRAM QUERY WORK_FOLDER
 set -u

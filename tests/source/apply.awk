@@ -1,10 +1,9 @@
-# Applies a unified diff below a folder, as `patch -p1` and `git apply` do, but strictly: the lines that a hunk takes away or shows
-# around must stand in the file once, and only once, wherever that is. Line numbers do not count. Nothing is written unless
-# all hunks of a file apply.
+# Applies a unified diff below a folder, as `patch -p1` and `git apply` do, but strictly: the lines that a hunk removes or shows as
+# context must stand exactly once in the file, at any line. A file is written only if all its hunks apply.
 #
 #    awk -v root=build/tour/src -f apply.awk EXAMPLE.patch
 #
-# What does not apply is printed; the status is 1 then.
+# Prints the hunks that do not apply; exit status 1 then.
 
 /^--- / { end_file(); next }
 /^\+\+\+ / && file == "" {

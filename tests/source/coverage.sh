@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# What gcov counted: lines of src that ran, file by file, then those that did not, each with the class that explains it.
+# Reads the counters of gcov: prints the lines of src that ran, file by file, then the lines that did not run, each with the class
+# that explains it.
 #
 #    coverage.sh FOLDER SOURCES EXPLAINED [LEAST]
 #
 # FOLDER holds the counters (*.gcno, *.gcda), SOURCES is the folder of the sources. EXPLAINED has a line `FILE | TEXT | CLASS` for
-# every line that no test can or need reach: TEXT is the line itself, or a part of it with `*` at either end. Fails where less than
-# LEAST per cent (98.5) ran, or a line that did not run is not explained.
+# every line that no test can or need run: TEXT is the line, or a part of it with `*` at either end. Fails where less than LEAST per
+# cent (98.5) ran, or where a line that did not run is not explained.
 set -u
 export LC_ALL=C
 here=$(dirname "$0")

@@ -1,4 +1,4 @@
-# The text of gcov -t (count:line:text, a source after another) as the table of table.sh.
+# Turns the text of gcov -t (count:line:text, one source after another) into the table of coverage.sh.
 BEGIN {
    while ((getline line < explained) > 0) {
       if (line ~ /^ *(#|$)/) continue

@@ -1,4 +1,4 @@
-# Which folder of src uses modules of which other one, as src/modules.md shows it.
+# Prints which folder of src uses modules of which other folder, for src/modules.md.
 #
 #    awk -v order="base element ..." -f folder_uses.awk src/*/*.f90
 

@@ -1,10 +1,9 @@
 #!/usr/bin/env bash
-# The folders of src in the order that README.md draws: a module uses modules of its own folder and of those to the left of it.
+# Checks the order of the folders of src in README.md: a module uses only modules of its own folder and of folders to the left.
 #
 #    folders.sh README SOURCE_FOLDER
 #
-# Prints every `use` against the order, and every folder that is not drawn; ends with `N passed, N failed`, N modules. The main
-# programs stand above all folders.
+# Prints every `use` against the order, and every folder missing in README; N counts modules. The main programs may use all folders.
 set -u
 readme=$1 source=$2
 order=$(sed -n 's/^ *\(base -> .*\)$/\1/p' "$readme" | head -n 1 | sed 's/ -> / /g')

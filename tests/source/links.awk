@@ -1,4 +1,4 @@
-# Links of Markdown pages that lead to no file, or to no heading of a page. Pages are paths from the folder above src.
+# Prints links of Markdown pages that lead to no file, or to no heading of a page. Pages are paths from the root of the project.
 #
 #    awk -f links.awk PAGE...
 

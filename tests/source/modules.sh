@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The list of the modules of src, src/modules.md: for each module the first sentence of its first comment; then which folder uses
-# modules of which other folder. `make modules` writes the page, tests/source/readme.sh checks that it is current.
+# Writes the list of modules, src/modules.md: for each module the first sentence of its first comment; then the folders whose
+# modules each folder uses. `make modules` writes the page, tests/source/readme.sh checks that it is current.
 #
 #    modules.sh README SOURCE_FOLDER > PAGE
 #

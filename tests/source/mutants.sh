@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Draws N single changes of src (mutate.awk), builds each and lets the tests look for it, the quick ones first; prints those that no
-# test noticed. Called by mutants.mk, which sets FC, FLAGS, LIBRARIES, AGAIN and JOBS in the environment.
+# Draws N single changes of src (mutate.awk), builds each and runs the tests, the quick ones first; prints the changes that no test
+# noticed. Called by mutants.mk, which sets FC, FLAGS, LIBRARIES, AGAIN and JOBS in the environment.
 #
 #    mutants.sh BUILD RELEASE COMPARE QUERY N SEED
 #
-# BUILD holds the checked build and the unit tests, RELEASE the objects of the program. Mutants work in BUILD/tree, a copy of all that tests read, so that none
-# touches the project itself. BUILD/results has a line per mutant: its place in the draw, what became of it, file, line, change.
+# BUILD holds the checked build and the unit tests, RELEASE the objects of the program. Mutants are built in BUILD/tree, a copy of
+# all files that the tests read; the project is not touched. BUILD/results has a line for each mutant: its place in the draw,
+# result, file, line, change.
 set -u
 export LC_ALL=C
 export OPENBLAS_NUM_THREADS=1 OMP_WAIT_POLICY=passive # threads that wait leave the cores to others

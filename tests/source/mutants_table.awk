@@ -1,5 +1,5 @@
-#!/usr/bin/awk -f
-# The results of run.sh (standard input) as tables: how many were noticed, by what, by folder, by operator; and the survivors.
+# Prints the results of mutants.sh (standard input) as tables: how many were noticed, by which tests, by folder, by kind; and the
+# survivors.
 BEGIN { FS = "\t" }
 $2 == "unbuilt" { unbuilt++; next }
 {

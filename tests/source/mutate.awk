@@ -1,11 +1,10 @@
-# Single changes of Fortran sources: one line for each that is drawn.
+# Lists single changes of Fortran sources, one line for each that is drawn.
 #
 #    awk -v n=150 -v seed=1 [-v equivalent=FILE] -f mutate.awk src/*/*.f90      n=0: all of them
 #
-# A line holds, between tabs, its place in the draw, file, number of the line, what is done, the line as it was and as it is now.
-# Only what a procedure executes is changed, so no interface of a module; text in quotes and comments never. The draw hangs on the
-# seed and on the lines themselves: a line that stays keeps its place in it, whatever is written elsewhere. Lines of `equivalent`
-# (see README.md) leave the draw.
+# A line holds, between tabs, its place in the draw, file, line number, kind of change, the old line and the new line. Only
+# executable statements of procedures are changed, so no interface of a module; never texts in quotes and comments. The draw depends
+# on the seed and on each line itself: an unchanged line keeps its place in the draw. Lines of EQUIVALENT (README.md) are not drawn.
 
 BEGIN {
    FS = "\n"

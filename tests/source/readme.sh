@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# src/README.md against src: the list of the modules, src/modules.md, is current; the snippets of the README stand word for word in the
-# patches; what the README names is there. The links of all pages, and the index of the decks.
+# Checks src/README.md against src: the list of modules, src/modules.md, is current; snippets stand word for word in the patches;
+# names exist. Also the links of all pages, and the index of the decks.
 #
 #    readme.sh README SOURCE_FOLDER
 set -u

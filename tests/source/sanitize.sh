@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# The program under the sanitizers of gcc: every address that is used is one of its own, no memory is lost, no number is undefined
-# behaviour, and no two tasks of TREE use the same number without an order between them.
+# Runs the program under the sanitizers of gcc: no access outside an array, no lost memory, no undefined behaviour, no data race
+# between tasks of TREE.
 #
-#    sanitize.sh WORK_FOLDER [PART...]      parts: address bad threads memcheck; all of them. Some minutes; not a part of `make test`
+#    sanitize.sh WORK_FOLDER [PART...]      parts: address bad threads memcheck; all without PART
 #
-# address   -fsanitize=address,undefined with its look for leaks: every deck of input, decks with errors, jointfit on test data
+# address   -fsanitize=address,undefined with leak detection: every deck of input, bad decks, jointfit on test data
 # bad       the bad decks and command lines of tests/bad with the same program
-# threads   -fsanitize=thread. libgomp is not instrumented, every task would be a race: OpenMP is threads_in_view.c here, BLAS
-#           plain_blas.f90; that the sanitizer sees what it should is shown by programs broken in each of the parallel parts
-# memcheck  valgrind, where it is installed: uninitialised numbers too, on small decks, of the program as it is built for use
+# threads   -fsanitize=thread, with threads_in_view.c for OpenMP and plain_blas.f90 for BLAS, because libgomp is not instrumented
+#           and every task would be reported as a race; programs broken in each of the parallel parts show that races are found
+# memcheck  valgrind, where installed: uninitialised numbers too, on small decks, with the release program
 #
-# What the compiler does not have or is not installed is skipped, and said. The last line is `N passed, N failed`.
+# A part whose tool is missing is skipped. Takes some minutes; not a part of `make test`.
 set -u
 work=$1
 shift

@@ -1,7 +1,5 @@
 #!/usr/bin/env bash
-# The tools of make mutants and make coverage, on a source and results that stand here: nothing is built.
-#
-# Ends with `N passed, N failed`.
+# Tests the tools of make mutants and make coverage on a source and results written here; nothing is built.
 set -u
 shopt -s lastpipe
 export LC_ALL=C

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The worked examples of src/additions.md: each patch applies to src as it stands, alone and with the others; the program with all four
-# is built, and runs their decks to their exact answers; the snippets and names in src/additions.md are those of the examples and of src.
+# The worked examples of src/additions.md: each patch applies to src as it stands, alone and with the others; the program with all
+# four is built and runs their decks to their exact answers; the page shows the lines of the patches.
 #
 #    tour.sh QUERY WORK_FOLDER
 #
