@@ -1,3 +1,4 @@
+#!/usr/bin/awk -f
 # Prints the results of mutants.sh (standard input) as tables: how many were noticed, by which tests, by folder, by kind; and the
 # survivors.
 BEGIN { FS = "\t" }
