@@ -33,7 +33,7 @@ contains
       type(facing_type), allocatable :: pairs(:)
       type(next_numbers)   :: next
       integer, allocatable :: sees(:), mark(:)
-      integer :: body(model%n_elements), i, n_new, p
+      integer :: body(model%n_elements), first, i, p
 
       call list_bodies(model, body, bodies)
       call list_outer_sides(model, body, sides)
@@ -44,12 +44,12 @@ contains
       do i = 1, size(bodies)
          call file%put('$ '//body_words(i, bodies(i)))
       end do
-      n_new = 0
+      first = next%joint
       do p = 1, size(pairs)
          call suggest_pair(pairs(p))
       end do
       if (size(pairs) == 0) call file%put('$ no sides of two bodies face each other within a tenth of the edge of a side')
-      if (n_new > 0 .and. all(deck%bulk%pjoint%id /= next%law)) call file%put( &
+      if (next%joint > first .and. all(deck%bulk%pjoint%id /= next%law)) call file%put( &
          '$ PJOINT '//integer_text(next%law)//', the laws of these joints, is not in the deck: --help PJOINT')
       if (size(deck%bulk%support) == 0) call suggest_support(deck, model, sides, sees, mark, next, file)
 
@@ -76,8 +76,8 @@ contains
          end do
          do i = 1, size(deck%bulk%joint)
             associate (joint => deck%bulk%joint(i))
-               if (all([(covers(joint%sides, own(:, k)), k = 1, 2)]) .or. &
-                   (joint%sides(2) == 0 .and. any([(covers(joint%sides, own(:, k)), k = 1, 2)]))) then
+               is_new = .not. [(covers(joint%sides, own(:, k)), k = 1, 2)]
+               if (.not. (any(is_new) .and. (joint%sides(2) /= 0 .or. all(is_new)))) then
                   call file%put('$ JOINT '//integer_text(joint%id)//' of the deck connects them there')
                   return
                end if
@@ -85,15 +85,12 @@ contains
          end do
          do k = 1, 2
             call take_mark(deck, pack(mark, own(:, k)), next, marks(k), is_new(k))
-         end do
-         do k = 1, 2
             if (is_new(k)) call file%put('PMARK,'//integer_text(marks(k)))
          end do
          reach = max(2.0_wp*pair%gap(2), 0.01_wp*minval(sides%size, mask=sides%body == pair%body(1))) ! TOL
          call file%put('JOINT,'//integer_text(next%joint)//','//integer_text(next%law)//','//integer_text(marks(1))//','// &
                        integer_text(marks(2))//','//number(reach))
          next%joint = next%joint + 1
-         n_new = n_new + 1
          do k = 1, 2
             if (is_new(k)) call put_sides(model, pack(sides, own(:, k)), marks(k), next, file)
          end do

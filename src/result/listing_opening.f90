@@ -68,26 +68,30 @@ contains
       integer :: i
 
       call heading(file, 'MODEL SUMMARY')
-      call count_line('NODES', int(n_points(model), long))
-      if (.not. all(model%used)) call count_line('   OF THESE WITHOUT AN ELEMENT, LEFT OUT', count(.not. model%used, kind=long))
-      if (model%n_filled > 0) call count_line('   OF THESE MADE AT THE MIDDLE OF EDGES', int(model%n_filled, long))
-      if (any(model%duplicate > 0)) call count_line('   OF THESE DOUBLED AT SPLIT SURFACES', count(model%duplicate > 0, kind=long))
-      call count_line('BODY ELEMENTS', int(model%n_elements, long))
-      call count_formulations(model)
-      if (n_bars(model) > n_springs(model)) call count_line('BARS, BOLTS INCLUDED', int(n_bars(model) - n_springs(model), long))
-      if (n_springs(model) > 0) call count_line('SPRINGS, ONE A DIRECTION', int(n_springs(model), long))
-      if (n_sections(model) > 0) call count_line('SOLID BOLTS', size(model%sections, kind=long))
-      call count_line('JOINTS', size(model%joints, kind=long))
-      call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
-      call count_line('SUPPORTED COMPONENTS', &
+      call count_line(file, 'NODES', int(n_points(model), long))
+      if (.not. all(model%used)) &
+         call count_line(file, '   OF THESE WITHOUT AN ELEMENT, LEFT OUT', count(.not. model%used, kind=long))
+      if (model%n_filled > 0) call count_line(file, '   OF THESE MADE AT THE MIDDLE OF EDGES', int(model%n_filled, long))
+      if (any(model%duplicate > 0)) &
+         call count_line(file, '   OF THESE DOUBLED AT SPLIT SURFACES', count(model%duplicate > 0, kind=long))
+      call count_line(file, 'BODY ELEMENTS', int(model%n_elements, long))
+      call count_formulations(file, model)
+      if (n_bars(model) > n_springs(model)) &
+         call count_line(file, 'BARS, BOLTS INCLUDED', int(n_bars(model) - n_springs(model), long))
+      if (n_springs(model) > 0) call count_line(file, 'SPRINGS, ONE A DIRECTION', int(n_springs(model), long))
+      if (n_sections(model) > 0) call count_line(file, 'SOLID BOLTS', size(model%sections, kind=long))
+      call count_line(file, 'JOINTS', size(model%joints, kind=long))
+      call count_line(file, 'INTERFACE ELEMENTS', size(model%interface, kind=long))
+      call count_line(file, 'SUPPORTED COMPONENTS', &
                       sum([(count(supported(model, i), kind=long), i = 1, n_points(model) + n_rotations(model))]))
-      if (size(deck%bulk%rigid) > 0) call count_line('RIGID ELEMENTS', size(deck%bulk%rigid, kind=long))
-      if (allocated(model%left_out)) call count_line('COMPONENTS DEPENDENT OR IDLE', count(model%left_out, kind=long))
-      call count_line('UNKNOWNS', int(system%n, long))
+      if (size(deck%bulk%rigid) > 0) call count_line(file, 'RIGID ELEMENTS', size(deck%bulk%rigid, kind=long))
+      if (allocated(model%left_out)) call count_line(file, 'COMPONENTS DEPENDENT OR IDLE', count(model%left_out, kind=long))
+      call count_line(file, 'UNKNOWNS', int(system%n, long))
       do i = 1, size(system%description%words)
-         if (system%description%words(i) /= '') call count_line(trim(system%description%words(i)), system%description%numbers(i))
+         if (system%description%words(i) /= '') &
+            call count_line(file, trim(system%description%words(i)), system%description%numbers(i))
       end do
-      call count_line('STAGES', size(deck%control%stages, kind=long))
+      call count_line(file, 'STAGES', size(deck%control%stages, kind=long))
       associate (control => deck%control, solver => system%description)
          select case (control%method)
          case (method_step)
@@ -105,46 +109,46 @@ contains
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
       call write_folded(file, upper(deck%bulk%ignored%words()))
       if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
-
-   contains
-
-      !> Count the body elements of each kind and formulation.
-      subroutine count_formulations(model)
-         type(model_type), intent(in) :: model
-         integer(long) :: n(2, size(element_table)) ! without and with incompatible modes
-         integer :: e, k, m
-
-         n = 0
-         do e = 1, model%n_elements
-            k = model%element_kind(e)
-            associate (property => model%properties(model%element_property(e)))
-               m = merge(2, 1, property%incompatible .and. has_modes(k, property%state))
-            end associate
-            n(m, k) = n(m, k) + 1
-         end do
-         do k = 1, size(element_table)
-            associate (kind => element_table(k))
-               if (n(1, k) > 0) call count_line('   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)//' NODES, '// &
-                                                trim(merge('PLAIN       ', 'SECOND ORDER', kind%linear == k)), n(1, k))
-               if (n(2, k) > 0) call count_line('   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)// &
-                                                ' NODES, INCOMPATIBLE MODES', n(2, k))
-            end associate
-         end do
-      end subroutine count_formulations
-
-      subroutine count_line(words, number)
-         character(*), intent(in)  :: words
-         integer(long), intent(in) :: number
-         character(80) :: line
-         character(20) :: digits
-
-         write (digits, '(i20)') number
-         line = '  '//words
-         line(58 - len_trim(adjustl(digits)):57) = adjustl(digits)
-         call file%put(line)
-      end subroutine count_line
-
    end subroutine write_summary
+
+   !> Count the body elements of each kind and formulation.
+   subroutine count_formulations(file, model)
+      type(output_file_type), intent(inout) :: file
+      type(model_type), intent(in)          :: model
+      integer(long) :: n(2, size(element_table)) ! without and with incompatible modes
+      integer :: e, k, m
+
+      n = 0
+      do e = 1, model%n_elements
+         k = model%element_kind(e)
+         associate (property => model%properties(model%element_property(e)))
+            m = merge(2, 1, property%incompatible .and. has_modes(k, property%state))
+         end associate
+         n(m, k) = n(m, k) + 1
+      end do
+      do k = 1, size(element_table)
+         associate (kind => element_table(k))
+            if (n(1, k) > 0) call count_line(file, '   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)//' NODES, '// &
+                                             trim(merge('PLAIN       ', 'SECOND ORDER', kind%linear == k)), n(1, k))
+            if (n(2, k) > 0) call count_line(file, '   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)// &
+                                             ' NODES, INCOMPATIBLE MODES', n(2, k))
+         end associate
+      end do
+   end subroutine count_formulations
+
+   !> The number of a kind of parts of the model.
+   subroutine count_line(file, words, number)
+      type(output_file_type), intent(inout) :: file
+      character(*), intent(in)              :: words
+      integer(long), intent(in)             :: number
+      character(80) :: line
+      character(20) :: digits
+
+      write (digits, '(i20)') number
+      line = '  '//words
+      line(58 - len_trim(adjustl(digits)):57) = adjustl(digits)
+      call file%put(line)
+   end subroutine count_line
 
    !> The bodies, if several, with their numbers in the answers and in the energies of modes.
    subroutine write_bodies(page, model)

@@ -2,6 +2,7 @@
 !! card, the SPC cards of a set, every surface of SPCM, PS on GRID, every joint to a rigid base, and the springs to ground.
 module support_reactions
    use analysis_state, only: analysis_type, element_force
+   use bolt_answers, only: remainder
    use bolt_locking, only: bar_tension
    use interface_operator, only: at_first_end, named_node
    use kinds, only: wp
@@ -13,8 +14,6 @@ module support_reactions
    private
 
    public :: find_reactions
-
-   real(wp), parameter :: remainder = 1.0e-7_wp ! of the largest force: smaller sums are rounding
 
    !> A resultant.
    type, public :: reaction_type
@@ -44,7 +43,7 @@ contains
       real(wp), intent(in)              :: largest_force !! ever applied at a node, for the noise
       type(reactions_type), intent(out) :: answer
       real(wp) :: x(3)
-      integer  :: base_of(size(model%joints)), d, i, j, n, node
+      integer  :: base_of(size(model%joints)), i, j, n, node
 
       n = size(model%support_groups)
       allocate (answer%parts(n + size(model%joints) + 1))
@@ -52,7 +51,6 @@ contains
       answer%parts(:n)%id = model%support_groups%id
       answer%parts(:n)%line = model%support_groups%line
       call add_supports(model, analysis, answer%parts)
-      d = model%dimension
       base_of = 0
       do i = 1, size(model%interface)
          associate (element => model%interface(i))
@@ -76,21 +74,15 @@ contains
                if (node_kind(model, bar%nodes(1)) == a_rotation) then
                   answer%parts(n)%nodes = answer%parts(n)%nodes + 1
                   answer%parts(n)%centre = answer%parts(n)%centre + model%x(:, bar%nodes(1))
-                  call add_moment(model, place_in_kind(model, bar%nodes(1)), bar_tension(model, analysis, i)* &
-                                  bar%direction(:model%dimension, 1), answer%parts(n))
-               else
-                  call act(answer%parts(n), model%x(:, bar%nodes(1)), bar_tension(model, analysis, i)*bar%direction(:, 1))
                end if
+               call act_on(model, bar%nodes(1), bar_tension(model, analysis, i)*bar%direction(:model%dimension, 1), answer%parts(n))
             end associate
          end do
       end if
       answer%parts = pack(answer%parts(:n), answer%parts(:n)%nodes > 0)
       answer%loads%kind = 'LOADS'
-      do node = 1, n_points(model)
-         if (any(abs(analysis%now%load(:, node)) > 0.0_wp)) call act(answer%loads, model%x(:, node), analysis%now%load(:, node))
-      end do
-      do j = 1, n_rotations(model)
-         call add_moment(model, j, analysis%now%load(:, model%rotations(j)%node), answer%loads)
+      do node = 1, n_points(model) + n_rotations(model)
+         if (any(abs(analysis%now%load(:, node)) > 0.0_wp)) call act_on(model, node, analysis%now%load(:, node), answer%loads)
       end do
       answer%total%kind = 'ALL'
       do j = 1, size(answer%parts)
@@ -113,59 +105,43 @@ contains
       type(analysis_type), intent(in)    :: analysis
       type(reaction_type), intent(inout) :: parts(:)
       real(wp), allocatable :: felt(:, :)
-      integer, allocatable  :: rotation_at(:)
       real(wp) :: force(model%dimension)
       integer  :: d, g, k, node
 
       allocate (felt, source=forces_on_unknowns(model, analysis%all_unbalanced))
-      allocate (rotation_at(model%n_nodes), source=0)
-      do k = 1, n_rotations(model)
-         rotation_at(model%rotations(k)%node) = k
-      end do
       do node = 1, size(model%support_of, 2)
-         associate (groups => model%support_of(:, node))
+         associate (groups => model%support_of(:, node), coupling => model%coupling)
             do d = 1, model%dimension
                g = groups(d)
                if (g == 0 .or. any(groups(:d - 1) == g) .or. .not. model%used(node)) cycle
                force = -merge(felt(:, node), 0.0_wp, groups == g)
-               if (allocated(model%coupling%of_node)) force = along_axes(model, node, force)
-               if (rotation_at(node) > 0) then
-                  call add_moment(model, rotation_at(node), force, parts(g))
-               else
-                  call act(parts(g), model%x(:, node), force)
+               if (allocated(coupling%of_node)) then ! along global axes
+                  do k = coupling%first(coupling%of_node(node)), coupling%first(coupling%of_node(node) + 1) - 1
+                     if (coupling%node(k) == node) force = matmul(coupling%t(:, :, k), force)
+                  end do
                end if
+               call act_on(model, node, force, parts(g))
             end do
          end associate
       end do
    end subroutine add_supports
 
-   !> Transform FORCE on the unknowns of NODE to global axes.
-   pure function along_axes(model, node, force) result(turned)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      real(wp), intent(in)         :: force(:)
-      real(wp) :: turned(size(force))
-      integer  :: k
-
-      turned = force
-      associate (coupling => model%coupling, c => model%coupling%of_node(node))
-         if (c == 0) return
-         do k = coupling%first(c), coupling%first(c + 1) - 1
-            if (coupling%node(k) == node) turned = matmul(coupling%t(:, :, k), force)
-         end do
-      end associate
-   end function along_axes
-
-   !> Add FORCE on the node of rotation K as a moment.
-   pure subroutine add_moment(model, k, force, part)
+   !> Add FORCE on NODE; on the node of a rotation it is a moment.
+   pure subroutine act_on(model, node, force, part)
       type(model_type), intent(in)       :: model
-      integer, intent(in)                :: k
+      integer, intent(in)                :: node
       real(wp), intent(in)               :: force(:) !! (dimension)
       type(reaction_type), intent(inout) :: part
 
-      if (model%dimension == 3) part%moment = part%moment + force*model%rotations(k)%arm
-      if (model%dimension == 2) part%moment(3) = part%moment(3) + force(1)*model%rotations(k)%arm
-   end subroutine add_moment
+      if (node_kind(model, node) /= a_rotation) then
+         call act(part, model%x(:, node), force)
+         return
+      end if
+      associate (arm => model%rotations(place_in_kind(model, node))%arm)
+         if (model%dimension == 3) part%moment = part%moment + force*arm
+         if (model%dimension == 2) part%moment(3) = part%moment(3) + force(1)*arm
+      end associate
+   end subroutine act_on
 
    !> Add FORCE at X.
    pure subroutine act(part, x, force)

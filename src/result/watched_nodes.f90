@@ -129,8 +129,8 @@ contains
       n_bodies = size(parts)
       n_joints = size(model%joints)
       parts = [parts, [(yielding_type('JOINT', model%joints(i)%id), i = 1, n_joints)], &
-               [(yielding_type(words_of_bar(model, i), merge(model%bars(i)%bolt, model%bars(i)%id, &
-                                                             model%bars(i)%bolt > 0)), i = 1, n_bars(model))]]
+               [(yielding_type(merge('BOLT  ', merge('SPRING', 'BAR   ', model%bars(i)%kind == a_spring), model%bars(i)%bolt > 0), &
+                               merge(model%bars(i)%bolt, model%bars(i)%id, model%bars(i)%bolt > 0)), i = 1, n_bars(model))]]
       do i = 1, size(model%interface)
          work = local_force(model, analysis, i)
          work = 0.5_wp*(work - before%force(:, i))*(analysis%movement(:, i) - before%movement(:, i))
@@ -205,17 +205,6 @@ contains
          force = [state%shear%tau*model%interface(i)%area, state%normal%sumf]
       end associate
    end function local_force
-
-   !> The name of bar I: a bolt by its BOLT card, springs and other bars by their elements.
-   pure function words_of_bar(model, i) result(words)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: i
-      character(6) :: words
-
-      words = 'BAR'
-      if (model%bars(i)%kind == a_spring) words = 'SPRING'
-      if (model%bars(i)%bolt > 0) words = 'BOLT'
-   end function words_of_bar
 
    !> Before the first stage all is at rest.
    pure subroutine start_watched(model, before)
