@@ -1,6 +1,6 @@
-!> Tables of the bodies: displacements, rotations, stresses, reactions, balance of the external forces, condensed stiffness. Where OUTPUT
-!! limits a stage to some nodes, the tables have the rows of these nodes and of the elements with any of them. Nodal vectors are
-!! given along the axes of the model, or with OUTPUT = CD along those of the displacement system of each node, whose number
+!> Tables of the bodies: displacements, rotations, stresses, reactions, balance of the external forces, condensed stiffness. Where
+!! OUTPUT limits a stage to some nodes, the tables have the rows of these nodes and of the elements with any of them. Nodal vectors
+!! are given along the axes of the model, or with OUTPUT = CD along those of the displacement system of each node, whose number
 !! follows the row.
 module body_tables
    use analysis_state, only: analysis_type, element_force

@@ -306,7 +306,7 @@ contains
       end do
       allocate (clamping, shear, mold=force)
       call find_clamping(model, analysis, history%bolts, clamping, shear)
-      call take_note(model, analysis, force, clamping, history)
+      call record_increment(model, analysis, force, clamping, history)
       do i = 1, size(answers)
          associate (answer => answers(i), bolt => history%bolts(i))
             answer%change = above(force(i) - history%before(i), floor)
@@ -395,7 +395,7 @@ contains
    end subroutine find_clamping
 
    !> Record the completed increment in HISTORY; a second call for the same increment changes nothing.
-   subroutine take_note(model, analysis, force, clamping, history)
+   subroutine record_increment(model, analysis, force, clamping, history)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
       real(wp), intent(in)              :: force(:), clamping(:) !! (bolts) now [force]
@@ -419,7 +419,7 @@ contains
          if (whole_load(model, stage - 1, stage, analysis%fraction) <= tie*history%load) return ! thermal load only, or tightened
          where (abs(force - history%assembled) > abs(history%change)) history%change = force - history%assembled
       end associate
-   end subroutine take_note
+   end subroutine record_increment
 
    !> Record a stage that ends with ANSWERS.
    pure subroutine keep_bolts(answers, history)

@@ -75,13 +75,10 @@ contains
             own(:, k) = sides%body == pair%body(k) .and. sees == pair%body(3 - k)
          end do
          do i = 1, size(deck%bulk%joint)
-            associate (joint => deck%bulk%joint(i))
-               is_new = .not. [(covers(joint%sides, own(:, k)), k = 1, 2)]
-               if (.not. (any(is_new) .and. (joint%sides(2) /= 0 .or. all(is_new)))) then
-                  call file%put('$ JOINT '//integer_text(joint%id)//' of the deck connects them there')
-                  return
-               end if
-            end associate
+            is_new = .not. [(covers(deck%bulk%joint(i)%sides, own(:, k)), k = 1, 2)]
+            if (any(is_new) .and. (deck%bulk%joint(i)%sides(2) /= 0 .or. all(is_new))) cycle
+            call file%put('$ JOINT '//integer_text(deck%bulk%joint(i)%id)//' of the deck connects them there')
+            return
          end do
          do k = 1, 2
             call take_mark(deck, pack(mark, own(:, k)), next, marks(k), is_new(k))

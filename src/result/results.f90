@@ -79,7 +79,7 @@ contains
       class(equation_system), intent(in) :: system
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
-      class(subdomain_output_type), allocatable :: dealt
+      class(subdomain_output_type), allocatable :: subdomains
 
       call all_complete()
       results%base = base
@@ -93,8 +93,8 @@ contains
          if (base /= '') call page%file%start(base//listing_ending)
          if (control%length_unit /= '') call set_labels(trim(control%length_unit), trim(control%force_unit), page%labels)
          call write_opening(page, deck, model, plan, system)
-         if (base /= '' .and. any(plan%stages%output%vtu)) call distribute_bodies(model, system, dealt)
-         call start_vtu(results%vtu, base, page%labels, plan, dealt)
+         if (base /= '' .and. any(plan%stages%output%vtu)) call distribute_bodies(model, system, subdomains)
+         call start_vtu(results%vtu, base, page%labels, plan, subdomains)
          ok = .not. page%file%failed()
          call page%screen%start('')
       end associate

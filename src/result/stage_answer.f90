@@ -20,7 +20,7 @@ module stage_answer
    implicit none
    private
 
-   public :: find_answer, find_resultant, rigid_movement, stiffness_about, stands_apart, fault_of_answer
+   public :: find_answer, find_resultant, rigid_movement, stiffness_about, face_distance, fault_of_answer
 
    !> The largest value of a kind, and its place.
    type, public :: peak_type
@@ -135,12 +135,12 @@ contains
    end function largest
 
    !> Distance of the faces at an interface element in this STATE from contact [length].
-   elemental real(wp) function stands_apart(state) result(gap)
+   elemental real(wp) function face_distance(state) result(gap)
       type(normal_state), intent(in) :: state
 
       gap = 0.0_wp
       if (state%branch == branch_open) gap = max(0.0_wp, state%lambda_b - state%lambda)
-   end function stands_apart
+   end function face_distance
 
    !> Contact, resultant, safety against slip and stiffness of JOINT.
    pure subroutine describe_joint(model, analysis, joint, k, floor, answer)
@@ -157,11 +157,11 @@ contains
          answer%contact = above(1.0_wp - sum(elements%area, mask=states%normal%branch == branch_open)/joint%area, noise)
          answer%slipping = count(states%slips)
          answer%pressure = above(maxval(states%normal%pressure), noise*analysis%largest_p)
-         answer%gap = above(maxval(stands_apart(states%normal)), noise*analysis%largest_lambda)
+         answer%gap = above(maxval(face_distance(states%normal)), noise*analysis%largest_lambda)
          if (answer%pressure > 0.0_wp) answer%pressed_at = &
             joint%first - 1 + first_largest(states%normal%pressure, states%normal%pressure > 0.0_wp)
          if (answer%gap > 0.0_wp) answer%open_at = &
-            joint%first - 1 + first_largest(stands_apart(states%normal), states%normal%branch == branch_open)
+            joint%first - 1 + first_largest(face_distance(states%normal), states%normal%branch == branch_open)
       end associate
       total = find_resultant(model, analysis, joint)
       associate (frame => joint%frame)

@@ -90,13 +90,13 @@ contains
          answer%total%centre = answer%total%centre + answer%parts(j)%centre
          answer%total%force = answer%total%force + answer%parts(j)%force
          answer%total%moment = answer%total%moment + answer%parts(j)%moment
-         call settle(model, largest_force, answer%parts(j))
+         call complete_part(model, largest_force, answer%parts(j))
       end do
       answer%left = answer%total%force + answer%loads%force
       if (model%axisymmetric) answer%left(1) = 0.0_wp
       answer%left = above(answer%left, remainder*largest_force)
-      call settle(model, largest_force, answer%total)
-      call settle(model, largest_force, answer%loads)
+      call complete_part(model, largest_force, answer%total)
+      call complete_part(model, largest_force, answer%loads)
    end subroutine find_reactions
 
    !> Add the reactions of supported components to the PARTS of their groups.
@@ -158,7 +158,7 @@ contains
    end subroutine act
 
    !> Complete PART: mean position and moment about it. Rounding becomes zero, and on a ring all self-equilibrated components.
-   pure subroutine settle(model, largest_force, part)
+   pure subroutine complete_part(model, largest_force, part)
       type(model_type), intent(in)       :: model
       real(wp), intent(in)               :: largest_force
       type(reaction_type), intent(inout) :: part
@@ -176,6 +176,6 @@ contains
       floor = floor*maxval(abs(model%x(:, :n_points(model))))
       part%moment = above(part%moment, floor)
       part%about_centre = above(part%about_centre, floor)
-   end subroutine settle
+   end subroutine complete_part
 
 end module support_reactions

@@ -2,7 +2,8 @@
 !! the edit descriptor of its values, a unit, and a name in the CSV file. The lines of headings and units, the titles of the CSV
 !! file and every row of both follow from it:
 !!
-!!    call table%start('REACTIONS', [csv('stage'), column('NODE', 'i11', name='node'), column('R'//axes, 'es13.5', labels%force)], file)
+!!    call table%start('REACTIONS', [csv('stage'), column('NODE', 'i11', name='node'), &
+!!                                   column('R'//axes, 'es13.5', labels%force)], file)
 !!    call table%add([stage, node], reaction)
 !!    call table%print_row(file, csv_file)
 !!

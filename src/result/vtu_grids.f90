@@ -13,7 +13,7 @@ module vtu_grids
    use table_writer, only: label_type
    use mode_values, only: modes_type
    use model_data, only: corners_of, is_shell, joint_type, model_type, n_points, surface_type, temperature_type
-   use stage_answer, only: stands_apart
+   use stage_answer, only: face_distance
    use structural_results, only: face_stresses, node_peaks
    use surface_sides, only: nodes_of
    use temperatures, only: node_temperatures
@@ -370,7 +370,7 @@ contains
       associate (state => analysis%states(i), element => model%interface(i))
          values(1:2) = [state%normal%lambda, state%normal%pressure]
          values(3:5) = matmul(element%axes(:, :2), state%shear%tau)
-         values(6) = stands_apart(state%normal)
+         values(6) = face_distance(state%normal)
          values(7) = merge(1.0_wp, 0.0_wp, state%slips)
          values(8) = element%area
       end associate

@@ -43,19 +43,19 @@ module vtu_results
       integer :: n = 0
       logical :: many = .false.                   ! more than one stage, or every increment of one
       logical :: is_listed = .false.              ! the list has its name
-      class(subdomain_output_type), allocatable :: dealt ! allocated where the bodies are written in pieces
+      class(subdomain_output_type), allocatable :: subdomains ! allocated where the bodies are written in pieces
    end type vtu_results_type
 
 contains
 
    !> NAME: beginning of the names of the files, folder included; empty: no files. DEALT, if present, writes the bodies; it is
    !! moved into RESULTS.
-   subroutine start_vtu(results, name, labels, plan, dealt)
+   subroutine start_vtu(results, name, labels, plan, subdomains)
       type(vtu_results_type), intent(inout) :: results
       character(*), intent(in)              :: name
       type(label_type), intent(in)          :: labels
       type(stage_plan_type), intent(in)     :: plan
-      class(subdomain_output_type), allocatable, intent(inout), optional :: dealt
+      class(subdomain_output_type), allocatable, intent(inout), optional :: subdomains
       integer :: most, s
 
       results%name = name
@@ -63,8 +63,8 @@ contains
       results%n = 0
       results%is_listed = .false.
       results%many = size(plan%stages) > 1 .or. any(plan%stages%output%steps)
-      if (allocated(results%dealt)) deallocate (results%dealt)
-      if (present(dealt)) call move_alloc(dealt, results%dealt)
+      if (allocated(results%subdomains)) deallocate (results%subdomains)
+      if (present(subdomains)) call move_alloc(subdomains, results%subdomains)
       most = 0
       do s = 1, size(plan%stages)
          most = most + merge(size(plan%stages(s)%fractions), 1, plan%stages(s)%output%steps)
@@ -88,8 +88,8 @@ contains
          words = ''
          if (stage%output%steps) words = '.'//integer_text(analysis%increment)
          time = real(stage%id - 1, wp) + analysis%fraction
-         if (model%n_elements > 0 .and. allocated(results%dealt)) then
-            call begin_part(results, stage%id, words//'.pvtu', time, of_bodies, results%dealt%n)
+         if (model%n_elements > 0 .and. allocated(results%subdomains)) then
+            call begin_part(results, stage%id, words//'.pvtu', time, of_bodies, results%subdomains%n)
             call write_pieces(results, results%parts(results%n), analysis)
          else if (model%n_elements > 0) then
             call begin_part(results, stage%id, words//'.vtu', time, of_bodies, 0)
@@ -179,7 +179,7 @@ contains
             do k = 1, size(names)
                names(k) = part%files(k)%part
             end do
-            call results%dealt%write(analysis%all_u, analysis%now%temperature, notes_for_pieces(results%labels), names, ok)
+            call results%subdomains%write(analysis%all_u, analysis%now%temperature, notes_for_pieces(results%labels), names, ok)
          end block
       end if
       if (ok) return

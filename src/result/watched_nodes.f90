@@ -44,16 +44,16 @@ module watched_nodes
    end type watched_node
 
    !> A component and its shares of the work.
-   type :: yielding_type
+   type :: compliance_share
       character(6) :: kind = ''
       integer      :: id = 0
       integer      :: first = 0, last = 0       ! of a body: lowest and highest number of its elements
       real(wp)     :: share(2) = 0.0_wp         ! normal, with all of bodies and bars, and shear [-]
-   end type yielding_type
+   end type compliance_share
 
    type, public :: watch_answer
       type(watched_node), allocatable  :: nodes(:)
-      type(yielding_type), allocatable :: parts(:) !! none where the stage does no work
+      type(compliance_share), allocatable :: parts(:) !! none where the stage does no work
       real(wp) :: work = 0.0_wp                 !! 1/2 sum of Delta q . Delta d [force x length]
    end type watch_answer
 
@@ -121,16 +121,19 @@ contains
       real(wp), intent(in)               :: change(:, :) !! (dimension, n_nodes) [length]
       type(watch_state), intent(in)      :: before
       type(watch_answer), intent(inout)  :: answer
-      type(yielding_type), allocatable   :: parts(:)
+      type(compliance_share), allocatable   :: parts(:)
       real(wp) :: work(3), tension, all_amounts
       integer  :: i, n_bodies, n_joints
 
       call share_of_bodies(model, analysis, change, parts)
       n_bodies = size(parts)
       n_joints = size(model%joints)
-      parts = [parts, [(yielding_type('JOINT', model%joints(i)%id), i = 1, n_joints)], &
-               [(yielding_type(merge('BOLT  ', merge('SPRING', 'BAR   ', model%bars(i)%kind == a_spring), model%bars(i)%bolt > 0), &
-                               merge(model%bars(i)%bolt, model%bars(i)%id, model%bars(i)%bolt > 0)), i = 1, n_bars(model))]]
+      parts = [parts, [(compliance_share('JOINT', model%joints(i)%id), i = 1, n_joints)], &
+               [(compliance_share(merge('SPRING', 'BAR   ', model%bars(i)%kind == a_spring), model%bars(i)%id), &
+                 i = 1, n_bars(model))]]
+      do i = 1, n_bars(model)
+         if (model%bars(i)%bolt > 0) parts(n_bodies + n_joints + i) = compliance_share('BOLT', model%bars(i)%bolt)
+      end do
       do i = 1, size(model%interface)
          work = local_force(model, analysis, i)
          work = 0.5_wp*(work - before%force(:, i))*(analysis%movement(:, i) - before%movement(:, i))
@@ -157,7 +160,7 @@ contains
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
       real(wp), intent(in)               :: change(:, :)
-      type(yielding_type), allocatable, intent(out) :: parts(:)
+      type(compliance_share), allocatable, intent(out) :: parts(:)
       real(wp), allocatable :: f(:, :), thermal(:, :)
       integer, allocatable  :: of_node(:)
       integer :: body(model%n_elements), e, n, node

@@ -59,8 +59,7 @@ contains
       command%folder = ''
       command%watched = ''
       command%summary = ''
-      allocate (settings(0))
-      allocate (command%decks(0))
+      allocate (settings(0), command%decks(0))
       finished = .true.
       status = 1
       n = command_argument_count()

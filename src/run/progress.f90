@@ -56,7 +56,7 @@ module progress
       type(results_type) :: results
       type(progress_type) :: progress
       integer :: ending = goes_on
-      logical :: keeps = .false.               !! the run ended early, but its last equilibrium is a result
+      logical :: keeps_results = .false.               !! the run ended early, but its last equilibrium is a result
       integer(long) :: deck_sum = 0            !! checksum of the deck
       type(restart_stream_type) :: restart     !! the restart file to continue from, while it is read
       logical :: resumes = .false.             !! there is such a file

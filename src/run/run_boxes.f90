@@ -26,7 +26,7 @@ module run_boxes
    use mode_values, only: evaluate_modes, modes_type
    use model_build, only: build_model
    use model_data, only: model_type
-   use natural_modes, only: find_natural_modes, let_go, oscillating_type, spectrum_type, start_oscillation
+   use natural_modes, only: find_natural_modes, release_supports, oscillating_type, spectrum_type, start_oscillation
    use newton_method, only: seat_joints
    use progress, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, phase_recover, &
                        phase_write, goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, &
@@ -65,7 +65,7 @@ contains
             call run%progress%enter(phase_modes)
             if (stage%vibration%free) then
                allocate (loose, source=model)
-               call let_go(loose)
+               call release_supports(loose)
                call oscillate(run, deck, loose, plan, stage%vibration, system, analysis)
             else
                call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
@@ -288,14 +288,14 @@ contains
       type(failure_type) :: overflow
 
       call list_increment(run, model, plan, system, analysis)
-      if (is_over(run) .and. .not. run%keeps) return
+      if (is_over(run) .and. .not. run%keeps_results) return
       if (analysis%increment == 0) return
-      if (analysis%increment < size(plan%stages(analysis%stage)%fractions) .and. .not. run%keeps) return
+      if (analysis%increment < size(plan%stages(analysis%stage)%fractions) .and. .not. run%keeps_results) return
       call run%progress%enter(phase_write)
       call print_stage(model, plan, analysis, run%results, overflow)
       if (overflow%raised) then
          run%failure = overflow
-         run%keeps = .false.
+         run%keeps_results = .false.
       end if
       call run%progress%enter(phase_increments)
    end subroutine print_increment
@@ -310,9 +310,9 @@ contains
       type(failure_type)    :: overflow
       real(wp), allocatable :: u(:, :), unbalanced(:, :)
 
-      run%keeps = run%failure%raised .and. run%ending == goes_on .and. analysis%record%ends_early
-      if (is_over(run) .and. .not. run%keeps) return
-      if (run%keeps .and. .not. analysis%record%is_partial) then ! all is printed but the tables of the end
+      run%keeps_results = run%failure%raised .and. run%ending == goes_on .and. analysis%record%ends_early
+      if (is_over(run) .and. .not. run%keeps_results) return
+      if (run%keeps_results .and. .not. analysis%record%is_partial) then ! all is printed but the tables of the end
          call recover_bodies(model, system, analysis)
          return
       end if
@@ -323,7 +323,7 @@ contains
          call condense_on_joints(model, system, analysis%before%condensed_load, analysis%after%condensed_load, &
                                  analysis%record%condensed)
       call run%progress%enter(phase_recover)
-      if (run%keeps .or. analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) then
+      if (run%keeps_results .or. analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) then
          call recover_bodies(model, system, analysis)
       else if (analysis%increment == size(plan%stages(analysis%stage)%fractions)) then
          u = analysis%u                   ! a copy for the answer of the stage: the analysis continues from the original
@@ -336,7 +336,7 @@ contains
       call check_precision(model, plan, system, analysis, overflow)
       if (overflow%raised) then
          run%failure = overflow
-         run%keeps = .false.
+         run%keeps_results = .false.
          return
       end if
       call run%progress%enter(phase_write)

@@ -59,7 +59,7 @@ contains
       type(stage_plan_type), intent(in) :: plan
       logical :: ok, shown
 
-      if (run%keeps .or. .not. is_over(run)) then
+      if (run%keeps_results .or. .not. is_over(run)) then
          call run%progress%enter(phase_write)
          call finish_results(plan, run%failure, run%results, ok)
          call run%progress%finish()
@@ -146,8 +146,8 @@ contains
             if (.not. ok) call miss_output(name)
          case (is_unsolved)
             call say_line(name//': '//run%failure%message// &
-                          trim(merge('; the results end there', '; no results           ', run%keeps)))
-            if (.not. run%keeps) call discard_results(run%results)
+                          trim(merge('; the results end there', '; no results           ', run%keeps_results)))
+            if (.not. run%keeps_results) call discard_results(run%results)
          case (is_unwritten)
             if (base == '') then
                call say_line(name//': the listing cannot be written to the standard output')

@@ -7,7 +7,7 @@ module backbone
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system, failure_type
    use kinds, only: wp
-   use modal_loops, only: loop_type, push_type, run_loops, start_push
+   use modal_loops, only: loop_type, modal_load_type, run_loops, start_modal_load
    use mode_values, only: modes_type
    use model_data, only: model_type, n_points
    use stage_plan, only: backbone_plan, loss_at, stage_plan_type
@@ -63,7 +63,7 @@ contains
       procedure(keep_loops)              :: keep
       type(backbone_type), intent(out)   :: found
       type(failure_type), intent(inout)  :: failure
-      type(push_type) :: push
+      type(modal_load_type) :: modal
       type(loop_type) :: loop
       real(wp) :: loss
       integer :: i, k
@@ -73,14 +73,14 @@ contains
          if (index(system%description%name, 'PETSC') == 1) found%problem = 'IT NEEDS SOLVER = TREE OR SKYLINE'
          if (found%problem /= '') return
          associate (mode => modes%modes(wanted%mode - modes%n_before))
-            call start_push(model, plan, analysis, system, mode%u/sqrt(mode%mass), push, failure)
+            call start_modal_load(model, plan, analysis, system, mode%u/sqrt(mode%mass), modal, failure)
          end associate
          if (failure%raised) return
          if (allocated(analysis%kept)) &
             found%loops = [(taken_up(size(model%joints), analysis%kept(:, i)), i = 1, size(analysis%kept, 2))]
          do i = size(found%loops) + 1, size(wanted%amplitudes)
             call show_line('backbone, amplitude '//integer_text(i)//' of '//integer_text(size(wanted%amplitudes)), at_once=i == 1)
-            call reach_amplitude(model, wanted, wanted%amplitudes(i), push, found, loop)
+            call reach_amplitude(model, wanted, wanted%amplitudes(i), modal, found, loop)
             if (loop%n_loops > 0) found%loops = [found%loops, loop]
             if (found%problem /= '') exit
             analysis%kept = reshape([(numbers_of(found%loops(k)), k = 1, i)], [size(numbers_of(loop)), i])
@@ -91,7 +91,7 @@ contains
          if (.not. allocated(vibration%response)) return
          loss = mode%material_loss
          if (allocated(vibration%response%damping)) loss = loss + loss_at(vibration%response%damping, mode%frequency)
-         call find_answers(abs(sum(push%phi*vibration%response%force(:model%dimension, :))), loss, found)
+         call find_answers(abs(sum(modal%phi*vibration%response%force(:model%dimension, :))), loss, found)
       end associate
    end subroutine find_backbone
 
@@ -143,11 +143,11 @@ contains
    !> The LOOP of this AMPLITUDE, by secants over the load, bracketed by loads found too small and too large. A load that the
    !! structure does not carry is too large. Where no load remains below it, the last loop is that of the largest load carried,
    !! if it adds one.
-   subroutine reach_amplitude(model, wanted, amplitude, push, found, loop)
+   subroutine reach_amplitude(model, wanted, amplitude, modal, found, loop)
       type(model_type), intent(in)       :: model
       type(backbone_plan), intent(in)    :: wanted
       real(wp), intent(in)               :: amplitude
-      type(push_type), intent(inout)     :: push
+      type(modal_load_type), intent(inout)     :: modal
       type(backbone_type), intent(inout) :: found
       type(loop_type), intent(out)       :: loop
       type(trial_type)   :: low, high, now, before
@@ -165,7 +165,7 @@ contains
       before = low
       do trial = 1, most_trials
          refused = none
-         call run_loops(model, push, wanted, now%alpha, .false., next, refused)
+         call run_loops(model, modal, wanted, now%alpha, .false., next, refused)
          if (refused%raised) then
             high = trial_type(now%alpha, huge(1.0_wp))
             found%problem = refused%message
@@ -192,7 +192,7 @@ contains
          found%problem = ''
       end if
       if (loop%n_loops == 0) return
-      call run_loops(model, push, wanted, loop%alpha, .true., next, refused)
+      call run_loops(model, modal, wanted, loop%alpha, .true., next, refused)
       if (.not. refused%raised) loop = next
    end subroutine reach_amplitude
 

@@ -48,7 +48,7 @@ module eigenpairs
    integer, parameter  :: most_restarts = 500
    integer, parameter  :: worth_threads = 20000      !! unknowns
    integer, parameter  :: zero_vector = -9, exhausted = -9999 ! codes of ARPACK: no more vectors with mass
-   integer, parameter  :: tired = 1                           ! likewise: restarts used up, perhaps there are no more
+   integer, parameter  :: restarts_used_up = 1                           ! likewise: restarts used up, perhaps there are no more
    real(wp), parameter :: tolerance = 1.0e-13_wp     ! of nu: the error estimate of Lanczos
    real(wp), parameter :: finite = 1.0e-12_wp        ! of the largest nu: smaller values have no significant mass
 
@@ -166,8 +166,8 @@ contains
          call solve_in_subspace(model, mass, system, v(:, :parameters(5)), lambda, x, failure)
          return
       end if
-      if (info == tired .and. parameters(5) == 0 .and. system%shift > 0.0_wp) info = 0 ! all may be below the shift
-      if (parameters(5) > 0 .and. (info == 0 .or. info == tired)) &
+      if (info == restarts_used_up .and. parameters(5) == 0 .and. system%shift > 0.0_wp) info = 0 ! all may be below the shift
+      if (parameters(5) > 0 .and. (info == 0 .or. info == restarts_used_up)) &
          call dseupd(.true., 'A', chosen, lambda, x, system%n, system%shift, 'G', system%n, 'LA', n, tolerance, residual, columns, &
                      v, system%n, parameters, places, work, small_work, size(small_work), info)
       if (info /= 0) then

@@ -29,7 +29,7 @@ module modal_loops
    implicit none
    private
 
-   public :: start_push, run_loops
+   public :: start_modal_load, run_loops
 
    real(wp), parameter :: settled = 0.01_wp          ! of the area of a loop: a smaller change is none
    real(wp), parameter :: no_area = 1.0e-9_wp        ! of alpha q: rounding
@@ -41,18 +41,18 @@ module modal_loops
    real(wp), parameter :: finest = 1.0e-13_wp        ! limit of TOL relative to the held load
 
    !> The initial data of the loops of one mode.
-   type, public :: push_type
+   type, public :: modal_load_type
       real(wp), allocatable :: phi(:, :)             !! (dimension, n_nodes) generalised mass 1
       real(wp), allocatable :: force(:, :)           !! [M] {phi} on all nodes
       real(wp), allocatable :: condensed(:, :)       !! the same condensed on the retained nodes
       real(wp) :: inside = 0.0_wp                    !! q of the interior of the bodies, retained nodes fixed, for alpha = 1
       type(analysis_type)   :: rest                  !! copy of the state, in equilibrium
-      real(wp), allocatable :: borne(:, :)           !! (3, n) forces of the interface elements there, in their axes
+      real(wp), allocatable :: rest_forces(:, :)     !! (3, n) forces of the interface elements there, in their axes
       real(wp) :: finest_work = 0.0_wp               !! increments are halved until the work changes by less; 0: not halved
       type(stage_plan_type) :: plan
       type(mass_matrix_type) :: mass
       class(equation_system), allocatable :: system
-   end type push_type
+   end type modal_load_type
 
    !> The last loop under one alpha.
    type, public :: loop_type
@@ -73,50 +73,50 @@ module modal_loops
 contains
 
    !> Copy ANALYSIS and SYSTEM under constant load, in equilibrium, and form the modal force of the shape PHI.
-   subroutine start_push(model, plan, analysis, system, phi, push, failure)
+   subroutine start_modal_load(model, plan, analysis, system, phi, modal, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
       type(analysis_type), intent(in)    :: analysis
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: phi(:, :) !! generalised mass 1
-      type(push_type), intent(out)       :: push
+      type(modal_load_type), intent(out)       :: modal
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: inside(:, :), felt(:, :)
       real(wp) :: work(size(model%interface))
       integer :: e
 
       if (failure%raised) return
-      allocate (push%system, source=system)
-      call push%system%forget_past()
-      call form_mass(model, push%mass)
-      push%rest = analysis
-      if (allocated(push%rest%exact)) deallocate (push%rest%exact)
-      push%rest%tolerance = push%rest%tolerance*min(1.0_wp, exact/push%rest%load_tolerance) ! TOL of BACK is of pressures
-      push%rest%load_tolerance = min(exact, push%rest%load_tolerance)
-      push%plan = plan
-      push%phi = phi
-      allocate (push%force, inside, mold=phi)
-      allocate (push%condensed, mold=analysis%u)
-      call mass_times(model, push%mass, push%phi, push%force)
-      call hold_load(model, push%system, push%rest)
-      felt = forces_on_unknowns(model, push%force)
-      call condense_load(push%system, felt, push%condensed)
-      call recover_displacements(push%system, felt, 0.0_wp*push%condensed, inside)
-      push%inside = sum(felt*inside)
-      allocate (push%borne(3, size(model%interface)), source=0.0_wp)
-      push%plan%stages(push%rest%stage)%fractions = [1.0_wp]
-      call go(model, push, [0.0_wp, 0.0_wp], push%rest, work, failure)
+      allocate (modal%system, source=system)
+      call modal%system%forget_past()
+      call form_mass(model, modal%mass)
+      modal%rest = analysis
+      if (allocated(modal%rest%exact)) deallocate (modal%rest%exact)
+      modal%rest%tolerance = modal%rest%tolerance*min(1.0_wp, exact/modal%rest%load_tolerance) ! TOL of BACK is of pressures
+      modal%rest%load_tolerance = min(exact, modal%rest%load_tolerance)
+      modal%plan = plan
+      modal%phi = phi
+      allocate (modal%force, inside, mold=phi)
+      allocate (modal%condensed, mold=analysis%u)
+      call mass_times(model, modal%mass, modal%phi, modal%force)
+      call hold_load(model, modal%system, modal%rest)
+      felt = forces_on_unknowns(model, modal%force)
+      call condense_load(modal%system, felt, modal%condensed)
+      call recover_displacements(modal%system, felt, 0.0_wp*modal%condensed, inside)
+      modal%inside = sum(felt*inside)
+      allocate (modal%rest_forces(3, size(model%interface)), source=0.0_wp)
+      modal%plan%stages(modal%rest%stage)%fractions = [1.0_wp]
+      call load_increment(model, modal, [0.0_wp, 0.0_wp], modal%rest, work, failure)
       do e = 1, size(model%interface)
-         associate (state => push%rest%states(e))
-            push%borne(:, e) = [state%shear%tau*model%interface(e)%area, state%normal%sumf]
+         associate (state => modal%rest%states(e))
+            modal%rest_forces(:, e) = [state%shear%tau*model%interface(e)%area, state%normal%sumf]
          end associate
       end do
-   end subroutine start_push
+   end subroutine start_modal_load
 
    !> Go from alpha = ENDS(1) to ENDS(2) in N increments; LOOP collects the work of the joints.
-   subroutine swing(model, push, ends, n, now, loop, failure)
+   subroutine follow_path(model, modal, ends, n, now, loop, failure)
       type(model_type), intent(in)       :: model
-      type(push_type), intent(inout)     :: push
+      type(modal_load_type), intent(inout)     :: modal
       real(wp), intent(in)               :: ends(2)
       integer, intent(in)                :: n
       type(analysis_type), intent(inout) :: now
@@ -128,25 +128,25 @@ contains
 
       do i = 1, n
          at = ends(1) + [i - 1, i]*(ends(2) - ends(1))/n
-         if (push%finest_work > 0.0_wp) then
+         if (modal%finest_work > 0.0_wp) then
             straight = now
-            call go(model, push, at, straight, work, failure)
-            call follow(model, push, at, work, now, loop, failure)
+            call load_increment(model, modal, at, straight, work, failure)
+            call refine_increment(model, modal, at, work, now, loop, failure)
          else
-            call go(model, push, at, now, work, failure)
-            call book(now, work, loop)
+            call load_increment(model, modal, at, now, work, failure)
+            call add_work(now, work, loop)
          end if
          if (failure%raised) return
-         loop%way = reshape([loop%way, at(2), coordinate(push, now, at(2))], [2, size(loop%way, 2) + 1])
+         loop%way = reshape([loop%way, at(2), coordinate(modal, now, at(2))], [2, size(loop%way, 2) + 1])
       end do
-   end subroutine swing
+   end subroutine follow_path
 
    !> Go from alpha = ENDS(1) to ENDS(2), where the joints would take the work WHOLE on straight paths, as one increment. The
    !! increment is halved until halving has no effect. The remaining error falls by four in each halving; a third of the last
    !! difference is subtracted.
-   recursive subroutine follow(model, push, ends, whole, now, loop, failure)
+   recursive subroutine refine_increment(model, modal, ends, whole, now, loop, failure)
       type(model_type), intent(in)       :: model
-      type(push_type), intent(inout)     :: push
+      type(modal_load_type), intent(inout)     :: modal
       real(wp), intent(in)               :: ends(2)
       real(wp), intent(in)               :: whole(:) !! (elements) [force x length]
       type(analysis_type), intent(inout) :: now
@@ -157,22 +157,22 @@ contains
 
       middle = 0.5_wp*sum(ends)
       half = now
-      call go(model, push, [ends(1), middle], half, first, failure)
+      call load_increment(model, modal, [ends(1), middle], half, first, failure)
       end = half
-      call go(model, push, [middle, ends(2)], end, second, failure)
+      call load_increment(model, modal, [middle, ends(2)], end, second, failure)
       if (failure%raised) return
       change = sum(abs(first + second - whole))
       step = abs(ends(2) - ends(1))/loop%alpha
-      if (step <= coarsest_step .and. (change <= push%finest_work .or. step <= finest_step)) then
-         call book(half, first, loop)
-         call book(end, second + (first + second - whole)/3.0_wp, loop)
+      if (step <= coarsest_step .and. (change <= modal%finest_work .or. step <= finest_step)) then
+         call add_work(half, first, loop)
+         call add_work(end, second + (first + second - whole)/3.0_wp, loop)
          now = end
       else
          deallocate (half, end) ! states are large
-         call follow(model, push, [ends(1), middle], first, now, loop, failure)
-         if (.not. failure%raised) call follow(model, push, [middle, ends(2)], second, now, loop, failure)
+         call refine_increment(model, modal, [ends(1), middle], first, now, loop, failure)
+         if (.not. failure%raised) call refine_increment(model, modal, [middle, ends(2)], second, now, loop, failure)
       end if
-   end subroutine follow
+   end subroutine refine_increment
 
    !> Clear LOOP, to begin at ALPHA and Q.
    pure subroutine clear(model, alpha, q, loop)
@@ -187,7 +187,7 @@ contains
    end subroutine clear
 
    !> Add WORK, done by the joints on the way to NOW, to LOOP.
-   subroutine book(now, work, loop)
+   subroutine add_work(now, work, loop)
       type(analysis_type), intent(in) :: now
       real(wp), intent(in)            :: work(:) !! (elements) [force x length]
       type(loop_type), intent(inout)  :: loop
@@ -195,13 +195,13 @@ contains
       loop%lost = loop%lost + work
       loop%has_slipped = loop%has_slipped .or. now%states%slips
       loop%has_opened = loop%has_opened .or. now%states%normal%branch == branch_open
-   end subroutine book
+   end subroutine add_work
 
    !> One increment from alpha = ENDS(1) to ENDS(2), and the WORK of the joints on the straight path of each element, without
    !! that of the forces at rest.
-   subroutine go(model, push, ends, now, work, failure)
+   subroutine load_increment(model, modal, ends, now, work, failure)
       type(model_type), intent(in)       :: model
-      type(push_type), intent(inout)     :: push
+      type(modal_load_type), intent(inout)     :: modal
       real(wp), intent(in)               :: ends(2)
       type(analysis_type), intent(inout) :: now
       real(wp), intent(out)              :: work(:) !! (elements) [force x length]
@@ -212,43 +212,43 @@ contains
 
       work = 0.0_wp
       if (failure%raised) return
-      associate (at => push%rest%before)
-         now%before%load = at%load + ends(1)*push%force
-         now%before%condensed_load = at%condensed_load + ends(1)*push%condensed
-         now%after%load = at%load + ends(2)*push%force
-         now%after%condensed_load = at%condensed_load + ends(2)*push%condensed
+      associate (at => modal%rest%before)
+         now%before%load = at%load + ends(1)*modal%force
+         now%before%condensed_load = at%condensed_load + ends(1)*modal%condensed
+         now%after%load = at%load + ends(2)*modal%force
+         now%after%condensed_load = at%condensed_load + ends(2)*modal%condensed
       end associate
       now%now%load = now%before%load
       now%now%condensed_load = now%before%condensed_load
       now%increment = 0
       before = now%states
       from = now%movement
-      call start_increment(push%plan, push%system, now)
-      call newton_increment(model, push%plan, now, push%system, failure)
+      call start_increment(modal%plan, modal%system, now)
+      call newton_increment(model, modal%plan, now, modal%system, failure)
       if (failure%raised) return
       do e = 1, size(before)
          associate (element => model%interface(e), to => now%movement(:, e))
             work(e) = sum(work_along(model%joints(element%joint)%law, element%area, before(e), from(:, e), to)) &
-                      - dot_product(push%borne(:, e), to - from(:, e))
+                      - dot_product(modal%rest_forces(:, e), to - from(:, e))
          end associate
       end do
-   end subroutine go
+   end subroutine load_increment
 
    !> q of the state NOW, under ALPHA.
-   pure real(wp) function coordinate(push, now, alpha) result(q)
-      type(push_type), intent(in)     :: push
+   pure real(wp) function coordinate(modal, now, alpha) result(q)
+      type(modal_load_type), intent(in)     :: modal
       type(analysis_type), intent(in) :: now
       real(wp), intent(in)            :: alpha
 
-      q = sum(push%condensed*(now%u - push%rest%u)) + alpha*push%inside
+      q = sum(modal%condensed*(now%u - modal%rest%u)) + alpha*modal%inside
    end function coordinate
 
    !> 0 -> ALPHA -> -ALPHA -> ALPHA, then the same loop repeated until its area has settled, at most for the cycles of WANTED.
    !! If MEASURED, the last loop is followed again with its loss to the tolerance of WANTED. FAILURE where the structure does
    !! not carry ALPHA.
-   subroutine run_loops(model, push, wanted, alpha, measured, loop, failure)
+   subroutine run_loops(model, modal, wanted, alpha, measured, loop, failure)
       type(model_type), intent(in)       :: model
-      type(push_type), intent(inout)     :: push
+      type(modal_load_type), intent(inout)     :: modal
       type(backbone_plan), intent(in)    :: wanted
       real(wp), intent(in)               :: alpha
       logical, intent(in)                :: measured
@@ -257,36 +257,36 @@ contains
       type(analysis_type), allocatable :: now, start
       real(wp) :: area, area_before, held
 
-      now = push%rest
-      held = free_norm(push%rest%now%condensed_load, push%rest%held)
+      now = modal%rest
+      held = free_norm(modal%rest%now%condensed_load, modal%rest%held)
       if (held > 0.0_wp) then
          now%load_tolerance = max(min(finest, now%load_tolerance), &
-                                  now%load_tolerance*min(1.0_wp, alpha*free_norm(push%condensed, push%rest%held)/held))
-         now%tolerance = now%load_tolerance/push%rest%load_tolerance*now%tolerance
+                                  now%load_tolerance*min(1.0_wp, alpha*free_norm(modal%condensed, modal%rest%held)/held))
+         now%tolerance = now%load_tolerance/modal%rest%load_tolerance*now%tolerance
       end if
-      push%finest_work = 0.0_wp
+      modal%finest_work = 0.0_wp
       loop%alpha = alpha
       call clear(model, 0.0_wp, 0.0_wp, loop)
-      call swing(model, push, [0.0_wp, alpha], wanted%increments, now, loop, failure)
+      call follow_path(model, modal, [0.0_wp, alpha], wanted%increments, now, loop, failure)
       area = 0.0_wp
       do while (.not. failure%raised)
          area_before = area
          if (measured) start = now
-         call run_loop(model, push, wanted%increments, now, loop, failure)
+         call run_loop(model, modal, wanted%increments, now, loop, failure)
          area = sum(loop%lost)
          if (failure%raised .or. loop%n_loops >= 2 + wanted%cycles) exit
          if (loop%n_loops >= 2 .and. abs(area - area_before) <= max(settled*abs(area), negligible*alpha*loop%q)) exit
       end do
       if (failure%raised .or. .not. measured .or. area <= negligible*alpha*loop%q) return
-      push%finest_work = max(wanted%tolerance*per_part*area, no_area*alpha*loop%q)
+      modal%finest_work = max(wanted%tolerance*per_part*area, no_area*alpha*loop%q)
       loop%n_loops = loop%n_loops - 1
-      call run_loop(model, push, wanted%increments, start, loop, failure)
+      call run_loop(model, modal, wanted%increments, start, loop, failure)
    end subroutine run_loops
 
    !> One more loop from NOW, the upper turning point.
-   subroutine run_loop(model, push, increments, now, loop, failure)
+   subroutine run_loop(model, modal, increments, now, loop, failure)
       type(model_type), intent(in)       :: model
-      type(push_type), intent(inout)     :: push
+      type(modal_load_type), intent(inout)     :: modal
       integer, intent(in)                :: increments !! from rest to alpha
       type(analysis_type), intent(inout) :: now
       type(loop_type), intent(inout)     :: loop
@@ -296,15 +296,15 @@ contains
       integer  :: j
 
       if (failure%raised) return
-      top = coordinate(push, now, loop%alpha)
+      top = coordinate(modal, now, loop%alpha)
       call clear(model, loop%alpha, top, loop)
-      call swing(model, push, [loop%alpha, -loop%alpha], 2*increments, now, loop, failure)
+      call follow_path(model, modal, [loop%alpha, -loop%alpha], 2*increments, now, loop, failure)
       if (failure%raised) return
       u_low = now%u
-      low = coordinate(push, now, -loop%alpha)
-      call swing(model, push, [-loop%alpha, loop%alpha], 2*increments, now, loop, failure)
+      low = coordinate(modal, now, -loop%alpha)
+      call follow_path(model, modal, [-loop%alpha, loop%alpha], 2*increments, now, loop, failure)
       if (failure%raised) return
-      high = coordinate(push, now, loop%alpha)
+      high = coordinate(modal, now, loop%alpha)
       if (.not. (low < 0.0_wp .and. high > 0.0_wp)) then
          call failure%raise('both ends of the loop lie on one side of the state at rest')
          return
@@ -322,26 +322,26 @@ contains
       share = 1.0_wp/max(1, size(model%interface))
       loop%slipping = share*count(loop%has_slipped)
       loop%open = share*count(loop%has_opened)
-      loop%distortion = distortion_of(model, push, 0.5_wp*(now%u - u_low), loop)
+      loop%distortion = distortion_of(model, modal, 0.5_wp*(now%u - u_low), loop)
    end subroutine run_loop
 
    !> The part of the movement U of retained nodes, half of that between the turning points, that differs from phi: |d - q
    !! phi|/|d|, d the movement of all nodes, in the norm of [M] [-].
-   function distortion_of(model, push, u, loop) result(share)
+   function distortion_of(model, modal, u, loop) result(share)
       type(model_type), intent(in)       :: model
-      type(push_type), intent(in)        :: push
+      type(modal_load_type), intent(in)        :: modal
       real(wp), intent(in)               :: u(:, :)
       type(loop_type), intent(in)        :: loop
       real(wp) :: share
       real(wp), allocatable :: d(:, :), f(:, :), other(:, :)
 
-      allocate (d, f, mold=push%phi)
-      call recover_displacements(push%system, forces_on_unknowns(model, loop%alpha*push%force), u, d)
+      allocate (d, f, mold=modal%phi)
+      call recover_displacements(modal%system, forces_on_unknowns(model, loop%alpha*modal%force), u, d)
       d = displacements(model, d)
-      other = d - loop%q*push%phi
-      call mass_times(model, push%mass, other, f)
+      other = d - loop%q*modal%phi
+      call mass_times(model, modal%mass, other, f)
       share = max(0.0_wp, sum(other*f))
-      call mass_times(model, push%mass, d, f)
+      call mass_times(model, modal%mass, d, f)
       share = sqrt(share/sum(d*f))
    end function distortion_of
 

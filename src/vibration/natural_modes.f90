@@ -23,7 +23,7 @@ module natural_modes
    implicit none
    private
 
-   public :: let_go, start_oscillation, factorise_at, find_natural_modes
+   public :: release_supports, start_oscillation, factorise_at, find_natural_modes
 
    real(wp), parameter :: clear = 1.0e-6_wp       ! of an eigenvalue: a wider gap is safe for a count
    real(wp), parameter :: near_pole = 1.0e-7_wp   ! distance by which a shift moves away from an eigenvalue
@@ -55,7 +55,7 @@ module natural_modes
 contains
 
    !> MODEL without its supports; the condition on the axis of a ring remains.
-   pure subroutine let_go(model)
+   pure subroutine release_supports(model)
       type(model_type), intent(inout) :: model
       logical :: free(model%dimension)
       integer :: i
@@ -65,7 +65,7 @@ contains
          if (model%axisymmetric) free(1) = free(1) .and. abs(model%x(1, i)) > 0.0_wp
          model%held(:, i) = model%held(:, i) .and. .not. free
       end do
-   end subroutine let_go
+   end subroutine release_supports
 
    !> Stiffness and mass about the state of ANALYSIS, and the order of the equations. The solver is SKYLINE if SYSTEM is
    !! SKYLINE, else TREE.
