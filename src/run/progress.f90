@@ -139,8 +139,8 @@ contains
          write (error_unit, '(3a, f12.4, a)') self%deck, ': ', phase_name(i), real(self%ticks(i), wp)/self%rate, ' s'
       end do
       write (error_unit, '(3a, f12.4, a)') self%deck, ': ', 'elements  ', self%solver%assembly_time, ' s of factor'
-      write (error_unit, '(3a, es12.4)') self%deck, ': ', 'operations fixed  ', self%solver%static_operations, &
-         self%deck, ': ', 'operations moving ', self%solver%refactored_operations
+      write (error_unit, '(3a, es12.4)') self%deck, ': ', 'operations static     ', self%solver%static_operations, &
+         self%deck, ': ', 'operations refactored ', self%solver%refactored_operations
       if (self%solver%solutions > 0) write (error_unit, '(2a, 3(a, i0))') self%deck, ': ', 'solutions ', self%solver%solutions, &
          ', steps ', self%solver%steps, ', at most ', self%solver%most_steps
       call memory_of_all(bytes)

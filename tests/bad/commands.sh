@@ -339,7 +339,7 @@ else fail 'a listing above 1 MiB on the standard output is not that of the file'
 fi
 run -o here /proc/self/mem;           check 'a file that cannot be read' 1 '/proc/self/mem: cannot be read'
 
-run --times -q -o here large.bdf;     check '--times' 0 'memory' 'operations fixed' 'operations moving' 's of factor'
+run --times -q -o here large.bdf;     check '--times' 0 'memory' 'operations static' 'operations refactored' 's of factor'
 if awk '$1 != "large.bdf:" { next } $NF == "s" { n++; if ($3 + 0 < 0 || $3 !~ /^[0-9.]+$/) bad = 1 } $2 == "memory" { m = $3 }
         END { exit bad || n != 9 || m < 1 }' "$work/stderr"; then pass
 else fail '--times: not the seconds of nine phases and the memory'

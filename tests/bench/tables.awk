@@ -129,8 +129,8 @@ function rates(    i, m) {
    head("model;factor;rate;an increment;rate;CHOLMOD;rate;MiB;CHOLMOD MiB;residual")
    for (i = 1; i <= rows["ours"]; i++) {
       m = row["ours", i]
-      cells(label(m) ";" billions(of(m, "operations_fixed")) ";" share(of(m, "operations_fixed"), of(m, "factor")) ";" \
-         billions(of(m, "operations_moving")) ";" share(of(m, "operations_moving")*increments, of(m, "increments")) ";" \
+      cells(label(m) ";" billions(of(m, "operations_static")) ";" share(of(m, "operations_static"), of(m, "factor")) ";" \
+         billions(of(m, "operations_refactored")) ";" share(of(m, "operations_refactored")*increments, of(m, "increments")) ";" \
          billions(their(m, "operations")) ";" share(their(m, "operations"), their(m, "factor")) ";" \
          of(m, "memory") ";" either(their(m, "memory")) ";" either(their(m, "residual")))
    }
@@ -174,7 +174,7 @@ function lists(    i, m) {
       m = row["lists", i]
       cells(label(m) ";" v["lists", m, "unknowns"] ";" either(v["lists", m, "left"]) ";" seconds(v["lists", m, "build"]) ";" \
          seconds(v["lists", m, "order"]) ";" milliseconds(v["lists", m, "increments"]/increments) ";" \
-         sprintf("%.2f", v["lists", m, "operations_moving"]/1e9))
+         sprintf("%.2f", v["lists", m, "operations_refactored"]/1e9))
    }
    put()
 }

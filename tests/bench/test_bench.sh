@@ -56,8 +56,8 @@ ours q4_20x4 user 3.0
 ours q4_20x4 system 1.0
 ours q4_20x4 turns 3
 ours q4_20x4 unknowns 400
-ours q4_20x4 operations_fixed 8e9
-ours q4_20x4 operations_moving 0.4e9
+ours q4_20x4 operations_static 8e9
+ours q4_20x4 operations_refactored 0.4e9
 cholmod q4_10x2 solution 1.3
 cholmod q4_10x2 ordering METIS
 cholmod q4_20x4 solution 1.4
@@ -86,7 +86,7 @@ threads_2 q4_20x4 factor 2.0
 threads_2 q4_20x4 elements 1.5
 lists over_4x3x2 build 0.3
 lists over_4x3x2 increments 2.0
-lists over_4x3x2 operations_moving 3e9
+lists over_4x3x2 operations_refactored 3e9
 lists over_4x3x2 unknowns 318
 modes q4_20x4 order 0.5
 modes q4_20x4 factor 1
@@ -175,7 +175,7 @@ for deck; do
    ! grep -q '1.0-3,20$' "$deck" || increments=0.6
    [ "$threads" = 1 ] || increments=0.2
    printf "$deck: %s\\n" 'read 0.25 s' 'order 0.1 s' "factor $factor s" "increments $increments s" \
-      'elements 0.1 s of factor' 'operations fixed 2.0E+09' 'operations moving 1.0E+08' 'memory 7 MiB' 'other 3 words' >&2
+      'elements 0.1 s of factor' 'operations static 2.0E+09' 'operations refactored 1.0E+08' 'memory 7 MiB' 'other 3 words' >&2
    {
       printf '%s\n' '  UNKNOWNS    66' '  METHOD STEP   SOLVER TREE, JOINTS LAST' '  INCR   SHARE   LOAD  JOINT OPEN  LAMBDA' \
          '  1 0.02 0.02  1  0  1.00000E-03 5' ' RE-ANALYSES AFTER THE COULOMB CHECK' \
