@@ -147,12 +147,12 @@ contains
       type(dependence_list), intent(in) :: list
       logical, intent(in)               :: without(:) !! (n_nodes) the node belongs to a rigid element or an equation, not to an element
       type(model_type), intent(inout)   :: model
-      logical, allocatable :: is_felt(:, :)
+      logical, allocatable :: is_used(:, :)
       logical, allocatable :: depends(:)
       integer, allocatable :: column(:)
       integer :: i, k, node
 
-      allocate (model%left_out(model%dimension, model%n_nodes), is_felt(model%dimension, model%n_nodes), source=.false.)
+      allocate (model%left_out(model%dimension, model%n_nodes), is_used(model%dimension, model%n_nodes), source=.false.)
       allocate (depends(model%n_nodes), source=.false.)
       allocate (column(model%n_nodes), source=0)
       do i = 1, list%n
@@ -160,7 +160,7 @@ contains
             model%left_out(item%d, item%node) = .true.
             depends(item%node) = .true.
             do k = 1, item%n
-               is_felt(item%on_d(k), item%on(k)) = .true.
+               is_used(item%on_d(k), item%on(k)) = .true.
             end do
          end associate
       end do
@@ -169,7 +169,7 @@ contains
       end do
       do node = 1, model%n_nodes
          if (without(node)) model%left_out(:, node) = model%left_out(:, node) .or. &
-                                                      (.not. is_felt(:, node) .and. .not. model%held(:, node))
+                                                      (.not. is_used(:, node) .and. .not. model%held(:, node))
       end do
       model%held = model%held .or. model%left_out
    end subroutine eliminate
@@ -186,7 +186,8 @@ contains
       real(wp) :: axes(3, 3)
 
       d = model%dimension
-      axes = axes_at(model, node)
+      axes = node_axes(model, point_of(model, node))
+      if (node_kind(model, node) == a_rotation .and. d == 2) axes = identity ! z in the first column
       allocate (masters(model%n_nodes))
       n = 0
       if (.not. all(model%left_out(:, node))) call add_master(node)
@@ -225,16 +226,6 @@ contains
       end subroutine add_master
 
    end subroutine couple_items
-
-   !> The axes of the components of NODE, columns; a node of rotations has those of its point, in the plane z in the first column.
-   pure function axes_at(model, node) result(axes)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      real(wp) :: axes(3, 3)
-
-      axes = node_axes(model, point_of(model, node))
-      if (node_kind(model, node) == a_rotation .and. model%dimension == 2) axes = identity
-   end function axes_at
 
    !> Rewrite the equations c_j = sum of factor c_k of LIST, from FIRST on, as equations of the components at PLACES (as many), named in
    !! data fields AT. With [A] the coefficients of these components in c_j - sum of factor c_k = 0, they are -[A]^-1 times the other
@@ -331,15 +322,15 @@ contains
       real(wp), intent(in)  :: weight(:)     !! > 0
       real(wp), intent(out) :: t(:, :, :)    !! (6, 3, points) [-], rotations [1/length]
       logical, intent(out)  :: determined(6)
-      real(wp) :: g(6, 3, size(weight)), a(6, 6), inverse(6, 6), size_of_it
+      real(wp) :: g(6, 3, size(weight)), a(6, 6), inverse(6, 6), extent
       integer  :: c, i
 
-      size_of_it = sqrt(sum(r**2)/size(weight))
-      if (size_of_it <= 0.0_wp) size_of_it = 1.0_wp
+      extent = sqrt(sum(r**2)/size(weight))
+      if (extent <= 0.0_wp) extent = 1.0_wp
       a = 0.0_wp
       do i = 1, size(weight)
          g(:3, :, i) = axes(:, :, i)
-         g(4:, :, i) = matmul(transpose(by_rotation(r(:, i)/size_of_it)), axes(:, :, i)) ! rotations times the size: one unit
+         g(4:, :, i) = matmul(transpose(by_rotation(r(:, i)/extent)), axes(:, :, i)) ! rotations times the size: one unit
          do c = 1, 3
             if (.not. used(c, i)) g(:, c, i) = 0.0_wp
          end do
@@ -348,7 +339,7 @@ contains
       call invert_where_determined(a, inverse, determined)
       do i = 1, size(weight)
          t(:, :, i) = weight(i)/sum(weight)*matmul(inverse, g(:, :, i))
-         t(4:, :, i) = t(4:, :, i)/size_of_it
+         t(4:, :, i) = t(4:, :, i)/extent
       end do
    end subroutine mean_motion
 

@@ -6,6 +6,7 @@ module determinate_joints
    use interface_operator, only: nodes_of_end
    use kinds, only: wp
    use lists, only: join, root_of, distinct
+   use load_build, only: add_force
    use model_data, only: a_point, an_overlap, joint_type, model_type, n_bars, n_points, n_sections, node_kind, place_in_kind, &
                          stage_load_type, supported
    use node_coupling, only: coupling_parts, is_coupled
@@ -198,13 +199,10 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(stage_load_type) :: loads
       real(wp) :: resultant, total
-      integer  :: i, j
+      integer  :: j
 
       call first_loads(model, loads)
-      total = 0.0_wp
-      do i = 1, loads%n
-         total = total + norm2(loads%force(:, i))
-      end do
+      total = sum(norm2(loads%force(:, :loads%n), dim=1))
       do j = 1, size(model%joints)
          associate (joint => model%joints(j))
             resultant = 0.0_wp
@@ -275,30 +273,23 @@ contains
    pure subroutine first_loads(model, loads)
       type(model_type), intent(in)       :: model
       type(stage_load_type), intent(out) :: loads
-      integer :: i, k, n
+      integer :: i
 
-      n = model%stage_loads(1)%n
-      allocate (loads%node(n + 2*n_bars(model) + n_sections(model)))
-      allocate (loads%force(3, size(loads%node)))
-      loads%node(:n) = model%stage_loads(1)%node(:n)
-      loads%force(:, :n) = model%stage_loads(1)%force(:, :n)
+      loads%n = model%stage_loads(1)%n
+      loads%node = model%stage_loads(1)%node
+      loads%force = model%stage_loads(1)%force
       do i = 1, n_bars(model)
          associate (bar => model%bars(i))
             if (bar%stage /= 1) cycle
-            do k = 1, 2
-               n = n + 1
-               loads%node(n) = bar%nodes(k)
-               loads%force(:, n) = merge(1.0_wp, -1.0_wp, k == 1)*bar%preload*bar%direction(:, k)
-            end do
+            call add_force(bar%nodes(1), bar%preload*bar%direction(:, 1), loads)
+            call add_force(bar%nodes(2), -bar%preload*bar%direction(:, 2), loads)
          end associate
       end do
       do i = 1, n_sections(model)
-         if (model%sections(i)%stage /= 1) cycle
-         n = n + 1
-         loads%node(n) = model%sections(i)%node
-         loads%force(:, n) = [model%sections(i)%preload, 0.0_wp, 0.0_wp]
+         associate (section => model%sections(i))
+            if (section%stage == 1) call add_force(section%node, [section%preload, 0.0_wp, 0.0_wp], loads)
+         end associate
       end do
-      loads%n = n
    end subroutine first_loads
 
    !> Whether the first stage that loads JOINT opens it, for the present sense of its normal.

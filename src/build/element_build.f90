@@ -3,7 +3,7 @@ module element_build
    use bulk_data, only: element_card, grid_card, property_card
    use deck_check, only: checked_deck
    use elasticity, only: axisymmetric, beam, plane_stress, shell, solid
-   use element_kinds, only: element_table, kind_edge2, kind_quad4, kind_quad8, kind_tria3, kind_tria6, max_side_nodes
+   use element_kinds, only: element_table, kind_edge2, kind_quad4, kind_quad8, kind_tria3, kind_tria6
    use element_mapping, only: smallest_jacobian
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order
@@ -20,15 +20,11 @@ module element_build
 
    public :: resolve_properties, collect_elements, collect_sides, check_element_numbers, check_elements, check_one_state, is_face
 
-   !> A side that carries a mark, before it is sorted into a surface.
-   type, public :: marked_side
-      integer :: mark = 0                  !! PMARK id
-      integer :: id = 0                    !! of the edge or face, 0: of a block
+   !> A marked side, before it is sorted into a surface: its card with the PMARK as its property and positions of nodes (0 for a mid-side
+   !! node left blank). The id is -k for side Sk of a block.
+   type, extends(element_card), public :: marked_side
       integer :: corners = 0               !! 2, 3 or 4
       integer :: n_nodes = 0               !! corners, and mid-side nodes if the mark is second-order
-      integer :: line = 0                  !! of its card
-      integer :: of_block = 0              !! k: the mark is that of side Sk of a block; 0: PID of an edge or face
-      integer :: nodes(max_side_nodes) = 0 !! 0 for a mid-side node left blank
    end type marked_side
 
 contains
@@ -219,7 +215,6 @@ contains
       do i = 1, size(of_blocks)
          associate (corners => count(of_blocks(i)%nodes > 0))
             call add_card(of_blocks(i), corners, corners)
-            sides(n)%of_block = -of_blocks(i)%id
          end associate
       end do
       sides = sides(:n)
@@ -232,7 +227,9 @@ contains
          integer, intent(in)            :: corners, n_nodes
 
          n = n + 1
-         sides(n) = marked_side(mark=card%property, id=card%id, corners=corners, n_nodes=n_nodes, line=card%line)
+         sides(n)%element_card = card
+         sides(n)%corners = corners
+         sides(n)%n_nodes = n_nodes
          call find_nodes(deck, card%line, card%nodes(:n_nodes), model, sides(n)%nodes(:n_nodes))
       end subroutine add_card
 

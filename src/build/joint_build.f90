@@ -3,7 +3,7 @@
 module joint_build
    use bulk_data, only: cjoint_card
    use deck_check, only: checked_deck
-   use interface_operator, only: hang_on, interface_element, nodes_of_end, weights_of_end
+   use interface_operator, only: connect_nodes, interface_element, nodes_of_end, weights_of_end
    use joint_sides, only: joint_axes, outward, join_one_side, join_two_sides
    use kinds, only: wp
    use lists, only: id_table_type, list_owners
@@ -158,8 +158,20 @@ contains
       end associate
       model%interface = model%interface(:n)
       do j = 1, size(model%joints)
-         call sum_joint(model, model%joints(j))
-         call compare_with_bodies(deck, model, model%joints(j))
+         associate (joint => model%joints(j), elements => model%interface(model%joints(j)%first:model%joints(j)%last))
+            joint%area = 0.0_wp
+            joint%normal = 0.0_wp
+            do i = 1, size(elements)
+               joint%area = joint%area + elements(i)%area
+               joint%normal = joint%normal + elements(i)%area*elements(i)%axes(:, 3)
+            end do
+            if (norm2(joint%normal) > 1.0e-6_wp*joint%area) then
+               joint%normal = joint%normal/norm2(joint%normal)
+            else
+               joint%normal = 0.0_wp
+            end if
+            call compare_with_bodies(deck, model, joint)
+         end associate
       end do
    end subroutine build_joints
 
@@ -276,7 +288,7 @@ contains
             element%id = card%id
             element%area = card%area
             call find_nodes(deck, card%line, card%nodes, model, nodes)
-            call hang_on(element, nodes(1), nodes(2))
+            call connect_nodes(element, nodes(1), nodes(2))
             if (model%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) &
                call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y')
             if (norm2(card%normal) > 0.0_wp) &
@@ -306,24 +318,5 @@ contains
          if (joints%find(number) == 0 .and. all(deck%bulk%pjoint%id /= number)) left = left - 1
       end do
    end function group_number
-
-   !> Area and mean normal of a joint.
-   pure subroutine sum_joint(model, joint)
-      type(model_type), intent(in)    :: model
-      type(joint_type), intent(inout) :: joint
-      integer :: i
-
-      joint%area = 0.0_wp
-      joint%normal = 0.0_wp
-      do i = joint%first, joint%last
-         joint%area = joint%area + model%interface(i)%area
-         joint%normal = joint%normal + model%interface(i)%area*model%interface(i)%axes(:, 3)
-      end do
-      if (norm2(joint%normal) > 1.0e-6_wp*joint%area) then
-         joint%normal = joint%normal/norm2(joint%normal)
-      else
-         joint%normal = 0.0_wp
-      end if
-   end subroutine sum_joint
 
 end module joint_build

@@ -274,8 +274,8 @@ contains
       character(*), parameter :: no_y = 'not zero, but a joint of a plane model has x alone'
       type(gap_table_type) :: table
       real(wp) :: axes(3, 3), centroid(3), place(2)
-      integer  :: i
-      logical  :: ok
+      real(wp), allocatable :: x(:, :)
+      integer  :: i, twice(2)
 
       if (joint%last < joint%first) return ! reported elsewhere
       if (norm2(joint%normal) <= 0.0_wp) then
@@ -286,13 +286,21 @@ contains
       axes = joint_axes(model, joint%normal)
       centroid = joint_centroid(model, joint)
       if (model%axisymmetric) centroid(1) = 0.0_wp ! the centroid of a ring lies on the axis
-      ok = .true.
-      if (card%kind == 'TABLE') call start_table(deck, card, axes, centroid, model%dimension == 2, table, ok)
+      if (card%kind == 'TABLE') then
+         if (size(card%gap) == 0) return ! reported where the card is read
+         x = matmul(transpose(axes(:, :2)), card%x - spread(centroid, 2, size(card%gap)))
+         if (model%dimension == 2) x(2, :) = 0.0_wp
+         call table%build(x, card%gap, twice)
+         if (twice(1) > 0) then
+            call deck%field_error(card%line, card%at(twice(2)), 'point '//integer_text(twice(2))// &
+               ' of the table coincides, seen along the normal of the joint, with point '//integer_text(twice(1)), called='X')
+            return
+         end if
+      end if
       if (card%kind == 'PLANE' .and. model%dimension == 2) then
          if (abs(card%slope(2)) > 0.0_wp) call deck%field_error(card%line, 'SY', no_y)
          if (abs(card%crown(2)) > 0.0_wp) call deck%field_error(card%line, 'CY', no_y)
       end if
-      if (.not. ok) return
       do i = joint%first, joint%last
          associate (element => model%interface(i))
             place = matmul(at_first_end(element, model%x) - centroid, axes(:, :2))
@@ -307,27 +315,6 @@ contains
          where (abs(gaps) <= touching*maxval(abs(gaps))) gaps = 0.0_wp
       end associate
    end subroutine gaps_by_place
-
-   !> The points of a TABLE in the plane of the joint; OK is false where two points coincide in this plane.
-   subroutine start_table(deck, card, axes, centroid, is_plane, table, ok)
-      type(checked_deck), intent(in)      :: deck
-      type(jgap_card), intent(in)         :: card
-      real(wp), intent(in)                :: axes(3, 3), centroid(3)
-      logical, intent(in)                 :: is_plane !! only x is used
-      type(gap_table_type), intent(inout) :: table
-      logical, intent(out)                :: ok
-      real(wp) :: x(2, size(card%gap))
-      integer  :: twice(2)
-
-      ok = size(card%gap) > 0
-      if (.not. ok) return ! reported where the card is read
-      x = matmul(transpose(axes(:, :2)), card%x - spread(centroid, 2, size(card%gap)))
-      if (is_plane) x(2, :) = 0.0_wp
-      call table%build(x, card%gap, twice)
-      ok = twice(1) == 0
-      if (.not. ok) call deck%field_error(card%line, card%at(twice(2)), 'point '//integer_text(twice(2))// &
-         ' of the table coincides, seen along the normal of the joint, with point '//integer_text(twice(1)), called='X')
-   end subroutine start_table
 
    !> NODES: gaps of nodes of SIDE1, zero for a node that is not given. An element on several nodes has their mean. A node without
    !! elements, such as a corner of a six-node face, is a node of SIDE1 too. For the face of a shell the card names the nodes of the shell.

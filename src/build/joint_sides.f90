@@ -4,7 +4,7 @@
 module joint_sides
    use bulk_data, only: fit_no, fit_yes
    use deck_check, only: checked_deck
-   use interface_operator, only: at_first_end, hang_on, interface_element
+   use interface_operator, only: at_first_end, connect_nodes, interface_element
    use kinds, only: wp
    use lists, only: id_table_type
    use model_data, only: corners_of, joint_centroid, joint_frame, joint_type, model_type, surface_type
@@ -100,7 +100,7 @@ contains
       deallocate (elements)
       allocate (elements(side%n))
       do k = 1, side%n
-         call hang_on(elements(k), side%node(k), partner(k))
+         call connect_nodes(elements(k), side%node(k), partner(k))
          elements(k)%area = side%area(k)
          elements(k)%axes = joint_axes(model, side%normal(:, k))
       end do
@@ -213,7 +213,7 @@ contains
       deallocate (elements)
       allocate (elements(size(at)))
       do k = 1, size(at)
-         call sums%hang(at(k), elements(k))
+         call sums%connect(at(k), elements(k))
          elements(k)%named = side%node(at(k))
          normal = sums%normal(:, at(k))
          elements(k)%axes = joint_axes(model, normal/max(norm2(normal), tiny(1.0_wp)))

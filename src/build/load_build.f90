@@ -19,7 +19,7 @@ module load_build
    implicit none
    private
 
-   public :: find_nodal_forces, build_loads
+   public :: find_nodal_forces, build_loads, add_force
 
 contains
 
@@ -53,7 +53,7 @@ contains
             if (node(i) > 0) then
                if (.not. model%used(node(i))) call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)// &
                                                                     ' belongs to no element')
-               call check_felt(deck, model, card, node(i), node_axes(model, node(i)), force(:, i))
+               call check_movable(deck, model, card, node(i), node_axes(model, node(i)), force(:, i))
             end if
             call check_plane(deck, model, card%line, force(:, i), along=card%ends(1) > 0, turned=card%system > 0)
          end associate
@@ -87,11 +87,11 @@ contains
          force = [force(3), 0.0_wp, 0.0_wp]
          axes = identity
       end if
-      call check_felt(deck, model, card, node, axes, force)
+      call check_movable(deck, model, card, node, axes, force)
    end subroutine onto_rotations
 
    !> Error: a FORCE on a reference NODE along a component that was left out and depends on nothing, so that it moves nothing.
-   subroutine check_felt(deck, model, card, node, axes, force)
+   subroutine check_movable(deck, model, card, node, axes, force)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
       type(force_card), intent(in)   :: card
@@ -110,7 +110,7 @@ contains
                                ' takes no load: no element, dependent node or support has this component')
          return
       end do
-   end subroutine check_felt
+   end subroutine check_movable
 
    !> Whether NODE has no movement along DIRECTION for any value of the unknowns.
    pure logical function is_idle(model, node, direction)
@@ -245,7 +245,7 @@ contains
    end subroutine add_set
 
    !> Append a FORCE at NODE.
-   subroutine add_force(node, force, loads)
+   pure subroutine add_force(node, force, loads)
       integer, intent(in)                  :: node
       real(wp), intent(in)                 :: force(3)
       type(stage_load_type), intent(inout) :: loads

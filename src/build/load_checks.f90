@@ -4,7 +4,7 @@ module load_checks
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: model_type, supported
-   use node_coupling, only: component_place, place_of_component
+   use node_coupling, only: place_of_component
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
@@ -82,6 +82,7 @@ contains
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
       character(:), allocatable :: words
+      logical :: held(model%dimension)
       integer :: d, i, node
 
       do i = 1, size(deck%bulk%displacement)
@@ -94,8 +95,10 @@ contains
                associate (place => place_of_component(model, node, d))
                   if (place%node == 0) then
                      words = ', expected 1 to '//integer_text(model%dimension)
-                  else if (.not. is_supported(model, place)) then
-                     words = ' of node '//integer_text(card%node)//' is not supported: SPCD moves components that an SPC holds'
+                  else
+                     held = supported(model, place%node)
+                     if (.not. held(place%d)) words = ' of node '//integer_text(card%node)// &
+                                                      ' is not supported: SPCD moves components that an SPC holds'
                   end if
                end associate
                if (words /= '') call deck%field_error(card%line, card%field + 1, 'component '//integer_text(d)//words, &
@@ -104,16 +107,6 @@ contains
          end associate
       end do
    end subroutine check_displacements
-
-   !> Whether the component at PLACE is supported.
-   pure logical function is_supported(model, place)
-      type(model_type), intent(in)      :: model
-      type(component_place), intent(in) :: place
-      logical :: held(model%dimension)
-
-      held = supported(model, place%node)
-      is_supported = held(place%d)
-   end function is_supported
 
    !> Error: a LOAD card that combines missing sets.
    subroutine check_combinations(deck)

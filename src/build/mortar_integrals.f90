@@ -66,7 +66,7 @@ module mortar_integrals
       procedure :: finish
       procedure :: has_area
       procedure :: has_none
-      procedure :: hang
+      procedure :: connect
    end type interface_sums_type
 
 contains
@@ -336,7 +336,7 @@ contains
    end function has_none
 
    !> Connect ELEMENT to the nodes of its entries at I, each once, the nodes of an end in ascending order.
-   pure subroutine hang(self, i, element)
+   pure subroutine connect(self, i, element)
       class(interface_sums_type), intent(in) :: self
       integer, intent(in)                    :: i       !! has_area(i)
       type(interface_element), intent(inout) :: element
@@ -371,7 +371,7 @@ contains
       element%weight = pack([weight(:n(1)), -weight(n(1) + 1:)], abs(weight) > 0.0_wp)
       element%node = pack(merge(node, node - self%n_nodes, node <= self%n_nodes), abs(weight) > 0.0_wp)
       element%area = self%area(i)
-   end subroutine hang
+   end subroutine connect
 
    !> Set the weights of an end that are rounding to zero, and correct the largest weight so that the sum is 1.
    pure subroutine make_whole(weight)

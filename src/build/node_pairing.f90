@@ -162,7 +162,7 @@ contains
          n = side1%n_nodes(s)
          call side_influence(model, side1, s, area, normal)
          all_area = all_area + sum(area)
-         call look_at(model, side1, s, reach, face)
+         call set_own_face(model, side1, s, reach, face)
          found%reach = max(found%reach, face%reach)
          call cover_face(model, side2, face, opposite, near, points, integrals)
          share = integrals%seen/max(seen_area(face%seen), tiny(1.0_wp))
@@ -221,7 +221,7 @@ contains
    end subroutine list_opposite
 
    !> Face S of SIDE1 in its own frame.
-   subroutine look_at(model, side1, s, reach, face)
+   subroutine set_own_face(model, side1, s, reach, face)
       type(model_type), intent(in)   :: model
       type(surface_type), intent(in) :: side1
       integer, intent(in)            :: s
@@ -237,7 +237,7 @@ contains
       face%on_ring = model%axisymmetric
       if (model%dimension == 2) face%thickness = model%properties(model%element_property(side1%element(s)))%thickness
       face%reach = merge(reach, default_reach*longest, reach > 0.0_wp)
-   end subroutine look_at
+   end subroutine set_own_face
 
    !> INTEGRALS over the part of FACE that SIDE2 covers.
    subroutine cover_face(model, side2, face, opposite, near, points, integrals)

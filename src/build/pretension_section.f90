@@ -8,7 +8,7 @@ module pretension_section
    use node_build, only: append_unknowns
    use spring_build, only: find_stage
    use surface_build, only: find_surface, side_influence, surface_node_list, surface_nodes
-   use surface_sides, only: elements_behind, list_sides, side_list, turn_side
+   use surface_sides, only: elements_behind, list_sides, side_list, reverse_side
    use text_tools, only: integer_text
    implicit none
    private
@@ -69,19 +69,19 @@ contains
       else if (any(model%surfaces(s)%other(:model%surfaces(s)%n) == 0)) then
          fault = 'lies on the outside of a body: expected elements on both sides of it'
       else
-         call face_as_the_first(model, s, model%sections(k))
+         call orient_as_first_side(model, s, model%sections(k))
          if (model%sections(k)%area <= 0.0_wp) return ! a body without property: reported already
          model%sections(k)%strength = model%properties(model%element_property(model%surfaces(s)%element(1)))%strength
          call surface_nodes(model, model%surfaces(s), list)
          allocate (centroid, source=matmul(model%x(:, list%node), list%area)/sum(list%area))
-         fault = not_flat(model, model%sections(k), list, centroid)
+         fault = plane_fault(model, model%sections(k), list, centroid)
       end if
       if (fault == '') call find_elements_behind(model, s, k, fault)
       if (fault /= '') call deck%field_error(card%line, 'PMARK', 'surface '//integer_text(card%surface)//' '//fault)
    end subroutine build_section
 
    !> Reverse the sides of surface S that face against the first one; the mean normal gives direction and area of SECTION.
-   pure subroutine face_as_the_first(model, s, section)
+   pure subroutine orient_as_first_side(model, s, section)
       type(model_type), intent(inout)   :: model
       integer, intent(in)               :: s
       type(section_type), intent(inout) :: section
@@ -95,7 +95,7 @@ contains
          own = sum(normal, dim=2)
          associate (surface => model%surfaces(s))
             if (dot_product(own, total) < 0.0_wp) then
-               call turn_side(surface, i)
+               call reverse_side(surface, i)
                own = -own
             end if
          end associate
@@ -103,16 +103,16 @@ contains
          section%area = section%area + sum(area)
       end do
       section%direction = -total/max(norm2(total), tiny(1.0_wp))
-   end subroutine face_as_the_first
+   end subroutine orient_as_first_side
 
    !> The reason why a surface with the nodes of LIST is no plane section; empty where it is plane.
-   pure function not_flat(model, section, list, centroid) result(fault)
+   pure function plane_fault(model, section, list, centroid) result(fault)
       type(model_type), intent(in)        :: model
       type(section_type), intent(in)      :: section
       type(surface_node_list), intent(in) :: list
       real(wp), intent(in)                :: centroid(3)
       character(:), allocatable           :: fault
-      real(wp) :: out, size_of_it
+      real(wp) :: out, extent
       integer  :: i
 
       fault = ''
@@ -120,14 +120,14 @@ contains
          fault = 'is not across the axis: in an axisymmetric model a bolt is cut at a plane y = constant'
          return
       end if
-      size_of_it = maxval([(norm2(model%x(:, list%node(i)) - centroid), i = 1, list%n)])
+      extent = maxval([(norm2(model%x(:, list%node(i)) - centroid), i = 1, list%n)])
       do i = 1, list%n
          out = abs(dot_product(model%x(:, list%node(i)) - centroid, section%direction))
-         if (out <= even*size_of_it) cycle
+         if (out <= even*extent) cycle
          fault = 'is not plane: node '//integer_text(model%node_id(list%node(i)))//' lies out of its mean plane'
          return
       end do
-   end function not_flat
+   end function plane_fault
 
    !> The elements behind section K, which is surface S: at each node the elements that are connected to the
    !! back of a side without crossing the surface.

@@ -4,8 +4,8 @@
 !! the shells and no unknowns of their own: u + theta x r. Joints, gaps and pressure use them as they use other nodes. Masses with an offset
 !! have such nodes too.
 module shell_faces
-   use coordinate_systems, only: directions_at
    use deck_check, only: checked_deck
+   use displacement_systems, only: find_directions
    use element_kinds, only: element_table
    use kinds, only: wp
    use lists, only: id_table_type
@@ -32,7 +32,7 @@ contains
       integer :: k, n
 
       allocate (faces(0))
-      call stand_masses_off(deck, model, faces)
+      call offset_masses(deck, model, faces)
       do k = 1, merge(size(model%surfaces), 0, allocated(model%structural%place))
          associate (surface => model%surfaces(k))
             if (.not. any([(is_shell(model, surface%element(n)), n = 1, surface%n)])) cycle
@@ -42,36 +42,33 @@ contains
                   ': a joint cannot lie on an edge between two shells; expected a free edge')
                return
             end do
-            call stand_off(model, surface, faces)
+            call offset_sides(model, surface, faces)
          end associate
       end do
       if (size(faces) > 0) call append_faces(model, faces)
    end subroutine build_shell_faces
 
    !> The centres of mass of CONM2 with an offset have rigid levers from their nodes, as faces of shells have.
-   subroutine stand_masses_off(deck, model, faces)
+   subroutine offset_masses(deck, model, faces)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
       type(face_node_type), allocatable, intent(inout) :: faces(:)
       real(wp) :: axes(3, 3)
-      integer  :: i, node, system
+      integer  :: i, node
       logical  :: ok
 
       do i = 1, size(deck%bulk%mass)
          associate (card => deck%bulk%mass(i))
             node = model%node_table%find(card%node)
             if (node == 0 .or. all(abs(card%offset) <= 0.0_wp)) cycle
-            faces = [faces, face_node_type(point=node, lever=card%offset)]
-            system = findloc(model%systems%id, card%system, dim=1)
-            if (card%system == 0 .or. system == 0) cycle ! a missing system is an error of find_inertia
-            call directions_at(model%systems(system), model%x(:, node), axes, ok)
-            if (ok) faces(size(faces))%lever = matmul(axes, card%offset)
+            call find_directions(deck, model%systems, card%line, card%system, model%x(:, node), axes, ok)
+            faces = [faces, face_node_type(point=node, lever=matmul(axes, card%offset))]
          end associate
       end do
-   end subroutine stand_masses_off
+   end subroutine offset_masses
 
    !> Give the sides of SURFACE that belong to shells nodes among FACES; a shared node has the mean lever of its sides.
-   subroutine stand_off(model, surface, faces)
+   subroutine offset_sides(model, surface, faces)
       type(model_type), intent(in)      :: model
       type(surface_type), intent(inout) :: surface
       type(face_node_type), allocatable, intent(inout) :: faces(:)
@@ -144,7 +141,7 @@ contains
          end associate
       end subroutine take
 
-   end subroutine stand_off
+   end subroutine offset_sides
 
    !> Repeat every edge of SURFACE once per strip over the thickness; minus the number of the strip follows its two nodes.
    pure subroutine cut_edges(surface)

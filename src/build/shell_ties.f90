@@ -102,7 +102,7 @@ contains
                end if
                farthest = 0.0_wp
                do p = 1, 3
-                  call hang(model, base, frames, arms(:, p), own(of_node(node)), miss)
+                  call attach_point(model, base, frames, arms(:, p), own(of_node(node)), miss)
                   farthest = max(farthest, miss)
                end do
                if (farthest <= t) cycle
@@ -117,7 +117,7 @@ contains
    end subroutine tie
 
    !> Add to OWN the point of BASE, whose sides have FRAMES, nearest to the position at ARM from its node; MISS is the distance.
-   pure subroutine hang(model, base, frames, arm, own, miss)
+   pure subroutine attach_point(model, base, frames, arm, own, miss)
       type(model_type), intent(in)   :: model
       type(surface_type), intent(in) :: base
       type(face_frame), intent(in)   :: frames(:)
@@ -155,7 +155,7 @@ contains
             own%share(:size(nodes), own%n) = share(:size(nodes))
          end associate
       end do
-   end subroutine hang
+   end subroutine attach_point
 
    !> The constraint equations of TIES, for all six components of their nodes.
    subroutine add_ties(model, ties, list)

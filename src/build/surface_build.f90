@@ -38,10 +38,10 @@ contains
       call marks%build(deck%bulk%pmark%id)
       allocate (model%surfaces(size(deck%bulk%pmark)), surface(size(sides)), said(0))
       do i = 1, size(sides)
-         surface(i) = marks%find(sides(i)%mark)
-         if (surface(i) > 0 .or. sides(i)%mark <= 0 .or. any(said == sides(i)%mark)) cycle
-         call report_missing(deck, sides(i), count(sides%mark == sides(i)%mark))
-         said = [said, sides(i)%mark]
+         surface(i) = marks%find(sides(i)%property)
+         if (surface(i) > 0 .or. sides(i)%property <= 0 .or. any(said == sides(i)%property)) cycle
+         call report_missing(deck, sides(i), count(sides%property == sides(i)%property))
+         said = [said, sides(i)%property]
       end do
       call list_owners(size(model%surfaces), reshape(surface, [1, size(sides)]), first, members)
       do k = 1, size(model%surfaces)
@@ -97,10 +97,10 @@ contains
       integer, intent(in)            :: n
       character(:), allocatable :: words
 
-      words = 'there is no PMARK '//integer_text(side%mark)
+      words = 'there is no PMARK '//integer_text(side%property)
       if (n > 1) words = words//' for '//integer_text(n)//' sides'
-      if (side%of_block > 0) then
-         call deck%field_error(side%line, 'S'//integer_text(side%of_block), words)
+      if (side%id < 0) then
+         call deck%field_error(side%line, 'S'//integer_text(-side%id), words)
       else
          if (side%corners > 2) &
             words = words//': in a model of space plane elements mark surfaces; plane bodies cannot be mixed with solids; '// &

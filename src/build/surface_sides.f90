@@ -11,7 +11,7 @@ module surface_sides
    implicit none
    private
 
-   public :: nodes_of, list_sides, turn_side, face_one_way, elements_behind, split_shared_surfaces
+   public :: nodes_of, list_sides, reverse_side, orient_sides, elements_behind, split_shared_surfaces
 
    !> The sides of a surface at every node of it: side(first(k):first(k + 1) - 1) at node(k).
    type, public :: side_list
@@ -57,7 +57,7 @@ contains
    end subroutine list_sides
 
    !> Reverse SIDE of SURFACE: it becomes a side of the element behind it.
-   pure subroutine turn_side(surface, side)
+   pure subroutine reverse_side(surface, side)
       type(surface_type), intent(inout) :: surface
       integer, intent(in)               :: side
       integer :: element, m
@@ -70,11 +70,11 @@ contains
       element = surface%element(side)
       surface%element(side) = surface%other(side)
       surface%other(side) = element
-   end subroutine turn_side
+   end subroutine reverse_side
 
    !> Reverse sides of SURFACE until neighbours have a consistent orientation: the same body on the left of all edges, inside all
    !! faces.
-   pure subroutine face_one_way(surface, at)
+   pure subroutine orient_sides(surface, at)
       type(surface_type), intent(inout) :: surface
       type(side_list), intent(in)       :: at !! of SURFACE
       integer, allocatable :: queue(:)
@@ -101,7 +101,7 @@ contains
                   case (0)
                      cycle
                   case (1)
-                     call turn_side(surface, other)
+                     call reverse_side(surface, other)
                   end select
                   done(other) = .true.
                   last = last + 1
@@ -110,7 +110,7 @@ contains
             end do
          end do
       end do
-   end subroutine face_one_way
+   end subroutine orient_sides
 
    !> How side OTHER shares corner K of SIDE (in the plane the node, of a face the edge to the next corner): 0 not shared,
    !! 1 shared in the same sense, which is inconsistent, -1 in the opposite sense.
@@ -235,7 +235,7 @@ contains
       integer :: i, k
 
       call list_sides(model%surfaces(s), at)
-      call face_one_way(model%surfaces(s), at)
+      call orient_sides(model%surfaces(s), at)
       allocate (behind(at%n))
       do k = 1, at%n                          ! unsplit nodes are needed until all elements behind are known
          call elements_behind(model, s, at, k, behind(k)%element)

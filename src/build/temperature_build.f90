@@ -45,7 +45,7 @@ contains
                allocate (temperature%at(model%n_nodes), source=0.0_wp)
                temperature%reference_share = 1.0_wp
                call fill_in(deck, model, reference%id, temperature%at, given)
-               call warm_plates(deck, model, elements, reference%id, temperature, given)
+               call set_plate_temperatures(deck, model, elements, reference%id, temperature, given)
             end associate
             if (.not. deck%errors%any()) call check_whole(deck, model, s, given)
          end associate
@@ -188,7 +188,7 @@ contains
    end function plates_of
 
    !> Temperatures of the shells of SET from TEMPP1. Nodes that have no other temperature get that of these shells, and are then GIVEN.
-   subroutine warm_plates(deck, model, elements, set, temperature, given)
+   subroutine set_plate_temperatures(deck, model, elements, set, temperature, given)
       type(checked_deck), intent(in)        :: deck
       type(model_type), intent(in)          :: model
       type(id_table_type), intent(in)       :: elements
@@ -222,7 +222,7 @@ contains
             temperature%plate(5, place) = card%slope
          end associate
       end do
-   end subroutine warm_plates
+   end subroutine set_plate_temperatures
 
    !> Error: a node of a body or bar without a temperature in stage S.
    subroutine check_whole(deck, model, s, given)

@@ -64,7 +64,8 @@ contains
       vibration%on_loading = asked%on_loading
       vibration%amplitude = asked%amplitude
       vibration%damping = deck%bulk%parameters%damping
-      vibration%has_losses = vibration%amplitude > 0.0_wp .or. is_damped(deck, model)
+      vibration%has_losses = vibration%amplitude > 0.0_wp .or. vibration%damping > 0.0_wp .or. &
+                             any(model%properties%damping > 0.0_wp) .or. any(model%bars%damping > 0.0_wp)
       k = findloc(deck%bulk%eigrl%id, asked%modes%id, dim=1)
       if (k == 0) then
          call deck%errors%add(asked%modes%line, 'MODES: there is no EIGRL '//integer_text(asked%modes%id))
@@ -110,15 +111,6 @@ contains
       end associate
       vibration%backbone = backbone
    end subroutine plan_backbone
-
-   !> Whether materials or PARAM G have structural damping.
-   pure logical function is_damped(deck, model)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-
-      is_damped = deck%bulk%parameters%damping > 0.0_wp .or. any(model%properties%damping > 0.0_wp) .or. &
-                  any(model%bars%damping > 0.0_wp)
-   end function is_damped
 
    !> FREQUENCY of one stage.
    subroutine plan_response(deck, model, asked, load, response)

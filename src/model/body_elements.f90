@@ -6,7 +6,7 @@ module body_elements
    use isoparametric, only: stiffness, body_forces, nodal_thermal_forces
    use kinds, only: wp
    use model_data, only: corners_of, is_beam, is_shell, model_type, own_nodes, temperature_type
-   use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, felt_nodes, section_node
+   use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, participating_nodes
    use shape_functions, only: shape_values
    use stress_recovery, only: centre_stress, nodal_stress
    use structural_elements, only: structural_stiffness, structural_stress, structural_thermal_forces
@@ -14,8 +14,8 @@ module body_elements
    implicit none
    private
 
-   public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, whole_stress, element_weight
-   public :: felt_stiffness, internal_forces, element_thermal_forces, add_thermal_forces, law_of
+   public :: coupled_stiffness, element_centre, element_stress, node_stresses, whole_stress, element_weight
+   public :: element_stiffness, internal_forces, element_thermal_forces, add_thermal_forces, law_of
 
    ! Element contributions to nodal sums are computed in parallel, block by block, if there are more than a few; they are added in the
    ! order of the elements, so that the sum does not depend on the number of threads.
@@ -31,15 +31,15 @@ contains
       real(wp), allocatable, intent(inout) :: k(:, :) !! dimension x coupled nodes rows and columns are set
 
       if (.not. allocated(k)) allocate (k(max_felt_dofs, max_felt_dofs))
-      call felt_stiffness(model, e, k)
-      if (allocated(model%coupling%of_node)) call onto_unknowns(model, felt_nodes(model, e), k)
+      call element_stiffness(model, e, k)
+      if (allocated(model%coupling%of_node)) call onto_unknowns(model, participating_nodes(model, e), k)
    end subroutine coupled_stiffness
 
-   !> [k] between the displacements of the felt_nodes of element E, components of node 1 first [force/length].
-   pure subroutine felt_stiffness(model, e, k)
+   !> [k] between the displacements of the participating_nodes of element E, components of node 1 first [force/length].
+   pure subroutine element_stiffness(model, e, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      real(wp), intent(inout)      :: k(:, :) !! dimension x felt nodes rows and columns are set
+      real(wp), intent(inout)      :: k(:, :) !! dimension x participating nodes rows and columns are set
 
       if (is_shell(model, e) .or. is_beam(model, e)) then
          call structural_stiffness(model, e, k)
@@ -47,7 +47,7 @@ contains
       end if
       call stiffness(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), k)
       call extend_stiffness(model, e, k)
-   end subroutine felt_stiffness
+   end subroutine element_stiffness
 
    !> The centre of element E, the point of element_stress [length]: of a linear element the mean of its corners.
    pure function element_centre(model, e) result(x)
@@ -73,11 +73,16 @@ contains
       real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
       type(temperature_type), intent(in) :: temperature
       real(wp) :: stress(n_stresses(model%properties(model%element_property(e))%state))
-      real(wp), allocatable :: structural(:, :)
+      real(wp) :: at_corners(max_stresses, 5, 1) ! of a shell in its mean plane, and at its centre
 
-      if (is_shell(model, e) .or. is_beam(model, e)) then
-         call mean_plane_stress(model, e, u, temperature, structural)
-         stress = structural(:, size(structural, 2))
+      if (is_beam(model, e)) then
+         stress = 0.0_wp
+         return
+      else if (is_shell(model, e)) then
+         associate (n => element_table(model%element_kind(e))%n_nodes)
+            call structural_stress(model, e, u(:, own_nodes(model, e)), temperature, [0.0_wp], at_corners(:, :n + 1, :))
+            stress = at_corners(:, n + 1, 1)
+         end associate
          return
       end if
       associate (nodes => corners_of(model, e))
@@ -85,45 +90,6 @@ contains
                             element_rise(model, e, temperature))
       end associate
    end function element_stress
-
-   !> Stresses at the nodes of element E, with the components of element_stress.
-   pure subroutine element_nodal_stress(model, e, u, temperature, stress)
-      type(model_type), intent(in)       :: model
-      integer, intent(in)                :: e
-      real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
-      type(temperature_type), intent(in) :: temperature
-      real(wp), intent(inout)            :: stress(:, :) !! (components, nodes) [pressure], set here
-
-      real(wp), allocatable :: structural(:, :)
-
-      if (is_shell(model, e) .or. is_beam(model, e)) then
-         call mean_plane_stress(model, e, u, temperature, structural)
-         stress(:, :size(structural, 2) - 1) = structural(:, :size(structural, 2) - 1)
-         return
-      end if
-      associate (nodes => corners_of(model, e))
-         call nodal_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress, &
-                           element_rise(model, e, temperature))
-      end associate
-   end subroutine element_nodal_stress
-
-   !> Stresses in the mean plane of shell E at its corners and then at its centre; zero for a beam.
-   pure subroutine mean_plane_stress(model, e, u, temperature, stress)
-      type(model_type), intent(in)       :: model
-      integer, intent(in)                :: e
-      real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
-      type(temperature_type), intent(in) :: temperature
-      real(wp), allocatable, intent(out) :: stress(:, :) !! (components, corners + 1) [pressure]
-      real(wp) :: at_height(max_stresses, 5, 1)
-      integer  :: n
-
-      n = size(corners_of(model, e))
-      allocate (stress(max_stresses, n + 1), source=0.0_wp)
-      if (is_beam(model, e)) return
-      call structural_stress(model, e, u(:, own_nodes(model, e)), temperature, [0.0_wp], &
-                             at_height(:, :n + 1, :))
-      stress = at_height(:, :n + 1, 1)
-   end subroutine mean_plane_stress
 
    !> Nodal stresses with the components of whole_stress: the mean over the elements at a node; 0 at a node without elements.
    subroutine node_stresses(model, u, temperature, at_node)
@@ -169,8 +135,9 @@ contains
 
          associate (nodes => corners_of(model, e))
             c = n_stresses(model%properties(model%element_property(e))%state)
-            call element_nodal_stress(model, e, u, temperature, own(:c, :size(nodes)))
             rise(:size(nodes)) = element_rise(model, e, temperature)
+            call nodal_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), &
+                              own(:c, :size(nodes)), rise(:size(nodes)))
             do i = 1, size(nodes)
                share(:, i) = full_stress(model, e, own(:c, i), rise(i))/ &
                              real(n_at(nodes(i)), wp)
@@ -231,8 +198,8 @@ contains
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
       real(wp), intent(out)        :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp), allocatable :: p(:, :, :)     ! (dimension, felt nodes, elements of a block)
-      integer :: e, first, i, last, n
+      real(wp), allocatable :: p(:, :, :)     ! (dimension, participating nodes, elements of a block)
+      integer :: e, first, i, last
 
       f = 0.0_wp
       allocate (p(model%dimension, max(8, size(model%element_nodes, 1)) + 1, min(block, model%n_elements))) ! 8: shells with rotations
@@ -244,24 +211,16 @@ contains
          end do
          !$omp end parallel do
          do e = first, last
-            n = element_table(model%element_kind(e))%n_nodes
-            do i = 1, n
-               associate (node => model%element_nodes(i, e))
-                  f(:, node) = f(:, node) + p(:, i, e - first + 1)
-               end associate
-            end do
-            associate (node => section_node(model, e))
-               if (node > 0) f(:, node) = f(:, node) + p(:, n + 1, e - first + 1)
-            end associate
-            if (.not. (is_shell(model, e) .or. is_beam(model, e))) cycle
-            associate (nodes => own_nodes(model, e))
-               f(:, nodes(n + 1:)) = f(:, nodes(n + 1:)) + p(:, n + 1:size(nodes), e - first + 1)
+            associate (nodes => participating_nodes(model, e))
+               do i = 1, size(nodes)
+                  f(:, nodes(i)) = f(:, nodes(i)) + p(:, i, e - first + 1)
+               end do
             end associate
          end do
       end do
    end subroutine internal_forces
 
-   !> The internal forces P of element E at its felt_nodes.
+   !> The internal forces P of element E at its participating_nodes.
    pure subroutine element_forces(model, e, u, p)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -271,8 +230,8 @@ contains
       integer  :: d, i, n
 
       d = model%dimension
-      call felt_stiffness(model, e, k)
-      associate (nodes => felt_nodes(model, e))
+      call element_stiffness(model, e, k)
+      associate (nodes => participating_nodes(model, e))
          n = d*size(nodes)
          do i = 1, size(nodes)
             q(d*(i - 1) + 1:d*i) = u(:, nodes(i))

@@ -3,7 +3,7 @@
 module body_parts
    use lists, only: list_owners
    use model_data, only: corners_of, model_type, n_points, n_sections
-   use node_coupling, only: felt_nodes
+   use node_coupling, only: participating_nodes
    use temperatures, only: has_temperatures
    implicit none
    private
@@ -43,7 +43,7 @@ contains
       integer, intent(in)           :: elements(:), nodes(:)
       type(model_type), intent(out) :: part
       integer, allocatable :: place(:)
-      integer :: e, i, k
+      integer :: e, i
 
       allocate (place(0:model%n_nodes), source=0)
       do i = 1, size(nodes)
@@ -56,9 +56,7 @@ contains
       part%element_property = model%element_property(elements)
       part%element_nodes = model%element_nodes(:, elements)
       do e = 1, part%n_elements
-         do k = 1, size(part%element_nodes, 1)
-            part%element_nodes(k, e) = place(part%element_nodes(k, e)) ! 0 stays 0
-         end do
+         part%element_nodes(:, e) = place(part%element_nodes(:, e)) ! 0 stays 0
       end do
       part%n_nodes = size(nodes)
       part%x = model%x(:, nodes)
@@ -87,12 +85,12 @@ contains
       integer, intent(in)                :: r
       type(body_piece_type), intent(out) :: piece
       integer, allocatable, intent(out)  :: nodes(:)
-      logical, allocatable :: is_shown(:), is_own(:), is_felt(:), is_part(:)
+      logical, allocatable :: is_shown(:), is_own(:), is_needed(:), is_part(:)
       integer, allocatable :: elements(:)
       integer :: e, i
 
       allocate (is_own(model%n_elements), is_part(model%n_elements))
-      allocate (is_shown(model%n_nodes), is_felt(model%n_nodes), source=.false.)
+      allocate (is_shown(model%n_nodes), is_needed(model%n_nodes), source=.false.)
       do e = 1, model%n_elements
          is_own(e) = max(owner(model%element_nodes(1, e)), 0) == r
          if (is_own(e)) is_shown(corners_of(model, e)) = .true.
@@ -106,9 +104,9 @@ contains
       end do
       elements = pack([(e, e = 1, model%n_elements)], is_part)
       do e = 1, size(elements)
-         is_felt(felt_nodes(model, elements(e))) = .true.
+         is_needed(participating_nodes(model, elements(e))) = .true.
       end do
-      nodes = [pack([(i, i = 1, model%n_nodes)], is_shown), pack([(i, i = 1, model%n_nodes)], is_felt .and. .not. is_shown)]
+      nodes = [pack([(i, i = 1, model%n_nodes)], is_shown), pack([(i, i = 1, model%n_nodes)], is_needed .and. .not. is_shown)]
       call extract(model, elements, nodes, piece%model)
       associate (part => piece%model)
          part%node_id = model%node_id(nodes)

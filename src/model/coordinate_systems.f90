@@ -100,21 +100,13 @@ contains
    !> Sine of an angle in degrees, exact at multiples of 90.
    elemental real(wp) function sine(angle)
       real(wp), intent(in) :: angle !! [degrees]
-      real(wp) :: rest
+      real(wp) :: acute, rest
 
       rest = modulo(angle, 360.0_wp)
-      if (rest > 180.0_wp) then
-         sine = -sin_to_right_angle(min(rest - 180.0_wp, 360.0_wp - rest))
-      else
-         sine = sin_to_right_angle(min(rest, 180.0_wp - rest))
-      end if
+      acute = min(modulo(rest, 180.0_wp), 180.0_wp - modulo(rest, 180.0_wp))
+      sine = sin(acute*degree)
+      if (acute >= 90.0_wp) sine = 1.0_wp
+      if (rest > 180.0_wp) sine = -sine
    end function sine
-
-   elemental real(wp) function sin_to_right_angle(angle) result(value)
-      real(wp), intent(in) :: angle !! [degrees], 0 to 90
-
-      value = sin(angle*degree)
-      if (angle >= 90.0_wp) value = 1.0_wp
-   end function sin_to_right_angle
 
 end module coordinate_systems

@@ -12,7 +12,7 @@ module interface_operator
    implicit none
    private
 
-   public :: hang_on, named_node, nodes_of_end, weights_of_end, at_first_end, relative_movement, &
+   public :: connect_nodes, named_node, nodes_of_end, weights_of_end, at_first_end, relative_movement, &
              joint_movement, add_force, add_global_force, global_stiffness
 
    !> One interface element: the "beam" between two faces, or a face and the rigid base.
@@ -34,7 +34,7 @@ contains
 
    !> Connect ELEMENT to two facing nodes, one per end. NODE_2 = 0 is a rigid base; NODE_1 = 0 leaves an element without nodes,
    !! in a deck with errors.
-   pure subroutine hang_on(element, node_1, node_2)
+   pure subroutine connect_nodes(element, node_1, node_2)
       type(interface_element), intent(inout) :: element
       integer, intent(in)                    :: node_1, node_2
 
@@ -43,7 +43,7 @@ contains
          element%node = pack([node_1, node_2], is_there)
          element%weight = pack([1.0_wp, -1.0_wp], is_there)
       end associate
-   end subroutine hang_on
+   end subroutine connect_nodes
 
    !> The nodes of END 1 or 2; none: a rigid base.
    pure function nodes_of_end(element, end) result(nodes)

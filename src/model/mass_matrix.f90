@@ -8,7 +8,7 @@ module mass_matrix
    use kinds, only: wp
    use lists, only: list_owners
    use model_data, only: bar_nodes, corners_of, is_beam, is_shell, model_type, n_bars, n_points, own_nodes, point_mass_type
-   use node_coupling, only: between_unknowns, extend_stiffness, felt_nodes, onto_unknowns, rotation_at, section_node, &
+   use node_coupling, only: between_unknowns, extend_stiffness, participating_nodes, onto_unknowns, rotation_at, section_node, &
                             unknown_nodes
    use structural_elements, only: shell_mass, structural_mass
    implicit none
@@ -63,11 +63,11 @@ contains
       end associate
    end subroutine scalar_mass
 
-   !> [m] between the felt_nodes of element E, components of node 1 first [force time^2/length].
+   !> [m] between the participating_nodes of element E, components of node 1 first [force time^2/length].
    pure subroutine whole_mass(model, e, m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      real(wp), intent(inout)      :: m(:, :) !! dimension x felt nodes rows and columns are set
+      real(wp), intent(inout)      :: m(:, :) !! dimension x participating nodes rows and columns are set
       real(wp) :: scalar(max_nodes, max_nodes)
       integer  :: c, d, n
 
@@ -98,8 +98,8 @@ contains
       if (.not. abs(shift) > 0.0_wp) return
       allocate (full(max_felt_dofs, max_felt_dofs))
       call whole_mass(model, e, full)
-      if (allocated(model%coupling%of_node)) call onto_unknowns(model, felt_nodes(model, e), full)
-      n = model%dimension*size(unknown_nodes(model, felt_nodes(model, e)))
+      if (allocated(model%coupling%of_node)) call onto_unknowns(model, participating_nodes(model, e), full)
+      n = model%dimension*size(unknown_nodes(model, participating_nodes(model, e)))
       k(:n, :n) = k(:n, :n) - shift*full(:n, :n)
    end subroutine coupled_dynamic_stiffness
 
@@ -302,7 +302,7 @@ contains
       end do
       !$omp end parallel do
       do i = 1, size(mass%whole)
-         associate (nodes => felt_nodes(model, mass%whole(i)))
+         associate (nodes => participating_nodes(model, mass%whole(i)))
             n = model%dimension*size(nodes)
             call whole_mass(model, mass%whole(i), m)
             f(:, nodes) = f(:, nodes) + reshape(matmul(m(:n, :n), pack(a(:, nodes), .true.)), [model%dimension, size(nodes)])

@@ -19,9 +19,9 @@ module node_coupling
    private
 
    public :: is_coupled, couple_node, unknown_nodes, onto_unknowns, between_unknowns, displacements, displacements_at, &
-             forces_on_unknowns, held_forces, list_on_unknowns, section_node, felt_nodes, coupled_nodes, corner_displacements, &
-             extend_stiffness, add_section_share, coupling_parts, rotation_at, rotation_component, node_axes, place_of_component, &
-             third_axis
+             forces_on_unknowns, held_forces, list_on_unknowns, section_node, participating_nodes, coupled_nodes, &
+             corner_displacements, extend_stiffness, add_section_share, coupling_parts, rotation_at, rotation_component, &
+             node_axes, place_of_component, third_axis
 
    !> The place of a nodal component among the unknowns: component D of NODE, times SCALE.
    type, public :: component_place
@@ -203,22 +203,22 @@ contains
    end function displacements_at
 
    !> Transform the forces F on all nodes to forces on their unknowns, [T]^T {f}, which do the same work.
-   pure function forces_on_unknowns(model, f) result(felt)
+   pure function forces_on_unknowns(model, f) result(on_unknowns)
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp), allocatable :: felt(:, :)
+      real(wp), allocatable :: on_unknowns(:, :)
       integer :: i, k
 
-      felt = f
+      on_unknowns = f
       if (.not. allocated(model%coupling%of_node)) return
       associate (coupling => model%coupling)
          do i = 1, size(coupling%of_node)
-            if (coupling%of_node(i) > 0) felt(:, i) = 0.0_wp
+            if (coupling%of_node(i) > 0) on_unknowns(:, i) = 0.0_wp
          end do
          do i = 1, size(coupling%of_node)
             associate (parts => coupling_parts(model, i))
                do k = parts(1), parts(2)
-                  felt(:, coupling%node(k)) = felt(:, coupling%node(k)) + matmul(f(:, i), coupling%t(:, :, k))
+                  on_unknowns(:, coupling%node(k)) = on_unknowns(:, coupling%node(k)) + matmul(f(:, i), coupling%t(:, :, k))
                end do
             end associate
          end do
@@ -279,14 +279,14 @@ contains
    end function section_node
 
    !> The nodes whose displacements enter element E: its own nodes, and the node of a section that it touches from behind.
-   pure function felt_nodes(model, e) result(nodes)
+   pure function participating_nodes(model, e) result(nodes)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       integer, allocatable :: nodes(:)
 
       nodes = own_nodes(model, e)
       if (section_node(model, e) > 0) nodes = [nodes, section_node(model, e)]
-   end function felt_nodes
+   end function participating_nodes
 
    !> The nodes whose unknowns element E couples.
    pure function coupled_nodes(model, e) result(nodes)
@@ -294,7 +294,7 @@ contains
       integer, intent(in)          :: e
       integer, allocatable :: nodes(:)
 
-      nodes = unknown_nodes(model, felt_nodes(model, e))
+      nodes = unknown_nodes(model, participating_nodes(model, e))
    end function coupled_nodes
 
    !> Displacements of the corners of element E: u, or u + g direction at a section that the element touches from behind.
@@ -317,7 +317,7 @@ contains
       end associate
    end function corner_displacements
 
-   !> [T]^T [k] [T]: transform the stiffness K of element E from its corners to its felt_nodes, components of node 1 first. Only
+   !> [T]^T [k] [T]: transform the stiffness K of element E from its corners to its participating_nodes, components of node 1 first. Only
    !! the first component of the section node has stiffness.
    pure subroutine extend_stiffness(model, e, k)
       type(model_type), intent(in) :: model

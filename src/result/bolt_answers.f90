@@ -3,7 +3,7 @@
 !! the loss of clamping force are counted from assembly on.
 module bolt_answers
    use analysis_state, only: analysis_type
-   use body_elements, only: element_thermal_forces, felt_stiffness
+   use body_elements, only: element_thermal_forces, element_stiffness
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
    use element_kinds, only: max_felt_dofs, max_nodes
    use interface_operator, only: at_first_end
@@ -265,7 +265,7 @@ contains
       total = 0.0_wp
       do j = model%first_at(section%node), model%first_at(section%node + 1) - 1
          e = model%elements_at(j)
-         call felt_stiffness(model, e, k)
+         call element_stiffness(model, e, k)
          call element_thermal_forces(model, e, temperature, thermal(:d, :))
          associate (nodes => corners_of(model, e))
             n = d*size(nodes)

@@ -120,18 +120,18 @@ contains
       character(4), parameter :: moments(6) = ['I XX', 'I YY', 'I ZZ', 'I XY', 'I YZ', 'I ZX']
       type(table_type) :: table
       integer, allocatable :: shown(:)
-      real(wp) :: size_of_it
+      real(wp) :: extent
       integer  :: c, d
 
       d = model%dimension
       shown = pack([(c, c = 1, 6)], [(d == 3 .or. (c == 3 .and. .not. model%axisymmetric), c = 1, 6)])
-      size_of_it = maxval(abs(model%x))
+      extent = maxval(abs(model%x))
       call table%start('MASS OF THE STRUCTURE', [column('MASS', 'es13.5'), column('CENTRE '//axes(:d), 'es13.5', &
                                                                                   page%labels%length), &
                                                  column(moments(shown), 'es13.5')], page%file)
       call table%add([modes%mass])
-      call table%add(modes%centre(:d), no_part*size_of_it)
-      call table%add(modes%inertia(shown), no_part*modes%mass*size_of_it**2)
+      call table%add(modes%centre(:d), no_part*extent)
+      call table%add(modes%inertia(shown), no_part*modes%mass*extent**2)
       call table%print_row(page%file)
    end subroutine list_mass
 

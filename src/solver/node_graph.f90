@@ -6,7 +6,7 @@ module node_graph
    use lists, only: list_owners
    use mass_matrix, only: mass_nodes, n_masses
    use model_data, only: bar_nodes, corners_of, is_face_node, model_type, n_bars
-   use node_coupling, only: unknown_nodes, coupled_nodes, felt_nodes, section_node
+   use node_coupling, only: unknown_nodes, coupled_nodes, participating_nodes, section_node
    implicit none
    private
 
@@ -108,7 +108,7 @@ contains
       end do
       if (.not. (with_bodies .and. allocated(model%coupling%of_node))) return
       do e = 1, model%n_elements
-         associate (felt => felt_nodes(model, e), unknown => coupled_nodes(model, e)) ! some of which it does not touch?
+         associate (felt => participating_nodes(model, e), unknown => coupled_nodes(model, e)) ! some of which it does not touch?
             if (any([(all(felt /= unknown(i)), i = 1, size(unknown))])) call join(unknown)
          end associate
       end do

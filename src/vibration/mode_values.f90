@@ -17,7 +17,7 @@
 module mode_values
    use analysis_state, only: analysis_type
    use bar_elements, only: add_pull, bar_elongation
-   use body_elements, only: felt_stiffness
+   use body_elements, only: element_stiffness
    use eigenpairs, only: all_displacements, on_equations
    use element_kinds, only: max_felt_dofs
    use element_mapping, only: two_pi
@@ -29,7 +29,7 @@ module mode_values
    use connected_bodies, only: find_bodies
    use model_data, only: bar_nodes, model_type, n_bars, n_points
    use natural_modes, only: oscillating_type, spectrum_type
-   use node_coupling, only: felt_nodes
+   use node_coupling, only: participating_nodes
    use normal_stiffness, only: touches
    use shear_loops, only: loop_loss, no_limit
    use stage_plan, only: vibration_plan_type
@@ -350,8 +350,8 @@ contains
 
       d = model%dimension
       do e = 1, model%n_elements
-         call felt_stiffness(model, e, k)
-         associate (nodes => felt_nodes(model, e))
+         call element_stiffness(model, e, k)
+         associate (nodes => participating_nodes(model, e))
             n = d*size(nodes)
             q(:n, :) = reshape(u(:, nodes, :), [n, size(energies)])
             p(:n, :) = matmul(k(:n, :n), q(:n, :))

@@ -362,15 +362,15 @@ contains
    !> The square of the frequency of a wave through the structure: E/rho over its size^2.
    pure real(wp) function wave_scale(model) result(scale)
       type(model_type), intent(in) :: model
-      real(wp) :: size_of_it
+      real(wp) :: extent
       integer  :: i
 
       associate (x => model%x(:, :n_points(model)))
-         size_of_it = norm2(maxval(x, dim=2) - minval(x, dim=2))
+         extent = norm2(maxval(x, dim=2) - minval(x, dim=2))
       end associate
       scale = 0.0_wp
       do i = 1, size(model%properties)
-         if (model%properties(i)%rho > 0.0_wp) scale = max(scale, model%properties(i)%e/(model%properties(i)%rho*size_of_it**2))
+         if (model%properties(i)%rho > 0.0_wp) scale = max(scale, model%properties(i)%e/(model%properties(i)%rho*extent**2))
       end do
       if (.not. scale > 0.0_wp) scale = 1.0_wp ! nodal masses only: the search finds its own scale
    end function wave_scale

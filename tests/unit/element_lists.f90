@@ -6,7 +6,7 @@ module element_lists
    implicit none
    private
 
-   public :: on_lists, some_axes, hang_on_lists
+   public :: on_lists, some_axes, connect_lists
 
 contains
 
@@ -37,7 +37,7 @@ contains
 
    !> From now on every interface element of MODEL hangs on its own nodes and those of a neighbour in its joint: end 1 in the ratio
    !! 3:1, end 2, where there is one, on their mean.
-   pure subroutine hang_on_lists(model)
+   pure subroutine connect_lists(model)
       type(model_type), intent(inout) :: model
       type(interface_element), allocatable :: pairs(:)
       integer :: i, j
@@ -52,6 +52,6 @@ contains
             end associate
          end do
       end do
-   end subroutine hang_on_lists
+   end subroutine connect_lists
 
 end module element_lists

@@ -2,7 +2,7 @@
 module towers
    use equations, only: equation_system, form_body_stiffness, start_equations
    use equation_solver, only: failure_type
-   use interface_operator, only: hang_on
+   use interface_operator, only: connect_nodes
    use joint_laws, only: joint_law
    use kinds, only: wp
    use model_data, only: model_type
@@ -41,7 +41,7 @@ contains
       model%first_at = 1
       do i = 1, n
          model%interface(i)%joint = i
-         call hang_on(model%interface(i), i, i - 1)
+         call connect_nodes(model%interface(i), i, i - 1)
          model%interface(i)%area = area
          model%interface(i)%axes = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, -1.0_wp, 0.0_wp], [3, 3])
          model%joints(i)%law = law
