@@ -241,13 +241,8 @@ contains
             if (ends(2) == 0) along(:, 2) = along(:, 1)
          end if
          n = n + 1
-         bars(n)%id = card%id
-         bars(n)%nodes = ends
-         bars(n)%kind = a_spring
-         bars(n)%axis = axis_names(component)
-         bars(n)%stiffness = k_axis
-         bars(n)%damping = damping
-         bars(n)%direction = along
+         bars(n) = bar_type(id=card%id, nodes=ends, kind=a_spring, axis=axis_names(component), stiffness=k_axis, damping=damping, &
+                            direction=along)
          model%used(pack(ends, ends > 0)) = .true.
       end subroutine add
 

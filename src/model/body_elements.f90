@@ -14,7 +14,7 @@ module body_elements
    implicit none
    private
 
-   public :: coupled_stiffness, element_centre, element_stress, node_stresses, whole_stress, element_weight
+   public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, whole_stress, element_weight
    public :: element_stiffness, internal_forces, element_thermal_forces, add_thermal_forces, law_of
 
    ! Element contributions to nodal sums are computed in parallel, block by block, if there are more than a few; they are added in the
@@ -91,6 +91,18 @@ contains
       end associate
    end function element_stress
 
+   !> Stresses at the nodes of element E (no shell or beam), with the components of element_stress.
+   pure subroutine element_nodal_stress(model, e, u, temperature, stress)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: e
+      real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
+      type(temperature_type), intent(in) :: temperature
+      real(wp), intent(inout)            :: stress(:, :) !! (components, nodes) [pressure], set here
+
+      call nodal_stress(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), corner_displacements(model, e, u), &
+                        stress, element_rise(model, e, temperature))
+   end subroutine element_nodal_stress
+
    !> Nodal stresses with the components of whole_stress: the mean over the elements at a node; 0 at a node without elements.
    subroutine node_stresses(model, u, temperature, at_node)
       type(model_type), intent(in)       :: model
@@ -136,8 +148,7 @@ contains
          associate (nodes => corners_of(model, e))
             c = n_stresses(model%properties(model%element_property(e))%state)
             rise(:size(nodes)) = element_rise(model, e, temperature)
-            call nodal_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), &
-                              own(:c, :size(nodes)), rise(:size(nodes)))
+            call element_nodal_stress(model, e, u, temperature, own(:c, :size(nodes)))
             do i = 1, size(nodes)
                share(:, i) = full_stress(model, e, own(:c, i), rise(i))/ &
                              real(n_at(nodes(i)), wp)
