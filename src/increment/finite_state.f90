@@ -6,7 +6,8 @@ module finite_state
    use equation_solver, only: failure_type
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type, n_bars
-   use newton_method, only: idle, no_balance
+   use newton_iterations, only: idle
+   use newton_method, only: no_balance
    use numbers, only: is_measure
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text

@@ -1,7 +1,7 @@
 !> The search direction of an iteration of METHOD = NEWTON, and the data of an attempt at an increment.
 module newton_direction
    use analysis_state, only: analysis_type
-   use equations, only: solve_coupled, equation_system, form_structure_stiffness, solve_equations
+   use equations, only: equation_system, form_structure_stiffness, solve_coupled, solve_coupled_again, solve_equations
    use equation_solver, only: failure_type
    use joint_laws, only: element_state
    use kinds, only: wp
@@ -11,7 +11,7 @@ module newton_direction
    implicit none
    private
 
-   public :: find_direction, check_lifted, loose_joint
+   public :: find_direction, find_again, check_lifted, loose_joint
 
    integer, parameter  :: digits = 6                  ! of a direction: the next iteration corrects it
    real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: substitute for zero stiffness of an element
@@ -36,6 +36,7 @@ module newton_direction
       logical :: settled = .false.                !! no element has begun or stopped slipping in the last iteration
       logical :: floats = .false.                 !! only friction holds a body, which stays held
       real(wp) :: length = 0.0_wp                 !! of the last direction [length]
+      logical :: coupled = .false.                !! the last direction was that of a coupled system
       logical :: converged = .false.
       type(failure_type) :: trouble               !! a matrix that could not be factorised
    end type attempt_type
@@ -85,7 +86,6 @@ contains
       real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
       real(wp) :: elastic(3), least ! its eigenvalue
       integer  :: i, k
-      logical  :: coupled
 
       allocate (matrix(3, 3, size(model%interface)), rest(3, 3, size(model%interface)), source=0.0_wp)
       do i = 1, size(model%interface)
@@ -101,9 +101,9 @@ contains
          rest(:2, :, i) = tangent(:2, :, i) - matrix(:2, :, i)
          if (holds) rest(:2, :2, i) = 0.0_wp
       end do
-      coupled = any(abs(rest(:2, 3, :)) > 0.0_wp) .and. all(abs(attempt%move) <= 0.0_wp)
+      attempt%coupled = any(abs(rest(:2, 3, :)) > 0.0_wp) .and. all(abs(attempt%move) <= 0.0_wp)
       associate (failure => attempt%trouble)
-         if (coupled) then
+         if (attempt%coupled) then
             call solve_coupled(model, matrix, rest, residual, attempt%where, system, direction, failure)
             tangent = matrix + rest
          else
@@ -113,6 +113,23 @@ contains
          end if
       end associate
    end subroutine solve_laws
+
+   !> The DIRECTION that balances another RESIDUAL with the tangents of the last direction.
+   subroutine find_again(model, residual, system, attempt, direction)
+      type(model_type), intent(in)          :: model
+      real(wp), intent(in)                  :: residual(:, :)
+      class(equation_system), intent(inout) :: system
+      type(attempt_type), intent(inout)     :: attempt
+      real(wp), intent(inout)               :: direction(:, :)
+
+      direction = 0.0_wp
+      if (attempt%coupled) then
+         call solve_coupled_again(model, residual, system, direction, attempt%trouble)
+      else
+         call solve_equations(model, system, residual, direction, attempt%trouble, &
+                              digits=min(digits, ceiling(-log10(system%coupled%tolerance))))
+      end if
+   end subroutine find_again
 
    !> Check bodies that moved supports have lifted off, by opening joints entirely, from the branches BEFORE: such a body must
    !! be held without these joints. The small stiffness of open elements in find_direction hides a loose body.

@@ -65,6 +65,7 @@ module equation_solver
       integer :: extra = 0                           !! steps beyond these in the last system
       integer :: spent = 0, solved = 0               !! cost in steps since and with the last factorisation; systems solved
       type(solver_direction), allocatable :: kept(:) !! directions of the last systems since the factorisation
+      real(wp), allocatable :: change(:, :, :)       !! (3, 3, n) the last system less the factorised k_int [force/length]
    end type coupled_tally
 
    type, abstract, public :: equation_system

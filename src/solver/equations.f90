@@ -19,7 +19,8 @@ module equations
    private
 
    public :: equation_system, start_equations, form_body_stiffness, add_bar, lock_unknown, condense_load, &
-             form_structure_stiffness, solve_equations, forces_in_bodies, recover_displacements, solve_coupled
+             form_structure_stiffness, solve_equations, forces_in_bodies, recover_displacements, solve_coupled, &
+             solve_coupled_again
 
    integer, parameter  :: digits = 7              ! of an iterative solution within an iteration
    integer, parameter  :: most_kept = 24          ! directions of earlier coupled systems
@@ -266,18 +267,19 @@ contains
       class(equation_system), intent(inout) :: system
       real(wp), intent(inout)               :: u(:, :)     !! likewise [length]
       type(failure_type), intent(inout)     :: failure
-      real(wp) :: change(3, 3, size(rest, 3)), digits_wanted
+      real(wp) :: digits_wanted
       integer  :: i, own, steps
 
       if (failure%raised) return
+      if (.not. allocated(system%coupled%change)) allocate (system%coupled%change, mold=rest)
       associate (tally => system%coupled)
          digits_wanted = -log10(tally%tolerance)
          if (tally%serves .and. tally%price > 0 .and. tally%extra*tally%solved <= tally%spent) then
             do i = 1, size(rest, 3)
-               change(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i) + rest(:, :, i)) - system%k_int(:, :, i)
+               tally%change(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i) + rest(:, :, i)) - system%k_int(:, :, i)
             end do
             own = nint(tally%own*digits_wanted)
-            call iterate_coupled(model, system, change, f, own + tally%price, u, steps, failure)
+            call iterate_coupled(model, system, f, own + tally%price, u, steps, failure)
             if (failure%raised) return
             tally%extra = max(0, steps - own)
             tally%spent = tally%spent + tally%extra
@@ -287,9 +289,9 @@ contains
          if (allocated(tally%kept)) deallocate (tally%kept)
          call form_structure_stiffness(model, k_int, where, system, failure)
          do i = 1, size(rest, 3)
-            change(:, :, i) = global_stiffness(system%interface(i), rest(:, :, i))
+            tally%change(:, :, i) = global_stiffness(system%interface(i), rest(:, :, i))
          end do
-         call iterate_coupled(model, system, change, f, tally%most_steps, u, steps, failure)
+         call iterate_coupled(model, system, f, tally%most_steps, u, steps, failure)
          tally%own = steps/digits_wanted
          tally%extra = 0
          tally%spent = tally%price
@@ -297,20 +299,32 @@ contains
       end associate
    end subroutine solve_coupled
 
+   !> Solve the system of the last solve_coupled for another right-hand side F.
+   subroutine solve_coupled_again(model, f, system, u, failure)
+      type(model_type), intent(in)          :: model
+      real(wp), intent(in)                  :: f(:, :)     !! (dimension, retained) [force]
+      class(equation_system), intent(inout) :: system
+      real(wp), intent(inout)               :: u(:, :)     !! likewise [length]
+      type(failure_type), intent(inout)     :: failure
+      integer :: steps
+
+      call iterate_coupled(model, system, f, system%coupled%most_steps, u, steps, failure, again=.true.)
+   end subroutine solve_coupled_again
+
    !> Solve ([k] + sum of CHANGE) U = F by generalised conjugate residuals in STEPS steps, [k] being the stiffness in SYSTEM.
    !! STEPS exceeds MOST_STEPS where the residual is not below the tolerance of the tally times the residual of U = 0.
    !! Directions of earlier systems with the same [k] are kept: their products with [k] are known, so they cost no solution.
    !! Sources: Eisenstat, Elman, Schultz, SIAM J. Numer. Anal. 20 (1983) 345-357, preconditioned from the right; Parks et al.,
    !! SIAM J. Sci. Comput. 28 (2006) 1651-1674.
-   subroutine iterate_coupled(model, system, change, f, most_steps, u, steps, failure)
+   subroutine iterate_coupled(model, system, f, most_steps, u, steps, failure, again)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
-      real(wp), intent(in)                  :: change(:, :, :) !! (3, 3, n) of interface elements, global axes [force/length]
       real(wp), intent(in)                  :: f(:, :)
       integer, intent(in)                   :: most_steps
       real(wp), intent(inout)               :: u(:, :)
       integer, intent(out)                  :: steps
       type(failure_type), intent(inout)     :: failure
+      logical, intent(in), optional         :: again       !! the kept directions are those of this system; false
       type(solver_direction), allocatable :: directions(:)
       logical  :: held(size(f, 1), size(f, 2))
       real(wp) :: left(size(f, 1), size(f, 2)), enough
@@ -327,8 +341,11 @@ contains
       if (allocated(system%coupled%kept)) n_kept = size(system%coupled%kept)
       allocate (directions(n_kept + most_steps))
       if (n_kept > 0) directions(:n_kept) = system%coupled%kept
-      n = 0
-      do i = 1, n_kept ! new directions replace useless ones
+      n = merge(n_kept, 0, present(again))
+      do i = 1, n
+         call go_along(directions(i))
+      end do
+      do i = n + 1, n_kept ! new directions replace useless ones
          if (i > n + 1) directions(n + 1) = directions(i)
          call add_direction(directions(:n + 1))
       end do
@@ -359,7 +376,7 @@ contains
             product = 0.0_wp
             do j = 1, size(system%interface)
                associate (element => system%interface(j))
-                  call add_global_force(element, matmul(change(:, :, j), relative_movement(element, new%u)), product)
+                  call add_global_force(element, matmul(system%coupled%change(:, :, j), relative_movement(element, new%u)), product)
                end associate
             end do
             product = merge(0.0_wp, product, held) + new%force
@@ -375,12 +392,20 @@ contains
             new%product = product/length
             new%u = new%u/length
             new%force = new%force/length
-            share = sum(new%product*left)
-            left = left - share*new%product
-            u = u + share*new%u
             n = n + 1
+            call go_along(new)
          end associate
       end subroutine add_direction
+
+      !> Reduce LEFT along a DIRECTION.
+      subroutine go_along(direction)
+         type(solver_direction), intent(in) :: direction
+         real(wp) :: share
+
+         share = sum(direction%product*left)
+         left = left - share*direction%product
+         u = u + share*direction%u
+      end subroutine go_along
 
    end subroutine iterate_coupled
 

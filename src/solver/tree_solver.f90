@@ -4,7 +4,7 @@
 !! joints inside: the joint unknowns stay where the dissection puts them;
 !! joints last in parts: in every subtree up to some size the joint unknowns come last; the bodies are condensed piece by piece.
 module tree_solver
-   use equation_solver, only: equation_system, failure_type
+   use equation_solver, only: equation_system, exact_digits, failure_type
    use factor_reuse, only: earlier_solutions_type, factor_reuse_type, guess_solution, iterate_refactored, may_reuse, &
                            note_factor, note_failure, note_solution, note_steps, price_in_steps
    use front_factor, only: add_to_refactored, factorise_refactored, factorise_static
@@ -192,7 +192,7 @@ contains
       real(wp), intent(inout)                :: x(:)
       integer, intent(out)                   :: fault
       real(wp), allocatable :: residual(:)
-      real(wp) :: b(size(self%equations)), work
+      real(wp) :: b(size(self%equations)), tolerance, work
       integer  :: steps
       logical  :: found
 
@@ -203,8 +203,11 @@ contains
          allocate (residual(self%n))
          associate (factor => self%factor, most_steps => self%factor%reuse%most_steps)
             call guess_solution(self%fronts, self%k_int, factor%earlier, b, x, residual, work)
-            call iterate_refactored(self%fronts, self%k_int - factor%k_int, work, step_tolerance, most_steps, residual, x, steps)
+            tolerance = step_tolerance
+            if (self%options%digits < exact_digits) tolerance = 0.1_wp**self%options%digits
+            call iterate_refactored(self%fronts, self%k_int - factor%k_int, work, tolerance, most_steps, residual, x, steps)
             found = steps <= most_steps
+            if (found .and. tolerance > step_tolerance) b = b - residual(self%equations) ! the load that X balances
             if (found) call note_steps(factor%reuse, steps)
             if (.not. found) call note_failure(factor%reuse)
          end associate
