@@ -3,7 +3,7 @@
 !! why the run ended.
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
-   use backbone, only: backbone_type, find_backbone
+   use backbone, only: backbone_type, find_loop, finish_backbone, start_backbone
    use c_library, only: open_standard_outputs, tell_failed_writes
    use case_control, only: method_back, method_newton
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
@@ -91,6 +91,7 @@ contains
       type(response_type)    :: response
       type(backbone_type)    :: found
       class(equation_system), allocatable :: shifted
+      logical :: more
 
       call start_oscillation(model, analysis, system, wanted%on_loading, structure, run%failure)
       call find_natural_modes(model, structure, wanted, spectrum, shifted, run%failure)
@@ -101,7 +102,13 @@ contains
       call evaluate_modes(model, analysis, structure, wanted, spectrum, shifted, modes)
       if (allocated(wanted%backbone)) then
          call run%progress%enter(phase_backbone)
-         call find_backbone(model, plan, analysis, system, modes, keep, found, run%failure)
+         call start_backbone(model, plan, analysis, system, modes, found, run%failure)
+         more = .not. run%failure%raised
+         do while (more)
+            call find_loop(model, plan, analysis, found, more)
+            if (more) call write_restart(run, deck, plan, system, analysis)
+         end do
+         if (.not. run%failure%raised) call finish_backbone(model, wanted, modes, found)
          if (allocated(analysis%kept)) deallocate (analysis%kept)
          call run%progress%enter(phase_modes)
       end if
@@ -110,20 +117,9 @@ contains
       associate (page => run%results%page, n_warnings => run%results%watch%n_warnings)
          if (allocated(wanted%backbone)) call list_backbone(page, model, found, n_warnings)
          if (.not. allocated(wanted%response)) return
-         call find_response(model, structure, wanted%response, modes, shifted, response, run%failure)
+         call find_response(model, structure, wanted%response, spectrum, modes, shifted, response, run%failure)
          if (.not. run%failure%raised) call list_response(page, response, n_warnings)
       end associate
-
-   contains
-
-      !> Write the loops found so far into the restart file.
-      subroutine keep(system, analysis)
-         class(equation_system), allocatable, intent(inout) :: system
-         type(analysis_type), intent(inout)                 :: analysis
-
-         call write_restart(run, deck, plan, system, analysis)
-      end subroutine keep
-
    end subroutine oscillate
 
    !> Read the command line; end the program where nothing is left to do. Set the threads and the watch on the memory. With several

@@ -47,12 +47,13 @@ contains
 
       n = p + r
       if (present(negative)) negative = [integer ::]
+      allocate (of_negative(n, 0))
+      fault = 0
       do k = 1, p, narrow
          call subtract_products(k, min(p, k + narrow - 1))
-         call eliminate_block(k, min(p, k + narrow - 1), fault)
+         call eliminate_block(n, k, min(p, k + narrow - 1), tolerance*diagonal, panel, of_negative, fault, negative)
          if (fault > 0) return
       end do
-      fault = 0
       do j = 1, r, wide
          !$omp task default(shared) firstprivate(j) if(n > alone)
          call update_columns(j, min(r, j + wide - 1))
@@ -76,72 +77,68 @@ contains
             !$omp end task
          end do
          !$omp taskwait
-         if (has_signs()) call dgemm('N', 'T', n - first + 1, last - first + 1, size(negative), 2.0_wp, of_negative(first, 1), n, &
-                                     of_negative(first, 1), n, 1.0_wp, panel(first, first), n)
+         m = size(of_negative, 2)
+         if (m > 0) call dgemm('N', 'T', n - first + 1, last - first + 1, m, 2.0_wp, of_negative(first, 1), n, &
+                               of_negative(first, 1), n, 1.0_wp, panel(first, first), n)
       end subroutine subtract_products
-
-      !> Whether any pivot so far was below zero.
-      pure logical function has_signs()
-
-         has_signs = present(negative)
-         if (has_signs) has_signs = size(negative) > 0
-      end function has_signs
-
-      !> L in the columns FIRST to LAST.
-      subroutine eliminate_block(first, last, fault)
-         integer, intent(in)  :: first, last
-         integer, intent(out) :: fault
-         integer :: column, i, info, m, n_before
-         real(wp) :: as_it_was(first:last, first:last)
-
-         n_before = 0
-         if (present(negative)) then
-            n_before = size(negative)
-            as_it_was = panel(first:last, first:last)
-         end if
-         call dpotrf('L', last - first + 1, panel(first, first), n, info)
-         if (info > 0 .and. present(negative)) then
-            panel(first:last, first:last) = as_it_was
-            call factorise_with_signs(first, last, panel(first:last, first:last), negative)
-            info = 0
-         end if
-         do column = first, merge(first + info - 1, last, info > 0)
-            fault = column
-            if (.not. panel(column, column)**2 > tolerance*diagonal(column) .or. column == first + info - 1) return
-         end do
-         fault = 0
-         do i = last + 1, n, strip
-            m = min(strip, n - i + 1)
-            !$omp task default(shared) firstprivate(i, m) if(n > alone)
-            call dtrsm('R', 'L', 'T', 'N', m, last - first + 1, 1.0_wp, panel(first, first), n, panel(i, first), n)
-            !$omp end task
-         end do
-         !$omp taskwait
-         if (.not. has_signs()) return
-         do i = n_before + 1, size(negative)
-            panel(last + 1:, negative(i)) = -panel(last + 1:, negative(i))
-         end do
-         of_negative = panel(:, negative)
-      end subroutine eliminate_block
 
       !> A22 - L21 L21^T in columns FIRST to LAST. The part below the square on the diagonal is one block. The square is
       !! computed in narrow blocks: DGEMM is faster than DSYRK although it also fills the upper triangle.
       subroutine update_columns(first, last)
          integer, intent(in) :: first, last
-         integer :: column, width
+         integer :: column, m, width
 
+         m = size(of_negative, 2)
          if (last < r) call dgemm('N', 'T', r - last, last - first + 1, p, -1.0_wp, panel(p + last + 1, 1), n, &
                                   panel(p + first, 1), n, 1.0_wp, update(last + 1, first), r)
          do column = first, last, narrow
             width = min(narrow, last - column + 1)
             call dgemm('N', 'T', last - column + 1, width, p, -1.0_wp, panel(p + column, 1), n, panel(p + column, 1), n, &
                        1.0_wp, update(column, column), r)
-            if (has_signs()) call dgemm('N', 'T', r - column + 1, width, size(negative), 2.0_wp, of_negative(p + column, 1), n, &
-                                        of_negative(p + column, 1), n, 1.0_wp, update(column, column), r)
+            if (m > 0) call dgemm('N', 'T', r - column + 1, width, m, 2.0_wp, of_negative(p + column, 1), n, &
+                                  of_negative(p + column, 1), n, 1.0_wp, update(column, column), r)
          end do
       end subroutine update_columns
 
    end subroutine eliminate
+
+   !> L in the columns FIRST to LAST of PANEL, from which all products of earlier columns are subtracted. FAULT is 0, or the first
+   !! column whose pivot is not above LEAST. OF_NEGATIVE are all columns so far whose sign is -1.
+   subroutine eliminate_block(n, first, last, least, panel, of_negative, fault, negative)
+      integer, intent(in)  :: n, first, last
+      real(wp), intent(in) :: least(:)
+      real(wp), intent(inout) :: panel(n, size(least))
+      real(wp), allocatable, intent(inout) :: of_negative(:, :)
+      integer, intent(out) :: fault
+      integer, allocatable, intent(inout), optional :: negative(:) !! list of these columns; a pivot may be below zero
+      real(wp) :: as_it_was(first:last, first:last)
+      integer  :: column, i, info, m
+
+      if (present(negative)) as_it_was = panel(first:last, first:last)
+      call dpotrf('L', last - first + 1, panel(first, first), n, info)
+      if (info > 0 .and. present(negative)) then
+         panel(first:last, first:last) = as_it_was
+         call factorise_with_signs(first, last, panel(first:last, first:last), negative)
+         info = 0
+      end if
+      do column = first, merge(first + info - 1, last, info > 0)
+         fault = column
+         if (.not. panel(column, column)**2 > least(column) .or. column == first + info - 1) return
+      end do
+      fault = 0
+      do i = last + 1, n, strip
+         m = min(strip, n - i + 1)
+         !$omp task default(shared) firstprivate(i, m) if(n > alone)
+         call dtrsm('R', 'L', 'T', 'N', m, last - first + 1, 1.0_wp, panel(first, first), n, panel(i, first), n)
+         !$omp end task
+      end do
+      !$omp taskwait
+      if (.not. present(negative)) return
+      do i = size(of_negative, 2) + 1, size(negative)
+         panel(last + 1:, negative(i)) = -panel(last + 1:, negative(i))
+      end do
+      if (size(negative) > 0) of_negative = panel(:, negative)
+   end subroutine eliminate_block
 
    !> A = L S L^T in place, for columns FIRST to LAST of a front. Columns whose sign is -1 are appended to NEGATIVE. A zero
    !! pivot leaves zero on the diagonal and its column unchanged.

@@ -10,22 +10,13 @@ module backbone
    use modal_loops, only: loop_type, modal_load_type, run_loops, start_modal_load
    use mode_values, only: modes_type
    use model_data, only: model_type, n_points
-   use stage_plan, only: backbone_plan, loss_at, stage_plan_type
+   use stage_plan, only: backbone_plan, loss_at, stage_plan_type, vibration_plan_type
    use terminal, only: show_line
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: find_backbone
-
-   abstract interface
-      !> Keep the loops found so far in ANALYSIS.
-      subroutine keep_loops(system, analysis)
-         import :: analysis_type, equation_system
-         class(equation_system), allocatable, intent(inout) :: system
-         type(analysis_type), intent(inout)                 :: analysis
-      end subroutine keep_loops
-   end interface
+   public :: start_backbone, find_loop, finish_backbone
 
    real(wp), parameter :: reached = 1.0e-7_wp       ! of an amplitude: tolerance of the search
    real(wp), parameter :: same = 1.0e-12_wp         ! of alpha: the loop jumps between two loads this close
@@ -41,6 +32,7 @@ module backbone
       type(loop_type), allocatable :: loops(:)      !! in the order of their amplitudes
       character(:), allocatable    :: problem       !! why there is no backbone, or none up to the largest amplitude; '': there is
       logical  :: is_limited = .false.              !! the last loop is under the largest load that the structure carries
+      type(modal_load_type), allocatable, private :: modal !! until the backbone is complete
       real(wp), allocatable :: answers(:, :)        !! (5, n) response of the mode alone: amplitude; frequency below, its phase;
                                                     !! frequency above, its phase [length, 1/time, degrees]; frequency < 0: none
    end type backbone_type
@@ -52,48 +44,71 @@ module backbone
 
 contains
 
-   !> The backbone of PLAN, continued from the loops that ANALYSIS has kept; KEEP is called with each loop found. FAILURE where
-   !! the state at the end of the stage is not in equilibrium.
-   subroutine find_backbone(model, plan, analysis, system, modes, keep, found, failure)
+   !> Choose the mode of the backbone FOUND, with the loops that ANALYSIS has kept. FAILURE where the state at the end of the stage
+   !! is not in equilibrium.
+   subroutine start_backbone(model, plan, analysis, system, modes, found, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
-      type(analysis_type), intent(inout) :: analysis
+      type(analysis_type), intent(in)    :: analysis
       class(equation_system), allocatable, intent(inout) :: system
       type(modes_type), intent(in)       :: modes
-      procedure(keep_loops)              :: keep
       type(backbone_type), intent(out)   :: found
       type(failure_type), intent(inout)  :: failure
-      type(modal_load_type) :: modal
-      type(loop_type) :: loop
-      real(wp) :: loss
-      integer :: i, k
+      integer :: i
 
       associate (wanted => plan%stages(analysis%stage)%vibration%backbone)
          call choose_mode(model, modes, wanted, found)
          if (index(system%description%name, 'PETSC') == 1) found%problem = 'IT NEEDS SOLVER = TREE OR SKYLINE'
          if (found%problem /= '') return
+         allocate (found%modal)
          associate (mode => modes%modes(wanted%mode - modes%n_before))
-            call start_modal_load(model, plan, analysis, system, mode%u/sqrt(mode%mass), modal, failure)
+            call start_modal_load(model, plan, analysis, system, mode%u/sqrt(mode%mass), found%modal, failure)
          end associate
-         if (failure%raised) return
-         if (allocated(analysis%kept)) &
-            found%loops = [(taken_up(size(model%joints), analysis%kept(:, i)), i = 1, size(analysis%kept, 2))]
-         do i = size(found%loops) + 1, size(wanted%amplitudes)
-            call show_line('backbone, amplitude '//integer_text(i)//' of '//integer_text(size(wanted%amplitudes)), at_once=i == 1)
-            call reach_amplitude(model, wanted, wanted%amplitudes(i), modal, found, loop)
-            if (loop%n_loops > 0) found%loops = [found%loops, loop]
-            if (found%problem /= '') exit
-            analysis%kept = reshape([(numbers_of(found%loops(k)), k = 1, i)], [size(numbers_of(loop)), i])
-            call keep(system, analysis)
-         end do
       end associate
-      associate (vibration => plan%stages(analysis%stage)%vibration, mode => modes%modes(found%mode - modes%n_before))
-         if (.not. allocated(vibration%response)) return
-         loss = mode%material_loss
-         if (allocated(vibration%response%damping)) loss = loss + loss_at(vibration%response%damping, mode%frequency)
-         call find_answers(abs(sum(modal%phi*vibration%response%force(:model%dimension, :))), loss, found)
+      if (allocated(analysis%kept)) &
+         found%loops = [(taken_up(size(model%joints), analysis%kept(:, i)), i = 1, size(analysis%kept, 2))]
+   end subroutine start_backbone
+
+   !> Find the loop of the next amplitude of the backbone and keep it in ANALYSIS; MORE is false where none is left.
+   subroutine find_loop(model, plan, analysis, found, more)
+      type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
+      type(analysis_type), intent(inout) :: analysis
+      type(backbone_type), intent(inout) :: found
+      logical, intent(out)               :: more
+      type(loop_type) :: loop
+      integer :: i, k
+
+      associate (wanted => plan%stages(analysis%stage)%vibration%backbone)
+         i = size(found%loops) + 1
+         more = found%problem == '' .and. i <= size(wanted%amplitudes)
+         if (.not. more) return
+         call show_line('backbone, amplitude '//integer_text(i)//' of '//integer_text(size(wanted%amplitudes)), at_once=i == 1)
+         call reach_amplitude(model, wanted, wanted%amplitudes(i), found%modal, found, loop)
+         if (loop%n_loops > 0) found%loops = [found%loops, loop]
+         more = found%problem == ''
+         if (more) analysis%kept = reshape([(numbers_of(found%loops(k)), k = 1, i)], [size(numbers_of(loop)), i])
       end associate
-   end subroutine find_backbone
+   end subroutine find_loop
+
+   !> Complete the backbone FOUND: the response of the mode along it, where the stage asks for a response.
+   subroutine finish_backbone(model, vibration, modes, found)
+      type(model_type), intent(in)          :: model
+      type(vibration_plan_type), intent(in) :: vibration
+      type(modes_type), intent(in)          :: modes
+      type(backbone_type), intent(inout)    :: found
+      real(wp) :: loss
+
+      if (.not. allocated(found%modal)) return
+      if (allocated(vibration%response)) then
+         associate (mode => modes%modes(found%mode - modes%n_before))
+            loss = mode%material_loss
+            if (allocated(vibration%response%damping)) loss = loss + loss_at(vibration%response%damping, mode%frequency)
+         end associate
+         call find_answers(abs(sum(found%modal%phi*vibration%response%force(:model%dimension, :))), loss, found)
+      end if
+      deallocate (found%modal)
+   end subroutine finish_backbone
 
    !> The printed numbers of LOOP, for a restart file; and a loop of these NUMBERS.
    pure function numbers_of(loop) result(numbers)
@@ -147,7 +162,7 @@ contains
       type(model_type), intent(in)       :: model
       type(backbone_plan), intent(in)    :: wanted
       real(wp), intent(in)               :: amplitude
-      type(modal_load_type), intent(inout)     :: modal
+      type(modal_load_type), intent(inout) :: modal
       type(backbone_type), intent(inout) :: found
       type(loop_type), intent(out)       :: loop
       type(trial_type)   :: low, high, now, before

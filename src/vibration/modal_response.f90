@@ -13,12 +13,12 @@
 !! Source: R. W. Clough and J. Penzien, Dynamics of Structures, sections 4-3 and 13-3; MSC Nastran, Dynamic Analysis User's Guide,
 !! modal frequency response.
 module modal_response
-   use eigenpairs, only: all_displacements, on_equations
+   use eigenpairs, only: all_displacements
    use equation_solver, only: equation_system, failure_type
    use kinds, only: wp
    use mode_values, only: modes_type
    use model_data, only: model_type
-   use natural_modes, only: factorise_at, oscillating_type
+   use natural_modes, only: factorise_at, oscillating_type, spectrum_type
    use numbers, only: first_largest
    use stage_plan, only: asked_frequencies, loss_at, response_plan
    use text_tools, only: real_text
@@ -125,11 +125,12 @@ contains
 
    !> The RESPONSE of PLAN by superposition of MODES, in the numbering of SYSTEM. FAILURE where the response is unbounded: an
    !! undamped mode at its frequency, or a structure without supports at zero frequency.
-   subroutine find_response(model, structure, plan, modes, system, response, failure)
+   subroutine find_response(model, structure, plan, spectrum, modes, system, response, failure)
       type(model_type), intent(in)        :: model
       type(oscillating_type), intent(in)  :: structure
       type(response_plan), intent(in)     :: plan
-      type(modes_type), intent(in)        :: modes
+      type(spectrum_type), intent(in)     :: spectrum
+      type(modes_type), intent(in)        :: modes     !! evaluated from SPECTRUM
       class(equation_system), intent(in)  :: system
       type(response_type), intent(out)    :: response
       type(failure_type), intent(inout)   :: failure
@@ -143,17 +144,21 @@ contains
       logical  :: ok
 
       call put_together(model, plan, modes, superposed)
-      if (system%shift >= 0.0_wp) then        ! static load on a supported structure
+      if (allocated(spectrum%at_rest)) then
+         x = spectrum%at_rest
+      else if (system%shift >= 0.0_wp) then   ! static load on a supported structure
          call factorise_at(model, structure, 0.0_wp, unshifted, loose)
-         response%is_complete = .not. loose%raised
+         if (.not. loose%raised) then
+            x = spectrum%load
+            call unshifted%solve_by_factor(x)
+            deallocate (unshifted)
+         end if
       end if
+      response%is_complete = allocated(x)
       if (response%is_complete) then
-         allocate (x, source=on_equations(model, system, plan%force(:model%dimension, :)))
-         call unshifted%solve_by_factor(x)
          x(system%locked) = 0.0_wp
          allocate (at_rest, source=all_displacements(model, system, x))
          superposed%rest = pack(at_rest(:, plan%nodes), .true.) - static_share(superposed)
-         deallocate (unshifted)
       end if
       response%node = model%node_id(plan%nodes)
       response%frequency = asked_frequencies(plan, modes%modes%frequency)

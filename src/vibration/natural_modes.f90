@@ -10,7 +10,7 @@
 module natural_modes
    use analysis_state, only: analysis_type
    use case_control, only: solver_skyline, solver_tree
-   use eigenpairs, only: find_eigenpairs, needs_all
+   use eigenpairs, only: find_eigenpairs, needs_all, on_equations
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system, failure_type
    use equations, only: add_bar, form_body_stiffness, form_structure_stiffness, lock_unknown, start_equations
@@ -50,6 +50,8 @@ module natural_modes
       real(wp) :: shift = 0.0_wp                  !! shift of the search
       integer  :: n_counted = 0                   !! eigenvalues below COUNTED_AT, all found
       real(wp) :: counted_at = 0.0_wp             !! [1/time^2]
+      real(wp), allocatable :: load(:)            !! (equations) of the response, where one is wanted [force]
+      real(wp), allocatable :: at_rest(:)         !! (equations) under this load at rest, where a factor without shift was made
    end type spectrum_type
 
 contains
@@ -141,6 +143,8 @@ contains
 
       if (failure%raised) return
       spectrum%n_wanted = merge(plan%most, huge(1), plan%most > 0)
+      if (allocated(plan%response)) &
+         spectrum%load = on_equations(model, structure%started, plan%response%force(:model%dimension, :))
       if (needs_all(structure%started, plan%most)) then
          call find_all(model, structure, plan, spectrum, failure)
       else
@@ -335,6 +339,10 @@ contains
       call factorise_at(model, structure, spectrum%shift, system, loose)
       if (.not. loose%raised) loose%raised = system%weakest < barely_held
       if (.not. loose%raised) then
+         if (allocated(spectrum%load)) then
+            spectrum%at_rest = spectrum%load
+            call system%solve_by_factor(spectrum%at_rest)
+         end if
          call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
          return
       end if

@@ -168,7 +168,7 @@ contains
          do i = 1, loads%n
             do d = 1, model%dimension
                equation = numbers%number(d, loads%node(i))
-               if (equation > 0) load(equation) = load(equation) + plan%stages(1)%shares(1)*loads%force(d, i)
+               if (equation > 0) load(equation) = load(equation) + plan%stages(1)%fractions(1)*loads%force(d, i)
             end do
          end do
       end associate
