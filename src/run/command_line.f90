@@ -324,34 +324,33 @@ contains
       call say( &
          'usage: jointfem [options] DECK...'//nl// &
          ''//nl// &
-         'Solves each deck: a structure with flexible joints, loaded in increments. A deck `-` is read from the'//nl// &
-         'standard input, and its listing goes to the standard output. For beam.bdf the results are beam.out, the'//nl// &
-         'listing, beam.joint.csv, every interface element after every increment, beam.stage.csv, the answer of'//nl// &
-         'every stage, and with bolts beam.bolt.csv. The answers, and the names of the files, go to the standard'//nl// &
-         'output at the end.'//nl// &
+         'Solves each deck: a structure with flexible joints, loaded in increments. The deck `-` is read from standard'//nl// &
+         'input; its listing goes to standard output. For beam.bdf the program writes beam.out (the listing),'//nl// &
+         'beam.joint.csv (every interface element after every increment), beam.stage.csv (the answer of every stage)'//nl// &
+         'and, with bolts, beam.bolt.csv. At the end the answers and the names of the files go to standard output.'//nl// &
          ''//nl// &
-         '   -o DIR        where the results go (default: here)'//nl// &
-         '   --check       read and check the decks, solve nothing'//nl// &
-         '   --joints      print cards for joints where bodies face each other, solve nothing'//nl// &
-         '   -q            no progress on the terminal'//nl// &
-         '   --threads N   at most N threads (default: all cores; the results do not depend on it)'//nl// &
-         '   --set N=V     put V in the place of ${N} in the decks; N=V,V,V: a run with each value, named beam_N=V'//nl// &
-         '   --watch N,N   nodes whose movement, and the stiffness there, stand in the answer of every stage'//nl// &
-         '   --summary F   a table of the whole batch, a row a run, into the file F'//nl// &
-         '   --resume      continue each deck from its restart file, beam.restart, where the run was broken off: the'//nl// &
-         '                 results are those of an unbroken run. A deck without one starts from the beginning.'//nl// &
-         '   --date        date and time in the head of the listing'//nl// &
-         '   --times       print seconds of each phase, operations and memory, on the standard error'//nl// &
+         '   -o DIR        folder of the results (default: the current folder)'//nl// &
+         '   --check       read and check the decks without solving them'//nl// &
+         '   --joints      print cards for joints where bodies face each other, without solving'//nl// &
+         '   -q            do not show progress on the terminal'//nl// &
+         '   --threads N   use at most N threads (default: all cores); the results do not depend on N'//nl// &
+         '   --set N=V     replace ${N} in the decks by V; N=V,V,V makes one run for each value, named beam_N=V'//nl// &
+         '   --watch N,N   nodes whose displacement and stiffness are added to the answer of every stage'//nl// &
+         '   --summary F   write a table of all runs to the file F, one row for each run'//nl// &
+         '   --resume      continue each deck from its restart file, beam.restart: the results are those of an'//nl// &
+         '                 uninterrupted run. A deck without a restart file starts from the beginning.'//nl// &
+         '   --date        print date and time in the heading of the listing'//nl// &
+         '   --times       print the seconds of each phase, operations and memory to standard error'//nl// &
          '   --version     print the version'//nl// &
-         '   --help        print this'//nl// &
-         '   --help CARD   print what the manual says of a card, or of a key of case control'//nl// &
+         '   --help        print this text'//nl// &
+         '   --help CARD   print the section of the manual on a card, or on a key of case control'//nl// &
          ''//nl// &
-         'The program of `make mpi`, jointfem_mpi, has the solvers PETSC and MUMPS besides (--help SOLVER), and solves with'//nl// &
-         'them on several processes: mpirun -n 4 jointfem_mpi DECK...'//nl// &
+         '`make mpi` builds jointfem_mpi, which also has the solvers PETSC and MUMPS (--help SOLVER) for several'//nl// &
+         'processes: mpirun -n 4 jointfem_mpi DECK...'//nl// &
          ''//nl// &
-         'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 a structure that'//nl// &
-         'cannot be solved, 4 output that cannot be written; of several decks the highest. The cards are explained'//nl// &
-         'in input/README.md, each by --help CARD.', status)
+         'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 the structure cannot be'//nl// &
+         'solved, 4 output could not be written; of several decks the highest. input/README.md is the manual of the'//nl// &
+         'cards.', status)
    end subroutine print_help
 
 end module command_line
