@@ -145,7 +145,7 @@ contains
 
       allocate (around, source=model%elements_at(model%first_at(at%node(k)):model%first_at(at%node(k) + 1) - 1))
       allocate (in_front(size(around)), at_back(size(around)), source=.false.)
-      parent = [(i, i = 1, size(around))]
+      allocate (parent, source=[(i, i=1, size(around))])
       do i = 1, size(around)
          do j = 1, i - 1
             if (common_side(model, s, at, k, around(i), around(j))) call join(parent, i, j)

@@ -74,13 +74,11 @@ contains
          end if
          value = argument_text(i)
          ok = .true.
-         if (any(argument == options_with_value)) then
-            if (i > n) then
-               call complain(program, argument//' needs a value')
-               return
-            end if
-            i = i + 1
+         if (any(argument == options_with_value) .and. i > n) then
+            call complain(program, argument//' needs a value')
+            return
          end if
+         i = i + count(argument == options_with_value)
          select case (argument)
          case ('--')
             options = .false.

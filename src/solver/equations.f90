@@ -366,35 +366,18 @@ contains
 
    contains
 
-      !> Orthogonalise the last of these DIRECTIONS against the others and reduce LEFT along it, unless nothing new remains of it.
+      !> Make the last of these DIRECTIONS independent of the others and reduce LEFT along it, unless nothing new remains of it.
       subroutine add_direction(directions)
          type(solver_direction), intent(inout) :: directions(:)
-         real(wp) :: length, share, product(size(f, 1), size(f, 2)) ! product of the whole stiffness and the direction
-         integer  :: j
+         logical :: is_new
 
          associate (new => directions(size(directions)))
-            product = 0.0_wp
-            do j = 1, size(system%interface)
-               associate (element => system%interface(j))
-                  call add_global_force(element, matmul(system%coupled%change(:, :, j), relative_movement(element, new%u)), product)
-               end associate
-            end do
-            product = merge(0.0_wp, product, held) + new%force
-            length = norm2(product)
-            do j = 1, size(directions) - 1
-               share = sum(directions(j)%product*product)
-               product = product - share*directions(j)%product
-               new%u = new%u - share*directions(j)%u
-               new%force = new%force - share*directions(j)%force
-            end do
-            if (.not. norm2(product) > dependent*length) return
-            length = norm2(product)
-            new%product = product/length
-            new%u = new%u/length
-            new%force = new%force/length
-            n = n + 1
-            call go_along(new)
+            new%product = merge(0.0_wp, change_times(system, new%u), held) + new%force
          end associate
+         call orthogonalise(directions, is_new)
+         if (.not. is_new) return
+         n = n + 1
+         call go_along(directions(size(directions)))
       end subroutine add_direction
 
       !> Reduce LEFT along a DIRECTION.
@@ -408,5 +391,45 @@ contains
       end subroutine go_along
 
    end subroutine iterate_coupled
+
+   !> The changes of the interface stiffness times the displacements U.
+   function change_times(system, u) result(f)
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: u(:, :) !! (dimension, retained) [length]
+      real(wp) :: f(size(u, 1), size(u, 2))
+      integer  :: i
+
+      f = 0.0_wp
+      do i = 1, size(system%interface)
+         associate (element => system%interface(i))
+            call add_global_force(element, matmul(system%coupled%change(:, :, i), relative_movement(element, u)), f)
+         end associate
+      end do
+   end function change_times
+
+   !> Orthogonalise the product of the last of DIRECTIONS against the products of the others, and give it the length 1. IS_NEW is
+   !! false where nothing but rounding remains of it.
+   subroutine orthogonalise(directions, is_new)
+      type(solver_direction), intent(inout) :: directions(:)
+      logical, intent(out)                  :: is_new
+      real(wp) :: length, share
+      integer  :: i
+
+      associate (new => directions(size(directions)))
+         length = norm2(new%product)
+         do i = 1, size(directions) - 1
+            share = sum(directions(i)%product*new%product)
+            new%product = new%product - share*directions(i)%product
+            new%u = new%u - share*directions(i)%u
+            new%force = new%force - share*directions(i)%force
+         end do
+         is_new = norm2(new%product) > dependent*length
+         if (.not. is_new) return
+         length = norm2(new%product)
+         new%product = new%product/length
+         new%u = new%u/length
+         new%force = new%force/length
+      end associate
+   end subroutine orthogonalise
 
 end module equations
