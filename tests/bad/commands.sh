@@ -354,6 +354,12 @@ if command -v script > /dev/null; then
    if tr '\r' '\n' < "$work/stdout" | grep -q '^ \{60,\}$'; then pass; else fail 'on a terminal: the line is not cleared'; fi
    terminal -q
    if grep -q ", increment [0-9]* of" "$work/stderr"; then fail '-q on a terminal: progress'; else pass; fi
+   # one increment by NEWTON, whose iterations take longer than the line stays
+   "$here/../bench/make_deck.sh" hex8_24x24x16 TREE LAST | sed 's/^SPC = /METHOD = NEWTON\n&/; s/^JINCR.*/JINCR,5,1/' > large.bdf
+   terminal; status=0
+   check 'on a terminal: the increment in work' 0 'large.bdf: stage 1, increment 1, iteration '
+   if awk '/, iteration [0-9]/ { n++; sub(/.*, iteration /, ""); if ($0 !~ /^[0-9]+: [0-9.E+-]+ left, changes of branch: [0-9]+ *$/) bad = 1 }
+           END { exit bad || !n }' "$work/stderr"; then pass; else fail 'on a terminal: iteration, residual and changes of branch'; fi
 fi
 rm -rf here large.bdf
 
