@@ -1,6 +1,6 @@
 # Runs on several processes that cannot finish: one process is killed, has no memory, or cannot write its piece, or the equations
-# are not solved. All processes end, the status of mpirun is not 0, and no result is left. A killed process leaves the file that it writes. Where rank 0 is killed, which knows the
-# names of the pieces, only their temporary parts are left.
+# are not solved. All processes end, the status of mpirun is not 0, and no result is left. A killed process leaves the file that it
+# writes. Where rank 0 is killed, which knows the names of the pieces, only their temporary parts are left.
 tests/bench/make_deck.sh hex8_16x16x16 PETSC NONE > "$work/gamg.bdf"
 sed 's/^SOLVER = .*/SOLVER = MUMPS/' "$work/gamg.bdf" > "$work/mumps.bdf"
 sed 's/OUTPUT = NONE/OUTPUT = NONE, STEPS/' "$work/gamg.bdf" > "$work/pieces.bdf"
