@@ -7,7 +7,7 @@ module c_library
    private
 
    public :: keep_on_disk, open_standard_outputs
-   public :: read_all_bytes, create_unique, write_bytes, close_file, rename_file, remove_file, &
+   public :: read_all_bytes, create_unique, open_to_write, write_bytes, close_file, rename_file, remove_file, &
              remove_terminated, true_path, kind_of_file, is_regular_file, is_same_file, is_terminal, tell_failed_writes, &
              at_signals, by_default, end_by_signal, lock_folder, end_run
 
@@ -190,6 +190,15 @@ contains
       status = c_fchmod(int(descriptor, c_int), iand(read_and_write_for_all, not(mask)))
       if (status /= 0) return   ! a file system without modes is no error
    end subroutine create_unique
+
+   !> Open the existing file PATH for writing from its beginning. DESCRIPTOR is negative on failure.
+   subroutine open_to_write(path, descriptor)
+      character(*), intent(in) :: path
+      integer, intent(out)     :: descriptor
+      integer(c_int), parameter :: to_write = 1 ! O_WRONLY
+
+      descriptor = int(c_open(path//c_null_char, to_write))
+   end subroutine open_to_write
 
    !> Write all BYTES to DESCRIPTOR (1: the standard output) without a buffer. OK is false where some bytes could not be written,
    !! as on a full disk.

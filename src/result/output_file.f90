@@ -1,7 +1,7 @@
 !> Result files that appear under their names only when complete: written as NAME.abcdef.part, closed, and renamed at the end of
 !! the run. Without a name the lines go to the standard output at the end.
 module output_file
-   use c_library, only: close_file, remove_file, write_bytes
+   use c_library, only: close_file, open_to_write, remove_file, write_bytes
    use incomplete_results, only: create_part, name_part
    use kinds, only: long
    use restart_stream, only: restart_stream_type
@@ -36,10 +36,13 @@ module output_file
 
 contains
 
-   !> Open the file that will be PATH (empty: standard output). A file that is still open is discarded.
-   subroutine start(self, path)
+   !> Open the file that will be PATH (empty: standard output). A file that is still open is discarded. IS_PART: PATH is the part
+   !! that another process has created; that process gives it its name, or removes it.
+   subroutine start(self, path, is_part)
       class(output_file_type), intent(inout) :: self
       character(*), intent(in)               :: path
+      logical, intent(in), optional          :: is_part !! default: false
+      logical :: exists
 
       self%is_named = .false.
       call self%discard()
@@ -47,7 +50,14 @@ contains
       if (allocated(self%buffer)) deallocate (self%buffer)
       allocate (character(room) :: self%buffer)
       self%used = 0
-      if (path /= '') call create_part(path, self%part, self%descriptor)
+      exists = .false.
+      if (present(is_part)) exists = is_part
+      if (exists) then
+         self%part = path
+         call open_to_write(path, self%descriptor)
+      else if (path /= '') then
+         call create_part(path, self%part, self%descriptor)
+      end if
       self%fault = path /= '' .and. self%descriptor < 0
       self%is_open = .not. self%fault
    end subroutine start

@@ -65,10 +65,12 @@ module vtu_file
 
 contains
 
-   !> Open the file that will be PATH. A file that is still open is discarded first.
-   subroutine start(self, path)
+   !> Open the file that will be PATH, or with IS_PART the part PATH of another process, as in output_file. A file that is still
+   !! open is discarded first.
+   subroutine start(self, path, is_part)
       class(vtu_file_type), intent(inout) :: self
       character(*), intent(in)            :: path
+      logical, intent(in), optional       :: is_part
       integer :: i
 
       self%n_points = -1
@@ -77,7 +79,7 @@ contains
       do i = 1, size(self%sections)
          self%sections(i)%lines = ''
       end do
-      call self%file%start(path)
+      call self%file%start(path, is_part)
       call self%file%put_lines(repeat(' ', data_start))
    end subroutine start
 

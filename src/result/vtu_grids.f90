@@ -111,7 +111,7 @@ contains
       notes = labels%length//labels%pressure
    end function notes_for_pieces
 
-   !> The piece_writer of the results: write a PIECE as write_bodies does, in the place of the reserved FILE.
+   !> The piece_writer of the results: write a PIECE as write_bodies does into FILE, the part that rank 0 has created.
    subroutine write_piece(piece, u, temperature, notes, file, ok)
       type(body_piece_type), intent(in)  :: piece
       real(wp), intent(in)               :: u(:, :) !! (dimension, nodes of its model) [length]
@@ -123,9 +123,10 @@ contains
 
       labels%length = notes(:len(labels%length))
       labels%pressure = notes(len(labels%length) + 1:)
-      call part%start(file)
+      call part%start(file, is_part=.true.)
       call write_bodies(part, labels, piece%model, piece%shown, u, temperature)
-      call part%finish(ok)
+      call part%complete()
+      ok = .not. part%file%failed()
    end subroutine write_piece
 
    !> The shapes of the MODES: a nodal vector for each mode, named by its number and frequency.
