@@ -10,9 +10,9 @@ module vtu_grids
    use interface_operator, only: at_first_end, nodes_of_end, weights_of_end
    use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: wp
-   use table_writer, only: label_type
    use mode_values, only: modes_type
    use model_data, only: corners_of, is_shell, joint_type, model_type, n_points, surface_type, temperature_type
+   use result_page, only: label_type
    use stage_answer, only: face_distance
    use structural_results, only: face_stresses, node_peaks
    use surface_sides, only: nodes_of
@@ -22,7 +22,7 @@ module vtu_grids
    implicit none
    private
 
-   public :: write_bodies, write_joints, write_shapes, write_piece, notes_for_pieces
+   public :: write_bodies, write_joints, write_shapes, write_piece
 
    integer, parameter :: n_values = 8 ! lambda, pressure, tau(3), gap, averaged slip, area
 
@@ -37,7 +37,8 @@ module vtu_grids
 
 contains
 
-   !> Write the SHOWN elements with stresses at their centres, and their nodes with displacements and averaged stresses.
+   !> Write the SHOWN elements with stresses at their centres, shells with thickness and stress at both faces, and their nodes with
+   !! displacements and averaged stresses.
    subroutine write_bodies(file, labels, model, shown, u, temperature)
       type(vtu_file_type), intent(inout) :: file
       type(label_type), intent(in)       :: labels
@@ -46,7 +47,9 @@ contains
       real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
       type(temperature_type), intent(in) :: temperature
       real(wp), allocatable :: moved(:, :), at_node(:, :), at_centre(:, :), principal(:, :), peaks(:), at_ends(:)
-      integer :: i, m, n
+      real(wp), allocatable :: thickness(:), at_face(:, :)
+      real(wp) :: stress(max_stresses, 5, 2)
+      integer  :: f, i, k, m, n
 
       m = shown%n_points
       n = size(shown%elements)
@@ -75,43 +78,22 @@ contains
       call file%add(cell_data, named('principal_stress', labels%pressure), principal)
       call file%add(cell_data, named('von_mises_at_centre', labels%pressure), [(max(von_mises(at_centre(:, i)), &
                                                                                 at_ends(shown%elements(i))), i = 1, n)])
-      if (allocated(model%structural%place)) call write_faces(file, labels, model, shown, u, temperature)
-   end subroutine write_bodies
-
-   !> Thickness and von Mises stress at the centres of both faces of shells; zero for other elements.
-   subroutine write_faces(file, labels, model, shown, u, temperature)
-      type(vtu_file_type), intent(inout) :: file
-      type(label_type), intent(in)       :: labels
-      type(model_type), intent(in)       :: model
-      type(shown_type), intent(in)       :: shown
-      real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
-      type(temperature_type), intent(in) :: temperature
-      real(wp) :: thickness(size(shown%elements)), at_face(size(shown%elements), 2), stress(max_stresses, 5, 2)
-      integer  :: f, i, n
-
-      thickness = 0.0_wp
-      at_face = 0.0_wp
-      do i = 1, size(thickness)
+      if (.not. allocated(model%structural%place)) return
+      allocate (thickness(n), at_face(n, 2), source=0.0_wp) ! at the centres of both faces of shells; zero for other elements
+      do i = 1, n
          if (.not. is_shell(model, shown%elements(i))) cycle
-         n = size(corners_of(model, shown%elements(i)))
+         k = size(corners_of(model, shown%elements(i)))
          call face_stresses(model, shown%elements(i), u, temperature, stress)
-         at_face(i, :) = [(von_mises(stress(:, n + 1, f)), f = 1, 2)]
-         thickness(i) = sum(model%structural%shells(model%structural%place(shown%elements(i)))%thickness(:n))/n
+         at_face(i, :) = [(von_mises(stress(:, k + 1, f)), f = 1, 2)]
+         thickness(i) = sum(model%structural%shells(model%structural%place(shown%elements(i)))%thickness(:k))/k
       end do
       call file%add(cell_data, named('thickness', labels%length), thickness)
       call file%add(cell_data, named('von_mises_at_z1', labels%pressure), at_face(:, 1))
       call file%add(cell_data, named('von_mises_at_z2', labels%pressure), at_face(:, 2))
-   end subroutine write_faces
+   end subroutine write_bodies
 
-   !> The LABELS of a file that is written in pieces, packed for write_piece.
-   pure function notes_for_pieces(labels) result(notes)
-      type(label_type), intent(in) :: labels
-      character(:), allocatable    :: notes
-
-      notes = labels%length//labels%pressure
-   end function notes_for_pieces
-
-   !> The piece_writer of the results: write a PIECE as write_bodies does into FILE, the part that rank 0 has created.
+   !> The piece_writer of the results: write a PIECE as write_bodies does into FILE, the part that rank 0 has created. NOTES are the
+   !! labels of length and pressure.
    subroutine write_piece(piece, u, temperature, notes, file, ok)
       type(body_piece_type), intent(in)  :: piece
       real(wp), intent(in)               :: u(:, :) !! (dimension, nodes of its model) [length]
