@@ -35,9 +35,12 @@ contains
       type(output_request), intent(in) :: asked
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      integer, allocatable :: list(:)
-      logical :: has_bodies
-      integer :: m, node
+      type(table_type) :: table
+      real(wp), allocatable :: stress(:, :)
+      integer, allocatable  :: list(:)
+      real(wp) :: floor
+      logical  :: has_bodies
+      integer  :: m, node
 
       list = pack([(node, node = 1, n_points(model))], [(model%used(node) .and. shows(page, [node]), node = 1, n_points(model))])
       call list_vectors(page, model, [character(22) :: 'DISPLACEMENTS OF NODES', 'U.', page%labels%length], list, &
@@ -56,7 +59,18 @@ contains
          call list_shells(page, asked%forces, model, analysis)
          call list_beams(page, model, analysis)
       end if
-      if (asked%stress .and. has_second_order(model)) call list_node_stresses(page, model, analysis)
+      if (asked%stress .and. has_second_order(model)) then
+         allocate (stress(max_stresses, n_points(model)))
+         call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
+         floor = noise*maxval(abs(stress))
+         call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
+                          [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')], page%file)
+         do node = 1, n_points(model)
+            if (model%first_at(node + 1) == model%first_at(node) .or. .not. shows(page, [node])) cycle
+            call table%add([model%node_id(node)], clean([stress(shown_stresses(model), node), von_mises(stress(:, node))], floor))
+            call table%print_row(page%file)
+         end do
+      end if
       call list_reactions(page, model, analysis)
    end subroutine list_bodies
 
@@ -194,30 +208,6 @@ contains
       if (model%axisymmetric) all_names(3) = 'SIGMA HOOP'
       names = all_names(shown_stresses(model))
    end function stress_names
-
-   !> Stresses at nodes, averaged over their elements, and their equivalent stress of von Mises.
-   subroutine list_node_stresses(page, model, analysis)
-      type(page_type), intent(inout)  :: page
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      type(table_type) :: table
-      real(wp), allocatable :: stress(:, :)
-      integer, allocatable  :: shown(:)
-      real(wp) :: floor
-      integer  :: node
-
-      allocate (stress(max_stresses, n_points(model)))
-      call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
-      floor = noise*maxval(abs(stress))
-      shown = shown_stresses(model)
-      call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
-                       [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')], page%file)
-      do node = 1, n_points(model)
-         if (model%first_at(node + 1) == model%first_at(node) .or. .not. shows(page, [node])) cycle
-         call table%add([model%node_id(node)], clean([stress(shown, node), von_mises(stress(:, node))], floor))
-         call table%print_row(page%file)
-      end do
-   end subroutine list_node_stresses
 
    !> Reactions at supports, the balance of all external forces, which are loads, supports and rigid bases, and support moments.
    subroutine list_reactions(page, model, analysis)

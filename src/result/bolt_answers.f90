@@ -17,7 +17,7 @@ module bolt_answers
    implicit none
    private
 
-   public :: n_bolts, start_bolts, find_bolt_answers, record_bolts, load_along, whole_load, bending_moment
+   public :: start_bolts, find_bolt_answers, record_bolts, load_along, whole_load, bending_moment
 
    ! of forces and movements: the remainder of sums and differences that are zero but for rounding and the tolerance of iterations
    real(wp), parameter, public :: remainder = 1.0e-7_wp
@@ -80,14 +80,6 @@ module bolt_answers
 
 contains
 
-   !> Number of bolts.
-   pure integer function n_bolts(model) result(n)
-      type(model_type), intent(in) :: model
-
-      n = n_sections(model)
-      if (n_bars(model) > 0) n = n + count(model%bars%bolt > 0)
-   end function n_bolts
-
    !> Find all bolts of MODEL, bars first, and the joint of each; the history is empty.
    subroutine start_bolts(model, history)
       type(model_type), intent(in)    :: model
@@ -96,7 +88,8 @@ contains
       real(wp) :: along, radius, span(2)
       integer  :: i, n, s
 
-      n = n_bolts(model)
+      n = n_sections(model)
+      if (n_bars(model) > 0) n = n + count(model%bars%bolt > 0)
       allocate (history%bolts(n))
       allocate (history%before(n), history%tightened(n), history%largest(n), history%assembled(n), history%change(n), &
                 history%clamped(n), source=0.0_wp)

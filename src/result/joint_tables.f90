@@ -16,7 +16,7 @@ module joint_tables
    implicit none
    private
 
-   public :: write_history, list_joints, list_energy, plot_joints
+   public :: write_history, list_joints, list_energy, plot_joint
 
    ! subjects of the tables
    integer, parameter :: of_elements = 1, of_stiffness = 2, of_removed = 3, of_shear = 4, of_state = 5, of_shear_state = 6
@@ -250,22 +250,6 @@ contains
       end do
    end subroutine list_energy
 
-   !> A plot for each joint; a map where the joint has a plane in space.
-   subroutine plot_joints(page, model, analysis)
-      type(page_type), intent(inout)  :: page
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer :: j
-
-      do j = 1, size(model%joints)
-         if (model%dimension == 3 .and. .not. model%joints(j)%frame%faces_all_ways) then
-            call map_joint(page, model, analysis, model%joints(j))
-         else
-            call plot_joint(page, model, analysis, model%joints(j))
-         end if
-      end do
-   end subroutine plot_joints
-
    !> Map of the pressure of JOINT over its plane, seen against its normal: x of the joint to the right, y upwards. A character
    !! shows the largest pressure of the interface elements there: tenths of the largest of all, which is *; - where all are
    !! open.
@@ -315,7 +299,8 @@ contains
       end do
    end subroutine map_joint
 
-   !> A line for each interface element of JOINT, P as *, LAMBDA as +, both as # where they coincide.
+   !> A map of JOINT where that has a plane in space. Otherwise a line for each interface element, P as *, LAMBDA as +, both as #
+   !! where they coincide.
    subroutine plot_joint(page, model, analysis, joint)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -325,6 +310,10 @@ contains
       real(wp) :: p_most, lambda_most, lambda_least
       integer  :: i
 
+      if (model%dimension == 3 .and. .not. joint%frame%faces_all_ways) then
+         call map_joint(page, model, analysis, joint)
+         return
+      end if
       associate (state => analysis%states%normal)
          p_most = max(maxval(state(joint%first:joint%last)%pressure), tiny(1.0_wp))
          lambda_least = min(0.0_wp, minval(state(joint%first:joint%last)%lambda))

@@ -3,13 +3,13 @@ module results
    use analysis_state, only: analysis_type
    use answer_tables, only: print_answer, print_bolts, print_reactions, print_watched
    use body_tables, only: list_bodies, list_condensed
-   use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, n_bolts, record_bolts, start_bolts
+   use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, record_bolts, start_bolts
    use c_library, only: close_file, lock_folder
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
-   use joint_tables, only: list_energy, list_joints, plot_joints, write_history
+   use joint_tables, only: list_energy, list_joints, plot_joint, write_history
    use kinds, only: wp
    use listing_opening, only: write_opening
    use mode_values, only: modes_type
@@ -62,7 +62,6 @@ module results
       type(vtu_results_type), private :: vtu
       type(bolt_history), private     :: bolts
       type(watch_state), private      :: watched_before ! at the end of the last stage, where nodes are watched
-      logical, private :: has_table(size(table_endings)) = .false.
    end type results_type
 
 contains
@@ -78,6 +77,7 @@ contains
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
       class(subdomain_output_type), allocatable :: subdomains
+      logical :: is_asked(size(table_endings))
       integer :: i
 
       call all_complete()
@@ -94,23 +94,23 @@ contains
          call write_opening(page, deck, model, plan, system)
          if (base /= '' .and. any(plan%stages%output%vtu)) call distribute_bodies(model, system, subdomains)
          call start_vtu(results%vtu, base, page%labels, plan, subdomains)
-         ok = .not. page%file%failed()
+         ok = .not. page%file%fault
          call page%screen%start('')
       end associate
       if (base == '') return
-      results%has_table = .true.
-      results%has_table(bolt_table) = n_bolts(model) > 0
-      results%has_table([modes_table, energy_table]) = plan%has_modes
-      results%has_table(response_table) = plan%has_responses
-      results%has_table([backbone_table, loop_table]) = plan%has_backbones
-      results%has_table(bend_table) = plan%has_backbones .and. plan%has_responses
-      results%has_table([watch_table, split_table]) = plan%has_watched_nodes
-      results%has_table(shell_table) = any(plan%stages%output%forces)
+      is_asked = .true.
+      is_asked(bolt_table) = size(results%bolts%before) > 0
+      is_asked([modes_table, energy_table]) = plan%has_modes
+      is_asked(response_table) = plan%has_responses
+      is_asked([backbone_table, loop_table]) = plan%has_backbones
+      is_asked(bend_table) = plan%has_backbones .and. plan%has_responses
+      is_asked([watch_table, split_table]) = plan%has_watched_nodes
+      is_asked(shell_table) = any(plan%stages%output%forces)
       do i = 1, size(table_endings)
-         if (.not. results%has_table(i)) cycle
+         if (.not. is_asked(i)) cycle
          associate (table => results%page%tables(i))
             call table%start(base//trim(table_endings(i)))
-            ok = ok .and. .not. table%failed()
+            ok = ok .and. .not. table%fault
             call table%put(csv_titles(table_columns(i, results%page%labels, model)))
          end associate
       end do
@@ -180,7 +180,9 @@ contains
 
       associate (stage => plan%stages(analysis%stage), page => results%page)
          if (stage%output%level >= output_last) call list_joints(page, stage%output, model, analysis)
-         if (stage%output%plot) call plot_joints(page, model, analysis)
+         do i = 1, merge(size(model%joints), 0, stage%output%plot)
+            call plot_joint(page, model, analysis, model%joints(i))
+         end do
          if (any(stage%output%level == [output_all, output_last])) then
             call list_bodies(page, stage%output, model, analysis)
          else if (stage%output%forces) then
@@ -199,7 +201,7 @@ contains
          title = 'ANSWER AT THE END OF '//page%stage//'   '//stage%label
          if (analysis%record%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label
-         before = page%screen%length()
+         before = page%screen%used
          call print_answer(page, title, model, answer)
          call print_bolts(page, model, analysis, answer%bolts, in_answer=.true.)
          call find_reactions(model, analysis, page%largest_force, reactions)
@@ -295,7 +297,7 @@ contains
       names = results%base//listing_ending//' (listing)'
       names = names//', '//results%base//trim(table_endings(joint_table))
       do i = joint_table + 1, size(table_endings)
-         if (results%has_table(i)) names = names//', '//trim(table_endings(i))
+         if (results%page%tables(i)%is_named) names = names//', '//trim(table_endings(i))
       end do
       call results%page%screen%put('')
       call results%page%screen%put(' RESULTS: '//names//vtu_names(results%vtu))

@@ -1,5 +1,5 @@
-!> The VTK XML files for ParaView: an unstructured grid, NAME.vtu, the index of its pieces, NAME.pvtu, and a list of files with their
-!! times, NAME.pvd. A grid has points, cells, and arrays of values on either.
+!> The VTK XML files for ParaView: an unstructured grid, NAME.vtu, the index of its pieces, NAME.pvtu, and a list of files with
+!! their times, NAME.pvd. A grid has points, cells, and arrays of values on either.
 !!
 !! Every array is passed once and written at once; the module keeps none of it. Use:
 !!

@@ -108,7 +108,7 @@ contains
       call part%start(file, is_part=.true.)
       call write_bodies(part, labels, piece%model, piece%shown, u, temperature)
       call part%complete()
-      ok = .not. part%file%failed()
+      ok = .not. part%file%fault
    end subroutine write_piece
 
    !> The shapes of the MODES: a nodal vector for each mode, named by its number and frequency.
