@@ -101,19 +101,15 @@ contains
       integer(int32), intent(in), contiguous :: connectivity(:) !! nodes of the first cell, the second, ...: 1 to n
       integer(int32), intent(in), contiguous :: ends(:)         !! (n_cells) where each cell's nodes end in CONNECTIVITY
       integer(int8), intent(in), contiguous  :: types(:)        !! (n_cells) VTK's numbers: vtk_vertex, ...
-      integer :: i, n
 
       call require(self, self%n_points >= 0 .and. self%n_cells < 0 .and. size(ends) == size(types))
       call require(self, all(connectivity >= 1 .and. connectivity <= self%n_points))
       self%n_cells = size(ends)
-      n = 0 ! ENDS must not decrease, and end at the size of CONNECTIVITY
-      do i = 1, size(ends)
-         call require(self, ends(i) >= n)
-         n = ends(i)
-      end do
-      call write_array(self, in_cells, 'connectivity', 'Int32', 4, n, connectivity - 1) ! VTK counts the points from 0
+      ! ENDS must not decrease, and end at the size of CONNECTIVITY
+      call require(self, all(ends >= 0) .and. all(ends(2:) >= ends(:size(ends) - 1)))
+      call write_array(self, in_cells, 'connectivity', 'Int32', 4, connectivity - 1, maxval([0, ends])) ! VTK counts points from 0
       call self%add(in_cells, 'offsets', ends)
-      call write_array(self, in_cells, 'types', 'UInt8', 1, self%n_cells, types)
+      call write_array(self, in_cells, 'types', 'UInt8', 1, types)
    end subroutine cells
 
    !> An array of values: (n), or (components, n), one for every point or every cell.
@@ -123,7 +119,7 @@ contains
       character(*), intent(in)             :: name
       real(real64), intent(in), contiguous :: values(..)
 
-      call write_array(self, section, name, 'Float64', 8, n_tuples(self, section), values)
+      call write_array(self, section, name, 'Float64', 8, values)
    end subroutine add_reals
 
    subroutine add_integers(self, section, name, values)
@@ -132,30 +128,24 @@ contains
       character(*), intent(in)               :: name
       integer(int32), intent(in), contiguous :: values(..)
 
-      call write_array(self, section, name, 'Int32', 4, n_tuples(self, section), values)
+      call write_array(self, section, name, 'Int32', 4, values)
    end subroutine add_integers
 
-   !> Number of tuples of an array of SECTION: one for each point or cell; -1 where not yet known.
-   pure integer function n_tuples(self, section)
-      type(vtu_file_type), intent(in) :: self
-      integer, intent(in)             :: section
-
-      n_tuples = merge(self%n_points, self%n_cells, section == in_points .or. section == point_data)
-   end function n_tuples
-
    !> Record an array for the header, and write its length and bytes.
-   subroutine write_array(self, section, name, number, bytes, n, values)
+   subroutine write_array(self, section, name, number, bytes, values, n_tuples)
       type(vtu_file_type), intent(inout) :: self
       integer, intent(in)                :: section
       character(*), intent(in)           :: name, number
       integer, intent(in)                :: bytes      !! of a number
-      integer, intent(in)                :: n          !! tuples required
       type(*), intent(in), contiguous, target :: values(..) !! (n) or (components, n)
+      integer, intent(in), optional      :: n_tuples   !! required; default: one for each point or cell
       character(:), allocatable :: line
       character(20)  :: offset
-      integer        :: components
+      integer        :: components, n
       integer(int64) :: n_bytes
 
+      n = merge(self%n_points, self%n_cells, section == in_points .or. section == point_data)
+      if (present(n_tuples)) n = n_tuples
       components = 1
       if (rank(values) == 2) components = size(values, 1)
       ! an empty array constructor has an extent of -1 in gfortran 12

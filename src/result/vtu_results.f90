@@ -10,14 +10,14 @@ module vtu_results
    use incomplete_results, only: remove_old
    use kinds, only: wp
    use mode_values, only: modes_type
-   use model_data, only: model_type
+   use model_data, only: model_type, n_points
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
    use result_page, only: label_type
    use stage_plan, only: stage_plan_type
-   use text_tools, only: integer_text
-   use vtu_file, only: piece_of, vtu_file_type, write_collection, write_index, xml_text
-   use vtu_grids, only: write_bodies, write_joints, write_shapes
+   use text_tools, only: integer_text, real_text
+   use vtu_file, only: piece_of, point_data, vtu_file_type, write_collection, write_index, xml_text
+   use vtu_grids, only: write_bodies, write_joints, write_mesh
    implicit none
    private
 
@@ -179,17 +179,25 @@ contains
       end associate
    end subroutine write_pieces
 
-   !> Write the file of the natural MODES about the end of the stage with this number.
+   !> Write the file of the natural MODES about the end of the stage with this number: a nodal vector for each mode.
    subroutine write_modes(results, model, stage, modes)
       type(vtu_results_type), intent(inout) :: results
       type(model_type), intent(in)          :: model
       integer, intent(in)                   :: stage
       type(modes_type), intent(in)          :: modes
       type(vtu_file_type) :: grid
+      real(wp), allocatable :: u(:, :)
+      integer :: k
 
       if (results%name == '' .or. model%n_elements == 0) return
       call begin_part(results, stage, '.modes.vtu', real(stage, wp), of_modes, grid)
-      call write_shapes(grid, model, modes)
+      call write_mesh(grid, model, all_shown(model))
+      allocate (u(3, n_points(model)), source=0.0_wp)
+      do k = 1, size(modes%modes)
+         u(:model%dimension, :) = modes%modes(k)%u(:, :n_points(model))
+         call grid%add(point_data, 'mode '//integer_text(modes%n_before + k)//', frequency '// &
+                       real_text(modes%modes(k)%frequency), u)
+      end do
       call end_part(results, grid)
    end subroutine write_modes
 
