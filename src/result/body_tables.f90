@@ -37,7 +37,7 @@ contains
       type(analysis_type), intent(in) :: analysis
       type(table_type) :: table
       real(wp), allocatable :: stress(:, :)
-      integer, allocatable  :: list(:)
+      integer, allocatable  :: list(:), shown(:)
       real(wp) :: floor
       logical  :: has_bodies
       integer  :: m, node
@@ -63,11 +63,12 @@ contains
          allocate (stress(max_stresses, n_points(model)))
          call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
          floor = noise*maxval(abs(stress))
+         shown = shown_stresses(model)
          call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
                           [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')], page%file)
          do node = 1, n_points(model)
             if (model%first_at(node + 1) == model%first_at(node) .or. .not. shows(page, [node])) cycle
-            call table%add([model%node_id(node)], clean([stress(shown_stresses(model), node), von_mises(stress(:, node))], floor))
+            call table%add([model%node_id(node)], clean([stress(shown, node), von_mises(stress(:, node))], floor))
             call table%print_row(page%file)
          end do
       end if

@@ -86,7 +86,7 @@ contains
       type(bolt_history), intent(out) :: history
       type(surface_node_list) :: list
       real(wp) :: along, radius, span(2)
-      integer  :: i, n, s
+      integer  :: i, n, node, s
 
       n = n_sections(model)
       if (n_bars(model) > 0) n = n + count(model%bars%bolt > 0)
@@ -115,10 +115,10 @@ contains
                radius = max(radius, norm2(model%x(:, list%node(s)) - bolt%point))
             end do
             span = 0.0_wp ! of the nodes of its body no farther from the axis than those of its pretension section
-            do s = 1, n_points(model)
-               if (model%part(s) /= model%part(section%point)) cycle
-               if (distance(bolt, model%x(:, s)) > radius*(1.0_wp + 1.0e-3_wp)) cycle
-               along = dot_product(model%x(:, s) - bolt%point, bolt%direction)
+            do node = 1, n_points(model)
+               if (model%part(node) /= model%part(section%point)) cycle
+               if (distance(bolt, model%x(:, node)) > radius*(1.0_wp + 1.0e-3_wp)) cycle
+               along = dot_product(model%x(:, node) - bolt%point, bolt%direction)
                span = [min(span(1), along), max(span(2), along)]
             end do
             call find_own_joint(model, span, bolt)

@@ -172,28 +172,30 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(table_type) :: table
+      real(wp), allocatable :: centre(:, :, :)
       real(wp) :: stress(max_stresses, 5, 2), floor
-      integer  :: e, f, pass
+      integer  :: e, f
 
       if (size(model%structural%shells) == 0) return
+      allocate (centre(max_stresses, 2, size(model%structural%shells)))
+      do e = 1, model%n_elements
+         if (.not. is_shell(model, e)) cycle
+         call face_stresses(model, e, analysis%all_u, analysis%now%temperature, stress)
+         centre(:, :, model%structural%place(e)) = stress(:, size(corners_of(model, e)) + 1, :)
+      end do
+      floor = noise*maxval(abs(centre))
       call table%start('STRESSES AT THE FACES OF SHELLS, AT THEIR CENTRES'//page%now//in_units(page%labels%pressure), &
          [column('ELEMENT', 'i11'), column('HEIGHT', 'es13.5'), column([character(9) :: 'SIGMA X', 'SIGMA Y', 'SIGMA Z', 'TAU XY', &
           'TAU YZ', 'TAU ZX', 'VON MISES'], 'es13.5')], page%file)
-      floor = 0.0_wp
-      do pass = 1, 2 ! the largest value first, for the limit of rounding
-         do e = 1, model%n_elements
-            if (.not. is_shell(model, e)) cycle
-            if (pass == 2 .and. .not. shows(page, corners_of(model, e))) cycle
-            call face_stresses(model, e, analysis%all_u, analysis%now%temperature, stress)
-            associate (centre => stress(:, size(corners_of(model, e)) + 1, :))
-               if (pass == 1) floor = max(floor, noise*maxval(abs(centre)))
-               do f = 1, merge(2, 0, pass == 2)
-                  call table%add([model%element_id(e)], [model%properties(model%element_property(e))%fibre(f), &
-                                                         clean([centre(:, f), von_mises(centre(:, f))], floor)])
-                  call table%print_row(page%file)
-               end do
-            end associate
-         end do
+      do e = 1, model%n_elements
+         if (.not. is_shell(model, e)) cycle
+         if (.not. shows(page, corners_of(model, e))) cycle
+         associate (own => centre(:, :, model%structural%place(e)), fibre => model%properties(model%element_property(e))%fibre)
+            do f = 1, 2
+               call table%add([model%element_id(e)], [fibre(f), clean([own(:, f), von_mises(own(:, f))], floor)])
+               call table%print_row(page%file)
+            end do
+         end associate
       end do
       if (has_forces) call list_shell_forces(page, model, analysis, is_listed=.true.)
    end subroutine list_shells
