@@ -30,7 +30,7 @@ module results
    use vibration_tables, only: list_modes
    use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, record_vtu, remove_old_vtu, start_vtu, vtu_names, &
                           vtu_results_type, write_modes, write_vtu
-   use watched_nodes, only: find_watched, keep_watched, start_watched, watch_answer, watch_state
+   use watched_nodes, only: find_watched, start_watched, state_at_end, watch_answer, watch_state
    implicit none
    private
 
@@ -221,7 +221,7 @@ contains
          digest%safety = min(digest%safety, minval(answer%joints%safety, mask=answer%joints%has_safety))
       end associate
       results%bolts%before = answer%bolts%force
-      if (plan%has_watched_nodes) call keep_watched(model, analysis, results%watched_before)
+      if (plan%has_watched_nodes) results%watched_before = state_at_end(model, analysis)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
 

@@ -191,27 +191,24 @@ contains
       type(table_type), intent(inout)         :: table
       character(12) :: headings(7)
       type(joint_resultant) :: total
-      real(wp) :: floor
-      integer  :: j
+      real(wp) :: floors(7), values(7)
+      integer  :: j, n
 
       headings = [character(12) :: 'NORMAL FORCE', 'FORCE '//axes, 'MOMENT '//axes]
       if (model%dimension == 2) headings(2:5) = [character(12) :: 'SHEAR FORCE', 'FORCE X', 'FORCE Y', 'MOMENT Z']
+      n = 2*model%dimension + 1
       if (table%is_empty()) call table%start( &
          'RESULTANTS OF JOINTS, SIDE 1 ON SIDE 2 (MOMENT ABOUT THE CENTROID OF THE JOINT), '//page%stage, &
          [column('INCR', 'i6'), column('JOINT', 'i11'), column(headings(:4), 'es15.5', page%labels%force), &
-          column(headings(5:2*model%dimension + 1), 'es15.5', page%labels%moment)])
-      floor = noise*page%largest_force
+          column(headings(5:n), 'es15.5', page%labels%moment)])
       do j = 1, size(model%joints)
          associate (joint => model%joints(j))
             total = find_resultant(model, analysis, joint)
-            call table%add([analysis%increment, joint%id])
-            if (model%dimension == 3) then
-               call table%add([total%normal, total%force], floor)
-               call table%add(total%moment, floor*joint%frame%extent)
-            else
-               call table%add([total%normal, total%along(1), total%force(:2)], floor)
-               call table%add(total%moment(3:), floor*joint%frame%extent)
-            end if
+            values = [total%normal, total%force, total%moment]
+            if (model%dimension == 2) values(2:5) = [total%along(1), total%force(:2), total%moment(3)]
+            floors = noise*page%largest_force
+            floors(5:) = floors(5:)*joint%frame%extent
+            call table%add([analysis%increment, joint%id], clean(values(:n), floors(:n)))
             call table%keep_row()
          end associate
       end do
@@ -225,7 +222,8 @@ contains
       type(table_type), intent(inout)         :: table
       integer, parameter :: shown = 8 ! of many passes
       character(6) :: increment
-      integer :: i
+      real(wp) :: forces(2)
+      integer  :: i, k
 
       if (table%is_empty()) then
          select case (method)
@@ -253,8 +251,11 @@ contains
          associate (iteration => analysis%record%iterations(i))
             if (iteration%part > 0) then
                call table%add([analysis%increment, iteration%part, i])
-               call add_unbalanced(iteration%before)
-               call add_unbalanced(iteration%after)
+               forces = [iteration%before, iteration%after]
+               do k = 1, 2 ! below the tolerance the digits of an unbalanced force are rounding
+                  if (forces(k) <= analysis%tolerance) call table%add('BELOW TOL')
+                  if (.not. forces(k) <= analysis%tolerance) call table%add(forces(k:k))
+               end do
                call table%add([iteration%step])
             else
                call table%add([analysis%increment, i])
@@ -267,20 +268,6 @@ contains
             call table%keep_row()
          end associate
       end do
-
-   contains
-
-      !> Below the tolerance the digits of an unbalanced FORCE are rounding.
-      subroutine add_unbalanced(force)
-         real(wp), intent(in) :: force
-
-         if (force <= analysis%tolerance) then
-            call table%add('BELOW TOL')
-         else
-            call table%add([force])
-         end if
-      end subroutine add_unbalanced
-
    end subroutine note_passes
 
    !> The forces of all bars, bolts among them, and of all springs.

@@ -13,19 +13,18 @@ module watched_nodes
    use bar_elements, only: bar_elongation
    use body_elements, only: add_thermal_forces, internal_forces
    use bolt_locking, only: bar_tension
-   use interface_operator, only: joint_movement
    use kinds, only: wp
    use connected_bodies, only: find_bodies
    use model_data, only: a_spring, bar_nodes, corners_of, model_type, n_bars, n_points
    implicit none
    private
 
-   public :: start_watched, find_watched, keep_watched
+   public :: start_watched, find_watched, state_at_end
 
    real(wp), parameter :: cancels = 1.0e-9_wp   ! of the sum of amounts: a smaller sum of forces or works is zero
    real(wp), parameter :: rests = 1.0e-7_wp     ! of the largest movement over the stage: a smaller one is zero
 
-   !> The structure at the end of the last stage.
+   !> The structure at the end of a stage.
    type, public :: watch_state
       real(wp), allocatable :: u(:, :)          !! (dimension, n_nodes) [length]
       real(wp), allocatable :: force(:, :)      !! (3, interface elements) in their axes [force]
@@ -65,12 +64,14 @@ contains
       integer, intent(in)             :: watched(:)  !! positions
       type(watch_state), intent(in)   :: before      !! at the end of the last stage
       type(watch_answer), intent(out) :: answer
+      type(watch_state) :: now
       real(wp), allocatable :: change(:, :), load(:, :)
       real(wp) :: on_nodes(3), total(3), amount, largest
       integer  :: d, k, s
 
       d = model%dimension
-      change = analysis%all_u - before%u
+      now = state_at_end(model, analysis)
+      change = now%u - before%u
       largest = maxval(abs(change(:, :n_points(model))))
       allocate (load(3, model%n_nodes), source=0.0_wp) ! change over the stage of the loads of the deck, without preloads [force]
       do s = max(1, analysis%stage - 1), analysis%stage
@@ -100,18 +101,18 @@ contains
             if (answer%moves) answer%stiffness = norm2(answer%load)/answer%along
          end associate
       end do
-      call share_work(model, analysis, change, before, answer)
+      call share_work(model, analysis, change, before, now, answer)
    end subroutine find_watched
 
    !> The shares of bodies, joints, bars and springs in the work over the stage, in which the nodes moved by CHANGE.
-   subroutine share_work(model, analysis, change, before, answer)
+   subroutine share_work(model, analysis, change, before, now, answer)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
       real(wp), intent(in)               :: change(:, :) !! (dimension, n_nodes) [length]
-      type(watch_state), intent(in)      :: before
+      type(watch_state), intent(in)      :: before, now  !! at both ends of the stage
       type(watch_answer), intent(inout)  :: answer
       type(compliance_share), allocatable   :: parts(:)
-      real(wp) :: work(3), tension, all_amounts
+      real(wp) :: work(3), all_amounts
       integer  :: i, n_bodies, n_joints
 
       call share_of_bodies(model, analysis, change, parts)
@@ -124,15 +125,14 @@ contains
          if (model%bars(i)%bolt > 0) parts(n_bodies + n_joints + i) = compliance_share('BOLT', model%bars(i)%bolt)
       end do
       do i = 1, size(model%interface)
-         work = local_force(model, analysis, i)
-         work = 0.5_wp*(work - before%force(:, i))*(analysis%movement(:, i) - before%movement(:, i))
+         work = 0.5_wp*(now%force(:, i) - before%force(:, i))*(now%movement(:, i) - before%movement(:, i))
          associate (part => parts(n_bodies + model%interface(i)%joint))
             part%share = part%share + [work(3), work(1) + work(2)]
          end associate
       end do
       do i = 1, n_bars(model)
-         tension = bar_tension(model, analysis, i) - before%tension(i)
-         parts(n_bodies + n_joints + i)%share(1) = 0.5_wp*tension*bar_elongation(model%bars(i), change(:, bar_nodes(model%bars(i))))
+         parts(n_bodies + n_joints + i)%share(1) = 0.5_wp*(now%tension(i) - before%tension(i))* &
+                                                   bar_elongation(model%bars(i), change(:, bar_nodes(model%bars(i))))
       end do
       all_amounts = sum([(sum(abs(parts(i)%share)), i = 1, size(parts))])
       answer%work = sum([(sum(parts(i)%share), i = 1, size(parts))])
@@ -186,18 +186,6 @@ contains
       end do
    end subroutine share_of_bodies
 
-   !> Shear along x and y and normal force of interface element I [force].
-   pure function local_force(model, analysis, i) result(force)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: i
-      real(wp) :: force(3)
-
-      associate (state => analysis%states(i))
-         force = [state%shear%tau*model%interface(i)%area, state%normal%sumf]
-      end associate
-   end function local_force
-
    !> Before the first stage all is at rest.
    pure subroutine start_watched(model, before)
       type(model_type), intent(in)   :: model
@@ -207,19 +195,19 @@ contains
                 before%movement(3, size(model%interface)), before%tension(n_bars(model)), source=0.0_wp)
    end subroutine start_watched
 
-   !> The completed stage becomes the last stage.
-   pure subroutine keep_watched(model, analysis, before)
-      type(model_type), intent(in)     :: model
-      type(analysis_type), intent(in)  :: analysis
-      type(watch_state), intent(inout) :: before
+   !> The structure at the end of the completed stage.
+   pure function state_at_end(model, analysis) result(now)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(watch_state) :: now
       integer :: i
 
-      before%u = analysis%all_u
-      before%movement = analysis%movement
+      allocate (now%u, source=analysis%all_u)
+      allocate (now%force, now%movement, source=analysis%movement)
       do i = 1, size(model%interface)
-         before%force(:, i) = local_force(model, analysis, i)
+         now%force(:, i) = [analysis%states(i)%shear%tau*model%interface(i)%area, analysis%states(i)%normal%sumf]
       end do
-      before%tension = [(bar_tension(model, analysis, i), i = 1, n_bars(model))]
-   end subroutine keep_watched
+      allocate (now%tension, source=[(bar_tension(model, analysis, i), i = 1, n_bars(model))])
+   end function state_at_end
 
 end module watched_nodes
