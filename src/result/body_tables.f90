@@ -59,7 +59,7 @@ contains
          call list_shells(page, asked%forces, model, analysis)
          call list_beams(page, model, analysis)
       end if
-      if (asked%stress .and. has_second_order(model)) then
+      if (asked%stress .and. has_second_order(model)) then ! stresses at nodes, averaged over their elements
          allocate (stress(max_stresses, n_points(model)))
          call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
          floor = noise*maxval(abs(stress))
@@ -242,6 +242,7 @@ contains
          balance(:, 4) = balance(:, 4) + bar_tension(model, analysis, i)*model%bars(i)%direction(:model%dimension, 1)
       end do
       balance(:, 5) = sum(balance, dim=2)
+      ! the balance
       first = merge(2, 1, model%axisymmetric)
       call table%start('BALANCE OF FORCES'//page%now//in_units(page%labels%force), &
                        [column('', 'a35'), column(axes(first:model%dimension), 'es13.5'), &
@@ -254,6 +255,7 @@ contains
          call table%add(names(i), clean(balance(first:, i), floors(i)))
          call table%print_row(page%file)
       end do
+      ! support moments, where any rotation is supported
       list = pack([(i, i = 1, n_rotations(model))], [(any(supported(model, model%rotations(i)%node)), i = 1, n_rotations(model))])
       if (size(list) == 0) return
       m = merge(3, 1, model%dimension == 3)

@@ -270,7 +270,7 @@ contains
             call table%print_row(page%file)
          end associate
       end do
-      if (.not. allocated(model%placed)) return
+      if (.not. allocated(model%placed)) return ! nodes by place
       call table%start('NODES BY PLACE AND SURFACE', [column([character(8) :: 'NODE', 'NODEAT', 'ELEMENT', 'PMARK'], 'i11'), &
                        column(axes(:d), 'es14.5', page%labels%length), column('DISTANCE', 'es12.3', page%labels%length)], page%file)
       do i = 1, size(model%placed)
@@ -291,6 +291,7 @@ contains
       integer :: d, i, j, lists(size(model%joints)) ! interface elements coupled to lists of nodes
       logical :: shown(size(model%joints))
 
+      ! laws and areas
       d = model%dimension
       associate (labels => page%labels)
          call table%start('JOINTS', [column('JOINT', 'i11'), column('ELEMENTS', 'i9'), column('A_INT', 'es13.5', labels%area), &
@@ -308,6 +309,8 @@ contains
             lists(j) = count([(model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0, i = joint%first, joint%last)])
          end associate
       end do
+
+      ! the cover of sides that do not match
       shown = model%joints%cover%fitted .and. (lists > 0 .or. model%joints%cover%share < whole_share)
       if (any(shown)) call table%start('JOINTS OF FACES THAT DO NOT MATCH', [column('JOINT', 'i11'), &
                                        column(['PAIRS', 'LISTS'], 'i9'), column('SIDE1 COVERED', 'f15.6'), &
@@ -328,6 +331,8 @@ contains
                ' IS COARSER THAN SIDE2. EXCHANGE THEM FOR BETTER STRESSES BESIDE THE JOINT.')
          end associate
       end do
+
+      ! initial gaps
       if (.not. has_gaps(model)) return
       call table%start('INITIAL GAPS, NEGATIVE: INTERFERENCE', &
                        [column('JOINT', 'i11'), column('GIVEN BY', 'a10'), column(['SMALLEST', 'LARGEST '], 'es15.5', &

@@ -139,6 +139,8 @@ contains
          end do
       end do
       watch%tallies = tally_type()
+
+      ! what remains unbalanced, or above a limit
       words = '  WARNING: '//upper(page%place)//': '
       unbalanced = free_norm(analysis%unbalanced, analysis%held)
       if (unbalanced > much*page%largest_force) call warn(watch, words//real_text(unbalanced)// &

@@ -98,7 +98,7 @@ contains
          call page%screen%start('')
       end associate
       if (base == '') return
-      is_asked = .true.
+      is_asked = .true. ! the CSV files
       is_asked(bolt_table) = size(results%bolts%before) > 0
       is_asked([modes_table, energy_table]) = plan%has_modes
       is_asked(response_table) = plan%has_responses
@@ -130,6 +130,7 @@ contains
       results%digest%iterations = results%digest%iterations + analysis%record%n_iterations
       results%n_removed = results%n_removed + analysis%record%n_removed
       associate (stage => plan%stages(analysis%stage), page => results%page)
+         ! what the page shows in this increment, and the scale of its forces
          page%stage_id = stage%id
          page%stage = 'STAGE '//integer_text(stage%id)
          page%place = 'stage '//integer_text(stage%id)//', increment '//integer_text(analysis%increment)
@@ -145,6 +146,7 @@ contains
             max(page%largest_force, maxval(abs(held_forces(model, analysis%all_unbalanced)))) ! forces that move the supports
          if (any(model%interface%gap < 0.0_wp)) page%largest_force = &
             max(page%largest_force, maxval(abs(analysis%states%normal%sumf)))              ! forces of interference
+
          call note_stage_tables(page, results%method, model, analysis, results%stage_tables, results%watch%farthest)
          call watch_increment(page, model, analysis, results%method, results%watch)
          if (stage%output%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)

@@ -82,6 +82,8 @@ contains
          call describe_joint(model, analysis, model%joints(j), k, remainder*largest_force, answer%joints(j))
       end do
       call find_bolt_answers(model, analysis, largest_force, bolts, answer%bolts)
+
+      ! the largest displacement
       allocate (size_of(n_points(model)))
       do node = 1, size(size_of)
          size_of(node) = norm2(analysis%all_u(:, node))
@@ -90,6 +92,8 @@ contains
       if (node > 0) answer%displacement = peak_type(.true., maxval(size_of, mask=model%used(:size(size_of))), &
                                                     model%node_id(node), model%x(:, node))
       if (model%n_elements == 0) return
+
+      ! the largest von Mises stress at a node
       allocate (at_node(max_stresses, n_points(model)))
       call node_stresses(model, analysis%all_u, analysis%now%temperature, at_node)
       allocate (structural(size(size_of)), at_ends(model%n_elements))
@@ -99,6 +103,8 @@ contains
       end do
       node = first_largest(size_of, model%used(:size(size_of)))
       answer%at_node = peak_type(.true., largest(size_of), model%node_id(node), model%x(:, node))
+
+      ! that at the centre of an element
       deallocate (size_of)
       allocate (size_of(model%n_elements))
       !$omp parallel do schedule(dynamic, 512) default(shared) if(model%n_elements > 4096)
@@ -110,8 +116,7 @@ contains
          if (all(is_measure(size_of))) answer%strained = maxval(size_of/modulus, mask=modulus > 0.0_wp)
       end associate
       e = first_largest(size_of, size_of >= 0.0_wp)
-      answer%at_centre = peak_type(.true., size_of(e), model%element_id(e))
-      answer%at_centre%value = largest(size_of)
+      answer%at_centre = peak_type(.true., largest(size_of), model%element_id(e))
       answer%at_centre%x(:model%dimension) = element_centre(model, e)
    end subroutine find_answer
 

@@ -53,6 +53,7 @@ contains
       end if
       if (modes%n_before > 0) call page%file%put('  BELOW THE RANGE: '//integer_text(modes%n_before))
       if (size(modes%modes) == 0) call page%file%put('  NO MODE IS IN THE RANGE')
+      ! mass, centre and moments of inertia
       d = model%dimension
       shown = pack([(c, c = 1, 6)], [(d == 3 .or. (c == 3 .and. .not. model%axisymmetric), c = 1, 6)])
       extent = maxval(abs(model%x))
@@ -178,7 +179,7 @@ contains
             end associate
             call table%print_row(page%file, page%tables(backbone_table))
          end do
-         if (size(model%joints) > 1) then
+         if (size(model%joints) > 1) then ! the contribution of every joint to the loss
             call table%start('SHARE OF THE LOSS BY JOINT', [column('AMPLITUDE', 'es14.5', page%labels%length), &
                              column('JOINT', 'i11'), column('SHARE', 'f10.2', 'PERCENT')], page%file)
             do i = 1, size(found%loops)
@@ -199,7 +200,7 @@ contains
       else if (found%problem /= '') then
          call page%file%put('  WARNING: NO BACKBONE: '//upper(found%problem))
       end if
-      call table%start('', table_columns(loop_table, page%labels, model))
+      call table%start('', table_columns(loop_table, page%labels, model)) ! in the CSV file only
       do i = 1, size(found%loops)
          do k = 1, size(found%loops(i)%way, 2)
             call table%add([page%stage_id, found%mode], [found%loops(i)%q*found%peak])
@@ -276,7 +277,7 @@ contains
                ', IN THE TABLE '//trim(adjustl(beside))//'; SEE FREQ4')
          end associate
       end do
-      call table%start('', table_columns(response_table, page%labels, model))
+      call table%start('', table_columns(response_table, page%labels, model)) ! in the CSV file only
       do f = 1, size(response%frequency)
          do i = 1, size(response%node)
             do c = 1, size(response%amplitude, 1)
