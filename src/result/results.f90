@@ -236,10 +236,9 @@ contains
       type(results_type), intent(inout) :: results
       integer :: m
 
+      m = findloc(modes%modes%is_rigid, .false., dim=1)
       results%digest%frequency = -1.0_wp
-      do m = size(modes%modes), 1, -1
-         if (.not. modes%modes(m)%is_rigid) results%digest%frequency = modes%modes(m)%frequency
-      end do
+      if (m > 0) results%digest%frequency = modes%modes(m)%frequency
       associate (planned => plan%stages(stage), page => results%page)
          page%stage_id = planned%id
          call list_modes(page, model, planned%vibration, modes)

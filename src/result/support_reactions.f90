@@ -6,7 +6,7 @@ module support_reactions
    use bolt_locking, only: bar_tension
    use interface_operator, only: at_first_end, named_node
    use kinds, only: wp
-   use model_data, only: a_rotation, has_ground_springs, model_type, n_bars, n_points, n_rotations, node_kind, place_in_kind
+   use model_data, only: a_rotation, model_type, n_bars, n_points, n_rotations, node_kind, place_in_kind
    use node_coupling, only: coupling_parts, forces_on_unknowns
    use numbers, only: cross
    use text_tools, only: above
@@ -42,44 +42,52 @@ contains
       type(analysis_type), intent(in)   :: analysis
       real(wp), intent(in)              :: largest_force !! ever applied at a node, for the noise
       type(reactions_type), intent(out) :: answer
-      real(wp) :: x(3)
-      integer  :: base_of(size(model%joints)), i, j, n, node
+      real(wp), allocatable :: felt(:, :)
+      real(wp) :: force(model%dimension)
+      integer  :: d, g, i, j, last, n, node
 
       n = size(model%support_groups)
-      allocate (answer%parts(n + size(model%joints) + 1))
+      last = n + size(model%joints) + 1
+      allocate (answer%parts(last))
       answer%parts(:n)%kind = model%support_groups%kind
       answer%parts(:n)%id = model%support_groups%id
       answer%parts(:n)%line = model%support_groups%line
-      call add_supports(model, analysis, answer%parts)
-      base_of = 0
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i))
-            if (named_node(element, 2) /= 0) cycle
-            if (base_of(element%joint) == 0) then
-               n = n + 1
-               base_of(element%joint) = n
-               answer%parts(n)%kind = 'BASE'
-               answer%parts(n)%id = model%joints(element%joint)%id
-            end if
-            x = at_first_end(element, model%x)
-            call act(answer%parts(base_of(element%joint)), x, -element_force(element, analysis%states(i)))
+      answer%parts(n + 1:last - 1)%kind = 'BASE'
+      answer%parts(n + 1:last - 1)%id = model%joints%id
+      answer%parts(last)%kind = 'SPRINGS'
+      allocate (felt, source=forces_on_unknowns(model, analysis%all_unbalanced))
+      do node = 1, size(model%support_of, 2)
+         associate (groups => model%support_of(:, node), coupled => coupling_parts(model, node))
+            do d = 1, model%dimension
+               g = groups(d)
+               if (g == 0 .or. any(groups(:d - 1) == g) .or. .not. model%used(node)) cycle
+               force = -merge(felt(:, node), 0.0_wp, groups == g)
+               do i = coupled(1), coupled(2) ! from the unknowns of the node to global axes
+                  if (model%coupling%node(i) == node) force = matmul(model%coupling%t(:, :, i), force)
+               end do
+               call act_on(model, node, force, answer%parts(g))
+            end do
          end associate
       end do
-      if (has_ground_springs(model)) then
-         n = n + 1
-         answer%parts(n)%kind = 'SPRINGS'
-         do i = 1, n_bars(model)
-            associate (bar => model%bars(i))
-               if (bar%nodes(2) > 0) cycle
-               if (node_kind(model, bar%nodes(1)) == a_rotation) then
-                  answer%parts(n)%nodes = answer%parts(n)%nodes + 1
-                  answer%parts(n)%centre = answer%parts(n)%centre + model%x(:, bar%nodes(1))
-               end if
-               call act_on(model, bar%nodes(1), bar_tension(model, analysis, i)*bar%direction(:model%dimension, 1), answer%parts(n))
-            end associate
-         end do
-      end if
-      answer%parts = pack(answer%parts(:n), answer%parts(:n)%nodes > 0)
+      do i = 1, size(model%interface)
+         associate (element => model%interface(i))
+            if (named_node(element, 2) == 0) call act(answer%parts(n + element%joint), at_first_end(element, model%x), &
+                                                      -element_force(element, analysis%states(i)))
+         end associate
+      end do
+      do i = 1, n_bars(model)
+         associate (bar => model%bars(i), part => answer%parts(last))
+            if (bar%nodes(2) > 0) cycle
+            if (node_kind(model, bar%nodes(1)) == a_rotation) then
+               part%nodes = part%nodes + 1
+               part%centre = part%centre + model%x(:, bar%nodes(1))
+            end if
+            call act_on(model, bar%nodes(1), bar_tension(model, analysis, i)*bar%direction(:model%dimension, 1), part)
+         end associate
+      end do
+      answer%parts = pack(answer%parts, answer%parts%nodes > 0)
+
+      ! the loads, and the sum of the reactions
       answer%loads%kind = 'LOADS'
       do node = 1, n_points(model) + n_rotations(model)
          if (any(abs(analysis%now%load(:, node)) > 0.0_wp)) call act_on(model, node, analysis%now%load(:, node), answer%loads)
@@ -98,31 +106,6 @@ contains
       call complete_part(model, largest_force, answer%total)
       call complete_part(model, largest_force, answer%loads)
    end subroutine find_reactions
-
-   !> Add the reactions of supported components to the PARTS of their groups.
-   subroutine add_supports(model, analysis, parts)
-      type(model_type), intent(in)       :: model
-      type(analysis_type), intent(in)    :: analysis
-      type(reaction_type), intent(inout) :: parts(:)
-      real(wp), allocatable :: felt(:, :)
-      real(wp) :: force(model%dimension)
-      integer  :: d, g, k, node
-
-      allocate (felt, source=forces_on_unknowns(model, analysis%all_unbalanced))
-      do node = 1, size(model%support_of, 2)
-         associate (groups => model%support_of(:, node), coupled => coupling_parts(model, node))
-            do d = 1, model%dimension
-               g = groups(d)
-               if (g == 0 .or. any(groups(:d - 1) == g) .or. .not. model%used(node)) cycle
-               force = -merge(felt(:, node), 0.0_wp, groups == g)
-               do k = coupled(1), coupled(2) ! from the unknowns of the node to global axes
-                  if (model%coupling%node(k) == node) force = matmul(model%coupling%t(:, :, k), force)
-               end do
-               call act_on(model, node, force, parts(g))
-            end do
-         end associate
-      end do
-   end subroutine add_supports
 
    !> Add FORCE on NODE; on the node of a rotation it is a moment.
    pure subroutine act_on(model, node, force, part)
