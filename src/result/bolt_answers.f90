@@ -336,25 +336,23 @@ contains
       type(bolt_place), intent(in)    :: bolts(:)
       real(wp), intent(out)           :: clamping(:), shear(:) !! (bolts) [force]
       real(wp) :: along(3, size(bolts)), off(size(bolts)), share(size(bolts))
-      integer  :: b, i, j
+      integer  :: b, i
 
       clamping = 0.0_wp
       along = 0.0_wp
-      do j = 1, size(model%joints)
-         if (all(bolts%joint /= j)) cycle
-         do i = model%joints(j)%first, model%joints(j)%last
-            associate (element => model%interface(i), state => analysis%states(i))
-               do b = 1, size(bolts)
-                  off(b) = distance(bolts(b), at_first_end(element, model%x))
-               end do
-               share = merge(1.0_wp, 0.0_wp, bolts%joint == j .and. off <= (1.0_wp + tie)*minval(off, mask=bolts%joint == j))
-               share = share/sum(share)
-               clamping = clamping + share*state%normal%sumf
-               do b = 1, size(bolts)
-                  along(:, b) = along(:, b) + share(b)*matmul(element%axes(:, :2), state%shear%tau*element%area)
-               end do
-            end associate
-         end do
+      do i = 1, size(model%interface)
+         associate (element => model%interface(i), state => analysis%states(i), own => bolts%joint == model%interface(i)%joint)
+            if (.not. any(own)) cycle
+            do b = 1, size(bolts)
+               off(b) = distance(bolts(b), at_first_end(element, model%x))
+            end do
+            share = merge(1.0_wp, 0.0_wp, own .and. off <= (1.0_wp + tie)*minval(off, mask=own))
+            share = share/sum(share)
+            clamping = clamping + share*state%normal%sumf
+            do b = 1, size(bolts)
+               along(:, b) = along(:, b) + share(b)*matmul(element%axes(:, :2), state%shear%tau*element%area)
+            end do
+         end associate
       end do
       if (model%axisymmetric) along = 0.0_wp ! self-equilibrated around the ring
       shear = norm2(along, dim=1)

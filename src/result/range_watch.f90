@@ -210,8 +210,9 @@ contains
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
-      real(wp) :: p, d
-      integer  :: i, k
+      real(wp) :: p, d, values(no_slope), bounds(no_slope)
+      logical  :: is_beyond(no_slope)
+      integer  :: i, k, which
 
       do i = 1, size(model%interface)
          if (analysis%states(i)%normal%branch == branch_open) cycle
@@ -220,36 +221,29 @@ contains
                if (.not. law%given) cycle
                p = analysis%states(i)%normal%pressure
                d = abs(curve_deflection(shear))
-               if (p > law%p_max) call count_element(beyond_p, p, law%p_max)
-               if (d > law%d_max) call count_element(beyond_d, d, law%d_max)
-               if (shear_slope(law, shear, max(0.0_wp, p)) <= 0.0_wp) call count_element(no_slope, d, 0.0_wp)
+               values = [p, d, d]
+               bounds = [law%p_max, law%d_max, 0.0_wp]
+               is_beyond = [p > law%p_max, d > law%d_max, shear_slope(law, shear, max(0.0_wp, p)) <= 0.0_wp]
             end associate
+            do which = beyond_p, no_slope
+               if (.not. is_beyond(which)) cycle
+               associate (tally => watch%tallies(which, model%interface(i)%joint))
+                  if (tally%n == 0) then
+                     tally%node = joint_node_id(model, i, 1)
+                     tally%increment = analysis%increment
+                     tally%bound = bounds(which)
+                  end if
+                  if (watch%stage(which, i) /= analysis%stage) tally%n = tally%n + 1
+                  watch%stage(which, i) = analysis%stage
+                  if (tally%worst_node > 0 .and. values(which) <= (1.0_wp + tie)*tally%excess) cycle
+                  tally%excess = values(which)
+                  tally%worst_node = joint_node_id(model, i, 1)
+                  tally%p = p
+                  tally%d = d
+               end associate
+            end do
          end do
       end do
-
-   contains
-
-      !> Count element I, whose VALUE is beyond the bound WHICH.
-      subroutine count_element(which, value, bound)
-         integer, intent(in)  :: which
-         real(wp), intent(in) :: value, bound
-
-         associate (tally => watch%tallies(which, model%interface(i)%joint))
-            if (tally%n == 0) then
-               tally%node = joint_node_id(model, i, 1)
-               tally%increment = analysis%increment
-               tally%bound = bound
-            end if
-            if (watch%stage(which, i) /= analysis%stage) tally%n = tally%n + 1
-            watch%stage(which, i) = analysis%stage
-            if (tally%worst_node > 0 .and. value <= (1.0_wp + tie)*tally%excess) return
-            tally%excess = value
-            tally%worst_node = joint_node_id(model, i, 1)
-            tally%p = p
-            tally%d = d
-         end associate
-      end subroutine count_element
-
    end subroutine watch_ranges
 
    !> Keep the line of a warning, or of a NOTE, which is not counted. If both parts are too long for one line, SECOND has a line
