@@ -88,7 +88,7 @@ contains
       character(:), allocatable :: first, second
       integer :: power
 
-      first = ''
+      first = '' ! without this gfortran 12 warns of its length
       associate (record => analysis%record)
          if (record%condition%is_new) then
             power = nint(log10(record%condition%number))
