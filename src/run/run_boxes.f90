@@ -118,7 +118,7 @@ contains
          if (allocated(wanted%backbone)) call list_backbone(page, model, found, n_warnings)
          if (.not. allocated(wanted%response)) return
          call find_response(model, structure, wanted%response, spectrum, modes, shifted, response, run%failure)
-         if (.not. run%failure%raised) call list_response(page, response, n_warnings)
+         if (.not. run%failure%raised) call list_response(page, model, response, n_warnings)
       end associate
    end subroutine oscillate
 
