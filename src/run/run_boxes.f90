@@ -14,7 +14,7 @@ module run_boxes
    use equation_solver, only: equation_system, failure_type
    use equations, only: form_body_stiffness, start_equations
    use facing_bodies, only: loose_words
-   use finite_state, only: check_precision, check_state
+   use finite_state, only: check_state
    use incomplete_results, only: say_at_interrupts, watch_ends
    use joint_suggestions, only: suggest_joints
    use kinds, only: wp
@@ -329,7 +329,6 @@ contains
          analysis%unbalanced = unbalanced
       end if
       call check_state(model, plan, system, analysis, overflow)
-      call check_precision(model, plan, system, analysis, overflow)
       if (overflow%raised) then
          run%failure = overflow
          run%keeps_results = .false.
