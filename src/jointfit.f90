@@ -15,10 +15,9 @@ program jointfit
    type(fit_command_type) :: command
    type(output_file_type) :: out, plot
    integer :: i, status
-   logical :: finished
 
-   call read_fit_command(command, finished, status)
-   if (finished) call end_run(status)
+   call read_fit_command(command, status)
+   if (status >= 0) call end_run(status)
    call use_threads(1)
    call begin_output(command, out, plot)
    do i = 1, size(command%files)
