@@ -1,7 +1,6 @@
 !> Tables of the interface elements: history in NAME.joint.csv, tables of each joint in the listing, and its plot.
 module joint_tables
    use analysis_state, only: analysis_type
-   use branch_starts, only: branch_shift
    use interface_operator, only: at_first_end
    use joint_laws, only: friction_limit
    use kinds, only: wp
@@ -9,7 +8,7 @@ module joint_tables
    use normal_curve, only: loading_deflection
    use normal_stiffness, only: branch_name, branch_open, branch_reload, branch_unload, force_reached
    use result_page, only: joint_table, page_type, shows
-   use shear_stiffness, only: curve_deflection
+   use shear_stiffness, only: branch_shift, curve_deflection
    use stage_entries, only: output_request
    use table_writer, only: axes, column, column_type, heading, noise, page_width, table_type
    use text_tools, only: clean, csv_line_type, integer_text
@@ -208,7 +207,7 @@ contains
             call table%add([friction_limit(law, p)], tau_floor, where=[law%has_friction])
             call table%add(trim(merge('  SLIPS', '       ', analysis%states(i)%slips)))
          else
-            shift = branch_shift(law%shear(k), state, max(0.0_wp, p), analysis%turns(k, i))
+            shift = branch_shift(law%shear(k), state, max(0.0_wp, p), analysis%turns(k, i)%delta, analysis%turns(k, i)%tau)
             call table%add([nint(state%sense)], &
                            clean([curve_deflection(state), state%sense*state%tau, state%d_r, state%tau_r, state%offset], &
                                  [delta_floor, tau_floor, delta_floor, tau_floor, tau_floor]))
