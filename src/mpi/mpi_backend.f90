@@ -7,7 +7,6 @@ submodule(distribution) mpi_backend
    use distributed_matrix, only: end_at_error
    use distributed_solution, only: by_gamg, by_mumps, set_library_options
    use incomplete_results, only: watch_ends
-   use omp_lib, only: omp_get_max_threads
    use petscsys, only: PETSC_NULL_INTEGER, PetscFinalize, PetscInitialize
    use petsc_solver, only: petsc_solver_type
    use ranks, only: find_ranks, leave_ranks, n_ranks, rank
@@ -28,11 +27,11 @@ submodule(distribution) mpi_backend
 
 contains
 
-   module subroutine join_processes(write_piece)
-      procedure(piece_writer) :: write_piece
+   module procedure join_processes
       integer :: code ! of PETSc, see end_at_error
 
       call find_ranks()
+      n_processes = n_ranks
       call offer_petsc()
       call set_library_options()
       call PetscInitialize(code)
@@ -44,12 +43,12 @@ contains
       call serve()
       call leave()
       call end_run(0)
-   end subroutine join_processes
+   end procedure join_processes
 
-   module subroutine leave_processes()
+   module procedure leave_processes
       call broadcast_command(command_end)
       call leave()
-   end subroutine leave_processes
+   end procedure leave_processes
 
    subroutine leave()
       integer :: code
@@ -59,34 +58,16 @@ contains
       call leave_ranks()
    end subroutine leave
 
-   module subroutine choose_distributed(wanted, system)
-      integer, intent(in) :: wanted
-      class(equation_system), allocatable, intent(out) :: system
+   module procedure choose_distributed
       type(petsc_solver_type), allocatable :: solver
 
       if (wanted /= solver_petsc .and. wanted /= solver_mumps) return
       allocate (solver)
       solver%wanted = merge(by_mumps, by_gamg, wanted == solver_mumps)
       call move_alloc(solver, system)
-   end subroutine choose_distributed
+   end procedure choose_distributed
 
-   module subroutine weigh_distributed(work, system)
-      type(solver_work_type), intent(inout) :: work
-      class(equation_system), allocatable, intent(out) :: system
-      real(wp) :: seconds(size(weighed))
-      integer  :: best
-
-      work%processes = n_ranks
-      work%threads = omp_get_max_threads()
-      call weigh_solvers(work, seconds, best)
-      call choose_distributed(best, system)
-      if (allocated(system)) system%description%reason = weighing_words(work)
-   end subroutine weigh_distributed
-
-   module subroutine distribute_bodies(model, system, output)
-      type(model_type), intent(in)       :: model
-      class(equation_system), intent(in) :: system
-      class(subdomain_output_type), allocatable, intent(out) :: output
+   module procedure distribute_bodies
       type(pieces_type), allocatable :: pieces
       type(body_piece_type) :: other
       integer :: r
@@ -105,7 +86,7 @@ contains
          call cut_piece(model, system%parts%owner, 0, pieces%own, pieces%lists(0)%nodes)
          call move_alloc(pieces, output)
       end select
-   end subroutine distribute_bodies
+   end procedure distribute_bodies
 
    subroutine write_pieces_of_all(self, u, temperature, notes, files, ok)
       class(pieces_type), intent(in)     :: self
@@ -122,13 +103,12 @@ contains
       call write_own(self%own, self%lists(0)%nodes, u, temperature, notes, trim(files(1)), ok)
    end subroutine write_pieces_of_all
 
-   module subroutine memory_of_all(bytes)
-      real(wp), intent(out) :: bytes
+   module procedure memory_of_all
       real(wp) :: values(1)
 
       values = 0.0_wp
       call broadcast_command(command_memory, values=values)
       bytes = values(1)
-   end subroutine memory_of_all
+   end procedure memory_of_all
 
 end submodule mpi_backend

@@ -14,7 +14,7 @@ module front_tree
    implicit none
    private
 
-   public :: begins, keep_block, restore_block, add_to_block, block_times_vector, start_front_tree, front_of, largest_diagonal
+   public :: keep_block, restore_block, add_to_block, block_times_vector, start_front_tree, front_of
 
    !> A block with N_ROWS rows; its first N_COLUMNS rows are a lower triangle.
    type, public :: kept_block
@@ -39,6 +39,7 @@ module front_tree
       integer :: parent = 0                       !! 0: none
       integer :: left = 0                         !! offset of its contributions to the rows beyond in a solution
       logical :: is_refactored = .false.
+      logical :: is_top = .true.                  !! the parent, if there is one, is not of the same kind, refactored or static
       integer, allocatable  :: children(:)
       integer, allocatable  :: rows(:)            !! (r) equations beyond the pivots, ascending
       integer, allocatable  :: in_parent(:)       !! (r) their places in the front of the parent
@@ -234,11 +235,10 @@ contains
 
       tree%is_parallel = layout%static_operations + layout%refactored_operations > parallel_work
       tree%number = number
-      allocate (first(size(layout%order)), weight(size(layout%order)))
+      allocate (weight, first, source=count(number(:, layout%order) > 0, dim=1))
       tree%n = 0
-      do k = 1, size(layout%order)
+      do k = 1, size(weight)
          first(k) = tree%n + 1
-         weight(k) = count(number(:, layout%order(k)) > 0)
          tree%n = tree%n + weight(k)
       end do
       allocate (tree%fronts(layout%n), tree%of_equation(tree%n))
@@ -272,6 +272,7 @@ contains
          tree%fronts(f)%children = children(first_child(f):first_child(f + 1) - 1)
          if (tree%fronts(f)%parent == 0) cycle
          associate (front => tree%fronts(f), parent => tree%fronts(tree%fronts(f)%parent))
+            front%is_top = front%is_refactored .neqv. parent%is_refactored
             allocate (front%in_parent(front%r))
             k = 0
             do i = 1, front%r
@@ -341,32 +342,5 @@ contains
       f = minval(equations, mask=equations > 0)
       f = merge(0, tree%of_equation(min(f, tree%n)), f > tree%n)
    end function front_of
-
-   !> Whether front F is REFACTORED (or static) and its parent is of the other kind.
-   pure logical function begins(tree, f, refactored)
-      type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: f
-      logical, intent(in)               :: refactored
-
-      begins = tree%fronts(f)%is_refactored .eqv. refactored
-      if (begins .and. tree%fronts(f)%parent > 0) begins = tree%fronts(tree%fronts(f)%parent)%is_refactored .neqv. refactored
-   end function begins
-
-   !> The largest diagonal entry of the matrix without the joints, after the elimination of the static fronts only.
-   pure real(wp) function largest_diagonal(tree) result(largest)
-      type(front_tree_type), intent(in) :: tree
-      real(wp), allocatable :: diagonal(:)
-      integer :: k
-
-      allocate (diagonal, source=tree%diagonal)
-      diagonal(tree%equations) = 0.0_wp
-      do k = 1, size(tree%refactored)
-         associate (front => tree%fronts(tree%refactored(k)), first => tree%fronts(tree%refactored(k))%first)
-            diagonal(first:first + front%p - 1) = diagonal(first:first + front%p - 1) + front%start%diagonal(:front%p)
-            diagonal(front%rows) = diagonal(front%rows) + front%start%diagonal(front%p + 1:)
-         end associate
-      end do
-      largest = maxval(diagonal)
-   end function largest_diagonal
 
 end module front_tree

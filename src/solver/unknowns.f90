@@ -10,7 +10,7 @@ module unknowns
    implicit none
    private
 
-   public :: what_is_loose, unknown_name, n_motions, is_ordinary, motions_of, motions_at
+   public :: what_is_loose, unknown_name, n_motions, motions_of, motions_at
 
 contains
 
@@ -89,15 +89,6 @@ contains
 
       n_motions = merge(6, 3, dimension == 3)
    end function n_motions
-
-   !> Whether the unknowns of NODE are its displacements in global axes.
-   pure logical function is_ordinary(model, node)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-
-      is_ordinary = node_kind(model, node) == a_point
-      if (is_ordinary .and. allocated(model%node_system)) is_ordinary = model%node_system(node) == 0
-   end function is_ordinary
 
    !> Displacements of a point at X: (dimension, motions).
    pure function motions_at(x) result(u)
