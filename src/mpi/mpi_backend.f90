@@ -1,7 +1,6 @@
 !> Provides the solvers and the output of several processes: PETSc on all processes that mpirun has started.
 !! Rank 0 partitions the bodies as it partitions the equations. Every process writes its own piece.
 submodule(distribution) mpi_backend
-   use body_parts, only: cut_piece
    use c_library, only: end_run
    use case_control, only: offer_petsc
    use distributed_matrix, only: end_at_error
@@ -10,19 +9,13 @@ submodule(distribution) mpi_backend
    use petscsys, only: PETSC_NULL_INTEGER, PetscFinalize, PetscInitialize
    use petsc_solver, only: petsc_solver_type
    use ranks, only: find_ranks, leave_ranks, n_ranks, rank
-   use subdomain_output, only: pass_piece, send_state, write_own, writes_by
+   use subdomain_output, only: cut_pieces, write_all, writes_by
    use worker_loop, only: broadcast_command, command_cut, command_end, command_memory, command_show, free_worker, serve
    implicit none
 
-   type :: list_type
-      integer, allocatable :: nodes(:)
-   end type list_type
-
    type, extends(subdomain_output_type) :: pieces_type
-      type(list_type), allocatable :: lists(:)  ! (0:n - 1) the nodes of every piece
-      type(body_piece_type) :: own              ! piece of rank 0
    contains
-      procedure :: write => write_pieces_of_all
+      procedure, nopass :: write => write_pieces_of_all
    end type pieces_type
 
 contains
@@ -68,39 +61,24 @@ contains
    end procedure choose_distributed
 
    module procedure distribute_bodies
-      type(pieces_type), allocatable :: pieces
-      type(body_piece_type) :: other
-      integer :: r
-
       if (n_ranks == 1 .or. allocated(model%structural%place)) return ! rank 0 has all shells and beams, and writes them
       select type (system)
       type is (petsc_solver_type)
-         allocate (pieces)
-         pieces%n = n_ranks
-         allocate (pieces%lists(0:n_ranks - 1))
+         allocate (pieces_type :: output)
+         output%n = n_ranks
          call broadcast_command(command_cut)
-         do r = 1, n_ranks - 1
-            call cut_piece(model, system%parts%owner, r, other, pieces%lists(r)%nodes)
-            call pass_piece(r, other)
-         end do
-         call cut_piece(model, system%parts%owner, 0, pieces%own, pieces%lists(0)%nodes)
-         call move_alloc(pieces, output)
+         call cut_pieces(model, system%parts%owner)
       end select
    end procedure distribute_bodies
 
-   subroutine write_pieces_of_all(self, u, temperature, notes, files, ok)
-      class(pieces_type), intent(in)     :: self
+   subroutine write_pieces_of_all(u, temperature, notes, files, ok)
       real(wp), intent(in)               :: u(:, :)
       type(temperature_type), intent(in) :: temperature
       character(*), intent(in)           :: notes, files(:)
       logical, intent(out)               :: ok
-      integer :: r
 
       call broadcast_command(command_show)
-      do r = 1, self%n - 1
-         call send_state(r, self%lists(r)%nodes, u, temperature, notes, trim(files(r + 1)))
-      end do
-      call write_own(self%own, self%lists(0)%nodes, u, temperature, notes, trim(files(1)), ok)
+      call write_all(u, temperature, notes, files, ok)
    end subroutine write_pieces_of_all
 
    module procedure memory_of_all

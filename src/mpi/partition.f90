@@ -65,23 +65,16 @@ contains
       type(node_graph_type), intent(in) :: graph
       type(partition_type), intent(out)      :: parts
       logical, intent(out)              :: ok
-      integer :: i, n, r
+      integer, allocatable :: first(:)
+      integer :: i
 
       call part_by_metis(graph, n_ranks, parts%owner, ok)
       if (.not. ok) return
       where (.not. model%used) parts%owner = -1
+      call list_owners(n_ranks, reshape(parts%owner + 1, [1, model%n_nodes]), first, parts%order)
+      parts%counts = first(2:) - first(:n_ranks)
       allocate (parts%block(model%n_nodes), source=-1)
-      allocate (parts%order(count(model%used)), parts%counts(n_ranks))
-      n = 0
-      do r = 0, n_ranks - 1
-         parts%counts(r + 1) = count(parts%owner == r)
-         do i = 1, model%n_nodes
-            if (parts%owner(i) /= r) cycle
-            parts%block(i) = n
-            n = n + 1
-            parts%order(n) = i
-         end do
-      end do
+      parts%block(parts%order) = [(i - 1, i = 1, size(parts%order))]
    end subroutine partition_nodes
 
    !> The subdomain of process R.
@@ -241,23 +234,13 @@ contains
       call list_owners(n_blocks, reshape(touched%row + 1, [1, touched%n]), touched%first, rows)
    end subroutine sort_once
 
-   !> Position of the block of ROW and COLUMN, which exists.
-   pure integer function place_of(touched, row, column) result(place)
-      type(touched_type), intent(in) :: touched
-      integer, intent(in)            :: row, column
-
-      associate (first => touched%first(row + 1), behind => touched%first(row + 2))
-         place = first - 1 + first_not_below(touched%column(first:behind - 1), column)
-      end associate
-   end function place_of
-
    !> Add the symmetric matrix K between ROWS of the matrix to VALUES of the touched blocks.
    pure subroutine add_touched(touched, rows, k, values)
       type(touched_type), intent(in) :: touched
       integer, intent(in)            :: rows(:)         !! from 1; 0: none
       real(wp), intent(in)           :: k(:, :)         !! [force/length]
       real(wp), intent(inout)        :: values(:, :, :) !! (dimension, dimension, n) [force/length]
-      integer :: b(size(rows)), c(size(rows)), i, j
+      integer :: b(size(rows)), c(size(rows)), i, j, place
 
       b = (rows - 1)/size(values, 1)
       c = rows - size(values, 1)*b
@@ -265,9 +248,10 @@ contains
          if (rows(j) == 0) cycle
          do i = 1, size(rows)
             if (rows(i) == 0) cycle
-            associate (place => place_of(touched, b(i), b(j)))
-               values(c(i), c(j), place) = values(c(i), c(j), place) + k(i, j)
+            associate (first => touched%first(b(i) + 1), behind => touched%first(b(i) + 2)) ! of the blocks in this row
+               place = first - 1 + first_not_below(touched%column(first:behind - 1), b(j))
             end associate
+            values(c(i), c(j), place) = values(c(i), c(j), place) + k(i, j)
          end do
       end do
    end subroutine add_touched

@@ -132,23 +132,16 @@ contains
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(out)                    :: fault
       real(wp), allocatable :: values(:, :, :)
-      integer :: c, k
       logical :: reuse
 
       allocate (values, source=self%bodies)
       call structure_values(self%touched, self%joints, self%k_int, self%row, self%locked, stiffness%unit, values)
-      do k = 1, self%touched%n
-         if (self%touched%row(k) /= self%touched%column(k)) cycle
-         do c = 1, size(values, 1)
-            fault = self%number(c, self%parts%order(self%touched%row(k) + 1))
-            if (fault > 0 .and. .not. values(c, c, k) > 0.0_wp) return ! a zero on the diagonal
-         end do
-      end do
-      fault = 0
       self%structure = reshape(values, [size(values)])
       call broadcast_command(command_write, values=self%structure)
       call act_on(self, command_diagonal, self%diagonal)
       self%is_own = .false.
+      fault = findloc(self%diagonal > 0.0_wp, .false., dim=1)
+      if (fault > 0) return
       call may_reuse(self%reuse, reuse)
       if (.not. reuse) call renew(self)
       if (.not. self%is_probed) call probe(self, fault)

@@ -18,15 +18,14 @@ module distribution
    type, abstract, public :: subdomain_output_type
       integer :: n = 0 !! pieces
    contains
-      procedure(write_pieces), deferred :: write
+      procedure(write_pieces), deferred, nopass :: write
    end type subdomain_output_type
 
    abstract interface
       !> Write all pieces under the displacements U at this TEMPERATURE, each into its file, which exists and is empty. OK is
       !! false where a file could not be written.
-      subroutine write_pieces(self, u, temperature, notes, files, ok)
-         import :: subdomain_output_type, temperature_type, wp
-         class(subdomain_output_type), intent(in) :: self
+      subroutine write_pieces(u, temperature, notes, files, ok)
+         import :: temperature_type, wp
          real(wp), intent(in)               :: u(:, :)  !! (dimension, n_nodes) [length]
          type(temperature_type), intent(in) :: temperature
          character(*), intent(in)           :: notes    !! for the piece_writer
@@ -119,6 +118,7 @@ contains
       type(solver_work_type), intent(in) :: work
       character(:), allocatable :: words
       real(wp) :: seconds(size(weighed))
+      character(12) :: times(size(weighed))
       integer  :: best
 
       call weigh_solvers(work, seconds, best)
@@ -127,18 +127,10 @@ contains
       if (work%bytes > work%there) then
          words = 'AUTO: TREE WOULD NEED '//integer_text(nint(work%bytes/1048576.0_wp))//' MIB, MORE THAN AVAILABLE'
       else
-         words = 'AUTO: BY ESTIMATE TREE TAKES '//quotient(seconds(1)/seconds(2))//' TIMES AS LONG AS PETSC, MUMPS '// &
-                 quotient(seconds(3)/seconds(2))
+         write (times, '(f12.1)') min(seconds/seconds(2), 1.0e6_wp)
+         words = 'AUTO: BY ESTIMATE TREE TAKES '//trim(adjustl(times(1)))//' TIMES AS LONG AS PETSC, MUMPS '// &
+                 trim(adjustl(times(3)))
       end if
    end function weighing_words
-
-   pure function quotient(value) result(text)
-      real(wp), intent(in)      :: value
-      character(:), allocatable :: text
-      character(12) :: digits
-
-      write (digits, '(f12.1)') min(value, 1.0e6_wp)
-      text = trim(adjustl(digits))
-   end function quotient
 
 end module distribution

@@ -171,24 +171,17 @@ contains
       class(equation_system), intent(inout) :: self
       type(model_type), intent(in)          :: model
       integer, intent(in)                   :: order(:)
+      logical, allocatable :: is_free(:, :)
       integer :: d, i
 
-      self%n = 0
+      allocate (is_free, source=.not. model%held(:, order) .and. spread(model%used(order), 1, model%dimension))
+      self%n = count(is_free)
+      self%node = pack(spread(order, 1, model%dimension), is_free)
+      self%direction = pack(spread([(d, d = 1, model%dimension)], 2, size(order)), is_free)
       self%number = spread([(0, d = 1, model%dimension)], 2, model%n_nodes)
-      self%node = [(0, i = 1, count(.not. model%held(:, order)))]
-      self%direction = self%node
-      do i = 1, size(order)
-         if (.not. model%used(order(i))) cycle
-         do d = 1, model%dimension
-            if (model%held(d, order(i))) cycle
-            self%n = self%n + 1
-            self%number(d, order(i)) = self%n
-            self%node(self%n) = order(i)
-            self%direction(self%n) = d
-         end do
+      do i = 1, self%n
+         self%number(self%direction(i), self%node(i)) = i
       end do
-      self%node = self%node(:self%n)
-      self%direction = self%direction(:self%n)
    end subroutine number_unknowns
 
    !> Which components of retained nodes are held: (dimension, retained).

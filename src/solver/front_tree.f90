@@ -8,7 +8,7 @@ module front_tree
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
    use kinds, only: long, wp
-   use lists, only: list_owners
+   use lists, only: list_owners, sorted_order
    use model_data, only: model_type
    use node_coupling, only: list_on_unknowns, coupled_nodes
    implicit none
@@ -140,62 +140,43 @@ contains
       type(kept_block), intent(inout) :: block
       integer, intent(in)             :: rows(:), columns(:) !! ascending, each once
       real(wp), intent(in)            :: k(:, :)             !! (rows, columns)
-      type(kept_block) :: old
-      integer(long) :: next, n
-      integer :: i, j
+      integer, allocatable  :: by_row(:), column(:), order(:), row(:)
+      real(wp), allocatable :: values(:)
+      logical :: is_lower(size(rows), size(columns))
+      integer :: i, j, n
 
+      is_lower = spread(rows, 2, size(columns)) >= spread(columns, 1, size(rows))
       if (allocated(block%whole)) then
          do j = 1, size(columns)
             do i = 1, size(rows)
-               if (rows(i) >= columns(j)) block%whole(rows(i), columns(j)) = block%whole(rows(i), columns(j)) + k(i, j)
+               if (is_lower(i, j)) block%whole(rows(i), columns(j)) = block%whole(rows(i), columns(j)) + k(i, j)
             end do
          end do
          return
       end if
-      ! the existing and the new entries are both sorted by columns: merge them
-      old = block
-      n = size(old%values, kind=long) + sum([(count(rows >= columns(j)), j = 1, size(columns))])
-      deallocate (block%values, block%row, block%column)
-      allocate (block%values(n), block%row(n), block%column(n))
-      n = 0
-      next = 1
-      do j = 1, size(columns)
-         do i = 1, size(rows)
-            if (rows(i) < columns(j)) cycle
-            do while (next <= size(old%values, kind=long))
-               if (old%column(next) > columns(j) .or. (old%column(next) == columns(j) .and. old%row(next) > rows(i))) exit
-               call append(old%row(next), old%column(next), old%values(next))
-               next = next + 1
-            end do
-            call append(rows(i), columns(j), k(i, j))
-         end do
+      row = [block%row, pack(spread(rows, 2, size(columns)), is_lower)]
+      column = [block%column, pack(spread(columns, 1, size(rows)), is_lower)]
+      values = [block%values, pack(k, is_lower)]
+      call sorted_order(row, by_row)
+      call sorted_order(column(by_row), order)
+      order = by_row(order)
+      block%row = row(order)
+      block%column = column(order)
+      block%values = values(order)
+      n = min(1, size(order))
+      do i = 2, size(order) ! an entry at the place of the one before is added to it
+         if (block%row(i) == block%row(n) .and. block%column(i) == block%column(n)) then
+            block%values(n) = block%values(n) + block%values(i)
+         else
+            n = n + 1
+            block%row(n) = block%row(i)
+            block%column(n) = block%column(i)
+            block%values(n) = block%values(i)
+         end if
       end do
-      do next = next, size(old%values, kind=long)
-         call append(old%row(next), old%column(next), old%values(next))
-      end do
-      block%values = block%values(:n)
       block%row = block%row(:n)
       block%column = block%column(:n)
-
-   contains
-
-      !> Append an entry, or add to the last one where the place is the same.
-      subroutine append(row, column, value)
-         integer, intent(in)  :: row, column
-         real(wp), intent(in) :: value
-
-         if (n > 0) then
-            if (block%row(n) == row .and. block%column(n) == column) then
-               block%values(n) = block%values(n) + value
-               return
-            end if
-         end if
-         n = n + 1
-         block%row(n) = row
-         block%column(n) = column
-         block%values(n) = value
-      end subroutine append
-
+      block%values = block%values(:n)
    end subroutine add_to_block
 
    !> Y = Y + BLOCK X, BLOCK being part of a symmetric matrix over the unknowns of its rows.
