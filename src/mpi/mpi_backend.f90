@@ -15,7 +15,7 @@ submodule(distribution) mpi_backend
 
    type, extends(subdomain_output_type) :: pieces_type
    contains
-      procedure, nopass :: write => write_pieces_of_all
+      procedure :: write => write_pieces_of_all
    end type pieces_type
 
 contains
@@ -71,14 +71,15 @@ contains
       end select
    end procedure distribute_bodies
 
-   subroutine write_pieces_of_all(u, temperature, notes, files, ok)
+   subroutine write_pieces_of_all(self, u, temperature, notes, files, ok)
+      class(pieces_type), intent(in)     :: self
       real(wp), intent(in)               :: u(:, :)
       type(temperature_type), intent(in) :: temperature
       character(*), intent(in)           :: notes, files(:)
       logical, intent(out)               :: ok
 
       call broadcast_command(command_show)
-      call write_all(u, temperature, notes, files, ok)
+      call write_all(u, temperature, notes, files(:self%n), ok)
    end subroutine write_pieces_of_all
 
    module procedure memory_of_all

@@ -18,14 +18,15 @@ module distribution
    type, abstract, public :: subdomain_output_type
       integer :: n = 0 !! pieces
    contains
-      procedure(write_pieces), deferred, nopass :: write
+      procedure(write_pieces), deferred :: write
    end type subdomain_output_type
 
    abstract interface
       !> Write all pieces under the displacements U at this TEMPERATURE, each into its file, which exists and is empty. OK is
       !! false where a file could not be written.
-      subroutine write_pieces(u, temperature, notes, files, ok)
-         import :: temperature_type, wp
+      subroutine write_pieces(self, u, temperature, notes, files, ok)
+         import :: subdomain_output_type, temperature_type, wp
+         class(subdomain_output_type), intent(in) :: self
          real(wp), intent(in)               :: u(:, :)  !! (dimension, n_nodes) [length]
          type(temperature_type), intent(in) :: temperature
          character(*), intent(in)           :: notes    !! for the piece_writer
