@@ -57,8 +57,8 @@ contains
       end do
    end subroutine start_matrix
 
-   !> Reserve the touched blocks of the own rows and the diagonal: the assembly would return entries that are empty. WORDS: the number
-   !! of touched blocks of each rank, then rows and columns of all.
+   !> Reserve the touched blocks of the own rows and the diagonal: the assembly would return entries that are empty. WORDS: the
+   !! number of touched blocks of each rank, then rows and columns of all.
    subroutine reserve_touched(words, subdomain, stiffness)
       integer, intent(in)                          :: words(:)
       type(subdomain_type), intent(in)             :: subdomain

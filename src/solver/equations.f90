@@ -5,7 +5,7 @@ module equations
    use bar_elements, only: coupled_bar_stiffness
    use case_control, only: solver_auto
    use equation_solver, only: equation_system, exact_digits, failure_type, solver_direction, solver_options
-   use interface_operator, only: add_force, add_global_force, global_stiffness, interface_element, joint_movement, relative_movement
+   use interface_operator, only: add_global_force, global_stiffness, relative_movement
    use kinds, only: wp
    use mass_matrix, only: coupled_bar_mass, coupled_point_mass, mass_nodes, n_masses
    use model_data, only: bar_nodes, model_type, n_bars

@@ -40,8 +40,8 @@ contains
       if (direction == '') words = 'the section of '//owner
    end function unknown_name
 
-   !> OWNER: 'node 7', or for a pretension section 'BOLT 3'. DIRECTION: 'direction X', or with a system CD 'direction 1 of its system
-   !! 7'; for a node of rotations 'rotation about X', in the plane about Z only; '' for a pretension section.
+   !> OWNER: 'node 7', or for a pretension section 'BOLT 3'. DIRECTION: 'direction X', or with a system CD 'direction 1 of its
+   !! system 7'; for a node of rotations 'rotation about X', in the plane about Z only; '' for a pretension section.
    pure subroutine name_unknown(model, node, d, owner, direction)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node, d
