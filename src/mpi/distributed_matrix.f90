@@ -7,8 +7,7 @@ module distributed_matrix
    use model_data, only: corners_of
    use partition, only: subdomain_type
    use petscmat
-   use ranks, only: gather, give_up, rank, scatter
-   use unknowns, only: motions_at, n_motions
+   use ranks, only: gather, give_up, n_ranks, rank, scatter
    implicit none
    private
 
@@ -58,17 +57,23 @@ contains
       end do
    end subroutine start_matrix
 
-   !> Reserve the touched blocks and the diagonal: the assembly would return entries that are empty.
-   subroutine reserve_touched(subdomain, stiffness)
-      type(subdomain_type), intent(in)              :: subdomain
-      type(distributed_matrix_type), intent(in) :: stiffness
+   !> Reserve the touched blocks of the own rows and the diagonal: the assembly would return entries that are empty. WORDS: the
+   !! number of touched blocks of each rank, then rows and columns of all.
+   subroutine reserve_touched(words, subdomain, stiffness)
+      integer, intent(in)                          :: words(:)
+      type(subdomain_type), intent(in)             :: subdomain
+      type(distributed_matrix_type), intent(inout) :: stiffness
       real(wp) :: nothing(subdomain%dimension**2)
-      integer  :: i
+      integer  :: first, i
 
       nothing = 0.0_wp
-      do i = 1, size(stiffness%touched, 2)
-         associate (touched => stiffness%touched(:, i))
-            call MatSetValuesBlocked(stiffness%matrix, 1, touched(1:1), 1, touched(2:2), nothing, ADD_VALUES, code)
+      stiffness%touched_counts = subdomain%dimension**2*words(:n_ranks)
+      first = n_ranks + sum(words(:rank))
+      allocate (stiffness%touched(2, words(rank + 1)))
+      do i = 1, words(rank + 1)
+         associate (row => words(first + i), column => words(first + sum(words(:n_ranks)) + i))
+            stiffness%touched(:, i) = [row, column]
+            call MatSetValuesBlocked(stiffness%matrix, 1, [row], 1, [column], nothing, ADD_VALUES, code)
          end associate
       end do
       do i = subdomain%first, subdomain%first + subdomain%n_own - 1
@@ -157,21 +162,14 @@ contains
    subroutine give_near_null_space(subdomain, stiffness)
       type(subdomain_type), intent(in)              :: subdomain
       type(distributed_matrix_type), intent(in) :: stiffness
-      real(wp) :: modes(subdomain%dimension, subdomain%n_own, n_motions(subdomain%dimension)) ! [-], rotations [length]
       type(tMatNullSpace) :: null_space
-      type(tVec)  :: vectors(size(modes, 3))
+      type(tVec)  :: vectors(size(subdomain%motions, 2))
       real(wp)    :: product
-      integer     :: b, i, j
+      integer     :: i, j
 
-      do b = 1, subdomain%n_own
-         modes(:, b, :) = motions_at(subdomain%x(:, b))
-      end do
-      modes(:, subdomain%odd, :) = reshape(subdomain%odd_motions, [size(modes, 1), size(subdomain%odd), size(modes, 3)], &
-                                           order=[1, 3, 2])
       do i = 1, size(vectors)
-         where (subdomain%held_own) modes(:, :, i) = 0.0_wp
          call VecDuplicate(stiffness%b, vectors(i), code)
-         call put_own(vectors(i), reshape(modes(:, :, i), [size(modes, 1)*size(modes, 2)]))
+         call put_own(vectors(i), pack(merge(0.0_wp, subdomain%motions(:, i, :), subdomain%held_own), .true.))
          do j = 1, i - 1
             call VecDot(vectors(i), vectors(j), product, code)
             call VecAXPY(vectors(i), -product, vectors(j), code)

@@ -98,8 +98,9 @@ contains
    subroutine renew_preconditioner(stiffness, solution)
       type(distributed_matrix_type), intent(inout)   :: stiffness
       type(distributed_solution_type), intent(inout) :: solution
-      type(tPC) :: preconditioner
-      integer   :: reason
+      type(tPC)  :: preconditioner
+      type(tKSP) :: smoother
+      integer    :: levels, reason
 
       if (solution%has_solver) call KSPDestroy(solution%solver, code)
       call drop_copy(stiffness)
@@ -122,26 +123,15 @@ contains
          call KSPSetReusePreconditioner(ksp, PETSC_TRUE, code)
          call PCGetFailedReason(preconditioner, reason, code)
          solution%has_memory = reason /= PC_FACTOR_OUTMEMORY
-         if (solution%way == by_gamg) call multiply_by_copy(preconditioner)
-      end associate
-
-   contains
-
-      !> The steps and the finest level multiply by the copy from now on.
-      subroutine multiply_by_copy(preconditioner)
-         type(tPC), intent(in) :: preconditioner
-         type(tKSP) :: smoother
-         integer    :: levels
-
+         if (solution%way /= by_gamg) return
          call PCMGGetLevels(preconditioner, levels, code)
          if (levels < 2) return                 ! the finest level is the coarsest: a factor
-         call keep_copy(stiffness)
+         call keep_copy(stiffness)              ! by which the steps and the finest level multiply from now on
          call PCMGGetSmoother(preconditioner, levels - 1, smoother, code)
          call KSPSetOperators(smoother, stiffness%products, stiffness%matrix, code)
          call PCMGSetResidual(preconditioner, levels - 1, PCMGResidualDefault, stiffness%products, code)
-         call KSPSetOperators(solution%solver, stiffness%products, stiffness%matrix, code)
-      end subroutine multiply_by_copy
-
+         call KSPSetOperators(ksp, stiffness%products, stiffness%matrix, code)
+      end associate
    end subroutine renew_preconditioner
 
    !> Replace the load X of rank 0, row after row, by the solution. HOW: digits, most steps at a time, and 1 where later solutions use

@@ -1,38 +1,30 @@
 !> Provides the solvers and the output of several processes: PETSc on all processes that mpirun has started.
 !! Rank 0 partitions the bodies as it partitions the equations. Every process writes its own piece.
 submodule(distribution) mpi_backend
-   use body_parts, only: cut_piece
    use c_library, only: end_run
    use case_control, only: offer_petsc
    use distributed_matrix, only: end_at_error
    use distributed_solution, only: by_gamg, by_mumps, set_library_options
    use incomplete_results, only: watch_ends
-   use omp_lib, only: omp_get_max_threads
    use petscsys, only: PETSC_NULL_INTEGER, PetscFinalize, PetscInitialize
    use petsc_solver, only: petsc_solver_type
    use ranks, only: find_ranks, leave_ranks, n_ranks, rank
-   use subdomain_output, only: pass_piece, send_state, write_own, writes_by
+   use subdomain_output, only: cut_pieces, write_all, writes_by
    use worker_loop, only: broadcast_command, command_cut, command_end, command_memory, command_show, free_worker, serve
    implicit none
 
-   type :: list_type
-      integer, allocatable :: nodes(:)
-   end type list_type
-
    type, extends(subdomain_output_type) :: pieces_type
-      type(list_type), allocatable :: lists(:)  ! (0:n - 1) the nodes of every piece
-      type(body_piece_type) :: own              ! piece of rank 0
    contains
       procedure :: write => write_pieces_of_all
    end type pieces_type
 
 contains
 
-   module subroutine join_processes(write_piece)
-      procedure(piece_writer) :: write_piece
+   module procedure join_processes
       integer :: code ! of PETSc, see end_at_error
 
       call find_ranks()
+      n_processes = n_ranks
       call offer_petsc()
       call set_library_options()
       call PetscInitialize(code)
@@ -44,12 +36,12 @@ contains
       call serve()
       call leave()
       call end_run(0)
-   end subroutine join_processes
+   end procedure join_processes
 
-   module subroutine leave_processes()
+   module procedure leave_processes
       call broadcast_command(command_end)
       call leave()
-   end subroutine leave_processes
+   end procedure leave_processes
 
    subroutine leave()
       integer :: code
@@ -59,53 +51,25 @@ contains
       call leave_ranks()
    end subroutine leave
 
-   module subroutine choose_distributed(wanted, system)
-      integer, intent(in) :: wanted
-      class(equation_system), allocatable, intent(out) :: system
+   module procedure choose_distributed
       type(petsc_solver_type), allocatable :: solver
 
       if (wanted /= solver_petsc .and. wanted /= solver_mumps) return
       allocate (solver)
       solver%wanted = merge(by_mumps, by_gamg, wanted == solver_mumps)
       call move_alloc(solver, system)
-   end subroutine choose_distributed
+   end procedure choose_distributed
 
-   module subroutine weigh_distributed(work, system)
-      type(solver_work_type), intent(inout) :: work
-      class(equation_system), allocatable, intent(out) :: system
-      real(wp) :: seconds(size(weighed))
-      integer  :: best
-
-      work%processes = n_ranks
-      work%threads = omp_get_max_threads()
-      call weigh_solvers(work, seconds, best)
-      call choose_distributed(best, system)
-      if (allocated(system)) system%description%reason = weighing_words(work)
-   end subroutine weigh_distributed
-
-   module subroutine distribute_bodies(model, system, output)
-      type(model_type), intent(in)       :: model
-      class(equation_system), intent(in) :: system
-      class(subdomain_output_type), allocatable, intent(out) :: output
-      type(pieces_type), allocatable :: pieces
-      type(body_piece_type) :: other
-      integer :: r
-
+   module procedure distribute_bodies
       if (n_ranks == 1 .or. allocated(model%structural%place)) return ! rank 0 has all shells and beams, and writes them
       select type (system)
       type is (petsc_solver_type)
-         allocate (pieces)
-         pieces%n = n_ranks
-         allocate (pieces%lists(0:n_ranks - 1))
+         allocate (pieces_type :: output)
+         output%n = n_ranks
          call broadcast_command(command_cut)
-         do r = 1, n_ranks - 1
-            call cut_piece(model, system%parts%owner, r, other, pieces%lists(r)%nodes)
-            call pass_piece(r, other)
-         end do
-         call cut_piece(model, system%parts%owner, 0, pieces%own, pieces%lists(0)%nodes)
-         call move_alloc(pieces, output)
+         call cut_pieces(model, system%parts%owner)
       end select
-   end subroutine distribute_bodies
+   end procedure distribute_bodies
 
    subroutine write_pieces_of_all(self, u, temperature, notes, files, ok)
       class(pieces_type), intent(in)     :: self
@@ -113,22 +77,17 @@ contains
       type(temperature_type), intent(in) :: temperature
       character(*), intent(in)           :: notes, files(:)
       logical, intent(out)               :: ok
-      integer :: r
 
       call broadcast_command(command_show)
-      do r = 1, self%n - 1
-         call send_state(r, self%lists(r)%nodes, u, temperature, notes, trim(files(r + 1)))
-      end do
-      call write_own(self%own, self%lists(0)%nodes, u, temperature, notes, trim(files(1)), ok)
+      call write_all(u, temperature, notes, files(:self%n), ok)
    end subroutine write_pieces_of_all
 
-   module subroutine memory_of_all(bytes)
-      real(wp), intent(out) :: bytes
+   module procedure memory_of_all
       real(wp) :: values(1)
 
       values = 0.0_wp
       call broadcast_command(command_memory, values=values)
       bytes = values(1)
-   end subroutine memory_of_all
+   end procedure memory_of_all
 
 end submodule mpi_backend

@@ -15,13 +15,13 @@ module partition
    use interface_equations, only: interface_equations_type
    use interface_operator, only: interface_element
    use kinds, only: wp
-   use lists, only: first_not_below, sorted_order
+   use lists, only: first_not_below, list_owners, sorted_order
    use model_data, only: bar_nodes, corners_of, is_beam, is_shell, model_type, n_bars, n_sections
    use nested_dissection, only: part_by_metis
    use node_coupling, only: is_coupled, section_node, unknown_nodes
    use node_graph, only: node_graph_type
    use ranks, only: n_ranks, pass, rank
-   use unknowns, only: is_ordinary, motions_of, n_motions
+   use unknowns, only: motions_of, n_motions
    implicit none
    private
 
@@ -47,9 +47,7 @@ module partition
       logical, allocatable  :: held(:, :)     !! (dimension, nodes of MODEL)
       logical, allocatable  :: held_own(:, :) !! (dimension, own blocks)
       integer, allocatable  :: inside(:), outside(:) !! (own blocks) neighbours inside this process, itself included, and outside
-      real(wp), allocatable :: x(:, :)        !! (dimension, own blocks) coordinates [length]
-      integer, allocatable  :: odd(:)         !! own blocks whose unknowns are not displacements in global axes
-      real(wp), allocatable :: odd_motions(:, :, :) !! (dimension, motions, odd blocks) as motions_of gives them
+      real(wp), allocatable :: motions(:, :, :) !! (dimension, motions, own blocks) as motions_of gives them
    end type subdomain_type
 
    type, public :: touched_type
@@ -67,23 +65,16 @@ contains
       type(node_graph_type), intent(in) :: graph
       type(partition_type), intent(out)      :: parts
       logical, intent(out)              :: ok
-      integer :: i, n, r
+      integer, allocatable :: first(:)
+      integer :: i
 
       call part_by_metis(graph, n_ranks, parts%owner, ok)
       if (.not. ok) return
       where (.not. model%used) parts%owner = -1
+      call list_owners(n_ranks, reshape(parts%owner + 1, [1, model%n_nodes]), first, parts%order)
+      parts%counts = first(2:) - first(:n_ranks)
       allocate (parts%block(model%n_nodes), source=-1)
-      allocate (parts%order(count(model%used)), parts%counts(n_ranks))
-      n = 0
-      do r = 0, n_ranks - 1
-         parts%counts(r + 1) = count(parts%owner == r)
-         do i = 1, model%n_nodes
-            if (parts%owner(i) /= r) cycle
-            parts%block(i) = n
-            n = n + 1
-            parts%order(n) = i
-         end do
-      end do
+      parts%block(parts%order) = [(i - 1, i = 1, size(parts%order))]
    end subroutine partition_nodes
 
    !> The subdomain of process R.
@@ -94,7 +85,6 @@ contains
       integer, intent(in)               :: r
       type(subdomain_type), intent(out)     :: subdomain
       integer, allocatable :: mine(:), nodes(:)
-      logical, allocatable :: is_odd(:)
       integer :: b, e, node
 
       subdomain%dimension = model%dimension
@@ -102,22 +92,16 @@ contains
       subdomain%n_own = parts%counts(r + 1)
       subdomain%first = sum(parts%counts(:r))
       associate (d => model%dimension, n => subdomain%n_own)
-         allocate (subdomain%held_own(d, n), subdomain%x(d, n), subdomain%inside(n), subdomain%outside(n), is_odd(n))
+         allocate (subdomain%held_own(d, n), subdomain%motions(d, n_motions(d), n), subdomain%inside(n), subdomain%outside(n))
       end associate
       do b = 1, subdomain%n_own
          node = parts%order(subdomain%first + b)
          subdomain%held_own(:, b) = model%held(:, node)
-         subdomain%x(:, b) = model%x(:model%dimension, node)
-         is_odd(b) = .not. is_ordinary(model, node)
+         subdomain%motions(:, :, b) = motions_of(model, node)
          associate (owners => parts%owner(graph%neighbours(graph%first(node):graph%first(node + 1) - 1)))
             subdomain%inside(b) = 1 + count(owners == r)
             subdomain%outside(b) = count(owners >= 0 .and. owners /= r)
          end associate
-      end do
-      subdomain%odd = pack([(b, b = 1, subdomain%n_own)], is_odd)
-      allocate (subdomain%odd_motions(model%dimension, n_motions(model%dimension), size(subdomain%odd)))
-      do b = 1, size(subdomain%odd)
-         subdomain%odd_motions(:, :, b) = motions_of(model, parts%order(subdomain%first + subdomain%odd(b)))
       end do
       ! elements whose nodes have their own unknowns in global axes; rank 0 forms the other elements
       mine = pack([(e, e = 1, model%n_elements)], parts%owner(model%element_nodes(1, :)) == r)
@@ -143,28 +127,23 @@ contains
       type(model_type) :: nothing
 
       subdomain%model = nothing
-      deallocate (subdomain%block, subdomain%held, subdomain%held_own, subdomain%inside, subdomain%outside, subdomain%x)
+      deallocate (subdomain%block, subdomain%held, subdomain%held_own, subdomain%inside, subdomain%outside, subdomain%motions)
    end subroutine forget_elements
 
    !> Send SUBDOMAIN from rank 0 to process R.
    subroutine pass_subdomain(r, subdomain)
       integer, intent(in)                 :: r
       type(subdomain_type), intent(inout) :: subdomain
-      integer :: n_odd
 
-      n_odd = 0
-      if (rank == 0) n_odd = size(subdomain%odd)
-      call pass(r, subdomain%dimension, subdomain%n_blocks, subdomain%n_own, subdomain%first, n_odd)
+      call pass(r, subdomain%dimension, subdomain%n_blocks, subdomain%n_own, subdomain%first)
       call pass_part(r, subdomain%model)
       associate (d => subdomain%dimension, nodes => subdomain%model%n_nodes, own => subdomain%n_own)
          if (rank /= 0) then
             allocate (subdomain%block(nodes), subdomain%held(d, nodes), subdomain%held_own(d, own), subdomain%inside(own), &
-                      subdomain%outside(own), subdomain%x(d, own), subdomain%odd(n_odd), &
-                      subdomain%odd_motions(d, n_motions(d), n_odd))
+                      subdomain%outside(own), subdomain%motions(d, n_motions(d), own))
          end if
       end associate
-      call pass(r, subdomain%block, subdomain%held, subdomain%held_own, subdomain%inside, subdomain%outside)
-      call pass(r, subdomain%x, subdomain%odd, subdomain%odd_motions)
+      call pass(r, subdomain%block, subdomain%held, subdomain%held_own, subdomain%inside, subdomain%outside, subdomain%motions)
    end subroutine pass_subdomain
 
    !> Send the components of PART that extract of body_parts sets from rank 0 to process R.
@@ -241,43 +220,19 @@ contains
    subroutine sort_once(n_blocks, pairs, touched)
       integer, intent(in)               :: n_blocks, pairs(:, :)
       type(touched_type), intent(inout) :: touched
-      integer, allocatable :: by_column(:), by_row(:)
-      integer :: i, k
+      integer, allocatable :: by_column(:), by_row(:), sorted(:, :), rows(:)
+      logical, allocatable :: is_new(:)
 
       call sorted_order(pairs(2, :), by_column)
       call sorted_order(pairs(1, by_column), by_row)
-      by_row = by_column(by_row)
-      allocate (touched%row(size(by_row)), touched%column(size(by_row)))
-      do i = 1, size(by_row)
-         k = touched%n
-         if (k > 0) then
-            if (touched%row(k) == pairs(1, by_row(i)) .and. touched%column(k) == pairs(2, by_row(i))) cycle
-         end if
-         touched%n = k + 1
-         touched%row(k + 1) = pairs(1, by_row(i))
-         touched%column(k + 1) = pairs(2, by_row(i))
-      end do
-      touched%row = touched%row(:touched%n)
-      touched%column = touched%column(:touched%n)
-      allocate (touched%first(n_blocks + 1), source=0)
-      do i = 1, touched%n
-         touched%first(touched%row(i) + 1) = touched%first(touched%row(i) + 1) + 1
-      end do
-      touched%first(n_blocks + 1) = touched%n + 1
-      do i = n_blocks, 1, -1
-         touched%first(i) = touched%first(i + 1) - touched%first(i)
-      end do
+      sorted = pairs(:, by_column(by_row))
+      allocate (is_new(size(pairs, 2)), source=.true.)
+      is_new(2:) = any(sorted(:, 2:) /= sorted(:, :size(is_new) - 1), dim=1)
+      touched%n = count(is_new)
+      touched%row = pack(sorted(1, :), is_new)
+      touched%column = pack(sorted(2, :), is_new)
+      call list_owners(n_blocks, reshape(touched%row + 1, [1, touched%n]), touched%first, rows)
    end subroutine sort_once
-
-   !> Position of the block of ROW and COLUMN, which exists.
-   pure integer function place_of(touched, row, column) result(place)
-      type(touched_type), intent(in) :: touched
-      integer, intent(in)            :: row, column
-
-      associate (first => touched%first(row + 1), behind => touched%first(row + 2))
-         place = first - 1 + first_not_below(touched%column(first:behind - 1), column)
-      end associate
-   end function place_of
 
    !> Add the symmetric matrix K between ROWS of the matrix to VALUES of the touched blocks.
    pure subroutine add_touched(touched, rows, k, values)
@@ -285,7 +240,7 @@ contains
       integer, intent(in)            :: rows(:)         !! from 1; 0: none
       real(wp), intent(in)           :: k(:, :)         !! [force/length]
       real(wp), intent(inout)        :: values(:, :, :) !! (dimension, dimension, n) [force/length]
-      integer :: b(size(rows)), c(size(rows)), i, j
+      integer :: b(size(rows)), c(size(rows)), i, j, place
 
       b = (rows - 1)/size(values, 1)
       c = rows - size(values, 1)*b
@@ -293,9 +248,10 @@ contains
          if (rows(j) == 0) cycle
          do i = 1, size(rows)
             if (rows(i) == 0) cycle
-            associate (place => place_of(touched, b(i), b(j)))
-               values(c(i), c(j), place) = values(c(i), c(j), place) + k(i, j)
+            associate (first => touched%first(b(i) + 1), behind => touched%first(b(i) + 2)) ! of the blocks in this row
+               place = first - 1 + first_not_below(touched%column(first:behind - 1), b(j))
             end associate
+            values(c(i), c(j), place) = values(c(i), c(j), place) + k(i, j)
          end do
       end do
    end subroutine add_touched

@@ -19,7 +19,7 @@ module petsc_solver
    use ranks, only: n_ranks
    use text_tools, only: integer_text, real_text
    use worker_loop, only: broadcast_command, command_diagonal, command_finish, command_forget, command_multiply, command_read, &
-                          command_renew, command_solve, command_start, command_take, command_touched, command_way, &
+                          command_renew, command_solve, command_start, command_take, command_way, &
                           command_write, solution, stiffest_of_all => stiffest, stiffness, subdomain
    implicit none
    private
@@ -45,16 +45,8 @@ module petsc_solver
       logical :: is_probed = .false.              !! whether a stiffness has been probed since the run or its history began
       real(wp), allocatable :: structure(:)       !! values of the touched blocks with the joints
    contains
-      procedure :: start
-      procedure :: form_bodies
-      procedure :: add_to_bodies
-      procedure :: form_structure
-      procedure :: solve
-      procedure :: multiply
-      procedure :: forget_past
-      procedure :: diagonal_of_factor
-      procedure :: solve_by_factor
-      procedure :: multiply_by_factor
+      procedure :: start, form_bodies, add_to_bodies, form_structure, solve, multiply, forget_past
+      procedure :: solve_by_factor, multiply_by_factor
    end type petsc_solver_type
 
 contains
@@ -90,6 +82,7 @@ contains
       call list_interface_equations(elements, self%number, self%joints)
       call list_touched(model, graph, self%parts, elements, self%touched)
       allocate (self%bodies(model%dimension, model%dimension, self%touched%n), source=0.0_wp)
+      allocate (self%diagonal(self%n), source=0.0_wp)
       self%reuse%most_steps = steps_of_set_up
       associate (description => self%description)
          description%name = trim(merge('PETSC, CONJUGATE GRADIENTS WITH GAMG', 'PETSC, FACTOR BY MUMPS              ', &
@@ -108,8 +101,7 @@ contains
       integer  :: e, n
 
       fault = 0
-      call broadcast_command(command_start, self%parts%counts)
-      call broadcast_command(command_touched, [self%touched%counts, self%touched%row, self%touched%column])
+      call broadcast_command(command_start, [self%parts%counts, self%touched%counts, self%touched%row, self%touched%column])
       do e = 1, model%n_elements
          if (.not. is_entangled(model, e)) cycle
          call coupled_stiffness(model, e, k)
@@ -140,22 +132,16 @@ contains
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(out)                    :: fault
       real(wp), allocatable :: values(:, :, :)
-      integer :: c, k
       logical :: reuse
 
       allocate (values, source=self%bodies)
       call structure_values(self%touched, self%joints, self%k_int, self%row, self%locked, stiffness%unit, values)
-      do k = 1, self%touched%n
-         if (self%touched%row(k) /= self%touched%column(k)) cycle
-         do c = 1, size(values, 1)
-            fault = self%number(c, self%parts%order(self%touched%row(k) + 1))
-            if (fault > 0 .and. .not. values(c, c, k) > 0.0_wp) return ! a zero on the diagonal
-         end do
-      end do
-      fault = 0
       self%structure = reshape(values, [size(values)])
       call broadcast_command(command_write, values=self%structure)
+      call act_on(self, command_diagonal, self%diagonal)
       self%is_own = .false.
+      fault = findloc(self%diagonal > 0.0_wp, .false., dim=1)
+      if (fault > 0) return
       call may_reuse(self%reuse, reuse)
       if (.not. reuse) call renew(self)
       if (.not. self%is_probed) call probe(self, fault)
@@ -171,7 +157,7 @@ contains
 
    subroutine solve(self, x, fault)
       class(petsc_solver_type), intent(inout) :: self
-      real(wp), intent(inout)                 :: x(:)
+      real(wp), contiguous, intent(inout)     :: x(:)
       integer, intent(out)                    :: fault
       integer :: steps
 
@@ -246,7 +232,7 @@ contains
       real(wp) :: size_of(self%n), x(self%n)
       integer  :: steps
 
-      size_of = sqrt(self%diagonal_of_factor())
+      size_of = sqrt(self%diagonal)
       x = size_of*(2.0_wp*modulo(golden*(size(self%number, 1)*self%node + self%direction), 1.0_wp) - 1.0_wp)
       x(self%locked) = 0.0_wp
       call broadcast_command(command_forget)
@@ -280,7 +266,7 @@ contains
       else
          words = words//'after '//integer_text(solution%steps)//' steps the residual is '//real_text(solution%residual)// &
                  ' of the load'
-         size_of = sqrt(self%diagonal_of_factor())
+         size_of = sqrt(self%diagonal)
          moved = x/max(maxval(size_of*abs(x)), tiny(1.0_wp))
          force = moved
          call self%multiply_by_factor(force)
@@ -319,14 +305,6 @@ contains
       self%is_probed = .false.
       call take_way(self, self%wanted)
    end subroutine forget_past
-
-   function diagonal_of_factor(self) result(diagonal)
-      class(petsc_solver_type), intent(in) :: self
-      real(wp) :: diagonal(self%n)
-
-      diagonal = 0.0_wp
-      call act_on(self, command_diagonal, diagonal)
-   end function diagonal_of_factor
 
    subroutine solve_by_factor(self, x)
       class(petsc_solver_type), intent(in) :: self

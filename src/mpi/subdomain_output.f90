@@ -2,19 +2,24 @@
 !! Rank 0 sends the piece once, and the displacements of its nodes for every file. A piece has its own elements and all others that
 !! meet at its nodes, so that no process asks another for its part of a nodal mean.
 module subdomain_output
-   use body_parts, only: body_piece_type
+   use body_parts, only: body_piece_type, cut_piece
    use distribution, only: piece_writer
    use kinds, only: wp
    use lists, only: list_owners
-   use model_data, only: n_sections, temperature_type
+   use model_data, only: model_type, n_sections, temperature_type
    use partition, only: pass_part
-   use ranks, only: pass, pass_text, rank, sum_of_all
+   use ranks, only: n_ranks, pass, pass_text, rank, sum_of_all
    implicit none
    private
 
-   public :: writes_by, pass_piece, receive_piece, send_state, write_received, write_own, forget_piece
+   public :: writes_by, cut_pieces, receive_piece, write_all, write_received, forget_piece
 
-   type(body_piece_type), allocatable :: piece !! piece of this process; not of rank 0
+   type :: list_type
+      integer, allocatable :: nodes(:)
+   end type list_type
+
+   type(body_piece_type), allocatable :: piece    !! of this process
+   type(list_type), allocatable :: lists(:)       !! (0:ranks - 1) on rank 0: the nodes of every piece
    procedure(piece_writer), pointer :: write_piece => null()
 
 contains
@@ -25,6 +30,20 @@ contains
 
       write_piece => writer
    end subroutine writes_by
+
+   !> Rank 0: cut the bodies of MODEL into the pieces of all processes, OWNER(node), and send them.
+   subroutine cut_pieces(model, owner)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: owner(:) !! (n_nodes) rank
+      integer :: r
+
+      call forget_piece()
+      allocate (piece, lists(0:n_ranks - 1))
+      do r = n_ranks - 1, 0, -1
+         call cut_piece(model, owner, r, piece, lists(r)%nodes)
+         if (r > 0) call pass_piece(r, piece)
+      end do
+   end subroutine cut_pieces
 
    !> Send the piece OWN from rank 0 to process R.
    subroutine pass_piece(r, own)
@@ -56,22 +75,29 @@ contains
       call pass_piece(rank, piece)
    end subroutine receive_piece
 
-   !> Send process R the displacements U and the TEMPERATURE of the NODES of its piece, and the data of its FILE.
-   subroutine send_state(r, nodes, u, temperature, notes, file)
-      integer, intent(in)                :: r, nodes(:)
-      real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
+   !> Rank 0: send every process the displacements U and the TEMPERATURE of the nodes of its piece, and the data of its file, and
+   !! write the own piece. OK is false where any process could not write its piece.
+   subroutine write_all(u, temperature, notes, files, ok)
+      real(wp), intent(in)               :: u(:, :)  !! (dimension, n_nodes) [length]
       type(temperature_type), intent(in) :: temperature
-      character(*), intent(in)           :: notes, file
+      character(*), intent(in)           :: notes
+      character(*), intent(in)           :: files(:) !! (ranks)
+      logical, intent(out)               :: ok
       type(temperature_type)    :: own
       real(wp), allocatable     :: own_u(:, :)
-      character(:), allocatable :: own_notes, own_file
+      character(:), allocatable :: own_notes, file
+      integer :: r
 
-      own = at_nodes(temperature, nodes)
-      own_u = u(:, nodes)
+      own%reference_share = temperature%reference_share
       own_notes = notes
-      own_file = file
-      call pass_state(r, own_u, own, own_notes, own_file)
-   end subroutine send_state
+      do r = n_ranks - 1, 0, -1
+         own_u = u(:, lists(r)%nodes)
+         if (allocated(temperature%at)) own%at = temperature%at(lists(r)%nodes)
+         file = trim(files(r + 1))
+         if (r > 0) call pass_state(r, own_u, own, own_notes, file)
+      end do
+      call write_own(own_u, own, notes, trim(files(1)), ok)
+   end subroutine write_all
 
    !> Write the own piece in the state that rank 0 sends.
    subroutine write_received()
@@ -82,9 +108,19 @@ contains
 
       allocate (u(piece%model%dimension, piece%model%n_nodes))
       call pass_state(rank, u, temperature, notes, file)
-      call write_piece(piece, u, temperature, notes, file, ok)
-      call agree(ok)
+      call write_own(u, temperature, notes, file, ok)
    end subroutine write_received
+
+   !> Write the own piece under the displacements U of its nodes. OK is false where any process could not write its piece.
+   subroutine write_own(u, temperature, notes, file, ok)
+      real(wp), intent(in)               :: u(:, :)
+      type(temperature_type), intent(in) :: temperature
+      character(*), intent(in)           :: notes, file
+      logical, intent(out)               :: ok
+
+      call write_piece(piece, u, temperature, notes, file, ok)
+      ok = sum_of_all(merge(0.0_wp, 1.0_wp, ok)) < 0.5_wp
+   end subroutine write_own
 
    !> Send the state of a piece from rank 0 to process R.
    subroutine pass_state(r, u, temperature, notes, file)
@@ -103,37 +139,9 @@ contains
       call pass_text(r, file)
    end subroutine pass_state
 
-   !> Rank 0: write the OWN piece. OK is false where any process could not write its piece.
-   subroutine write_own(own, nodes, u, temperature, notes, file, ok)
-      type(body_piece_type), intent(in)  :: own
-      integer, intent(in)                :: nodes(:)
-      real(wp), intent(in)               :: u(:, :)
-      type(temperature_type), intent(in) :: temperature
-      character(*), intent(in)           :: notes, file
-      logical, intent(out)               :: ok
-
-      call write_piece(own, u(:, nodes), at_nodes(temperature, nodes), notes, file, ok)
-      call agree(ok)
-   end subroutine write_own
-
-   !> Whether the condition holds on all processes.
-   subroutine agree(ok)
-      logical, intent(inout) :: ok
-
-      ok = sum_of_all(merge(0.0_wp, 1.0_wp, ok)) < 0.5_wp
-   end subroutine agree
-
-   !> The TEMPERATURE restricted to these NODES.
-   pure type(temperature_type) function at_nodes(temperature, nodes)
-      type(temperature_type), intent(in) :: temperature
-      integer, intent(in)                :: nodes(:)
-
-      at_nodes%reference_share = temperature%reference_share
-      if (allocated(temperature%at)) at_nodes%at = temperature%at(nodes)
-   end function at_nodes
-
    subroutine forget_piece()
       if (allocated(piece)) deallocate (piece)
+      if (allocated(lists)) deallocate (lists)
    end subroutine forget_piece
 
 end module subdomain_output

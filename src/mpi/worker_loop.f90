@@ -10,7 +10,7 @@ module worker_loop
    use machine, only: available_memory, peak_memory, return_memory
    use memory_need, only: shortage
    use partition, only: forget_elements, pass_subdomain, subdomain_type
-   use ranks, only: give_up, rank, sum_of_all, tell
+   use ranks, only: give_up, n_ranks, rank, sum_of_all, tell
    use subdomain_output, only: forget_piece, receive_piece, write_received
    use text_tools, only: integer_text
    implicit none
@@ -20,10 +20,10 @@ module worker_loop
 
    real(wp), parameter :: entry_bytes = 30.0_wp !! measured memory of a matrix entry with its coarser levels and their set-up
 
-   integer, parameter, public :: command_end = 0, command_take = 1, command_start = 2, command_touched = 3, command_finish = 4, &
-                                 command_read = 5, command_write = 6, command_renew = 7, command_solve = 8, command_multiply = 9, &
-                                 command_diagonal = 10, command_forget = 11, command_way = 12, command_memory = 13, &
-                                 command_cut = 14, command_show = 15
+   integer, parameter, public :: command_end = 0, command_take = 1, command_start = 2, command_finish = 3, command_read = 4, &
+                                 command_write = 5, command_renew = 6, command_solve = 7, command_multiply = 8, &
+                                 command_diagonal = 9, command_forget = 10, command_way = 11, command_memory = 12, &
+                                 command_cut = 13, command_show = 14
 
    type(subdomain_type), public                :: subdomain
    type(distributed_matrix_type), public   :: stiffness
@@ -32,28 +32,6 @@ module worker_loop
    real(wp), public, protected :: stiffest = 0.0_wp   !! largest entry of its diagonal [force/length]
 
 contains
-
-   !> Make BLAS take its buffer now: BLAS takes it at its first call that needs one, and without memory tries for ever.
-   subroutine reserve_blas()
-      real(wp) :: one(1, 1)
-      integer  :: info
-
-      if (available_memory() <= 0) call give_up('the permitted memory does not suffice for BLAS')
-      one = 1.0_wp
-      call dpotrf('L', 1, one, 1, info)
-   end subroutine reserve_blas
-
-   !> End the run where the machine lacks the memory for the rows of SUBDOMAIN.
-   subroutine check_rows(subdomain)
-      type(subdomain_type), intent(in) :: subdomain
-      character(:), allocatable :: words
-      real(wp) :: part
-
-      call shortage('the equations of process '//integer_text(rank)//' need about', &
-                    entry_bytes*real(subdomain%dimension, wp)**2* &
-                    (sum(real(subdomain%inside, wp)) + sum(real(subdomain%outside, wp))), words, part)
-      if (words /= '') call give_up(words)
-   end subroutine check_rows
 
    !> Rank 0: broadcast the command WHAT with its WORDS; then do its own part.
    subroutine broadcast_command(what, words, values)
@@ -96,28 +74,35 @@ contains
    subroutine act(what, words, values)
       integer, intent(in)     :: what, words(:)
       real(wp), intent(inout) :: values(:)
-      real(wp) :: bytes
+      character(:), allocatable :: shortfall
+      real(wp) :: bytes, one(1, 1), part
+      integer  :: info
 
       select case (what)
       case (command_take)
          call free_worker()
          call forget_piece()
          call return_memory()
-         call reserve_blas()
+         ! BLAS takes its buffer at its first call that needs one, and without memory tries for ever: it takes the buffer now
+         if (available_memory() <= 0) call give_up('the permitted memory does not suffice for BLAS')
+         one = 1.0_wp
+         call dpotrf('L', 1, one, 1, info)
          if (rank /= 0) then
             subdomain = subdomain_type()
             call pass_subdomain(rank, subdomain)
          end if
-      case (command_start)                                     ! words: blocks of each rank
-         call check_rows(subdomain)
-         call start_matrix(subdomain, words, stiffness)
+      case (command_start)                                     ! words: blocks of each rank; see reserve_touched
+         call shortage('the equations of process '//integer_text(rank)//' need about', &
+                       entry_bytes*real(subdomain%dimension, wp)**2* &
+                       (sum(real(subdomain%inside, wp)) + sum(real(subdomain%outside, wp))), shortfall, part)
+         if (shortfall /= '') call give_up(shortfall)
+         call start_matrix(subdomain, words(:n_ranks), stiffness)
          is_running = .true.
+         call reserve_touched(words(n_ranks + 1:), subdomain, stiffness)
       case (command_finish)                                    ! words: the preconditioner
          call finish_matrix(subdomain, stiffness, stiffest)
          solution = distributed_solution_type(way=words(1))
          call forget_elements(subdomain)
-      case (command_touched)
-         call take_touched(words)
       case (command_read)
          call read_touched(subdomain%dimension, stiffness, values)
       case (command_write)
@@ -144,23 +129,6 @@ contains
          if (rank /= 0) call write_received()
       end select
    end subroutine act
-
-   !> The touched blocks of the own rows from WORDS: the number of each rank, then rows and columns of all.
-   subroutine take_touched(words)
-      integer, intent(in) :: words(:)
-      integer :: first, n, n_ranks
-
-      n_ranks = size(stiffness%counts)
-      n = (size(words) - n_ranks)/2
-      first = n_ranks + sum(words(:rank))
-      associate (own => words(rank + 1))
-         allocate (stiffness%touched(2, own))
-         stiffness%touched(1, :) = words(first + 1:first + own)
-         stiffness%touched(2, :) = words(first + n + 1:first + n + own)
-      end associate
-      stiffness%touched_counts = subdomain%dimension**2*words(:n_ranks)
-      call reserve_touched(subdomain, stiffness)
-   end subroutine take_touched
 
    !> Free what this process holds of the structure.
    subroutine free_worker()

@@ -54,7 +54,7 @@ contains
       integer, allocatable  :: signs(:)
       integer :: kase, state(3)
 
-      allocate (scale, source=sqrt(system%diagonal_of_factor()))
+      allocate (scale, source=sqrt(system%diagonal))
       allocate (v(system%n), x(system%n), signs(system%n))
       kase = 0
       condition%number = 0.0_wp

@@ -11,7 +11,9 @@ module distribution
    private
 
    public :: piece_writer, weigh_solvers, weighing_words, join_processes, leave_processes, choose_distributed, &
-             weigh_distributed, distribute_bodies, memory_of_all
+             distribute_bodies, memory_of_all
+
+   integer, public, protected :: n_processes = 1 !! of the run; set by join_processes
 
    type, abstract, public :: subdomain_output_type
       integer :: n = 0 !! pieces
@@ -77,18 +79,11 @@ module distribution
       module subroutine leave_processes()
       end subroutine leave_processes
 
-      !> The distributed solver that case control WANTED; unallocated where WANTED is none of these.
+      !> The distributed solver WANTED; unallocated where WANTED is none of these, or where there are none.
       module subroutine choose_distributed(wanted, system)
          integer, intent(in) :: wanted !! solver_* of case_control
          class(equation_system), allocatable, intent(out) :: system
       end subroutine choose_distributed
-
-      !> For AUTO: the distributed solver that does the WORK in less time than TREE, or whose memory suffices where that of TREE
-      !! does not; otherwise unallocated.
-      module subroutine weigh_distributed(work, system)
-         type(solver_work_type), intent(inout) :: work !! the numbers of processes and threads are set here
-         class(equation_system), allocatable, intent(out) :: system
-      end subroutine weigh_distributed
 
       !> OUTPUT: the bodies of MODEL as the processes of SYSTEM write them; unallocated where one process holds the equations.
       module subroutine distribute_bodies(model, system, output)
@@ -124,6 +119,7 @@ contains
       type(solver_work_type), intent(in) :: work
       character(:), allocatable :: words
       real(wp) :: seconds(size(weighed))
+      character(12) :: times(size(weighed))
       integer  :: best
 
       call weigh_solvers(work, seconds, best)
@@ -132,18 +128,10 @@ contains
       if (work%bytes > work%there) then
          words = 'AUTO: TREE WOULD NEED '//integer_text(nint(work%bytes/1048576.0_wp))//' MIB, MORE THAN AVAILABLE'
       else
-         words = 'AUTO: BY ESTIMATE TREE TAKES '//quotient(seconds(1)/seconds(2))//' TIMES AS LONG AS PETSC, MUMPS '// &
-                 quotient(seconds(3)/seconds(2))
+         write (times, '(f12.1)') min(seconds/seconds(2), 1.0e6_wp)
+         words = 'AUTO: BY ESTIMATE TREE TAKES '//trim(adjustl(times(1)))//' TIMES AS LONG AS PETSC, MUMPS '// &
+                 trim(adjustl(times(3)))
       end if
    end function weighing_words
-
-   pure function quotient(value) result(text)
-      real(wp), intent(in)      :: value
-      character(:), allocatable :: text
-      character(12) :: digits
-
-      write (digits, '(f12.1)') min(value, 1.0e6_wp)
-      text = trim(adjustl(digits))
-   end function quotient
 
 end module distribution

@@ -10,20 +10,18 @@ module elimination_tree
    implicit none
    private
 
-   public :: find_parents, number_depth_first, order_depth_first, count_rows, find_supernodes, weigh_supernodes, &
-             merge_supernodes, sorted_places
+   public :: find_parents, number_depth_first, count_rows, find_supernodes, merge_supernodes
 
    !> Supernodes while they are merged. Columns and rows are places in the order of elimination.
    type, public :: supernodes_type
       integer :: n = 0
-      integer, allocatable :: first(:)                           ! (n + 1) columns
-      integer, allocatable :: first_row(:), rows(:)              ! rows below the columns
-      integer, allocatable :: parent(:), top(:)                  ! (n) top: the supernode into which this one was merged
-      integer, allocatable :: child(:), sibling(:)               ! (n) lists of supernodes that were not merged
-      integer, allocatable :: member(:), last_member(:), next(:) ! (n) lists of merged supernodes
+      integer, allocatable :: first(:)                        ! (n + 1) columns
+      integer, allocatable :: first_row(:), rows(:)           ! rows below the columns, ascending
+      integer, allocatable :: parent(:), top(:)               ! (n) top: the supernode into which this one was merged
+      integer, allocatable :: child(:), sibling(:)            ! (n) lists of children, after merging of those that remain
       logical, allocatable :: is_refactored(:)
-      real(wp), allocatable :: pivots(:), beyond(:), zeros(:)    ! (n) unknowns; rows beyond; zeros stored in the front
-      real(wp), allocatable :: peak(:)                           ! (n) entries of update matrices
+      real(wp), allocatable :: pivots(:), beyond(:), zeros(:) ! (n) unknowns; rows beyond; zeros stored in the front
+      real(wp), allocatable :: update(:), peak(:)             ! (n) entries of the update matrix; most of those in the subtree
    end type supernodes_type
 
    ! A child is merged into its parent where zeros do not exceed this share of the resulting front.
@@ -32,15 +30,21 @@ module elimination_tree
 
 contains
 
-   !> The elimination tree of the first N_INNER places. The places behind them count as one node, number N_INNER + 1.
-   subroutine find_parents(graph, order, place, n_inner, parent)
+   !> The elimination tree of the first N_INNER nodes of ORDER. The nodes behind them count as one, number N_INNER + 1. The nodes
+   !! are renumbered depth first, so that every subtree is without gaps.
+   subroutine find_parents(graph, n_inner, order, place, parent)
       type(node_graph_type), intent(in) :: graph
-      integer, intent(in)               :: order(:), place(:), n_inner
+      integer, intent(in)               :: n_inner
+      integer, intent(inout)            :: order(:)
+      integer, allocatable, intent(out) :: place(:)  !! (graph%n) in the new order, 0: none
       integer, allocatable, intent(out) :: parent(:) !! (n_inner) 0: none
-      integer, allocatable :: ancestor(:)
+      integer, allocatable :: ancestor(:), child(:), sibling(:), number(:), sequence(:)
+      logical, allocatable :: is_root(:)
       integer :: i, k, next, r, row
 
-      allocate (parent(n_inner), ancestor(n_inner), source=0)
+      allocate (place(graph%n), source=0)
+      place(order) = [(i, i = 1, size(order))]
+      allocate (parent(n_inner), ancestor(n_inner), child(n_inner), sibling(n_inner), source=0)
       do i = 1, size(order)
          row = min(i, n_inner + 1)
          do k = graph%first(order(i)), graph%first(order(i) + 1) - 1
@@ -58,30 +62,21 @@ contains
             end do
          end do
       end do
-   end subroutine find_parents
 
-   !> Renumber a tree depth first, so that every subtree is without gaps; ORDER follows.
-   subroutine order_depth_first(parent, order)
-      integer, intent(inout) :: parent(:), order(:)
-      integer, allocatable :: child(:), sibling(:), number(:), sequence(:)
-      logical, allocatable :: is_root(:)
-      integer :: j, n
-
-      n = size(parent)
-      allocate (is_root, source=parent == 0 .or. parent > n)
-      allocate (child(n), sibling(n), source=0)
-      do j = n, 1, -1
-         if (is_root(j)) cycle
-         sibling(j) = child(parent(j))
-         child(parent(j)) = j
+      allocate (is_root, source=parent == 0 .or. parent > n_inner)
+      do i = n_inner, 1, -1
+         if (is_root(i)) cycle
+         sibling(i) = child(parent(i))
+         child(parent(i)) = i
       end do
       call number_depth_first(is_root, child, sibling, number, sequence)
-      do j = 1, n
-         if (.not. is_root(j)) parent(j) = number(parent(j))
+      do i = 1, n_inner
+         if (.not. is_root(i)) parent(i) = number(parent(i))
       end do
       parent = parent(sequence)
-      order = order(sequence)
-   end subroutine order_depth_first
+      order(:n_inner) = order(sequence)
+      place(order) = [(i, i = 1, size(order))]
+   end subroutine find_parents
 
    !> Number trees depth first, children first, from lists of children. NUMBER(i) is the number of node i, 0 where no root leads
    !! to node i. SEQUENCE is the inverse.
@@ -139,73 +134,73 @@ contains
       end do
    end subroutine count_rows
 
-   !> Gather columns with the same rows into supernodes. All columns beyond those of PARENT form one more supernode.
-   subroutine find_supernodes(graph, order, place, parent, beyond, supers)
-      type(node_graph_type), intent(in)    :: graph
-      integer, intent(in)                  :: order(:), place(:), parent(:), beyond(:)
-      type(supernodes_type), intent(inout) :: supers
-      integer, allocatable :: of_column(:), mark(:), child(:), sibling(:)
-      integer :: before, c, i, j, k, last, n, n_columns, row, s
+   !> Gather columns with the same rows into supernodes, and count their unknowns. All columns beyond those of PARENT form one more
+   !! supernode. A supernode with a node IN_JOINT in its subtree is refactored.
+   subroutine find_supernodes(graph, order, place, parent, beyond, weight, in_joint, supers)
+      type(node_graph_type), intent(in)  :: graph
+      integer, intent(in)                :: order(:), place(:), parent(:), beyond(:)
+      integer, intent(in)                :: weight(:)   !! (graph%n) unknowns of a node
+      logical, intent(in)                :: in_joint(:) !! (graph%n)
+      type(supernodes_type), intent(out) :: supers
+      integer, allocatable :: mark(:), of_column(:), sequence(:)
+      logical, allocatable :: is_first(:)
+      integer :: c, i, j, k, last, n, n_columns, n_inner, s
 
       n_columns = size(parent)
-      allocate (supers%first(size(order) + 2), of_column(n_columns + 1))
-      n = 0
-      do j = 1, n_columns
-         before = max(1, j - 1)
-         if (j == 1 .or. parent(before) /= j .or. beyond(before) /= beyond(j) + 1) then ! the rows differ from the last ones
-            n = n + 1
-            supers%first(n) = j
-         end if
-         of_column(j) = n
-      end do
-      if (size(order) > n_columns) then
-         n = n + 1
-         supers%first(n) = n_columns + 1
-         of_column(n_columns + 1) = n
-      end if
+      allocate (is_first(n_columns + 1), source=.true.)
+      is_first(2:n_columns) = parent(:n_columns - 1) /= [(j, j = 2, n_columns)] .or. beyond(:n_columns - 1) /= beyond(2:) + 1
+      supers%first = pack([(j, j = 1, n_columns + 1)], is_first)
+      n_inner = size(supers%first) - 1
+      if (size(order) > n_columns) supers%first = [supers%first, size(order) + 1]
+      n = size(supers%first) - 1
       supers%n = n
-      supers%first(n + 1) = size(order) + 1
-      supers%first = supers%first(:n + 1)
-      allocate (supers%first_row(n + 1), supers%parent(n), child(n), sibling(n), source=0)
-      supers%first_row(1) = 1
+      allocate (supers%first_row(n + 1), supers%parent(n), supers%child(n), supers%sibling(n), source=0)
+      allocate (supers%pivots(n), supers%beyond(n), supers%is_refactored(n), of_column(n_columns + 1))
+      allocate (supers%rows(sum(beyond(supers%first(2:n_inner + 1) - 1))), mark(size(order)))
+      supers%is_refactored = .false.
+      mark = 0
       do s = 1, n
-         last = supers%first(s + 1) - 1
-         supers%first_row(s + 1) = supers%first_row(s)
-         if (last <= n_columns) supers%first_row(s + 1) = supers%first_row(s) + beyond(last)
+         of_column(supers%first(s):min(n_columns + 1, supers%first(s + 1) - 1)) = s
       end do
-      allocate (supers%rows(supers%first_row(n + 1) - 1))
-      allocate (mark(size(order)), source=0)
+      i = 1
       do s = 1, n
          last = supers%first(s + 1) - 1
-         if (supers%first(s) > n_columns) cycle
-         i = supers%first_row(s)
-         do j = supers%first(s), last
+         supers%first_row(s) = i
+         do j = supers%first(s), merge(last, 0, s <= n_inner)
             do k = graph%first(order(j)), graph%first(order(j) + 1) - 1
-               row = place(graph%neighbours(k))
-               if (row > last) call take(row)
+               call take(place(graph%neighbours(k)))
             end do
          end do
-         c = child(s)
+         c = supers%child(s)
          do while (c /= 0)
             do k = supers%first_row(c), supers%first_row(c + 1) - 1
-               if (supers%rows(k) > last) call take(supers%rows(k))
+               call take(supers%rows(k))
             end do
-            c = sibling(c)
+            c = supers%sibling(c)
          end do
-         associate (rows => supers%rows(supers%first_row(s):supers%first_row(s + 1) - 1))
+         supers%first_row(s + 1) = i
+         associate (columns => order(supers%first(s):last), rows => supers%rows(supers%first_row(s):i - 1))
+            supers%pivots(s) = sum(weight(columns))
+            supers%beyond(s) = sum(weight(order(rows)))
+            supers%is_refactored(s) = supers%is_refactored(s) .or. any(in_joint(columns))
             if (size(rows) == 0) cycle
-            rows = rows(sorted_places(rows))
-            supers%parent(s) = of_column(min(rows(1), n_columns + 1))
+            call sorted_order(rows, sequence)
+            rows = rows(sequence)
+            c = of_column(min(rows(1), n_columns + 1))
          end associate
-         sibling(s) = child(supers%parent(s))
-         child(supers%parent(s)) = s
+         supers%parent(s) = c
+         supers%sibling(s) = supers%child(c)
+         supers%child(c) = s
+         supers%is_refactored(c) = supers%is_refactored(c) .or. supers%is_refactored(s)
       end do
 
    contains
 
+      !> Take row NEW of S where it is beyond the columns of S, once.
       subroutine take(new)
          integer, intent(in) :: new
 
+         if (new <= last) return
          if (mark(new) == s) return
          mark(new) = s
          supers%rows(i) = new
@@ -214,69 +209,34 @@ contains
 
    end subroutine find_supernodes
 
-   !> The places of ROWS in ascending order.
-   function sorted_places(rows) result(places)
-      integer, intent(in)  :: rows(:)
-      integer, allocatable :: places(:)
-
-      call sorted_order(rows, places)
-   end function sorted_places
-
-   !> Count the unknowns of the supernodes, and mark the refactored supernodes.
-   subroutine weigh_supernodes(order, weight, in_joint, supers)
-      integer, intent(in)                  :: order(:), weight(:)
-      logical, intent(in)                  :: in_joint(:)
-      type(supernodes_type), intent(inout) :: supers
-      integer :: s
-
-      allocate (supers%pivots(supers%n), supers%beyond(supers%n), supers%is_refactored(supers%n))
-      do s = 1, supers%n
-         associate (columns => order(supers%first(s):supers%first(s + 1) - 1), &
-                    rows => order(supers%rows(supers%first_row(s):supers%first_row(s + 1) - 1)))
-            supers%pivots(s) = sum(weight(columns))
-            supers%beyond(s) = sum(weight(rows))
-            supers%is_refactored(s) = any(in_joint(columns))
-         end associate
-      end do
-      do s = 1, supers%n
-         associate (up => supers%parent(s))
-            if (up > 0) supers%is_refactored(up) = supers%is_refactored(up) .or. supers%is_refactored(s)
-         end associate
-      end do
-   end subroutine weigh_supernodes
-
    !> Merge small supernodes into their parents. With KEEP_LAST the last one stays as it is. The remaining children are ordered
    !! for the least memory: a child with a high peak and a small update matrix comes first (Liu, 1992).
    subroutine merge_supernodes(supers, keep_last)
       type(supernodes_type), intent(inout) :: supers
       logical, intent(in)                  :: keep_last
-      integer, allocatable :: candidates(:), next_candidate(:)
-      real(wp) :: pivots, zeros, added
+      real(wp) :: added, left, pivots, zeros
       integer  :: c, grandchild, next, s
-      logical  :: merge
+      logical  :: merges
 
       allocate (supers%top(supers%n), source=[(s, s=1, supers%n)])
-      allocate (supers%member, supers%last_member, source=supers%top)
-      allocate (supers%child(supers%n), supers%sibling(supers%n), supers%next(supers%n), candidates(supers%n), &
-                next_candidate(supers%n), source=0)
       allocate (supers%zeros(supers%n), supers%peak(supers%n), source=0.0_wp)
+      supers%update = touched_entries(supers%beyond, supers%beyond)
       do s = 1, supers%n
-         c = candidates(s)
+         c = supers%child(s)
+         supers%child(s) = 0
          do while (c /= 0)
-            next = next_candidate(c)
+            next = supers%sibling(c)
             pivots = supers%pivots(c) + supers%pivots(s)
             added = entries(pivots, supers%beyond(s)) - entries(supers%pivots(s), supers%beyond(s)) &
                     - entries(supers%pivots(c), supers%beyond(c))
             zeros = supers%zeros(c) + supers%zeros(s) + added
-            merge = (supers%is_refactored(c) .eqv. supers%is_refactored(s)) .and. .not. (keep_last .and. s == supers%n)
-            if (merge) merge = zeros <= merged_zeros(findloc(pivots <= real(merged_pivots, wp), .true., dim=1)) &
-                                        *entries(pivots, supers%beyond(s))
-            if (merge) then
+            merges = (supers%is_refactored(c) .eqv. supers%is_refactored(s)) .and. .not. (keep_last .and. s == supers%n)
+            if (merges) merges = zeros <= merged_zeros(findloc(pivots <= real(merged_pivots, wp), .true., dim=1)) &
+                                          *entries(pivots, supers%beyond(s))
+            if (merges) then
                supers%pivots(s) = pivots
                supers%zeros(s) = zeros
                supers%top(c) = s
-               supers%next(supers%last_member(s)) = supers%member(c)
-               supers%last_member(s) = supers%last_member(c)
                do while (supers%child(c) /= 0)
                   grandchild = supers%child(c)
                   supers%child(c) = supers%sibling(grandchild)
@@ -287,11 +247,14 @@ contains
             end if
             c = next
          end do
-         supers%peak(s) = peak_of(supers, s)
-         if (supers%parent(s) > 0) then
-            next_candidate(s) = candidates(supers%parent(s))
-            candidates(supers%parent(s)) = s
-         end if
+         left = 0.0_wp ! entries of the update matrices of the children so far
+         c = supers%child(s)
+         do while (c /= 0)
+            supers%peak(s) = max(supers%peak(s), left + supers%peak(c))
+            left = left + supers%update(c)
+            c = supers%sibling(c)
+         end do
+         supers%peak(s) = max(supers%peak(s), left + supers%update(s))
       end do
 
    contains
@@ -304,7 +267,7 @@ contains
          before = 0
          at = supers%child(s)
          do while (at /= 0)
-            if (supers%peak(at) - update_entries(supers, at) < supers%peak(new) - update_entries(supers, new)) exit
+            if (supers%peak(at) - supers%update(at) < supers%peak(new) - supers%update(new)) exit
             before = at
             at = supers%sibling(at)
          end do
@@ -316,39 +279,13 @@ contains
          end if
       end subroutine insert
 
+      !> Entries of P columns of a lower triangle with R rows beyond them.
+      elemental real(wp) function entries(p, r)
+         real(wp), intent(in) :: p, r
+
+         entries = p*(0.5_wp*(p + 1.0_wp) + r)
+      end function entries
+
    end subroutine merge_supernodes
-
-   !> The most entries of update matrices that exist at once while the subtree of S is eliminated, its children in their order.
-   pure real(wp) function peak_of(supers, s) result(peak)
-      type(supernodes_type), intent(in) :: supers
-      integer, intent(in)               :: s
-      real(wp) :: left ! entries of the update matrices of the children so far
-      integer  :: c
-
-      peak = 0.0_wp
-      left = 0.0_wp
-      c = supers%child(s)
-      do while (c /= 0)
-         peak = max(peak, left + supers%peak(c))
-         left = left + update_entries(supers, c)
-         c = supers%sibling(c)
-      end do
-      peak = max(peak, left + update_entries(supers, s))
-   end function peak_of
-
-   !> Entries of the update matrix of S.
-   pure real(wp) function update_entries(supers, s)
-      type(supernodes_type), intent(in) :: supers
-      integer, intent(in)               :: s
-
-      update_entries = touched_entries(supers%beyond(s), supers%beyond(s))
-   end function update_entries
-
-   !> Entries of P columns of a lower triangle with R rows beyond them.
-   elemental real(wp) function entries(p, r)
-      real(wp), intent(in) :: p, r
-
-      entries = p*(0.5_wp*(p + 1.0_wp) + r)
-   end function entries
 
 end module elimination_tree

@@ -86,6 +86,7 @@ module equation_solver
                                                      !! are formed [1/time^2]. Above zero the factor has signs, [l] [s] [l]^T
       integer :: n_negative = 0                      !! negative pivots of the present factor: the number of eigenvalues of [k]
                                                      !! {x} = lambda [m] {x} below sigma (Sylvester)
+      real(wp), allocatable :: diagonal(:)           !! (n) of the matrix whose factor the solver holds
       real(wp) :: weakest = 1.0_wp                   !! smallest pivot of the present factor relative to the original diagonal
                                                      !! entry; 1: no factor
       character(:), allocatable :: formed_in         !! stage and increment of the present k_int, for messages
@@ -95,12 +96,10 @@ module equation_solver
       procedure(start_solver), deferred     :: start
       procedure(form_bodies), deferred      :: form_bodies
       procedure(add_to_bodies), deferred    :: add_to_bodies
-      procedure :: number_unknowns, report_fault, lock, held_now, condense, recover, forget_past
       procedure(form_structure), deferred   :: form_structure
-      procedure(solve_vector), deferred     :: solve
       procedure(multiply_vector), deferred  :: multiply
-      procedure(diagonal_of_matrix), deferred :: diagonal_of_factor
-      procedure(use_of_factor), deferred      :: solve_by_factor, multiply_by_factor
+      procedure(use_of_factor), deferred    :: solve_by_factor, multiply_by_factor
+      procedure :: number_unknowns, report_fault, held_now, condense, solve, recover, forget_factors, forget_past
    end type equation_system
 
    abstract interface
@@ -137,14 +136,6 @@ module equation_solver
          integer, intent(out)                  :: fault
       end subroutine form_structure
 
-      !> Replace the load X by the solution; zero where LOCKED. A deferred factorisation may fail here.
-      subroutine solve_vector(self, x, fault)
-         import :: equation_system, wp
-         class(equation_system), intent(inout) :: self
-         real(wp), intent(inout)               :: x(:)
-         integer, intent(out)                  :: fault
-      end subroutine solve_vector
-
       !> Y = [k_b] X, with [k_b] condensed on the EQUATIONS.
       subroutine multiply_vector(self, x, y)
          import :: equation_system, wp
@@ -152,13 +143,6 @@ module equation_solver
          real(wp), intent(in)               :: x(:)
          real(wp), intent(inout)            :: y(:)
       end subroutine multiply_vector
-
-      !> The diagonal, over all equations, of the matrix [k] whose factor the solver holds.
-      function diagonal_of_matrix(self) result(diagonal)
-         import :: equation_system, wp
-         class(equation_system), intent(in) :: self
-         real(wp) :: diagonal(self%n)
-      end function diagonal_of_matrix
 
       !> Replace X, over all equations, by [k]^-1 X (solve_by_factor) or [k] X (multiply_by_factor). [k] is the matrix of the
       !! present factor, which may be that of an earlier stiffness. Where LOCKED, X is zero or undefined. The solver is not
@@ -187,34 +171,18 @@ contains
       class(equation_system), intent(inout) :: self
       type(model_type), intent(in)          :: model
       integer, intent(in)                   :: order(:)
+      logical, allocatable :: is_free(:, :)
       integer :: d, i
 
-      self%n = 0
+      allocate (is_free, source=.not. model%held(:, order) .and. spread(model%used(order), 1, model%dimension))
+      self%n = count(is_free)
+      self%node = pack(spread(order, 1, model%dimension), is_free)
+      self%direction = pack(spread([(d, d = 1, model%dimension)], 2, size(order)), is_free)
       self%number = spread([(0, d = 1, model%dimension)], 2, model%n_nodes)
-      self%node = [(0, i = 1, count(.not. model%held(:, order)))]
-      self%direction = self%node
-      do i = 1, size(order)
-         if (.not. model%used(order(i))) cycle
-         do d = 1, model%dimension
-            if (model%held(d, order(i))) cycle
-            self%n = self%n + 1
-            self%number(d, order(i)) = self%n
-            self%node(self%n) = order(i)
-            self%direction(self%n) = d
-         end do
+      do i = 1, self%n
+         self%number(self%direction(i), self%node(i)) = i
       end do
-      self%node = self%node(:self%n)
-      self%direction = self%direction(:self%n)
    end subroutine number_unknowns
-
-   !> Hold the unknown of EQUATION from now on: every solution is zero there.
-   subroutine lock(self, equation)
-      class(equation_system), intent(inout) :: self
-      integer, intent(in)                   :: equation
-
-      self%locked = [self%locked, equation]
-      self%coupled%serves = .false.
-   end subroutine lock
 
    !> Which components of retained nodes are held: (dimension, retained).
    pure function held_now(self) result(held)
@@ -240,6 +208,17 @@ contains
       x(self%equations) = f(self%equations)
    end subroutine condense
 
+   !> Replace the load X by the solution; zero where LOCKED. A deferred factorisation may fail here. The abstract type uses the
+   !! factor.
+   subroutine solve(self, x, fault)
+      class(equation_system), intent(inout) :: self
+      real(wp), contiguous, intent(inout)   :: x(:) !! (n), at the EQUATIONS
+      integer, intent(out)                  :: fault
+
+      fault = 0
+      call self%solve_by_factor(x)
+   end subroutine solve
+
    !> The displacements X of all equations: at the EQUATIONS from U, elsewhere from what condense left in X.
    subroutine recover(self, u, x)
       class(equation_system), intent(in) :: self
@@ -248,6 +227,13 @@ contains
 
       x(self%equations) = u(self%equations)
    end subroutine recover
+
+   !> The bodies or the LOCKED equations have changed: factors and solutions of before are of no use.
+   subroutine forget_factors(self)
+      class(equation_system), intent(inout) :: self
+
+      self%coupled%serves = .false.
+   end subroutine forget_factors
 
    !> Discard factors and solutions of earlier increments, so that all further results equal, to the last digit, those of a run
    !! that begins here. The abstract type has nothing to discard.

@@ -5,7 +5,7 @@ module equations
    use bar_elements, only: coupled_bar_stiffness
    use case_control, only: solver_auto
    use equation_solver, only: equation_system, exact_digits, failure_type, solver_direction, solver_options
-   use interface_operator, only: add_force, add_global_force, global_stiffness, interface_element, joint_movement, relative_movement
+   use interface_operator, only: add_global_force, global_stiffness, relative_movement
    use kinds, only: wp
    use mass_matrix, only: coupled_bar_mass, coupled_point_mass, mass_nodes, n_masses
    use model_data, only: bar_nodes, model_type, n_bars
@@ -101,7 +101,7 @@ contains
          call system%add_to_bodies([system%number(:, nodes)], coupled_bar_stiffness(model, i))
       end associate
       system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
-      system%coupled%serves = .false.
+      call system%forget_factors()
    end subroutine add_bar
 
    !> Hold component D of the retained NODE from now on. Its equation remains; every solution is zero there.
@@ -109,7 +109,9 @@ contains
       integer, intent(in)                   :: node, d
       class(equation_system), intent(inout) :: system
 
-      if (system%number(d, node) > 0) call system%lock(system%number(d, node))
+      if (system%number(d, node) == 0) return
+      system%locked = [system%locked, system%number(d, node)]
+      call system%forget_factors()
    end subroutine lock_unknown
 
    !> G: the nodal forces F condensed on the retained nodes.
@@ -178,15 +180,13 @@ contains
       call system%solve(x, fault)
       call system%report_fault(model, fault, system%formed_in, failure)
       if (failure%raised) return
-      do i = 1, size(system%equations)
-         associate (k => system%equations(i))
-            if (is_measure(x(k))) cycle
-            call failure%raise(system%formed_in//'the displacement of '// &
-               unknown_name(model, system%node(k), system%direction(k))//' is '//real_text(x(k))// &
-               ', too large; are loads and stiffnesses in consistent units?')
-            return
-         end associate
-      end do
+      i = findloc(is_measure(x(system%equations)), .false., dim=1)
+      if (i > 0) then
+         i = system%equations(i)
+         call failure%raise(system%formed_in//'the displacement of '//unknown_name(model, system%node(i), system%direction(i))// &
+                            ' is '//real_text(x(i))//', too large; are loads and stiffnesses in consistent units?')
+         return
+      end if
       call put(system, x, u)
       if (moves) u = u + moved
    end subroutine solve_equations
@@ -363,35 +363,14 @@ contains
 
    contains
 
-      !> Find the product of the coupled stiffness and direction N + 1, orthogonalise it against those of the N directions, give
-      !! it the length 1, and reduce LEFT along it; N grows. Nothing is done where only rounding remains of the product.
+      !> Reduce LEFT along direction N + 1 too, unless nothing new remains of it.
       subroutine add_direction()
-         real(wp) :: length, product(size(left, 1), size(left, 2)), share
-         integer  :: j
+         logical :: is_new
 
-         associate (new => directions(n + 1))
-            product = 0.0_wp
-            do j = 1, size(system%interface)
-               associate (element => system%interface(j))
-                  call add_global_force(element, matmul(system%coupled%change(:, :, j), relative_movement(element, new%u)), product)
-               end associate
-            end do
-            new%product = merge(0.0_wp, product, held) + new%force
-            length = norm2(new%product)
-            do j = 1, n
-               share = sum(directions(j)%product*new%product)
-               new%product = new%product - share*directions(j)%product
-               new%u = new%u - share*directions(j)%u
-               new%force = new%force - share*directions(j)%force
-            end do
-            if (.not. norm2(new%product) > dependent*length) return
-            length = norm2(new%product)
-            new%product = new%product/length
-            new%u = new%u/length
-            new%force = new%force/length
-            call go_along(new)
-         end associate
+         call complete_direction(system, held, directions(:n + 1), is_new)
+         if (.not. is_new) return
          n = n + 1
+         call go_along(directions(n))
       end subroutine add_direction
 
       !> Reduce LEFT along a DIRECTION.
@@ -405,5 +384,39 @@ contains
       end subroutine go_along
 
    end subroutine iterate_coupled
+
+   !> Find the product of the coupled stiffness and the last of DIRECTIONS, orthogonalise it against those of the others, and give
+   !! it the length 1. IS_NEW is false where nothing but rounding remains of it.
+   subroutine complete_direction(system, held, directions, is_new)
+      class(equation_system), intent(in)    :: system
+      logical, intent(in)                   :: held(:, :)    !! (dimension, retained)
+      type(solver_direction), intent(inout) :: directions(:)
+      logical, intent(out)                  :: is_new
+      real(wp) :: length, product(size(held, 1), size(held, 2)), share
+      integer  :: i
+
+      associate (new => directions(size(directions)))
+         product = 0.0_wp
+         do i = 1, size(system%interface)
+            associate (element => system%interface(i))
+               call add_global_force(element, matmul(system%coupled%change(:, :, i), relative_movement(element, new%u)), product)
+            end associate
+         end do
+         new%product = merge(0.0_wp, product, held) + new%force
+         length = norm2(new%product)
+         do i = 1, size(directions) - 1
+            share = sum(directions(i)%product*new%product)
+            new%product = new%product - share*directions(i)%product
+            new%u = new%u - share*directions(i)%u
+            new%force = new%force - share*directions(i)%force
+         end do
+         is_new = norm2(new%product) > dependent*length
+         if (.not. is_new) return
+         length = norm2(new%product)
+         new%product = new%product/length
+         new%u = new%u/length
+         new%force = new%force/length
+      end associate
+   end subroutine complete_direction
 
 end module equations

@@ -27,8 +27,6 @@ module factor_reuse
       integer, private :: spent = 0, solved = 0     ! since the last factorisation, which is included
       integer, private :: last = 0                  ! steps of the last solution
       integer, private :: pause = 0, wait = first_wait ! solutions to pass without a trial after steps have failed
-   contains
-      procedure :: set_costs
    end type factor_reuse_type
 
    type, public :: earlier_solutions_type
@@ -38,14 +36,6 @@ module factor_reuse
    end type earlier_solutions_type
 
 contains
-
-   !> Set the cost of a factorisation: OPERATIONS on ENTRIES.
-   subroutine set_costs(self, operations, entries)
-      class(factor_reuse_type), intent(inout) :: self
-      real(wp), intent(in)                    :: operations, entries
-
-      self%most_steps = price_in_steps(operations, entries)
-   end subroutine set_costs
 
    !> Number of steps, each through all ENTRIES, that cost as much as a factorisation of OPERATIONS; 0: a factorisation is
    !! always cheaper.

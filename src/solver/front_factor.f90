@@ -3,7 +3,7 @@
 module front_factor
    use equation_solver, only: no_memory, pivot_tolerance
    use front_kernel, only: eliminate, large, top_row
-   use front_tree, only: add_to_block, begins, front_of, front_tree_type, front_type, keep_block, restore_block, task_work
+   use front_tree, only: add_to_block, front_of, front_tree_type, front_type, keep_block, restore_block, task_work
    use kinds, only: long, wp
    use lists, only: first_not_below, sorted_order
    use machine, only: give_back
@@ -101,13 +101,23 @@ contains
       real(wp) :: no_stiffness(3, 3, 0)
       integer, allocatable :: faults(:)
       integer :: k
+      logical :: ok
 
       call eliminate_fronts(tree, faults, .false., no_stiffness, model)
       fault = first_fault(faults)
       if (fault /= 0) return
-      !$omp parallel do schedule(dynamic, 8) default(shared) if(tree%is_parallel)
+      !$omp parallel do schedule(dynamic, 8) default(shared) private(ok) if(tree%is_parallel)
       do k = 1, size(tree%refactored)
-         call keep_start(model, tree, tree%fronts(tree%refactored(k)), faults(tree%refactored(k)))
+         associate (front => tree%fronts(tree%refactored(k)), own_fault => faults(tree%refactored(k)))
+            call start_front(model, tree, front, own_fault)
+            if (own_fault /= 0) cycle
+            allocate (front%start)
+            call keep_block(front%panel, front%start%panel, ok)
+            if (ok) call keep_block(front%update, front%start%update, ok)
+            if (.not. ok) own_fault = no_memory
+            front%start%diagonal = front%diagonal
+            deallocate (front%update)
+         end associate
       end do
       !$omp end parallel do
       fault = first_fault(faults)
@@ -136,7 +146,7 @@ contains
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
       do f = 1, size(tree%fronts)
-         if (.not. begins(tree, f, refactored)) cycle
+         if (.not. tree%fronts(f)%is_top .or. (tree%fronts(f)%is_refactored .neqv. refactored)) cycle
          !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
          call eliminate_subtree(tree, f, faults, k, model)
          !$omp end task
@@ -186,7 +196,7 @@ contains
       end associate
    end subroutine eliminate_subtree
 
-   !> Assemble FRONT: its elements, and the update matrices of its static children.
+   !> Assemble FRONT: its elements, and the update matrices of its static children, which are freed.
    subroutine start_front(model, tree, front, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
@@ -194,7 +204,9 @@ contains
       integer, intent(out)                 :: fault !! 0, or no_memory
       real(wp), allocatable :: stiffness(:, :)
       real(wp) :: time
-      integer  :: c, k, status
+      integer(long) :: first, last
+      integer :: j, k, status, until
+      logical :: ok
 
       fault = no_memory
       allocate (front%panel(front%p + front%r, front%p), front%update(front%r, front%r), &
@@ -214,80 +226,44 @@ contains
       !$omp atomic
       tree%assembly_time = tree%assembly_time + time
       do k = 1, size(front%children)
-         c = front%children(k)
-         if (.not. tree%fronts(c)%is_refactored) call take_update(tree%fronts(c), front)
+         associate (child => tree%fronts(front%children(k)))
+            if (child%is_refactored) cycle
+            if (size(child%update, kind=long) < large) then
+               call add_update(child, front, 1, child%r)
+            else           ! freed strip by strip: child and front together never take much more memory than one of them
+               do j = 1, child%r, strip
+                  until = min(child%r, j + strip - 1)
+                  call add_update(child, front, j, until)
+                  call give_back(int(child%r, long)*(until - j + 1), child%update(1, j), ok, first, last)
+               end do
+            end if
+            deallocate (child%update, child%diagonal)
+         end associate
       end do
       fault = 0
    end subroutine start_front
 
-   !> Add the update matrix of CHILD to FRONT and free it. A large update matrix is freed strip by strip: the two together never
-   !! take much more memory than one of them.
-   subroutine take_update(child, front)
-      type(front_type), intent(inout) :: child, front
-      integer(long) :: first, last
-      integer :: j, until
-      logical :: ok
-
-      if (size(child%update, kind=long) < large) then
-         call add_update(child, front, 1, child%r)
-      else
-         do j = 1, child%r, strip
-            until = min(child%r, j + strip - 1)
-            call add_update(child, front, j, until)
-            call give_back(int(child%r, long)*(until - j + 1), child%update(1, j), ok, first, last)
-         end do
-      end if
-      deallocate (child%update, child%diagonal)
-   end subroutine take_update
-
    !> Set to zero what the kernel touches. The pages of a large matrix are given back instead; they read as zero when they
-   !! return. Their memory is taken when they are written, see take_update.
+   !! return. Their memory is taken when they are written, see start_front.
    subroutine set_to_zero(m, n, a)
       integer, intent(in)     :: m, n
-      real(wp), intent(inout) :: a(m, n)
+      real(wp), intent(inout) :: a(int(m, long)*n) !! (m, n), column by column
       integer(long) :: first, last
       integer :: j
       logical :: ok
 
-      if (int(m, long)*n >= large) then
-         call give_back(int(m, long)*n, a, ok, first, last)
+      if (size(a, kind=long) >= large) then
+         call give_back(size(a, kind=long), a, ok, first, last)
          if (ok) then
-            call set_ends_to_zero(int(m, long)*n, first, last, a)
+            a(:first) = 0.0_wp
+            a(last:) = 0.0_wp
             return
          end if
       end if
       do j = 1, n
-         a(top_row(j):, j) = 0.0_wp
+         a(int(m, long)*(j - 1) + top_row(j):int(m, long)*j) = 0.0_wp
       end do
    end subroutine set_to_zero
-
-   !> Set a(:FIRST) and a(LAST:) to zero.
-   pure subroutine set_ends_to_zero(n, first, last, a)
-      integer(long), intent(in) :: n, first, last
-      real(wp), intent(inout)   :: a(n)
-
-      a(:first) = 0.0_wp
-      a(last:) = 0.0_wp
-   end subroutine set_ends_to_zero
-
-   !> Keep the initial content of refactored FRONT.
-   subroutine keep_start(model, tree, front, fault)
-      type(model_type), intent(in)         :: model
-      type(front_tree_type), intent(inout) :: tree
-      type(front_type), intent(inout)      :: front
-      integer, intent(out)                 :: fault
-      logical :: ok
-
-      call start_front(model, tree, front, fault)
-      if (fault /= 0) return
-      allocate (front%start)
-      call keep_block(front%panel, front%start%panel, ok)
-      if (ok) call keep_block(front%update, front%start%update, ok)
-      if (.not. ok) fault = no_memory
-      if (.not. ok) return
-      front%start%diagonal = front%diagonal
-      deallocate (front%update)
-   end subroutine keep_start
 
    !> Eliminate all refactored fronts, with the stiffnesses K of the interface elements. FAULT as above.
    subroutine factorise_refactored(tree, k, fault)

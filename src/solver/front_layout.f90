@@ -2,15 +2,15 @@
 !! nodes; WEIGHT(node) is the number of unknowns of a node.
 !! Source: Liu, SIAM Review 34 (1992) 82-109.
 module front_layout
-   use elimination_tree, only: count_rows, find_parents, find_supernodes, merge_supernodes, number_depth_first, order_depth_first, &
-                               sorted_places, supernodes_type, weigh_supernodes
+   use elimination_tree, only: count_rows, find_parents, find_supernodes, merge_supernodes, number_depth_first, supernodes_type
    use front_kernel, only: large, touched_entries
    use kinds, only: wp
+   use lists, only: list_owners
    use node_graph, only: node_graph_type
    implicit none
    private
 
-   public :: choose_layout, lay_out_fronts, postpone_joints, front_operations, bytes_needed
+   public :: choose_layout, lay_out_fronts, postpone_joints, front_operations
 
    real(wp), parameter :: entry_operations = 25.0_wp      !! cost of moving one entry of a front, in operations
    integer, parameter  :: part_nodes(3) = [200, 800, 3200] !! sizes of subtrees that are tried
@@ -28,7 +28,6 @@ module front_layout
       real(wp) :: static_operations  = 0.0_wp    !! of one factorisation of the static fronts
       real(wp) :: refactored_operations = 0.0_wp    !! of one factorisation of the refactored fronts
       real(wp) :: factor_entries = 0.0_wp       !! entries of all panels in full
-      real(wp) :: panel_entries  = 0.0_wp       !! entries of all panels that take memory
       real(wp) :: refactored_entries = 0.0_wp       !! entries of the refactored fronts, whole lower triangles
       real(wp) :: solved_entries = 0.0_wp           !! of these, entries of the factor, which a solution uses
       real(wp) :: kept_entries   = 0.0_wp       !! lower triangles that static fronts leave to refactored fronts
@@ -82,17 +81,6 @@ contains
                    + factorisations*(layout%refactored_operations + entry_operations*layout%refactored_entries)
    end function total_work
 
-   !> Peak memory, with the elements of refactored fronts, which are kept entry by entry with two indices, as for a regular mesh.
-   pure real(wp) function bytes_needed(layout, n, dimension)
-      type(front_layout_type), intent(in) :: layout
-      integer, intent(in)                 :: n         !! unknowns
-      integer, intent(in)                 :: dimension
-      real(wp) :: of_elements
-
-      of_elements = 0.5_wp*dimension*3**dimension*n
-      bytes_needed = 8.0_wp*layout%most_entries + 16.0_wp*of_elements
-   end function bytes_needed
-
    !> Lay out the fronts of GRAPH along ORDER. With JOINTS_LAST the nodes with IN_JOINT come last, all in one front.
    subroutine lay_out_fronts(graph, order, weight, in_joint, joints_last, layout)
       type(node_graph_type), intent(in)    :: graph
@@ -102,29 +90,22 @@ contains
       logical, intent(in)                  :: joints_last
       type(front_layout_type), intent(out) :: layout
       type(supernodes_type) :: supers
-      integer, allocatable  :: place(:), parent(:), beyond(:), number(:), sequence(:), new_place(:)
-      integer :: i, n_inner ! places up to n_inner have columns of their own
+      integer, allocatable  :: place(:), parent(:), beyond(:), number(:), sequence(:)
+      integer :: n_inner ! places up to n_inner have columns of their own
 
-      allocate (layout%order, source=order)
+      layout%order = order
       n_inner = size(order)
       if (joints_last) then
          n_inner = count(.not. in_joint(order))
          layout%order(:n_inner) = pack(order, .not. in_joint(order))
          layout%order(n_inner + 1:) = pack(order, in_joint(order))
       end if
-      allocate (place(graph%n), source=0)
-      place(layout%order) = [(i, i = 1, size(order))]
-      call find_parents(graph, layout%order, place, n_inner, parent)
-      call order_depth_first(parent, layout%order(:n_inner))
-      place(layout%order) = [(i, i = 1, size(order))]
+      call find_parents(graph, n_inner, layout%order, place, parent)
       call count_rows(graph, layout%order, place, parent, beyond)
-      call find_supernodes(graph, layout%order, place, parent, beyond, supers)
-      call weigh_supernodes(layout%order, weight, in_joint, supers)
+      call find_supernodes(graph, layout%order, place, parent, beyond, weight, in_joint, supers)
       call merge_supernodes(supers, joints_last)
-      call number_depth_first(supers%parent == 0, supers%child, supers%sibling, number, sequence) ! remaining supernodes
-      layout%n = size(sequence)
-      call number_columns(supers, sequence, new_place, layout)
-      call link_fronts(supers, number, sequence, new_place, layout)
+      call number_depth_first(supers%parent == 0, supers%child, supers%sibling, number, sequence)
+      call make_fronts(supers, number, sequence, layout)
    end subroutine lay_out_fronts
 
    !> In every subtree of at most LARGEST nodes move the nodes with IN_JOINT to the end of its part of ORDER. The other nodes of
@@ -137,10 +118,7 @@ contains
       integer, allocatable :: place(:), parent(:), nodes(:)
       integer :: first, j, root
 
-      allocate (place(graph%n), source=0)
-      place(order) = [(j, j = 1, size(order))]
-      call find_parents(graph, order, place, size(order), parent)
-      call order_depth_first(parent, order)
+      call find_parents(graph, size(order), order, place, parent)
       allocate (nodes(size(order)), source=1)      ! of the subtree
       do j = 1, size(order)
          if (parent(j) > 0) nodes(parent(j)) = nodes(parent(j)) + nodes(j)
@@ -165,90 +143,65 @@ contains
       operations = p*(p*p/3.0_wp + p*r + r*r)
    end function front_operations
 
-   !> Number the columns of every front consecutively, in the order of the fronts, and count the work of the fronts.
-   !! NEW_PLACE(old place).
-   subroutine number_columns(supers, sequence, new_place, layout)
-      type(supernodes_type), intent(in)      :: supers
-      integer, intent(in)                    :: sequence(:)
-      integer, allocatable, intent(out)      :: new_place(:)
+   !> Make the fronts of LAYOUT from the supernodes that remain after merging, and count their work and entries. The columns of
+   !! every front are numbered consecutively, in the order of the fronts.
+   subroutine make_fronts(supers, number, sequence, layout)
+      type(supernodes_type), intent(inout)   :: supers
+      integer, intent(in)                    :: number(:)   !! front of a supernode that remains
+      integer, intent(in)                    :: sequence(:) !! supernode of a front
       type(front_layout_type), intent(inout) :: layout
-      integer, allocatable :: new_order(:), columns(:)
-      integer  :: f, i, k, member, s
-      real(wp) :: rows
+      integer, allocatable :: front(:, :), columns(:), new_place(:)
+      integer  :: f, i, s
+      real(wp), dimension(size(sequence)) :: p, r   ! unknowns of the pivots, rows beyond
+      real(wp), dimension(size(sequence)) :: panel, update, work ! entries that take memory, operations
+      real(wp), dimension(size(sequence)) :: filled ! initial entries of refactored fronts
 
-      allocate (layout%first_pivot(layout%n + 1), layout%first_row(layout%n + 1), layout%is_refactored(layout%n))
-      allocate (new_order(size(layout%order)), new_place(size(layout%order)), columns(size(layout%order)))
-      layout%first_pivot(1) = 1
-      layout%first_row(1) = 1
-      do f = 1, layout%n
-         s = sequence(f)
-         k = 0
-         member = supers%member(s)
-         do while (member /= 0)
-            do i = supers%first(member), supers%first(member + 1) - 1
-               k = k + 1
-               columns(k) = i
-            end do
-            member = supers%next(member)
-         end do
-         columns(:k) = columns(sorted_places(columns(:k)))
-         associate (first => layout%first_pivot(f))
-            layout%first_pivot(f + 1) = first + k
-            new_order(first:first + k - 1) = layout%order(columns(:k))
-            new_place(columns(:k)) = [(i, i=first, first + k - 1)]
-         end associate
-         layout%first_row(f + 1) = layout%first_row(f) + supers%first_row(s + 1) - supers%first_row(s)
-         layout%is_refactored(f) = supers%is_refactored(s)
-         rows = supers%pivots(s) + supers%beyond(s)
-         layout%factor_entries = layout%factor_entries + rows*supers%pivots(s)
-         layout%panel_entries = layout%panel_entries + touched_entries(rows, supers%pivots(s))
-         if (layout%is_refactored(f)) then
-            layout%refactored_operations = layout%refactored_operations + front_operations(supers%pivots(s), supers%beyond(s))
-            layout%refactored_entries = layout%refactored_entries + 0.5_wp*rows*(rows + 1.0_wp)
-            layout%solved_entries = layout%solved_entries + &
-               supers%pivots(s)*(rows - 0.5_wp*(supers%pivots(s) - 1.0_wp))
-         else
-            layout%static_operations = layout%static_operations + front_operations(supers%pivots(s), supers%beyond(s))
-         end if
+      allocate (front(1, size(layout%order)), new_place(size(layout%order)))
+      do s = supers%n, 1, -1
+         supers%top(s) = supers%top(supers%top(s))
+         front(1, supers%first(s):supers%first(s + 1) - 1) = number(supers%top(s))
       end do
-      layout%order = new_order
-   end subroutine number_columns
+      layout%n = size(sequence)
+      call list_owners(layout%n, front, layout%first_pivot, columns)
+      new_place(columns) = [(i, i = 1, size(columns))]
+      layout%order = layout%order(columns)
 
-   !> Set the rows of every front beyond its columns and its parent, and count entries of update matrices.
-   subroutine link_fronts(supers, number, sequence, new_place, layout)
-      type(supernodes_type), intent(in)      :: supers
-      integer, intent(in)                    :: number(:), sequence(:), new_place(:)
-      type(front_layout_type), intent(inout) :: layout
-      integer  :: f, s
-      real(wp) :: rows
-      real(wp) :: panel(layout%n), update(layout%n) ! entries that take memory
-      real(wp) :: filled(layout%n), whole(layout%n) ! initial entries of refactored fronts, and all their entries
+      p = supers%pivots(sequence)
+      r = supers%beyond(sequence)
+      layout%is_refactored = supers%is_refactored(sequence)
+      work = front_operations(p, r)
+      layout%static_operations = sum(work, mask=.not. layout%is_refactored)
+      layout%refactored_operations = sum(work, mask=layout%is_refactored)
+      layout%factor_entries = sum((p + r)*p)
+      layout%refactored_entries = sum(0.5_wp*(p + r)*(p + r + 1.0_wp), mask=layout%is_refactored)
+      layout%solved_entries = sum(p*(p + r - 0.5_wp*(p - 1.0_wp)), mask=layout%is_refactored)
+      layout%peak_entries = max(0.0_wp, maxval(supers%peak(sequence)))
 
-      allocate (layout%rows(layout%first_row(layout%n + 1) - 1), layout%parent(layout%n))
+      allocate (layout%first_row(layout%n + 1), layout%parent(layout%n))
+      allocate (layout%rows(sum(supers%first_row(sequence + 1) - supers%first_row(sequence))))
+      layout%first_row(1) = 1
       layout%parent = 0
       filled = 0.0_wp
       do f = 1, layout%n
          s = sequence(f)
-         layout%rows(layout%first_row(f):layout%first_row(f + 1) - 1) = &
-            new_place(supers%rows(supers%first_row(s):supers%first_row(s + 1) - 1))
-         layout%peak_entries = max(layout%peak_entries, supers%peak(s))
-         panel(f) = touched_entries(supers%pivots(s) + supers%beyond(s), supers%pivots(s))
-         update(f) = touched_entries(supers%beyond(s), supers%beyond(s))
-         whole(f) = (supers%pivots(s) + supers%beyond(s))*supers%pivots(s) + supers%beyond(s)**2
-         s = supers%parent(s)
-         if (s == 0) cycle
-         do while (supers%top(s) /= s)
-            s = supers%top(s)
-         end do
-         layout%parent(f) = number(s)
-         rows = supers%beyond(sequence(f))
-         if (layout%is_refactored(number(s)) .and. .not. layout%is_refactored(f)) &
-            filled(number(s)) = filled(number(s)) + 0.5_wp*rows*(rows + 1.0_wp)
+         associate (rows => supers%rows(supers%first_row(s):supers%first_row(s + 1) - 1), first => layout%first_row(f))
+            layout%first_row(f + 1) = first + size(rows)
+            layout%rows(first:first + size(rows) - 1) = new_place(rows)
+         end associate
+         if (supers%parent(s) == 0) cycle
+         associate (parent => number(supers%top(supers%parent(s))))
+            layout%parent(f) = parent
+            if (layout%is_refactored(parent) .and. .not. layout%is_refactored(f)) &
+               filled(parent) = filled(parent) + 0.5_wp*r(f)*(r(f) + 1.0_wp)
+         end associate
       end do
       layout%kept_entries = sum(filled)
+      panel = touched_entries(p + r, p)
+      update = touched_entries(r, r)
       ! two indices for each entry, or the whole front where that takes less memory
-      layout%most_entries = most_standing(layout, panel, update, sum(merge(panel + update, 2.0_wp*filled, filled > 0.25_wp*whole)))
-   end subroutine link_fronts
+      layout%most_entries = most_standing(layout, panel, update, &
+                                          sum(merge(panel + update, 2.0_wp*filled, filled > 0.25_wp*((p + r)*p + r**2))))
+   end subroutine make_fronts
 
    !> The most entries that exist at once, given those of PANEL and UPDATE matrix of every front. Static fronts are eliminated
    !! first, one after the other, and leave KEPT entries to the refactored ones, which are eliminated next.

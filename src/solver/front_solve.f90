@@ -5,32 +5,15 @@
 !! parent adds those of all its children in their order: no digit depends on the number of threads.
 module front_solve
    use blas_lapack, only: dgemv, dtrmv
-   use front_tree, only: begins, block_times_vector, front_tree_type, front_type, task_work
+   use front_tree, only: block_times_vector, front_tree_type, front_type, task_work
    use front_kernel, only: substitute, substitute_back
    use kinds, only: wp
    implicit none
    private
 
-   public :: eliminate_static, recover_static, solve_refactored, refactored_times_vector, factor_times_vector
+   public :: sweep, solve_refactored, refactored_times_vector, factor_times_vector
 
 contains
-
-   !> Condense X, loads on all equations, on the refactored equations: L y = x on the static fronts, where X becomes y.
-   subroutine eliminate_static(tree, x)
-      type(front_tree_type), intent(in) :: tree
-      real(wp), intent(inout)           :: x(tree%n)
-
-      call sweep(tree, .false., .true., x)
-   end subroutine eliminate_static
-
-   !> Recover the static unknowns: X holds y of eliminate_static on the static fronts and the solution on the refactored ones.
-   !! On return X is the solution everywhere.
-   subroutine recover_static(tree, x)
-      type(front_tree_type), intent(in) :: tree
-      real(wp), intent(inout)           :: x(tree%n)
-
-      call sweep(tree, .false., .false., x)
-   end subroutine recover_static
 
    !> Solve for the refactored equations; X is not changed on the others.
    subroutine solve_refactored(tree, x)
@@ -41,8 +24,9 @@ contains
       call sweep(tree, .true., .false., x)
    end subroutine solve_refactored
 
-   !> L y = x (UP), or L^T x = y with X known beyond, in the REFACTORED or the static fronts. Contributions to fronts of the
-   !! other kind are added to X there.
+   !> L y = x (UP), or L^T x = y with X known beyond, in the REFACTORED or the static fronts. UP the static fronts the loads X on
+   !! all equations are condensed on the refactored ones; down, the displacements of the bodies are recovered from y in the static
+   !! fronts and the solution in the refactored ones.
    subroutine sweep(tree, refactored, up, x)
       type(front_tree_type), intent(in) :: tree
       logical, intent(in)               :: refactored, up
@@ -54,7 +38,7 @@ contains
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
       do f = 1, size(tree%fronts)
-         if (.not. begins(tree, f, refactored)) cycle
+         if (.not. tree%fronts(f)%is_top .or. (tree%fronts(f)%is_refactored .neqv. refactored)) cycle
          !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
          call sweep_subtree(tree, f, up, x, left)
          !$omp end task
@@ -63,7 +47,7 @@ contains
       !$omp end parallel
       if (refactored .or. .not. up) return
       do f = 1, size(tree%fronts)
-         if (.not. begins(tree, f, refactored)) cycle
+         if (.not. tree%fronts(f)%is_top .or. (tree%fronts(f)%is_refactored .neqv. refactored)) cycle
          associate (front => tree%fronts(f))
             x(front%rows) = x(front%rows) + left(front%left + 1:front%left + front%r)
          end associate

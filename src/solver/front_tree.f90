@@ -8,13 +8,13 @@ module front_tree
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
    use kinds, only: long, wp
-   use lists, only: list_owners
+   use lists, only: list_owners, sorted_order
    use model_data, only: model_type
    use node_coupling, only: list_on_unknowns, coupled_nodes
    implicit none
    private
 
-   public :: begins, keep_block, restore_block, add_to_block, block_times_vector, start_front_tree, front_of, largest_diagonal
+   public :: keep_block, restore_block, add_to_block, block_times_vector, start_front_tree, front_of
 
    !> A block with N_ROWS rows; its first N_COLUMNS rows are a lower triangle.
    type, public :: kept_block
@@ -39,6 +39,7 @@ module front_tree
       integer :: parent = 0                       !! 0: none
       integer :: left = 0                         !! offset of its contributions to the rows beyond in a solution
       logical :: is_refactored = .false.
+      logical :: is_top = .true.                  !! the parent, if there is one, is not of the same kind, refactored or static
       integer, allocatable  :: children(:)
       integer, allocatable  :: rows(:)            !! (r) equations beyond the pivots, ascending
       integer, allocatable  :: in_parent(:)       !! (r) their places in the front of the parent
@@ -139,62 +140,43 @@ contains
       type(kept_block), intent(inout) :: block
       integer, intent(in)             :: rows(:), columns(:) !! ascending, each once
       real(wp), intent(in)            :: k(:, :)             !! (rows, columns)
-      type(kept_block) :: old
-      integer(long) :: next, n
-      integer :: i, j
+      integer, allocatable  :: by_row(:), column(:), order(:), row(:)
+      real(wp), allocatable :: values(:)
+      logical :: is_lower(size(rows), size(columns))
+      integer :: i, j, n
 
+      is_lower = spread(rows, 2, size(columns)) >= spread(columns, 1, size(rows))
       if (allocated(block%whole)) then
          do j = 1, size(columns)
             do i = 1, size(rows)
-               if (rows(i) >= columns(j)) block%whole(rows(i), columns(j)) = block%whole(rows(i), columns(j)) + k(i, j)
+               if (is_lower(i, j)) block%whole(rows(i), columns(j)) = block%whole(rows(i), columns(j)) + k(i, j)
             end do
          end do
          return
       end if
-      ! the existing and the new entries are both sorted by columns: merge them
-      old = block
-      n = size(old%values, kind=long) + sum([(count(rows >= columns(j)), j = 1, size(columns))])
-      deallocate (block%values, block%row, block%column)
-      allocate (block%values(n), block%row(n), block%column(n))
-      n = 0
-      next = 1
-      do j = 1, size(columns)
-         do i = 1, size(rows)
-            if (rows(i) < columns(j)) cycle
-            do while (next <= size(old%values, kind=long))
-               if (old%column(next) > columns(j) .or. (old%column(next) == columns(j) .and. old%row(next) > rows(i))) exit
-               call append(old%row(next), old%column(next), old%values(next))
-               next = next + 1
-            end do
-            call append(rows(i), columns(j), k(i, j))
-         end do
+      row = [block%row, pack(spread(rows, 2, size(columns)), is_lower)]
+      column = [block%column, pack(spread(columns, 1, size(rows)), is_lower)]
+      values = [block%values, pack(k, is_lower)]
+      call sorted_order(row, by_row)
+      call sorted_order(column(by_row), order)
+      order = by_row(order)
+      block%row = row(order)
+      block%column = column(order)
+      block%values = values(order)
+      n = min(1, size(order))
+      do i = 2, size(order) ! an entry at the place of the one before is added to it
+         if (block%row(i) == block%row(n) .and. block%column(i) == block%column(n)) then
+            block%values(n) = block%values(n) + block%values(i)
+         else
+            n = n + 1
+            block%row(n) = block%row(i)
+            block%column(n) = block%column(i)
+            block%values(n) = block%values(i)
+         end if
       end do
-      do next = next, size(old%values, kind=long)
-         call append(old%row(next), old%column(next), old%values(next))
-      end do
-      block%values = block%values(:n)
       block%row = block%row(:n)
       block%column = block%column(:n)
-
-   contains
-
-      !> Append an entry, or add to the last one where the place is the same.
-      subroutine append(row, column, value)
-         integer, intent(in)  :: row, column
-         real(wp), intent(in) :: value
-
-         if (n > 0) then
-            if (block%row(n) == row .and. block%column(n) == column) then
-               block%values(n) = block%values(n) + value
-               return
-            end if
-         end if
-         n = n + 1
-         block%row(n) = row
-         block%column(n) = column
-         block%values(n) = value
-      end subroutine append
-
+      block%values = block%values(:n)
    end subroutine add_to_block
 
    !> Y = Y + BLOCK X, BLOCK being part of a symmetric matrix over the unknowns of its rows.
@@ -234,11 +216,10 @@ contains
 
       tree%is_parallel = layout%static_operations + layout%refactored_operations > parallel_work
       tree%number = number
-      allocate (first(size(layout%order)), weight(size(layout%order)))
+      allocate (weight, first, source=count(number(:, layout%order) > 0, dim=1))
       tree%n = 0
-      do k = 1, size(layout%order)
+      do k = 1, size(weight)
          first(k) = tree%n + 1
-         weight(k) = count(number(:, layout%order(k)) > 0)
          tree%n = tree%n + weight(k)
       end do
       allocate (tree%fronts(layout%n), tree%of_equation(tree%n))
@@ -272,6 +253,7 @@ contains
          tree%fronts(f)%children = children(first_child(f):first_child(f + 1) - 1)
          if (tree%fronts(f)%parent == 0) cycle
          associate (front => tree%fronts(f), parent => tree%fronts(tree%fronts(f)%parent))
+            front%is_top = front%is_refactored .neqv. parent%is_refactored
             allocate (front%in_parent(front%r))
             k = 0
             do i = 1, front%r
@@ -341,32 +323,5 @@ contains
       f = minval(equations, mask=equations > 0)
       f = merge(0, tree%of_equation(min(f, tree%n)), f > tree%n)
    end function front_of
-
-   !> Whether front F is REFACTORED (or static) and its parent is of the other kind.
-   pure logical function begins(tree, f, refactored)
-      type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: f
-      logical, intent(in)               :: refactored
-
-      begins = tree%fronts(f)%is_refactored .eqv. refactored
-      if (begins .and. tree%fronts(f)%parent > 0) begins = tree%fronts(tree%fronts(f)%parent)%is_refactored .neqv. refactored
-   end function begins
-
-   !> The largest diagonal entry of the matrix without the joints, after the elimination of the static fronts only.
-   pure real(wp) function largest_diagonal(tree) result(largest)
-      type(front_tree_type), intent(in) :: tree
-      real(wp), allocatable :: diagonal(:)
-      integer :: k
-
-      allocate (diagonal, source=tree%diagonal)
-      diagonal(tree%equations) = 0.0_wp
-      do k = 1, size(tree%refactored)
-         associate (front => tree%fronts(tree%refactored(k)), first => tree%fronts(tree%refactored(k))%first)
-            diagonal(first:first + front%p - 1) = diagonal(first:first + front%p - 1) + front%start%diagonal(:front%p)
-            diagonal(front%rows) = diagonal(front%rows) + front%start%diagonal(front%p + 1:)
-         end associate
-      end do
-      largest = maxval(diagonal)
-   end function largest_diagonal
 
 end module front_tree

@@ -9,7 +9,7 @@ module skyline_solver
    use memory_need, only: shortage
    use model_data, only: model_type
    use node_coupling, only: list_on_unknowns, coupled_nodes
-   use node_graph, only: list_joined, node_graph_type, reverse_cuthill_mckee
+   use node_graph, only: node_graph_type, reverse_cuthill_mckee
    use skyline, only: add_to_skyline, factor_times_vector, factorise_skyline, skyline_matrix, skyline_times_vector, &
                       solve_skyline, start_skyline
    use text_tools, only: integer_text
@@ -23,10 +23,8 @@ module skyline_solver
       type(interface_equations_type) :: joints
       type(skyline_matrix) :: body                  !! [k_b]
       type(skyline_matrix) :: structure             !! [k_s], then its factor
-      real(wp), allocatable :: diagonal(:)          !! (n) of [k_s]
    contains
-      procedure :: lay_out, start, form_bodies, add_to_bodies, form_structure, solve, multiply
-      procedure :: diagonal_of_factor, solve_by_factor, multiply_by_factor
+      procedure :: lay_out, start, form_bodies, add_to_bodies, form_structure, multiply, solve_by_factor, multiply_by_factor
    end type skyline_solver_type
 
 contains
@@ -41,9 +39,9 @@ contains
 
       call reverse_cuthill_mckee(graph, order)
       call self%number_unknowns(model, [(i, i = 1, model%n_nodes)])
-      call lay_out_profile(model, graph%with_masses, self, first_row_as_numbered, self%profile_as_numbered)
+      call lay_out_profile(graph, self, first_row_as_numbered, self%profile_as_numbered)
       call self%number_unknowns(model, order)
-      call lay_out_profile(model, graph%with_masses, self, self%first_row, self%profile)
+      call lay_out_profile(graph, self, self%first_row, self%profile)
       if (self%profile < self%profile_as_numbered) return
       call self%number_unknowns(model, [(i, i = 1, model%n_nodes)])
       call move_alloc(first_row_as_numbered, self%first_row)
@@ -80,36 +78,23 @@ contains
       end associate
    end subroutine start
 
-   !> First row of every column: the lowest equation that shares an element or interface element.
-   subroutine lay_out_profile(model, with_masses, numbers, first_row, profile)
-      type(model_type), intent(in)        :: model
-      logical, intent(in)                 :: with_masses
-      class(equation_system), intent(in)  :: numbers
-      integer, allocatable, intent(out)   :: first_row(:)
-      integer(long), intent(out)          :: profile
-      integer, allocatable :: joined(:, :)
-      integer :: e, i
+   !> First row of every column: the lowest equation of a node that shares an element or interface element with its own.
+   subroutine lay_out_profile(graph, numbers, first_row, profile)
+      type(node_graph_type), intent(in)  :: graph
+      class(equation_system), intent(in) :: numbers
+      integer, allocatable, intent(out)  :: first_row(:)
+      integer(long), intent(out)         :: profile
+      integer :: j
 
-      allocate (first_row, source=[(i, i = 1, numbers%n)])
-      do e = 1, model%n_elements
-         call couple(coupled_nodes(model, e))
-      end do
-      call list_joined(model, with_masses, .false., joined)
-      do i = 1, size(joined, 2)
-         call couple(pack(joined(:, i), joined(:, i) > 0))
-      end do
-      profile = sum([(int(i - first_row(i) + 1, long), i = 1, numbers%n)])
-
-   contains
-
-      subroutine couple(nodes)
-         integer, intent(in) :: nodes(:)
-
-         associate (rows => pack(numbers%number(:, nodes), numbers%number(:, nodes) > 0))
-            first_row(rows) = min(first_row(rows), minval(rows))
+      allocate (first_row(numbers%n))
+      do j = 1, numbers%n
+         associate (i => numbers%node(j))
+            associate (rows => numbers%number(:, [i, graph%neighbours(graph%first(i):graph%first(i + 1) - 1)]))
+               first_row(j) = minval(rows, mask=rows > 0)
+            end associate
          end associate
-      end subroutine couple
-
+      end do
+      profile = sum([(int(j - first_row(j) + 1, long), j = 1, numbers%n)])
    end subroutine lay_out_profile
 
    !> [k_b]: the stiffness of all bodies.
@@ -170,15 +155,6 @@ contains
       end associate
    end subroutine form_structure
 
-   subroutine solve(self, x, fault)
-      class(skyline_solver_type), intent(inout) :: self
-      real(wp), intent(inout)                   :: x(:)
-      integer, intent(out)                      :: fault
-
-      fault = 0
-      call self%solve_by_factor(x)
-   end subroutine solve
-
    subroutine multiply(self, x, y)
       class(skyline_solver_type), intent(in) :: self
       real(wp), intent(in)                   :: x(:)
@@ -186,13 +162,6 @@ contains
 
       call skyline_times_vector(self%body, x, y)
    end subroutine multiply
-
-   pure function diagonal_of_factor(self) result(diagonal)
-      class(skyline_solver_type), intent(in) :: self
-      real(wp) :: diagonal(self%n)
-
-      diagonal = self%diagonal
-   end function diagonal_of_factor
 
    subroutine solve_by_factor(self, x)
       class(skyline_solver_type), intent(in) :: self

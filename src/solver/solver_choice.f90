@@ -1,12 +1,13 @@
 !> Which solver a structure gets. A new one is a line here, and a word of case control.
 module solver_choice
    use case_control, only: solver_auto, solver_skyline
-   use distribution, only: choose_distributed, solver_work_type, weigh_distributed
+   use distribution, only: choose_distributed, n_processes, solver_work_type, weigh_solvers, weighed, weighing_words
    use equation_solver, only: equation_system
    use kinds, only: long, wp
    use machine, only: memory_for
    use model_data, only: model_type
    use node_graph, only: node_graph_type
+   use omp_lib, only: omp_get_max_threads
    use skyline_solver, only: skyline_solver_type
    use tree_solver, only: tree_solver_type
    implicit none
@@ -32,7 +33,9 @@ contains
       type(skyline_solver_type), allocatable :: candidate
       type(tree_solver_type), allocatable :: tree
       type(solver_work_type) :: work
-      logical :: is_skyline
+      real(wp) :: seconds(size(weighed))
+      integer  :: best
+      logical  :: is_skyline
 
       call choose_distributed(wanted, system)
       if (allocated(system)) return
@@ -57,7 +60,11 @@ contains
             work%there = real(memory_for(work%bytes), wp)
             work%entries = real(model%dimension, wp)**2*(size(graph%neighbours) + real(model%n_nodes, wp))
             work%solutions = factorisations
-            call weigh_distributed(work, system)
+            work%processes = n_processes
+            work%threads = omp_get_max_threads()
+            call weigh_solvers(work, seconds, best)
+            call choose_distributed(best, system)
+            if (allocated(system)) system%description%reason = weighing_words(work)
          end if
          if (.not. allocated(system)) call move_alloc(tree, system)
       end if

@@ -8,9 +8,9 @@ module tree_solver
    use factor_reuse, only: earlier_solutions_type, factor_reuse_type, guess_solution, iterate_refactored, may_reuse, &
                            note_factor, note_failure, note_solution, note_steps, price_in_steps
    use front_factor, only: add_to_refactored, factorise_refactored, factorise_static
-   use front_layout, only: bytes_needed, choose_layout, front_layout_type
-   use front_solve, only: eliminate_static, factor_times_vector, recover_static, refactored_times_vector, solve_refactored
-   use front_tree, only: front_tree_type, largest_diagonal, start_front_tree
+   use front_layout, only: choose_layout, front_layout_type
+   use front_solve, only: factor_times_vector, refactored_times_vector, solve_refactored, sweep
+   use front_tree, only: front_tree_type, start_front_tree
    use kinds, only: long, wp
    use memory_need, only: check_memory
    use model_data, only: model_type, n_sections
@@ -38,9 +38,10 @@ module tree_solver
       real(wp) :: bytes = 0.0_wp                  !! memory needed
       logical  :: is_laid_out = .false.
       type(front_layout_type), private :: layout  !! freed by start
+      logical, allocatable, private :: in_joint(:) !! (n_nodes) nodes whose stiffness changes in the run or is added to the bodies
    contains
-      procedure :: lay_out, start, form_bodies, add_to_bodies, lock, condense, form_structure, solve, multiply, recover, forget_past
-      procedure :: diagonal_of_factor, solve_by_factor, multiply_by_factor
+      procedure :: lay_out, start, form_bodies, add_to_bodies, condense, form_structure, solve, multiply, recover
+      procedure :: forget_factors, forget_past, solve_by_factor, multiply_by_factor
    end type tree_solver_type
 
 contains
@@ -51,15 +52,18 @@ contains
       class(tree_solver_type), intent(inout) :: self
       type(model_type), intent(in)           :: model
       type(node_graph_type), intent(in)      :: graph
-      integer, allocatable :: order(:), weight(:)
-      logical, allocatable :: in_joint(:)
+      integer, allocatable :: joined(:, :), order(:), weight(:)
 
       allocate (weight, source=merge(count(.not. model%held, dim=1), 0, model%used))
       call dissect(graph, weight > 0, order, self%is_laid_out)
       if (.not. self%is_laid_out) return
-      call mark_joints(model, graph%with_masses, in_joint)
-      call choose_layout(graph, order, weight, in_joint, self%factorisations, self%layout, self%way)
-      self%bytes = bytes_needed(self%layout, sum(weight), model%dimension)
+      call list_joined(model, graph%with_masses, .false., joined)
+      allocate (self%in_joint(model%n_nodes), source=.false.)
+      self%in_joint(pack(joined, joined > 0)) = .true.
+      if (n_sections(model) > 0) self%in_joint(model%sections%node) = .true.
+      call choose_layout(graph, order, weight, self%in_joint, self%factorisations, self%layout, self%way)
+      ! elements of refactored fronts are kept entry by entry with two indices, in number as for a regular mesh
+      self%bytes = 8.0_wp*self%layout%most_entries + 16.0_wp*(0.5_wp*model%dimension*3**model%dimension*sum(weight))
       self%description%static_operations = self%layout%static_operations
       self%description%refactored_operations = self%layout%refactored_operations
    end subroutine lay_out
@@ -71,7 +75,6 @@ contains
       type(node_graph_type), intent(in)      :: graph
       type(failure_type), intent(inout)      :: failure
       type(front_layout_type) :: none
-      logical, allocatable    :: in_joint(:)
       integer :: i
 
       if (.not. self%is_laid_out) call self%lay_out(model, graph)
@@ -84,7 +87,7 @@ contains
          call check_memory(self%n, model%dimension, self%bytes, failure)
          if (failure%raised) return
          call start_front_tree(model, self%number, layout, self%fronts)
-         call self%factor%reuse%set_costs(layout%refactored_operations, layout%refactored_entries)
+         self%factor%reuse%most_steps = price_in_steps(layout%refactored_operations, layout%refactored_entries)
          self%coupled%price = price_in_steps(layout%refactored_operations, layout%solved_entries)
          self%equations = self%fronts%equations
          description%name = 'TREE, JOINTS '//self%way
@@ -92,35 +95,32 @@ contains
          description%numbers = [int(layout%n, long), int(layout%factor_entries, long), size(self%equations, kind=long)]
       end associate
       self%layout = none
-      call mark_joints(model, graph%with_masses, in_joint)
-      in_joint(self%node(self%equations)) = .true.
-      self%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
+      self%in_joint(self%node(self%equations)) = .true.
+      self%retained = pack([(i, i = 1, model%n_nodes)], self%in_joint)
    end subroutine start
-
-   !> Mark the nodes whose stiffness changes in the run or is added to the bodies: nodes of interface elements and bars, and
-   !! WITH_MASSES those of nodal masses.
-   subroutine mark_joints(model, with_masses, in_joint)
-      type(model_type), intent(in)      :: model
-      logical, intent(in)               :: with_masses
-      logical, allocatable, intent(out) :: in_joint(:) !! (n_nodes)
-      integer, allocatable :: joined(:, :)
-
-      call list_joined(model, with_masses, .false., joined)
-      allocate (in_joint(model%n_nodes), source=.false.)
-      in_joint(pack(joined, joined > 0)) = .true.
-      if (n_sections(model) > 0) in_joint(model%sections%node) = .true.
-   end subroutine mark_joints
 
    !> Form [k_b] and factorise the static fronts.
    subroutine form_bodies(self, model, fault)
       class(tree_solver_type), intent(inout) :: self
       type(model_type), intent(in)           :: model
       integer, intent(out)                   :: fault
+      integer :: k
 
       self%fronts%shift = self%shift
       call factorise_static(model, self%fronts, fault)
       self%description%assembly_time = self%fronts%assembly_time
-      if (fault == 0) self%stiffest = largest_diagonal(self%fronts)
+      if (fault /= 0) return
+      self%diagonal = self%fronts%diagonal
+      self%diagonal(self%equations) = 0.0_wp
+      do k = 1, size(self%fronts%refactored)
+         associate (front => self%fronts%fronts(self%fronts%refactored(k)), diagonal => self%diagonal)
+            associate (pivots => diagonal(front%first:front%first + front%p - 1))
+               pivots = pivots + front%start%diagonal(:front%p)
+            end associate
+            diagonal(front%rows) = diagonal(front%rows) + front%start%diagonal(front%p + 1:)
+         end associate
+      end do
+      self%stiffest = maxval(self%diagonal)
    end subroutine form_bodies
 
    subroutine add_to_bodies(self, rows, k)
@@ -129,18 +129,7 @@ contains
       real(wp), intent(in)                   :: k(:, :)
 
       call add_to_refactored(self%fronts, rows, k)
-      call forget(self)
    end subroutine add_to_bodies
-
-   subroutine lock(self, equation)
-      class(tree_solver_type), intent(inout) :: self
-      integer, intent(in)                    :: equation
-
-      self%locked = [self%locked, equation]
-      self%coupled%serves = .false.
-      self%fronts%locked(equation) = .true.
-      call forget(self)
-   end subroutine lock
 
    !> Condense F on the refactored fronts; at the other equations L y = f, for recover.
    subroutine condense(self, f, x)
@@ -149,7 +138,7 @@ contains
       real(wp), intent(out)               :: x(:)
 
       x = f
-      call eliminate_static(self%fronts, x)
+      call sweep(self%fronts, refactored=.false., up=.true., x=x)
    end subroutine condense
 
    !> Refactor the fronts with the present joint stiffness, unless an earlier factor serves.
@@ -182,6 +171,7 @@ contains
          self%weakest = minval(fronts%weakest)
          if (self%shift > 0.0_wp) self%n_negative = sum([(size(fronts(f)%negative), f = 1, size(fronts))])
       end associate
+      self%diagonal(self%equations) = self%fronts%diagonal(self%equations)
       self%factor%k_int = self%k_int
       call note_factor(self%factor%reuse)
    end subroutine factorise
@@ -189,7 +179,7 @@ contains
    !> Solve by the factor. An earlier factor preconditions conjugate gradients; where these fail, the fronts are refactored.
    subroutine solve(self, x, fault)
       class(tree_solver_type), intent(inout) :: self
-      real(wp), intent(inout)                :: x(:)
+      real(wp), contiguous, intent(inout)    :: x(:)
       integer, intent(out)                   :: fault
       real(wp), allocatable :: residual(:)
       real(wp) :: b(size(self%equations)), tolerance, work
@@ -223,20 +213,20 @@ contains
       self%factor%is_awaited = .false.
    end subroutine solve
 
-   !> The bodies or the held unknowns have changed: discard the factor and earlier solutions.
-   subroutine forget(self)
+   subroutine forget_factors(self)
       class(tree_solver_type), intent(inout) :: self
 
+      self%coupled%serves = .false.
+      self%fronts%locked(self%locked) = .true.
       self%factor%reuse%has_factor = .false.
       self%factor%earlier%n = 0
-   end subroutine forget
+   end subroutine forget_factors
 
    !> Return to the initial state, but keep the costs of a factorisation.
    subroutine forget_past(self)
       class(tree_solver_type), intent(inout) :: self
 
-      call forget(self)
-      self%coupled%serves = .false.
+      call self%forget_factors()
       self%factor%reuse = factor_reuse_type(most_steps=self%factor%reuse%most_steps)
       self%factor%is_own = .false.
       self%factor%is_awaited = .false.
@@ -257,24 +247,17 @@ contains
       real(wp), intent(inout)             :: x(:)
 
       x(self%equations) = u(self%equations)
-      call recover_static(self%fronts, x)
+      call sweep(self%fronts, refactored=.false., up=.false., x=x)
    end subroutine recover
-
-   pure function diagonal_of_factor(self) result(diagonal)
-      class(tree_solver_type), intent(in) :: self
-      real(wp) :: diagonal(self%n)
-
-      diagonal = self%fronts%diagonal
-   end function diagonal_of_factor
 
    subroutine solve_by_factor(self, x)
       class(tree_solver_type), intent(in) :: self
       real(wp), contiguous, intent(inout) :: x(:)
 
-      call eliminate_static(self%fronts, x)
+      call sweep(self%fronts, refactored=.false., up=.true., x=x)
       x(self%locked) = 0.0_wp
       call solve_refactored(self%fronts, x)
-      call recover_static(self%fronts, x)
+      call sweep(self%fronts, refactored=.false., up=.false., x=x)
    end subroutine solve_by_factor
 
    subroutine multiply_by_factor(self, x)

@@ -10,7 +10,7 @@ module unknowns
    implicit none
    private
 
-   public :: what_is_loose, unknown_name, n_motions, is_ordinary, motions_of, motions_at
+   public :: what_is_loose, unknown_name, n_motions, motions_of, motions_at
 
 contains
 
@@ -18,13 +18,14 @@ contains
    pure function what_is_loose(model, node, d) result(words)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node, d
-      character(:), allocatable    :: words
+      character(:), allocatable    :: direction, owner, words
 
-      if (node_kind(model, node) == an_overlap) then
-         words = 'no stiffness holds '//owner_name(model, node)//' together at its section'
+      call name_unknown(model, node, d, owner, direction)
+      if (direction == '') then
+         words = 'no stiffness holds '//owner//' together at its section'
       else
-         words = owner_name(model, node)//' has no stiffness '// &
-                 trim(merge('against', 'in     ', node_kind(model, node) == a_rotation))//' '//direction_name(model, node, d)
+         words = owner//' has no stiffness '// &
+                 trim(merge('against', 'in     ', node_kind(model, node) == a_rotation))//' '//direction
       end if
    end function what_is_loose
 
@@ -32,56 +33,39 @@ contains
    pure function unknown_name(model, node, d) result(words)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node, d
-      character(:), allocatable    :: words
+      character(:), allocatable    :: direction, owner, words
 
-      if (node_kind(model, node) == an_overlap) then
-         words = 'the section of '//owner_name(model, node)
-      else
-         words = owner_name(model, node)//' in '//direction_name(model, node, d)
-      end if
+      call name_unknown(model, node, d, owner, direction)
+      words = owner//' in '//direction
+      if (direction == '') words = 'the section of '//owner
    end function unknown_name
 
-   !> The point whose displacements or rotations stand in NODE.
-   pure integer function point_of(model, node) result(point)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-
-      point = node
-      if (node_kind(model, node) == a_rotation) point = model%rotations(place_in_kind(model, node))%point
-   end function point_of
-
-   !> 'node 7', or for a pretension section 'BOLT 3'.
-   pure function owner_name(model, node) result(name)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      character(:), allocatable    :: name
-
-      if (node_kind(model, node) == an_overlap) then
-         name = 'BOLT '//integer_text(model%sections(place_in_kind(model, node))%bolt)
-      else
-         name = 'node '//integer_text(model%node_id(point_of(model, node)))
-      end if
-   end function owner_name
-
-   !> 'direction X', or with a system CD 'direction 1 of its system 7'; for a node of rotations 'rotation about X', in the plane
-   !! about Z only.
-   pure function direction_name(model, node, d) result(words)
+   !> OWNER: 'node 7', or for a pretension section 'BOLT 3'. DIRECTION: 'direction X', or with a system CD 'direction 1 of its
+   !! system 7'; for a node of rotations 'rotation about X', in the plane about Z only; '' for a pretension section.
+   pure subroutine name_unknown(model, node, d, owner, direction)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node, d
-      character(:), allocatable    :: words
+      character(:), allocatable, intent(out) :: owner, direction
       character(1), parameter :: letters(3) = ['X', 'Y', 'Z']
+      integer :: point, system
       logical :: is_rotation
 
-      is_rotation = node_kind(model, node) == a_rotation
-      words = letters(merge(3, d, is_rotation .and. model%dimension == 2))
-      if (.not. is_rotation) words = 'direction '//words
-      if (allocated(model%node_system)) then
-         associate (system => model%node_system(point_of(model, node)))
-            if (system > 0) words = 'direction '//integer_text(d)//' of its system '//integer_text(model%systems(system)%id)
-         end associate
+      direction = ''
+      if (node_kind(model, node) == an_overlap) then
+         owner = 'BOLT '//integer_text(model%sections(place_in_kind(model, node))%bolt)
+         return
       end if
-      if (is_rotation) words = 'rotation about '//words
-   end function direction_name
+      is_rotation = node_kind(model, node) == a_rotation
+      point = node
+      if (is_rotation) point = model%rotations(place_in_kind(model, node))%point
+      owner = 'node '//integer_text(model%node_id(point))
+      system = 0
+      if (allocated(model%node_system)) system = model%node_system(point)
+      direction = letters(merge(3, d, is_rotation .and. model%dimension == 2))
+      if (.not. is_rotation) direction = 'direction '//direction
+      if (system > 0) direction = 'direction '//integer_text(d)//' of its system '//integer_text(model%systems(system)%id)
+      if (is_rotation) direction = 'rotation about '//direction
+   end subroutine name_unknown
 
    !> Number of rigid-body motions, three in the plane, six in space: along the axes, then about them.
    pure integer function n_motions(dimension)
@@ -89,15 +73,6 @@ contains
 
       n_motions = merge(6, 3, dimension == 3)
    end function n_motions
-
-   !> Whether the unknowns of NODE are its displacements in global axes.
-   pure logical function is_ordinary(model, node)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-
-      is_ordinary = node_kind(model, node) == a_point
-      if (is_ordinary .and. allocated(model%node_system)) is_ordinary = model%node_system(node) == 0
-   end function is_ordinary
 
    !> Displacements of a point at X: (dimension, motions).
    pure function motions_at(x) result(u)
@@ -133,7 +108,8 @@ contains
          axes = node_axes(model, node)
          q = matmul(transpose(axes(:d, :d)), motions_at(model%x(:d, node)))
       case (a_rotation)
-         associate (point => point_of(model, node), arm => model%rotations(place_in_kind(model, node))%arm)
+         associate (point => model%rotations(place_in_kind(model, node))%point, &
+                    arm => model%rotations(place_in_kind(model, node))%arm)
             if (d == 2) then
                q(rotation_component(model, 6), 3) = arm ! about z, whatever the system CD
             else

@@ -359,17 +359,15 @@ contains
       type(model_type), intent(in)       :: model
       type(oscillating_type), intent(in) :: structure
       class(equation_system), intent(in) :: system
-      real(wp) :: diagonal(system%n)
       integer  :: i, k
 
-      diagonal = system%diagonal_of_factor()
       largest = 0.0_wp
       do i = 1, system%n
          associate (node => system%node(i))
             if (node_kind(model, node) /= a_point) cycle
             do k = structure%mass%first(node), structure%mass%first(node + 1) - 1
                if (structure%mass%column(k) /= node .or. .not. structure%mass%value(k) > 0.0_wp) cycle
-               largest = max(largest, diagonal(i)/structure%mass%value(k))
+               largest = max(largest, system%diagonal(i)/structure%mass%value(k))
             end do
          end associate
       end do
