@@ -77,8 +77,8 @@ contains
       if (size(fit%loops%lines) > 0) points = points//' of loading'
       call comment(out, 'law', 'lambda = c p^m, c = '//real_text(fit%c)//', m = '//real_text(fit%m))
       call comment(out, 'data', points//', p '//range_text(fit%p_low, fit%p_high)//', lambda to '//real_text(fit%lambda_high))
-      call comment(out, 'residual', 'of lambda: rms '//real_text(fit%rms)//', largest '//real_text(fit%largest)// &
-                   ' at p = '//real_text(fit%p_largest))
+      call comment(out, 'residual', 'of lambda: rms '//real_text(fit%residual%rms)//', largest '// &
+                   real_text(fit%residual%largest)//' at p = '//real_text(fit%p_largest))
       associate (loops => fit%loops) ! the lines of unloading and reloading do not contribute to c and m
          if (size(loops%lines) == 0) return
          call comment(out, 'unload', 'E_u = '//real_text(loops%e_u)//', standard error '// &
@@ -131,8 +131,8 @@ contains
       if (fit%has_loading .and. fit%d_max <= 0.0_wp) call comment(out, 'DMAX', 'left blank: the data do not show it')
    end subroutine describe_shear
 
-   !> Write branch B of the card: the cubic of each pressure, which are the points of Fig. 2, the lines through them and, for test points,
-   !! the one-step fit.
+   !> Write branch B of the card: the cubic of each pressure (the points of Fig. 2), the lines through them and, for test points, the
+   !! one-step fit.
    subroutine describe_branch(data, fit, b, joint_fit, out)
       type(test_data_type), intent(in)      :: data
       type(surface_fit_type), intent(in)    :: fit

@@ -2,7 +2,7 @@
 module surface_fit
    use branch_cubic, only: cubic
    use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_none, fault_one_pressure, fit_lines_only, &
-                         fit_loops, fit_points, loop_fit_type
+                         fit_loops, fit_points, loop_fit_type, residual_of, residual_type
    use data_columns, only: branch_words, column_c, column_d, column_lambda, column_p, column_tau, data_normal, data_shear, &
                            fit_load, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
@@ -27,7 +27,8 @@ module surface_fit
       integer  :: n_points = 0
       real(wp) :: p_low = 0.0_wp, p_high = 0.0_wp  !! [pressure]
       real(wp) :: lambda_high = 0.0_wp             !! [length]
-      real(wp) :: rms = 0.0_wp, largest = 0.0_wp, p_largest = 0.0_wp !! residual of lambda [length], and its place [pressure]
+      type(residual_type) :: residual              !! of lambda [length]
+      real(wp) :: p_largest = 0.0_wp               !! p of the largest residual [pressure]
       type(loop_fit_type) :: loops                 !! lines of unloading and reloading
    end type normal_fit_type
 
@@ -58,6 +59,7 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(shear_law) :: law
       real(wp) :: largest, smallest, positive(4)
+      integer  :: from(3) ! branch of the card for each branch of the law
 
       fit%kind = data%kind
       fit%warnings = data%warnings
@@ -70,7 +72,7 @@ contains
                     branch => data%branch(:data%n))
             call fit_loops(p, lambda, branch, data%run(:data%n), data%joined(:data%n), fit%normal%loops)
             call fit_normal(pack(p, branch == fit_load), pack(lambda, branch == fit_load), fit%normal, errors, fit%warnings)
-            call check_residual('', 'lambda', fit%normal%largest, maxval(abs(lambda)), fit%warnings)
+            call check_residual('lambda', 'lambda', fit%normal%residual%largest, maxval(abs(lambda)), fit%warnings)
          end associate
       end if
       if (errors%any()) return
@@ -82,10 +84,9 @@ contains
       if (smallest < smallest_size) call errors%add(0, 'the law that fits these data has a number of '//real_text(smallest)// &
          ', and a deck accepts none below '//real_text(smallest_size)//': are the units right?')
       if (errors%any() .or. .not. fit%has_loading) return
-      law = shear_law(given=.true., load=cubic(fit%card(:, :, fit_load)), unload=cubic(fit%card(:, :, fit_load)), &
-                      reload=cubic(fit%card(:, :, fit_load)), p_max=fit%p_max)
-      if (fit%branch(fit_unload)%n_points > 0) law%unload = cubic(fit%card(:, :, fit_unload))
-      if (fit%branch(fit_reload)%n_points > 0) law%reload = cubic(fit%card(:, :, fit_reload))
+      from = merge([fit_load, fit_unload, fit_reload], fit_load, fit%branch%n_points > 0)
+      law = shear_law(given=.true., load=cubic(fit%card(:, :, fit_load)), unload=cubic(fit%card(:, :, from(fit_unload))), &
+                      reload=cubic(fit%card(:, :, from(fit_reload))), p_max=fit%p_max)
       if (fit%d_max > 0.0_wp) law%d_max = fit%d_max
       fit%closure = worst_closure(law, fit%p_max)
       if (fit%closure%is_known .and. fit%closure%share > wide_gap) &
@@ -120,7 +121,7 @@ contains
          fit%card(:, :, b) = fit%branch(b)%lines
          if (.not. fit%branch(b)%from_points) cycle
          if (command%fit%one_step) fit%card(:, :, b) = fit%branch(b)%joint
-         call check_residual(trim(branch_words(fit%source(b))), 'tau', merge(fit%branch(b)%of_joint%largest, &
+         call check_residual(trim(branch_words(fit%source(b)))//': tau', 'tau', merge(fit%branch(b)%of_joint%largest, &
                              fit%branch(b)%of_lines%largest, command%fit%one_step), maxval(abs(data%value(column_tau, :data%n))), &
                              fit%warnings)
       end do
@@ -135,17 +136,13 @@ contains
    end subroutine fit_shear
 
    !> Warn where readings lie far off the fit.
-   subroutine check_residual(branch, reading, residual, largest, warnings)
-      character(*), intent(in)             :: branch, reading
+   subroutine check_residual(subject, reading, residual, largest, warnings)
+      character(*), intent(in)             :: subject, reading  !! 'LOAD: tau', 'tau'
       real(wp), intent(in)                 :: residual, largest !! largest deviation from the law; largest reading
       type(deck_error_list), intent(inout) :: warnings
-      character(:), allocatable :: whose
 
-      if (residual <= much*largest) return
-      whose = branch
-      if (branch /= '') whose = branch//': '
-      call warnings%add(0, whose//reading//' lies up to '//real_text(residual)//' off the law on the card, more than 5 % '// &
-                        'of the largest '//reading//', '//real_text(largest))
+      if (residual > much*largest) call warnings%add(0, subject//' lies up to '//real_text(residual)//' off the law on the card'// &
+         ', more than 5 % of the largest '//reading//', '//real_text(largest))
    end subroutine check_residual
 
    !> Fit a branch of the card to the rows of branch SOURCE.
@@ -232,8 +229,7 @@ contains
       real(wp), intent(in)                 :: lambda(:) !! [length]
       type(normal_fit_type), intent(inout) :: fit
       type(deck_error_list), intent(inout) :: errors, warnings
-      real(wp) :: off(size(p)), slope
-      integer  :: at
+      real(wp) :: slope
       logical  :: ok
 
       call fit_power_law(p, lambda, fit%c, fit%m, ok)
@@ -250,15 +246,12 @@ contains
          fit%m = 1.0_wp
          fit%c = fit_proportional(p, lambda)
       end if
-      off = abs(lambda - fit%c*max(p, 0.0_wp)**fit%m)
-      at = maxloc(off, 1)
+      fit%residual = residual_of(lambda - fit%c*max(p, 0.0_wp)**fit%m)
+      fit%p_largest = p(fit%residual%at)
       fit%n_points = size(p)
       fit%p_low = minval(p)
       fit%p_high = maxval(p)
       fit%lambda_high = maxval(lambda)
-      fit%rms = norm2(off)/sqrt(real(size(p), wp))
-      fit%largest = off(at)
-      fit%p_largest = p(at)
       if (size(fit%loops%lines) == 0) return
       slope = fit%p_high**(1.0_wp - fit%m)/(fit%m*fit%c)
       if (fit%loops%e_u <= 0.0_wp) then

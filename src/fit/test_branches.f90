@@ -340,11 +340,12 @@ contains
       end do
    end subroutine take_off_offset
 
-   !> Report readings below zero by more than the band of noise: p, and d of rows given as loading. The p of a shear test is prescribed, without noise.
+   !> Report readings below zero by more than the band of noise: p, and d of rows given as loading. The p of a shear test is prescribed,
+   !! without noise.
    subroutine check_signs(data, errors)
       type(test_data_type), intent(in)     :: data
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: fault, help, word
+      character(:), allocatable :: help, help_of_p, word
       real(wp) :: lowest(2)
       integer  :: i
 
@@ -352,14 +353,15 @@ contains
       if (data%kind == data_shear) lowest(2) = 0.0_wp
       help = '; --zero subtracts the first reading of a test from all its readings, --noise allows more noise than '// &
              real_text(0.01_wp*anint(1.0e4_wp*data%band))//' % of the range'
+      help_of_p = ''
+      if (data%kind == data_normal) help_of_p = help
       do i = 1, data%n
          associate (p => data%place(:, column_p, i), d => data%place(:, column_d, i))
+            word = data%text%line(data%line(i))
+            word = word(p(1):min(p(2), len(word)))
             if (data%value(column_p, i) < lowest(2)) then
-               word = data%text%line(data%line(i))
-               word = word(p(1):min(p(2), len(word)))
-               fault = 'P: '''//word//''' is negative, expected 0 or more (compression is positive)'
-               if (data%kind == data_normal) fault = fault//help
-               call errors%add(data%line(i), fault, p(1), p(2))
+               call errors%add(data%line(i), 'P: '''//word//''' is negative, expected 0 or more (compression is positive)'// &
+                               help_of_p, p(1), p(2))
             else if (data%kind == data_shear .and. data%has_branch .and. data%branch(i) == fit_load .and. &
                      data%value(column_d, i) < lowest(1)) then
                call errors%add(data%line(i), 'd of the LOAD branch is negative: expected d and tau counted in the sense of '// &
