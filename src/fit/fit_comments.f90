@@ -139,9 +139,11 @@ contains
       integer, intent(in)                   :: b
       logical, intent(in)                   :: joint_fit
       type(output_file_type), intent(inout) :: out
-      character(14) :: cells(6)
+      character(14) :: cells(6), on_card(2)
       integer :: first, i, last
 
+      on_card = ', on the card'                      ! the lines of the two steps, those of the one step
+      on_card(merge(1, 2, joint_fit .and. fit%branch(b)%from_points)) = ''
       associate (branch => fit%branch(b), points => fit%branch(b)%from_points, letter => branch_letters(b), &
                  rows => fit%branch(b)%row)
          if (points) then
@@ -166,12 +168,12 @@ contains
             if (size(branch%start) > size(branch%group_p) .and. branch%constant) &
                call table_of_runs(branch, letter, data%run(rows), data%value(column_d, rows), out)
             if (points) call comment(out, '', 'residual of these cubics: '//residual_words(branch%of_cubics))
-            call comment(out, '', 'lines through their coefficients (Fig. 2)'//on_card(.not. (points .and. joint_fit))//':')
+            call comment(out, '', 'lines through their coefficients (Fig. 2)'//trim(on_card(1))//':')
             call lines_of_coefficients(branch, b, branch%lines, .true., out)
             if (points) call comment(out, '', '   residual: '//residual_words(branch%of_lines))
          end if
          if (.not. points) return
-         call comment(out, '', 'all points in one step'//on_card(joint_fit)//':')
+         call comment(out, '', 'all points in one step'//trim(on_card(2))//':')
          call lines_of_coefficients(branch, b, branch%joint, .false., out)
          call comment(out, '', '   residual: '//residual_words(branch%of_joint))
       end associate
@@ -229,13 +231,6 @@ contains
          call comment(out, '', words)
       end do
    end subroutine lines_of_coefficients
-
-   pure function on_card(chosen) result(words)
-      logical, intent(in)       :: chosen
-      character(:), allocatable :: words
-
-      words = trim(merge(', on the card', '             ', chosen))
-   end function on_card
 
    pure function range_text(low, high) result(words)
       real(wp), intent(in)      :: low, high

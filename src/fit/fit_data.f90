@@ -141,7 +141,7 @@ contains
       type(header_type), intent(in)        :: header
       type(test_data_type), intent(inout)  :: data
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: fault, word
+      character(:), allocatable :: fault
       integer :: column, k
 
       associate (n => size(entries), expected => size(header%columns))
@@ -159,8 +159,7 @@ contains
       do k = 1, size(header%columns)
          column = header%columns(k)
          if (column == 0) cycle
-         word = line(entries(k)%first:entries(k)%last)
-         call read_entry(word, column, header%factors(column), data, fault)
+         call read_entry(line(entries(k)%first:entries(k)%last), column, header%factors(column), data, fault)
          associate (place => data%place(:, column, data%n))
             place = [entries(k)%first, max(entries(k)%first, entries(k)%last)]
             if (fault /= '') call errors%add(at, trim(column_names(column))//': '//fault, place(1), place(2))

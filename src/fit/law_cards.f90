@@ -18,41 +18,37 @@ contains
    !! their point A. A branch is followed as in the joint: unloading with decreasing d, the others with increasing d.
    subroutine check_slopes(fit)
       type(surface_fit_type), intent(inout) :: fit
-      integer  :: b
-      real(wp) :: d_max, way(2)
+      character(:), allocatable :: words
+      integer  :: b, k
+      logical  :: lost
+      real(wp) :: d, d_max, p, pressures(2), way(2)
 
       d_max = fit%d_max
       if (d_max <= 0.0_wp) d_max = huge(d_max)
       do b = fit_load, fit_reload
          associate (branch => fit%branch(b))
             if (branch%n_points == 0) cycle
-            way = [0.0_wp, d_max]
-            if (branch%from_points) way = [branch%d_low, branch%d_high]
-            if (b == fit_load) way(1) = min(way(1), 0.0_wp)
-            if (b == fit_unload .and. branch%from_points) way = way([2, 1])
-            if (loses_slope(fit, b, [branch%p_low, branch%p_high], way, 'inside the tested range')) cycle
-            if (.not. fit%has_loading) cycle
-            way = [0.0_wp, d_max]
-            if (b /= fit_load .and. fit%d_max > 0.0_wp) way(1) = -d_max
-            if (b == fit_unload .and. fit%d_max > 0.0_wp) way = way([2, 1])
-            if (loses_slope(fit, b, [0.0_wp, fit%p_max], way, 'outside the tested range of the branch, but inside the '// &
-                            'range of the card, which --dmax sets')) cycle
+            do k = 1, merge(2, 1, fit%has_loading)
+               way = [0.0_wp, d_max]
+               if (k == 1) then
+                  pressures = [branch%p_low, branch%p_high]
+                  if (branch%from_points) way = [branch%d_low, branch%d_high]
+                  if (b == fit_load) way(1) = min(way(1), 0.0_wp)
+                  words = ', inside the tested range'
+               else
+                  pressures = [0.0_wp, fit%p_max]
+                  if (b /= fit_load .and. fit%d_max > 0.0_wp) way(1) = -d_max
+                  words = ', outside the tested range of the branch, but inside the range of the card, which --dmax sets'
+               end if
+               if (b == fit_unload .and. merge(branch%from_points, fit%d_max > 0.0_wp, k == 1)) way = way([2, 1])
+               call find_slope_loss(fit%card(:, :, b), pressures(1), pressures(2), way(1), way(2), lost, p, d)
+               if (lost) call fit%warnings%add(0, trim(branch_words(b))//': the slope of tau becomes zero or negative at p = '// &
+                                               real_text(p)//', d = '//real_text(d)//words)
+               if (lost) exit
+            end do
          end associate
       end do
    end subroutine check_slopes
-
-   !> Whether the slope of branch B becomes zero or negative for pressures between P(1) and P(2) and d from WAY(1) to WAY(2); then warn.
-   logical function loses_slope(fit, b, p, way, range) result(lost)
-      type(surface_fit_type), intent(inout) :: fit
-      integer, intent(in)      :: b
-      real(wp), intent(in)     :: p(2), way(2)
-      character(*), intent(in) :: range
-      real(wp) :: p_lost, d_lost
-
-      call find_slope_loss(fit%card(:, :, b), p(1), p(2), way(1), way(2), lost, p_lost, d_lost)
-      if (lost) call fit%warnings%add(0, trim(branch_words(b))//': the slope of tau becomes zero or negative at p = '// &
-                                      real_text(p_lost)//', d = '//real_text(d_lost)//', '//range)
-   end function loses_slope
 
    !> From d = FROM to d = TO, find the first d at which dtau/dd = sum over k of k (a_k1 + a_k2 p) d^(k-1) is not positive for some p
    !! between P_LOW and P_HIGH. The slope is linear in p, so its minimum is at P_LOW or P_HIGH: two quadratics in d decide.
@@ -62,47 +58,34 @@ contains
       real(wp), intent(in)  :: from, to      !! [length], TO = +-huge: unbounded
       logical, intent(out)  :: found
       real(wp), intent(out) :: p, d          !! the place, if FOUND
-      real(wp) :: ends(2), place
-      logical  :: lost
-      integer  :: i
+      real(wp) :: a(3), ends(2), discriminant, places(3), q, sense
+      logical  :: lost(3)
+      integer  :: first, i
 
       found = .false.
       p = 0.0_wp
       d = 0.0_wp
       ends = [p_low, p_high]
+      sense = sign(1.0_wp, to - from)
       do i = 1, 2
-         call find_first_root(lines(1, :) + lines(2, :)*ends(i), from, to, lost, place)
-         if (.not. lost .or. (found .and. abs(place - from) >= abs(d - from))) cycle
+         a = lines(1, :) + lines(2, :)*ends(i)
+         places = from                            ! the start, and the roots of a1 + 2 a2 d + 3 a3 d^2
+         discriminant = a(2)**2 - 3.0_wp*a(3)*a(1)
+         q = -(a(2) + sign(sqrt(max(discriminant, 0.0_wp)), a(2)))
+         if (discriminant >= 0.0_wp .and. abs(q) > 0.0_wp) then ! the two roots q/(3 a3) and a1/q, without cancellation
+            places(2) = a(1)/q
+            if (abs(a(3)) > tiny(q)) places(3) = q/(3.0_wp*a(3))
+         end if
+         lost = (places - from)*sense > 0.0_wp .and. (places - to)*sense <= 0.0_wp
+         lost(1) = a(1) + from*(2.0_wp*a(2) + from*3.0_wp*a(3)) <= 0.0_wp
+         if (.not. any(lost)) cycle
+         first = minloc(abs(places - from), 1, lost)
+         if (found .and. abs(places(first) - from) >= abs(d - from)) cycle
          found = .true.
          p = ends(i)
-         d = place
+         d = places(first)
       end do
    end subroutine find_slope_loss
-
-   !> The first d from FROM to TO with a(1) + 2 a(2) d + 3 a(3) d^2 <= 0.
-   pure subroutine find_first_root(a, from, to, found, d)
-      real(wp), intent(in)  :: a(3), from, to
-      logical, intent(out)  :: found
-      real(wp), intent(out) :: d
-      real(wp) :: discriminant, q, roots(2), sense
-      logical  :: inside(2)
-
-      d = from
-      found = a(1) + from*(2.0_wp*a(2) + from*3.0_wp*a(3)) <= 0.0_wp
-      if (found) return
-      discriminant = a(2)**2 - 3.0_wp*a(3)*a(1)
-      if (discriminant < 0.0_wp) return
-      q = -(a(2) + sign(sqrt(discriminant), a(2)))
-      roots = from
-      if (abs(q) > 0.0_wp) then                ! the two roots q/(3 a3) and a1/q, without cancellation
-         roots(1) = a(1)/q
-         if (abs(a(3)) > tiny(q)) roots(2) = q/(3.0_wp*a(3))
-      end if
-      sense = sign(1.0_wp, to - from)
-      inside = (roots - from)*sense > 0.0_wp .and. (roots - to)*sense <= 0.0_wp
-      found = any(inside)
-      if (found) d = roots(minloc(abs(roots - from), 1, inside))
-   end subroutine find_first_root
 
    !> JNORM NID C M EU; a zero E_U leaves its field blank.
    function jnorm_card(id, c, m, e_u, small) result(lines)

@@ -153,7 +153,7 @@ contains
       type(branch_fit_type), intent(out)   :: fit
       type(deck_error_list), intent(inout) :: errors
       integer, allocatable :: rows(:)
-      character(:), allocatable :: name
+      character(:), allocatable :: help, name
       integer :: i
       logical :: met(data%n)
 
@@ -171,6 +171,10 @@ contains
          call fit_lines_only(data%value(column_c, rows), data%value(column_p, rows), command%fit%one_pressure, fit)
       end if
       fit%row = rows
+      help = ''                   ! where measured pressures are close to each other but count as different
+      associate (p => fit%group_p, n => size(fit%group_p))
+         if (any(p(2:) < 1.05_wp*p(:n - 1))) help = ', --p-tolerance 0.05 counts pressures within 5 % as one'
+      end associate
       select case (fit%fault)
       case (fault_one_pressure)
          call errors%add(data%line(rows(1)), name//': all data at one pressure, p = '//real_text(fit%p_high)// &
@@ -180,10 +184,10 @@ contains
          call errors%add(data%line(rows(i)), name//', p = '//real_text(fit%group_p(fit%fault_at))//': '// &
                          plural(count(fit%group == fit%fault_at), 'point')//' that fix no cubic, expected '// &
                          trim(merge('four different d or more             ', 'three different d or more, not zero  ', &
-                         fit%constant))//'; --joint-fit needs no cubic of each pressure'//tolerance_help(fit))
+                         fit%constant))//'; --joint-fit needs no cubic of each pressure'//help)
       case (fault_dependent)
          call errors%add(data%line(rows(1)), name//': '//plural(size(rows), 'point')// &
-                         ' that do not fix the coefficients: expected more different d and p'//tolerance_help(fit))
+                         ' that do not fix the coefficients: expected more different d and p'//help)
       end select
 
    contains
@@ -211,17 +215,6 @@ contains
       end function returns
 
    end subroutine fit_branch
-
-   !> The option that helps where measured pressures are close to each other but count as different.
-   function tolerance_help(fit) result(words)
-      type(branch_fit_type), intent(in) :: fit
-      character(:), allocatable :: words
-
-      words = ''
-      associate (p => fit%group_p, n => size(fit%group_p))
-         if (any(p(2:) < 1.05_wp*p(:n - 1))) words = ', --p-tolerance 0.05 counts pressures within 5 % as one'
-      end associate
-   end function tolerance_help
 
    !> Fit the power law to points of loading, with m at most 1. Missing data go to ERRORS, an m held at 1 goes to WARNINGS.
    subroutine fit_normal(p, lambda, fit, errors, warnings)
@@ -272,9 +265,10 @@ contains
       real(wp), intent(out) :: c         !! [length/pressure^m]
       real(wp), intent(out) :: m         !! [-]
       logical, intent(out)  :: ok
-      real(wp), allocatable :: x(:), y(:)
-      real(wp) :: line(2), mean
+      real(wp), allocatable :: jacobian(:, :), law(:), x(:), y(:)
+      real(wp) :: before, mean, now, q(2), step(2)  ! q: ln c at the mean of ln p, and m
       logical  :: above(size(p))
+      integer  :: halvings, k
 
       c = 0.0_wp
       m = 0.0_wp
@@ -282,41 +276,30 @@ contains
       ok = count(above) >= 2
       if (.not. ok) return
       x = log(pack(p, above))
-      y = log(pack(lambda, above))
       mean = sum(x)/size(x)      ! at the mean of ln p the two unknowns are almost independent
-      call fit_line(x - mean, y, line, ok)
+      call fit_line(x - mean, log(pack(lambda, above)), q, ok)
       if (.not. ok) return
-      call gauss_newton(log(pack(p, p > 0.0_wp)) - mean, pack(lambda, p > 0.0_wp), line, ok)
-      m = line(2)
-      c = exp(line(1) - m*mean)
-   end subroutine fit_power_law
-
-   !> From the start Q, the Q that minimizes the sum of (exp(Q(1) + Q(2) x) - lambda)^2.
-   subroutine gauss_newton(x, lambda, q, ok)
-      real(wp), intent(in)    :: x(:), lambda(:)
-      real(wp), intent(inout) :: q(2)
-      logical, intent(out)    :: ok
-      real(wp) :: jacobian(size(x), 2), law(size(x)), step(2), now, before
-      integer  :: halvings, k
-
+      x = log(pack(p, p > 0.0_wp)) - mean
+      y = pack(lambda, p > 0.0_wp)
       before = sum_of_squares(q)
       do k = 1, most_steps
          law = exp(q(1) + q(2)*x)
-         jacobian(:, 1) = law
-         jacobian(:, 2) = law*x
-         call solve_least_squares(jacobian, lambda - law, step, ok)
-         if (.not. ok) return
+         jacobian = reshape([law, law*x], [size(x), 2])
+         call solve_least_squares(jacobian, y - law, step, ok)
+         if (.not. ok) exit
          do halvings = 1, most_halvings
             now = sum_of_squares(q + step)
             if (now <= before) exit
             step = 0.5_wp*step
          end do
-         if (now > before) return     ! no direction of descent is left: q is the minimum to rounding
+         if (now > before) exit  ! no direction of descent is left: q is the minimum to rounding
          q = q + step
          before = now
-         if (maxval(abs(step)) <= settled) return
+         if (maxval(abs(step)) <= settled) exit
       end do
-      ok = .false.
+      ok = ok .and. k <= most_steps
+      m = q(2)
+      c = exp(q(1) - m*mean)
 
    contains
 
@@ -324,10 +307,10 @@ contains
          real(wp), intent(in) :: trial(2)
 
          total = huge(total)
-         if (maxval(abs(trial(1) + trial(2)*x)) < 300.0_wp) total = sum((exp(trial(1) + trial(2)*x) - lambda)**2)
+         if (maxval(abs(trial(1) + trial(2)*x)) < 300.0_wp) total = sum((exp(trial(1) + trial(2)*x) - y)**2)
       end function sum_of_squares
 
-   end subroutine gauss_newton
+   end subroutine fit_power_law
 
    !> The c of lambda = c p, the law with m = 1 [length/pressure].
    pure real(wp) function fit_proportional(p, lambda) result(c)

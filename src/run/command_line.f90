@@ -235,7 +235,6 @@ contains
       type(setting_type), intent(in)     :: settings(:)
       integer, intent(in)                :: run
       type(deck_argument), intent(inout) :: deck
-      character(:), allocatable :: value
       integer :: i, k, n(size(settings)), which
 
       n = [(size(settings(k)%commas) - 1, k = 1, size(settings))]
@@ -244,16 +243,15 @@ contains
       do k = 1, size(settings)
          which = modulo(run/product(n(k + 1:)), n(k)) + 1
          associate (commas => settings(k)%commas, parameter => deck%parameters(k))
-            value = settings(k)%values(commas(which) + 1:commas(which + 1) - 1)
             parameter%name = settings(k)%name
-            parameter%value = value
+            parameter%value = settings(k)%values(commas(which) + 1:commas(which + 1) - 1)
             if (n(k) == 1) cycle
-            do i = 1, len(value) ! the name of a file cannot have slashes
-               if (value(i:i) == '/') value(i:i) = '-'
-            end do
-            deck%base = deck%base//'_'//parameter%name//'='//value
+            deck%base = deck%base//'_'//parameter%name//'='//parameter%value
             deck%name = deck%name//', '//parameter%name//'='//parameter%value
          end associate
+      end do
+      do i = 1, len(deck%base) ! the name of a file cannot have slashes
+         if (deck%base(i:i) == '/') deck%base(i:i) = '-'
       end do
    end subroutine set_parameters
 
