@@ -12,8 +12,8 @@ module run_end
    use table_writer, only: column, column_type, csv, csv_titles, heading, history_ending, table_type
    use model_data, only: model_type, n_points
    use output_file, only: output_file_type
-   use progress, only: phase_write, has_errors, is_over, is_refused, is_unreadable, is_unsolved, is_unwritten, run_type, &
-                       status_of, was_checked, was_searched, would_overwrite
+   use progress, only: phase_write, end_progress, enter, has_errors, is_over, is_refused, is_unreadable, is_unsolved, &
+                       is_unwritten, run_type, status_of, tell, was_checked, was_searched, would_overwrite
    use range_watch, only: distance_words, tetra_words
    use results, only: digest_type, discard_results, finish_results, listing_ending, restart_ending, show_answers
    use stage_plan, only: stage_plan_type
@@ -55,9 +55,9 @@ contains
       logical :: ok, shown
 
       if (run%keeps_results .or. .not. is_over(run)) then
-         call run%progress%enter(phase_write)
+         call enter(run, phase_write)
          call finish_results(plan, run%failure, run%results, ok)
-         call run%progress%finish()
+         call end_progress(run)
          associate (watch => run%results%watch)
             if (watch%n_warnings > 0) call tell(run, plural(watch%n_warnings, 'warning')//' in the listing')
             call tell(run, watch%poor_condition)
@@ -85,7 +85,7 @@ contains
       row%name = run%argument%name
       row%status = status_of(run%ending)
       call system_clock(now, rate)
-      row%seconds = real(now - run%progress%began, wp)/real(rate, wp)
+      row%seconds = real(now - run%began, wp)/real(rate, wp)
       row%digest = run%results%digest
       associate (digest => row%digest)
          if (digest%stages == 0) return
@@ -96,14 +96,6 @@ contains
       row%watched = run%results%watched%nodes(1)
       row%node = model%node_id(row%watched%node)
    end subroutine finish_run
-
-   !> Print WORDS about the deck of RUN, if any.
-   subroutine tell(run, words)
-      type(run_type), intent(in) :: run
-      character(*), intent(in)   :: words
-
-      if (words /= '') call say_line(run%argument%name//': '//words)
-   end subroutine tell
 
    !> Report that the standard output is full or closed.
    subroutine miss_output(run)
