@@ -1,4 +1,5 @@
 !> Fits the laws of one surface to its test data: the shear branches and the power law lambda = c p^m (Eq. 1).
+!! Warns where the slope of a fitted cubic turns negative in the range of the card: a joint has no negative stiffness.
 module surface_fit
    use branch_cubic, only: cubic
    use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_none, fault_one_pressure, fit_lines_only, &
@@ -18,7 +19,7 @@ module surface_fit
    implicit none
    private
 
-   public :: fit_surface, fit_normal, fit_power_law, fit_proportional
+   public :: fit_surface, fit_power_law, fit_proportional, check_slopes, find_slope_loss
 
    real(wp), parameter :: much = 0.05_wp ! a residual above this share of the largest reading is reported
 
@@ -318,5 +319,79 @@ contains
 
       c = dot_product(p, lambda)/dot_product(p, p)
    end function fit_proportional
+
+   !> Check the slope of every fitted branch in the range of its data and, if it is positive there, in the range of the card: p from 0 to
+   !! PMAX, d to DMAX, and d below zero too for unloading and reloading, because these branches extend past zero to the mirror image of
+   !! their point A. A branch is followed as in the joint: unloading with decreasing d, the others with increasing d.
+   subroutine check_slopes(fit)
+      type(surface_fit_type), intent(inout) :: fit
+      character(:), allocatable :: words
+      integer  :: b, k
+      logical  :: lost
+      real(wp) :: d, d_max, p, pressures(2), way(2)
+
+      d_max = fit%d_max
+      if (d_max <= 0.0_wp) d_max = huge(d_max)
+      do b = fit_load, fit_reload
+         associate (branch => fit%branch(b))
+            if (branch%n_points == 0) cycle
+            do k = 1, merge(2, 1, fit%has_loading)
+               way = [0.0_wp, d_max]
+               if (k == 1) then
+                  pressures = [branch%p_low, branch%p_high]
+                  if (branch%from_points) way = [branch%d_low, branch%d_high]
+                  if (b == fit_load) way(1) = min(way(1), 0.0_wp)
+                  words = ', inside the tested range'
+               else
+                  pressures = [0.0_wp, fit%p_max]
+                  if (b /= fit_load .and. fit%d_max > 0.0_wp) way(1) = -d_max
+                  words = ', outside the tested range of the branch, but inside the range of the card, which --dmax sets'
+               end if
+               if (b == fit_unload .and. merge(branch%from_points, fit%d_max > 0.0_wp, k == 1)) way = way([2, 1])
+               call find_slope_loss(fit%card(:, :, b), pressures(1), pressures(2), way(1), way(2), lost, p, d)
+               if (lost) call fit%warnings%add(0, trim(branch_words(b))//': the slope of tau becomes zero or negative at p = '// &
+                                               real_text(p)//', d = '//real_text(d)//words)
+               if (lost) exit
+            end do
+         end associate
+      end do
+   end subroutine check_slopes
+
+   !> From d = FROM to d = TO, find the first d at which dtau/dd = sum over k of k (a_k1 + a_k2 p) d^(k-1) is not positive for some p
+   !! between P_LOW and P_HIGH. The slope is linear in p, so its minimum is at P_LOW or P_HIGH: two quadratics in d decide.
+   pure subroutine find_slope_loss(lines, p_low, p_high, from, to, found, p, d)
+      real(wp), intent(in)  :: lines(2, 3)   !! a_k1 and a_k2 for k = 1, 2, 3
+      real(wp), intent(in)  :: p_low, p_high !! [pressure]
+      real(wp), intent(in)  :: from, to      !! [length], TO = +-huge: unbounded
+      logical, intent(out)  :: found
+      real(wp), intent(out) :: p, d          !! the place, if FOUND
+      real(wp) :: a(3), ends(2), discriminant, places(3), q, sense
+      logical  :: lost(3)
+      integer  :: first, i
+
+      found = .false.
+      p = 0.0_wp
+      d = 0.0_wp
+      ends = [p_low, p_high]
+      sense = sign(1.0_wp, to - from)
+      do i = 1, 2
+         a = lines(1, :) + lines(2, :)*ends(i)
+         places = from                            ! the start, and the roots of a1 + 2 a2 d + 3 a3 d^2
+         discriminant = a(2)**2 - 3.0_wp*a(3)*a(1)
+         q = -(a(2) + sign(sqrt(max(discriminant, 0.0_wp)), a(2)))
+         if (discriminant >= 0.0_wp .and. abs(q) > 0.0_wp) then ! the two roots q/(3 a3) and a1/q, without cancellation
+            places(2) = a(1)/q
+            if (abs(a(3)) > tiny(q)) places(3) = q/(3.0_wp*a(3))
+         end if
+         lost = (places - from)*sense > 0.0_wp .and. (places - to)*sense <= 0.0_wp
+         lost(1) = a(1) + from*(2.0_wp*a(2) + from*3.0_wp*a(3)) <= 0.0_wp
+         if (.not. any(lost)) cycle
+         first = minloc(abs(places - from), 1, lost)
+         if (found .and. abs(places(first) - from) >= abs(d - from)) cycle
+         found = .true.
+         p = ends(i)
+         d = places(first)
+      end do
+   end subroutine find_slope_loss
 
 end module surface_fit

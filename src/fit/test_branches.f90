@@ -188,7 +188,7 @@ contains
    !! value from A. Points beyond A that are still off the curve, within its known range, then belong to no branch of the law.
    subroutine find_meeting(forward, stress, sense, goal, first, joins, branch)
       real(wp), intent(in)   :: forward(:), stress(:)
-      integer, intent(in)    :: sense(:), goal      !! of loading, 1 or -1: at the points before; of the curve that the path may meet
+      integer, intent(in)    :: sense(:), goal      !! of loading, 1 or -1: at the points; of the curve that the path may meet
       integer, intent(in)    :: first
       integer, intent(inout) :: joins               !! first point of loading
       integer, intent(inout) :: branch(:)

@@ -197,19 +197,15 @@ contains
          n = -1
          if (allocated(temperature%at)) n = size(temperature%at)
          call stream%extent(n, 8)
-         if (.not. stream%writes) then
-            if (allocated(temperature%at)) deallocate (temperature%at)
-            if (n >= 0) allocate (temperature%at(n))
-         end if
+         if (.not. stream%writes .and. allocated(temperature%at)) deallocate (temperature%at)
+         if (.not. stream%writes .and. n >= 0) allocate (temperature%at(n))
          if (n >= 0) call stream%item(temperature%at)
          call stream%item(temperature%reference_share)
          n = -1
          if (allocated(temperature%plate)) n = size(temperature%plate, 2)
          call stream%extent(n, 40)
-         if (.not. stream%writes) then
-            if (allocated(temperature%plate)) deallocate (temperature%plate)
-            if (n >= 0) allocate (temperature%plate(5, n))
-         end if
+         if (.not. stream%writes .and. allocated(temperature%plate)) deallocate (temperature%plate)
+         if (.not. stream%writes .and. n >= 0) allocate (temperature%plate(5, n))
          if (n >= 0) call stream%item(temperature%plate)
       end associate
    end subroutine record_loads
