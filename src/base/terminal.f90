@@ -2,7 +2,8 @@
 !! The progress line overwrites itself at most five times a second. It appears only where standard error is a terminal.
 module terminal
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use c_library, only: is_terminal, write_bytes
+   use, intrinsic :: iso_c_binding, only: c_int
+   use c_library, only: c_isatty, folder_file, kind_of_file, no_file, write_bytes
    use kinds, only: long
    implicit none
    private
@@ -105,18 +106,15 @@ contains
       class(input_argument), intent(in) :: input
       character(*), intent(in)          :: expected
       character(:), allocatable :: words
-      logical :: there, is_folder
 
-      is_folder = .false.
-      inquire (file=input%path, exist=there)
-      if (input%path /= '') inquire (file=input%path//'/.', exist=is_folder)
-      if (is_folder) then
-         words = 'a directory, expected '//expected
-      else if (there .and. input%path /= '') then
-         words = 'cannot be read'
-      else
+      select case (kind_of_file(input%path))
+      case (no_file)
          words = 'no such file'
-      end if
+      case (folder_file)
+         words = 'a directory, expected '//expected
+      case default
+         words = 'cannot be read'
+      end select
       write (error_unit, '(3a)') input%name, ': ', words
    end subroutine complain_of_input
 
@@ -126,7 +124,7 @@ contains
       logical, intent(in)      :: quiet
 
       shown = .false.
-      if (.not. quiet) shown = is_terminal(2)
+      if (.not. quiet) shown = c_isatty(2_c_int) == 1
       name = deck
       last = 0
    end subroutine open_line

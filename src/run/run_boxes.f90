@@ -14,7 +14,7 @@ module run_boxes
    use equation_solver, only: equation_system, failure_type
    use equations, only: form_body_stiffness, start_equations
    use facing_bodies, only: loose_words
-   use finite_state, only: check_precision, check_state
+   use finite_state, only: check_state
    use incomplete_results, only: say_at_interrupts, watch_ends
    use joint_suggestions, only: suggest_joints
    use kinds, only: wp
@@ -116,7 +116,7 @@ contains
          if (allocated(wanted%backbone)) call list_backbone(page, model, found, n_warnings)
          if (.not. allocated(wanted%response)) return
          call find_response(model, structure, wanted%response, spectrum, modes, shifted, response, run%failure)
-         if (.not. run%failure%raised) call list_response(page, response, n_warnings)
+         if (.not. run%failure%raised) call list_response(page, model, response, n_warnings)
       end associate
    end subroutine oscillate
 
@@ -305,7 +305,6 @@ contains
             analysis%unbalanced = unbalanced
          end if
          call check_state(model, plan, system, analysis, overflow)
-         call check_precision(model, plan, system, analysis, overflow)
          if (.not. overflow%raised) then
             call enter(run, phase_write)
             run%solver = system%description

@@ -9,7 +9,8 @@ module run_end
    use incomplete_results, only: say_at_interrupts, what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
-   use table_writer, only: column, column_type, csv, csv_titles, heading, history_ending, table_type
+   use result_page, only: history_ending
+   use table_writer, only: column, column_type, csv, csv_titles, heading, table_type
    use model_data, only: model_type, n_points
    use output_file, only: output_file_type
    use progress, only: phase_write, end_progress, enter, has_errors, is_over, is_refused, is_unreadable, is_unsolved, &
