@@ -143,6 +143,7 @@ contains
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: fault
       integer :: column, k
+      logical :: ok
 
       associate (n => size(entries), expected => size(header%columns))
          if (n /= expected) then
@@ -159,47 +160,34 @@ contains
       do k = 1, size(header%columns)
          column = header%columns(k)
          if (column == 0) cycle
-         call read_entry(line(entries(k)%first:entries(k)%last), column, header%factors(column), data, fault)
-         associate (place => data%place(:, column, data%n))
+         fault = ''
+         associate (word => line(entries(k)%first:entries(k)%last), place => data%place(:, column, data%n), &
+                    value => data%value(column, data%n), branch => data%branch(data%n), run => data%run(data%n))
+            if (word == '') then
+               fault = 'nothing between two commas, expected an entry'
+            else if (column == column_branch .and. (data%kind == data_cubics .or. .not. is_number(word))) then
+               branch = findloc(branch_words == upper(word), .true., 1)
+               if (branch == 0) fault = ''''//word//''', expected LOAD, UNLOAD or RELOAD'
+            else if (column == column_run .or. column == column_branch) then
+               call read_number(word, value, ok)
+               ok = ok .and. abs(value) <= huge(run)
+               if (ok) run = nint(value)
+               if (ok) ok = run > 0 .and. abs(value - run) < 1.0e-6_wp
+               if (.not. ok) fault = ''''//word//''' is not the number of a run, expected 1, 2, 3 and so on'
+            else
+               call read_number(word, value, ok)
+               if (.not. ok) then
+                  fault = ''''//word//''' is not a number'
+               else if (abs(value) > 1.0e30_wp) then
+                  fault = ''''//word//''' is beyond 1E30'
+                  value = 0.0_wp ! reading continues and finds the errors in the next entries
+               end if
+               value = value*header%factors(column)
+            end if
             place = [entries(k)%first, max(entries(k)%first, entries(k)%last)]
             if (fault /= '') call errors%add(at, trim(column_names(column))//': '//fault, place(1), place(2))
          end associate
       end do
    end subroutine read_row
-
-   !> Read the entry WORD in its COLUMN of the last row, to be multiplied by FACTOR. FAULT is the error, empty where there is none.
-   subroutine read_entry(word, column, factor, data, fault)
-      character(*), intent(in)               :: word
-      integer, intent(in)                    :: column
-      real(wp), intent(in)                   :: factor
-      type(test_data_type), intent(inout)    :: data
-      character(:), allocatable, intent(out) :: fault
-      logical :: ok
-
-      fault = ''
-      associate (value => data%value(column, data%n), branch => data%branch(data%n), run => data%run(data%n))
-         if (word == '') then
-            fault = 'nothing between two commas, expected an entry'
-         else if (column == column_branch .and. (data%kind == data_cubics .or. .not. is_number(word))) then
-            branch = findloc(branch_words == upper(word), .true., 1)
-            if (branch == 0) fault = ''''//word//''', expected LOAD, UNLOAD or RELOAD'
-         else if (column == column_run .or. column == column_branch) then
-            call read_number(word, value, ok)
-            ok = ok .and. abs(value) <= huge(run)
-            if (ok) run = nint(value)
-            if (ok) ok = run > 0 .and. abs(value - run) < 1.0e-6_wp
-            if (.not. ok) fault = ''''//word//''' is not the number of a run, expected 1, 2, 3 and so on'
-         else
-            call read_number(word, value, ok)
-            if (.not. ok) then
-               fault = ''''//word//''' is not a number'
-            else if (abs(value) > 1.0e30_wp) then
-               fault = ''''//word//''' is beyond 1E30'
-               value = 0.0_wp ! reading continues and finds the errors in the next entries
-            end if
-            value = value*factor
-         end if
-      end associate
-   end subroutine read_entry
 
 end module fit_data

@@ -13,7 +13,7 @@ module restart_file
    use equation_solver, only: equation_system
    use incomplete_results, only: create_part, name_part, say_at_interrupts
    use model_data, only: model_type
-   use progress, only: goes_on, is_over, is_refused, run_type, tell
+   use run_of_deck, only: goes_on, is_over, is_refused, run_type, tell
    use restart_stream, only: open_restart, restart_stream_type
    use results, only: record_results, restart_ending
    use stage_plan, only: stage_plan_type, where_in_plan

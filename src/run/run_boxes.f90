@@ -1,5 +1,5 @@
 !> Runs the boxes of the flow chart that belong to no method: reading, building and printing.
-!! Each box shows its phase on the terminal. After an end of the run the later boxes do nothing. Only finish_run of run_end reports
+!! Each box shows its phase on the terminal. After an end of the run the later boxes do nothing. Only finish_run reports
 !! why the run ended.
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
@@ -28,11 +28,11 @@ module run_boxes
    use model_data, only: model_type
    use natural_modes, only: find_natural_modes, release_supports, oscillating_type, spectrum_type, start_oscillation
    use newton_method, only: seat_joints
-   use progress, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, phase_recover, &
-                       phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, &
-                       start_run, tell, was_checked, was_searched, would_overwrite
    use restart_file, only: open_restart_file, take_up, write_restart
    use results, only: list_results => print_increment, print_modes, print_stage, remove_old_results, start_results
+   use run_of_deck, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, &
+                          phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
+                          is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
    use unit_watch, only: unit_words
    use vibration_tables, only: list_backbone, list_response
