@@ -10,10 +10,9 @@ program jointfem
    use load_path, only: start_increment, start_stage
    use model_data, only: model_type
    use newton_method, only: newton_increment
-   use progress, only: run_type
    use run_boxes, only: another_increment, another_stage, build_structure, form_bodies, go_on, print_increment, read_data, &
                         start_joints, start_program
-   use run_end, only: end_program, finish_run, summary_row
+   use run_of_deck, only: end_program, finish_run, run_type, summary_row
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none

@@ -5,15 +5,14 @@ program jointfit
    use deck_errors, only: deck_error_list
    use error_report, only: print_errors
    use fit_command, only: fit_command_type, read_fit_command
-   use fit_comments, only: write_cards
    use fit_data, only: read_test_data, test_data_type
    use fit_plot, only: write_plot
    use incomplete_results, only: all_complete, watch_ends, what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use law_cards, only: check_slopes
+   use law_cards, only: write_cards
    use machine, only: use_threads
    use output_file, only: output_file_type
-   use surface_fit, only: fit_surface, surface_fit_type
+   use surface_fit, only: check_slopes, fit_surface, surface_fit_type
    use terminal, only: complain_of_input
    use test_branches, only: find_branches
    implicit none
@@ -21,6 +20,7 @@ program jointfit
    type(fit_command_type) :: command
    type(output_file_type) :: out, plot
    integer :: exit_status, i ! the highest status of all files
+   logical :: ok
 
    call read_fit_command(command, exit_status)
    if (exit_status >= 0) call end_run(exit_status)
@@ -33,7 +33,19 @@ program jointfit
    do i = 1, size(command%files)
       call fit_file(i)
    end do
-   call end_outputs()
+   if (command%plot /= '') then
+      call plot%finish(ok)
+      if (what_is_in_the_way() /= '') then
+         write (error_unit, '(2a)') 'jointfit: ', what_is_in_the_way()
+      else if (.not. ok) then
+         write (error_unit, '(3a)') 'jointfit: ', command%plot, ' cannot be written'
+      end if
+      call all_complete()
+      if (.not. ok) exit_status = max(exit_status, status_unwritten)
+   end if
+   call out%finish(ok)
+   if (.not. ok) write (error_unit, '(a)') 'jointfit: the cards cannot be written to the standard output'
+   if (.not. ok) exit_status = max(exit_status, status_unwritten)
    call end_run(exit_status)
 
 contains
@@ -70,7 +82,7 @@ contains
          call check_slopes(fit)
 
          ! --------------------------------------------------------------- CARDS
-         call write_cards(file%name, data, command, command%id + (i - 1), fit, out)
+         call write_cards(command, i, data, fit, out)
          if (command%plot /= '') call write_plot(command, i, data, fit, plot)
 
          ! --------------------------------------------------------------- WARNINGS
@@ -85,24 +97,5 @@ contains
             trim(branch_words(k))//' data'
       end associate
    end subroutine fit_file
-
-   !> Complete the plot and the cards.
-   subroutine end_outputs()
-      logical :: ok
-
-      if (command%plot /= '') then
-         call plot%finish(ok)
-         if (what_is_in_the_way() /= '') then
-            write (error_unit, '(2a)') 'jointfit: ', what_is_in_the_way()
-         else if (.not. ok) then
-            write (error_unit, '(3a)') 'jointfit: ', command%plot, ' cannot be written'
-         end if
-         call all_complete()
-         if (.not. ok) exit_status = max(exit_status, status_unwritten)
-      end if
-      call out%finish(ok)
-      if (.not. ok) write (error_unit, '(a)') 'jointfit: the cards cannot be written to the standard output'
-      if (.not. ok) exit_status = max(exit_status, status_unwritten)
-   end subroutine end_outputs
 
 end program jointfit

@@ -8,7 +8,8 @@ module branch_fit
    implicit none
    private
 
-   public :: scatter_of, find_turns, group_by_pressure, fit_loops, fit_points, fit_lines_only, fit_cubic, fit_cubic_in_pressure
+   public :: scatter_of, find_turns, group_by_pressure, fit_loops, fit_points, fit_lines_only, fit_cubic, fit_cubic_in_pressure, &
+             residual_of
 
    !> One line of unloading or reloading, lambda = LAMBDA + (p - P)/E_U, through the mean of its points.
    type, public :: loop_line
@@ -176,6 +177,8 @@ contains
       logical, intent(in)                :: constant           !! the runs have a constant term
       type(fit_choice), intent(in)       :: chosen
       type(branch_fit_type), intent(out) :: fit
+      integer, allocatable  :: curves(:), points(:)
+      real(wp), allocatable :: start(:)
       logical :: ok
       integer :: i, k
 
@@ -195,7 +198,18 @@ contains
          where (run == run(i) .and. fit%group == fit%group(i)) fit%curve = size(fit%curve_at)
       end do
       allocate (fit%start(size(fit%curve_at)), source=0.0_wp)
-      call fit_two_steps(d, tau, chosen%one_pressure, fit)
+      allocate (fit%cubic(3, size(fit%group_p)))
+      do i = 1, size(fit%group_p)      ! a cubic for each pressure, then a line through each coefficient of the cubics
+         points = pack([(k, k = 1, size(d))], fit%group == i)
+         curves = pack([(k, k = 1, size(fit%start))], fit%group(fit%curve_at) == i)
+         call fit_cubic(d(points), tau(points), belongs(fit, points, curves), fit%cubic(:, i), start, ok)
+         fit%start(curves(:size(start))) = start
+         if (ok) cycle
+         fit%fault = fault_few_points
+         fit%fault_at = i
+         exit
+      end do
+      if (fit%fault == fault_none) call fit_coefficient_lines(chosen%one_pressure, fit)
       if (.not. (fit%two_step .or. chosen%one_step)) return
       fit%joint = fit%lines                ! for one pressure they are equal
       ok = size(fit%group_p) == 1 .and. fit%two_step
@@ -234,30 +248,6 @@ contains
          group_p = [group_p, sum(p, group == n)/count(group == n)]
       end do
    end subroutine group_by_pressure
-
-   !> Fit a cubic for each pressure, then a line through each coefficient of the cubics.
-   subroutine fit_two_steps(d, tau, one_pressure, fit)
-      real(wp), intent(in)                 :: d(:), tau(:)
-      logical, intent(in)                  :: one_pressure
-      type(branch_fit_type), intent(inout) :: fit
-      integer, allocatable  :: curves(:), points(:)
-      real(wp), allocatable :: start(:)
-      integer :: i, k
-      logical :: ok
-
-      allocate (fit%cubic(3, size(fit%group_p)))
-      do i = 1, size(fit%group_p)
-         points = pack([(k, k = 1, size(d))], fit%group == i)
-         curves = pack([(k, k = 1, size(fit%start))], fit%group(fit%curve_at) == i)
-         call fit_cubic(d(points), tau(points), belongs(fit, points, curves), fit%cubic(:, i), start, ok)
-         fit%start(curves(:size(start))) = start
-         if (ok) cycle
-         fit%fault = fault_few_points
-         fit%fault_at = i
-         return
-      end do
-      call fit_coefficient_lines(one_pressure, fit)
-   end subroutine fit_two_steps
 
    !> Whether each of the POINTS belongs to each of the CURVES; without constant terms there are no curves.
    pure function belongs(fit, points, curves) result(matrix)
@@ -387,8 +377,9 @@ contains
       residual = residual_of(off)
    end function law_residual
 
+   !> Residual of deviations OFF from a fit.
    pure function residual_of(off) result(residual)
-      real(wp), intent(in) :: off(:)
+      real(wp), intent(in) :: off(:) !! not empty
       type(residual_type) :: residual
 
       residual%rms = norm2(off)/sqrt(real(size(off), wp))

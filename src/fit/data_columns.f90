@@ -8,18 +8,20 @@ module data_columns
    implicit none
    private
 
-   public :: read_system, unit_value, has_force, branch_number, read_header, set_factors, check_system, split_entries, &
-             data_part, split_unit, is_number, read_number
+   public :: read_system, unit_value, has_force, read_header, set_factors, split_entries, data_part, split_unit, is_number, &
+             read_number
 
    real(wp), parameter :: kgf = 9.80665_wp, inch = 0.0254_wp, lbf = 4.4482216152605_wp
 
-   character(6), parameter :: length_names(9) = [character(6) :: 'M', 'CM', 'MM', 'UM', 'MICRON', 'NM', 'IN', 'MIL', 'FT']
-   real(wp), parameter     :: lengths(9) = [1.0_wp, 1.0e-2_wp, 1.0e-3_wp, 1.0e-6_wp, 1.0e-6_wp, 1.0e-9_wp, inch, &
-                                            1.0e-3_wp*inch, 12.0_wp*inch]
-   character(6), parameter :: force_names(7) = [character(6) :: 'N', 'DAN', 'KN', 'KGF', 'KP', 'LBF', 'KIP']
-   real(wp), parameter     :: forces(7) = [1.0_wp, 10.0_wp, 1.0e3_wp, kgf, kgf, lbf, 1.0e3_wp*lbf]
-   character(6), parameter :: stress_names(7) = [character(6) :: 'PA', 'KPA', 'MPA', 'GPA', 'BAR', 'PSI', 'KSI']
-   real(wp), parameter     :: stresses(7) = [1.0_wp, 1.0e3_wp, 1.0e6_wp, 1.0e9_wp, 1.0e5_wp, lbf/inch**2, 1.0e3_wp*lbf/inch**2]
+   !> Kinds of units, the units of each kind in the table, and their values in SI units.
+   integer, parameter      :: of_length = 0, of_stress = 1, of_force = 2
+   integer, parameter      :: first_unit(0:2) = [1, 17, 10], last_unit(0:2) = [9, 23, 16]
+   character(6), parameter :: unit_names(23) = [character(6) :: 'M', 'CM', 'MM', 'UM', 'MICRON', 'NM', 'IN', 'MIL', 'FT', &
+      'N', 'DAN', 'KN', 'KGF', 'KP', 'LBF', 'KIP', 'PA', 'KPA', 'MPA', 'GPA', 'BAR', 'PSI', 'KSI']
+   real(wp), parameter     :: unit_values(23) = [ &
+      1.0_wp, 1.0e-2_wp, 1.0e-3_wp, 1.0e-6_wp, 1.0e-6_wp, 1.0e-9_wp, inch, 1.0e-3_wp*inch, 12.0_wp*inch, &
+      1.0_wp, 10.0_wp, 1.0e3_wp, kgf, kgf, lbf, 1.0e3_wp*lbf, &
+      1.0_wp, 1.0e3_wp, 1.0e6_wp, 1.0e9_wp, 1.0e5_wp, lbf/inch**2, 1.0e3_wp*lbf/inch**2]
 
    !> A unit of length and one of stress in SI units, and the user's names of them; values 0: none.
    type, public :: unit_system
@@ -81,60 +83,49 @@ contains
       type(unit_system), intent(out) :: system
       logical, intent(out)           :: ok
       character(:), allocatable :: second
-      integer :: comma
+      real(wp) :: force
+      integer  :: comma
 
       comma = index(text//',', ',')
       system%length_name = trim(adjustl(text(:comma - 1)))
       second = trim(adjustl(text(min(comma, len(text)) + 1:)))
-      system%length = table_value(plain(system%length_name), length_names, lengths)
+      system%length = unit_value(system%length_name, of_length)
       system%stress_name = second
-      system%stress = stress_value(plain(second))
-      if (table_value(plain(second), force_names, forces) > 0.0_wp) then
-         system%stress_name = second//'/'//system%length_name//'2'
-         if (system%length > 0.0_wp) system%stress = table_value(plain(second), force_names, forces)/system%length**2
-      end if
+      system%stress = unit_value(second, of_stress)
+      force = unit_value(second, of_force)
+      if (force > 0.0_wp) system%stress_name = second//'/'//system%length_name//'2'
+      if (force > 0.0_wp .and. system%length > 0.0_wp) system%stress = force/system%length**2
       ok = system%length > 0.0_wp .and. system%stress > 0.0_wp
    end subroutine read_system
 
-   !> UNIT in SI units, 0 where it is not a unit of stress or, with STRESS 0, of length.
-   pure real(wp) function unit_value(unit, stress) result(value)
+   !> UNIT in SI units: a name, or of stress force/length2 too; 0 where it is not a unit of this KIND.
+   pure recursive real(wp) function unit_value(unit, kind) result(value)
       character(*), intent(in) :: unit
-      integer, intent(in)      :: stress
+      integer, intent(in)      :: kind
+      character(:), allocatable :: word
+      real(wp) :: length
+      integer  :: k, last, slash
 
-      if (stress == 0) value = table_value(plain(unit), length_names, lengths)
-      if (stress /= 0) value = stress_value(plain(unit))
+      word = plain(unit)
+      last = len(word)
+      k = findloc(unit_names(first_unit(kind):last_unit(kind)) == word, .true., 1)
+      value = 0.0_wp
+      if (k > 0) value = unit_values(first_unit(kind) + k - 1)
+      slash = index(word, '/')
+      if (kind /= of_stress .or. slash == 0 .or. last < slash + 2) return
+      if (word(last:last) /= '2') return
+      length = unit_value(word(slash + 1:last - 1), of_length)
+      if (length > 0.0_wp) value = unit_value(word(:slash - 1), of_force)/length**2
    end function unit_value
 
    !> Whether a unit of force exists with which LENGTH and STRESS [SI] are consistent units of a deck.
    pure logical function has_force(length, stress)
       real(wp), intent(in) :: length, stress
 
-      has_force = any(abs(forces - stress*length**2) <= 1.0e-9_wp*forces)
-   end function has_force
-
-   !> Read a name of stress, or force/length2.
-   pure real(wp) function stress_value(word) result(value)
-      character(*), intent(in) :: word
-      integer :: slash, last
-
-      value = table_value(word, stress_names, stresses)
-      slash = index(word, '/')
-      last = len(word)
-      if (slash == 0 .or. last < slash + 2) return
-      if (word(last:last) /= '2') return
-      associate (length => table_value(word(slash + 1:last - 1), length_names, lengths))
-         if (length > 0.0_wp) value = table_value(word(:slash - 1), force_names, forces)/length**2
+      associate (forces => unit_values(first_unit(of_force):last_unit(of_force)))
+         has_force = any(abs(forces - stress*length**2) <= 1.0e-9_wp*forces)
       end associate
-   end function stress_value
-
-   pure real(wp) function table_value(word, names, values) result(value)
-      character(*), intent(in) :: word, names(:)
-      real(wp), intent(in)     :: values(:)
-      integer :: k
-
-      k = findloc(names == word, .true., 1)
-      value = merge(values(max(1, k)), 0.0_wp, k > 0)
-   end function table_value
+   end function has_force
 
    !> UNIT in capitals without blanks and ^; the Greek mu becomes U, superscripts become digits.
    pure function plain(unit) result(word)
@@ -156,13 +147,6 @@ contains
          end select
       end do
    end function plain
-
-   !> Number of the branch WORD (in capitals), 0 for any other word.
-   pure integer function branch_number(word) result(branch)
-      character(*), intent(in) :: word
-
-      branch = findloc(branch_words == word, .true., 1)
-   end function branch_number
 
    !> Read the header LINE. A file may have several headers of one kind, each for the rows below it.
    subroutine read_header(line, at, reading, header, errors)
@@ -254,23 +238,6 @@ contains
       unit = 0.0_wp
       if (system%length > 0.0_wp) unit = system%stress**stress_power(column)*system%length**length_power(column)
    end function unit_in
-
-   !> Without --units, the error in the units of the headings: two units of stress, or no consistent unit of force.
-   subroutine check_system(header, warnings)
-      type(header_type), intent(in)        :: header
-      type(deck_error_list), intent(inout) :: warnings
-      character(16) :: length, stress(2)
-      real(wp) :: values(2)
-
-      length = header%units(merge(column_d, column_lambda, header%kind == data_shear))
-      stress = header%units(merge([column_p, column_tau], column_p, header%kind == data_shear))
-      values = [unit_value(trim(length), 0), unit_value(trim(stress(1)), 1)]
-      if (any(values <= 0.0_wp) .or. any(stress == '')) return
-      if (stress(1) == stress(2) .and. has_force(values(1), values(2))) return
-      if (stress(1) /= stress(2)) length = stress(2)
-      call warnings%add(0, trim(length)//' and '//trim(stress(1))//' are not consistent units of a deck: --units mm,n converts '// &
-         'both')
-   end subroutine check_system
 
    !> LINE up to its comment, # or $, without trailing blanks and tabs. Double quotes, which spreadsheets put around words, become
    !! blanks.

@@ -3,7 +3,7 @@ module fit_command
    use branch_fit, only: fit_choice
    use c_library, only: is_same_file
    use terminal, only: command_reader, complain, input_argument, next_option, say, version
-   use data_columns, only: branch_number, reading_type, read_number, read_system
+   use data_columns, only: branch_words, reading_type, read_number, read_system
    use field_rules, only: parse_integer
    use kinds, only: wp
    use text_tools, only: integer_text, plural, upper
@@ -99,6 +99,7 @@ contains
       integer, intent(out)                :: status
       type(command_reader) :: reader
       character(:), allocatable :: expected, option, value
+      integer :: branch
       logical :: is_missing, ok
 
       command%plot = ''
@@ -134,9 +135,10 @@ contains
             ok = ok .and. command%id > 0
             expected = 'a number of 1 or more'
          case ('--branch', '--as')
-            ok = branch_number(upper(value)) > 0
-            if (option == '--branch') command%only = branch_number(upper(value))
-            if (option == '--as') command%as = branch_number(upper(value))
+            branch = findloc(branch_words == upper(value), .true., 1)
+            if (option == '--branch') command%only = branch
+            if (option == '--as') command%as = branch
+            ok = branch > 0
             expected = 'LOAD, UNLOAD or RELOAD'
          case ('--p-tolerance')
             call read_number(value, command%fit%p_tolerance, ok)
@@ -169,16 +171,15 @@ contains
          if (.not. ok) return
       end do
       call move_alloc(reader%files, command%files)
-      call check_command(command, ok)
-      if (command%as == 0) command%as = command%only
+      call complete_command(command, ok)
       if (ok) status = -1
    end subroutine read_fit_command
 
-   !> Check that the options go together, and that no output would replace a data file under any name; OK is false, with a message, where
-   !! they do not.
-   subroutine check_command(command, ok)
-      type(fit_command_type), intent(in) :: command
-      logical, intent(out)               :: ok
+   !> Complete the command: check that the options go together, and that no output would replace a data file under any name; OK is false,
+   !! with a message, where they do not.
+   subroutine complete_command(command, ok)
+      type(fit_command_type), intent(inout) :: command
+      logical, intent(out)                  :: ok
       character(:), allocatable :: fault
       integer :: i
 
@@ -206,6 +207,7 @@ contains
       end do
       ok = fault == ''
       if (.not. ok) call complain(program, fault)
-   end subroutine check_command
+      if (command%as == 0) command%as = command%only
+   end subroutine complete_command
 
 end module fit_command

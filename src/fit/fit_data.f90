@@ -1,8 +1,9 @@
 !> Reads a data file of jointfit: test points or published cubics as plain text.
 module fit_data
-   use data_columns, only: branch_number, check_system, column_branch, column_d, column_lambda, column_names, column_p, &
-                           column_run, column_tau, data_cubics, header_type, known_headers, n_columns, read_header, reading_type, &
-                           set_factors, data_part, entry_type, is_number, read_number, split_entries, read_system, unit_system
+   use data_columns, only: branch_words, column_branch, column_d, column_lambda, column_names, column_p, column_run, column_tau, &
+                           data_cubics, data_part, data_shear, entry_type, has_force, header_type, is_number, known_headers, &
+                           n_columns, read_header, read_number, read_system, reading_type, set_factors, split_entries, &
+                           unit_system, unit_value
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type, read_deck_text
    use kinds, only: wp
@@ -96,16 +97,19 @@ contains
       else if (data%n == 0 .and. .not. errors%any()) then
          call errors%add(0, 'no test data below the header line')
       end if
-      call keep_header(header, reading, data, errors)
+      call complete_data(header, reading, data, errors)
    end subroutine read_test_data
 
-   !> Determine the kind of the rows below the last HEADER.
-   subroutine keep_header(header, reading, data, errors)
+   !> Complete DATA after the last HEADER: branches, runs and units. Without --units, warn of two units of stress in the headings, and of
+   !! units without a consistent unit of force.
+   subroutine complete_data(header, reading, data, errors)
       type(header_type), intent(in)        :: header
       type(reading_type), intent(in)       :: reading
       type(test_data_type), intent(inout)  :: data
       type(deck_error_list), intent(inout) :: errors
-      integer :: row
+      character(16) :: length, stress(2)
+      real(wp) :: values(2)
+      integer  :: row
 
       data%has_branch = any(data%branch(:data%n) > 0)
       data%has_run = any(data%run(:data%n) > 0)
@@ -117,10 +121,17 @@ contains
       if (reading%deck%length > 0.0_wp) then
          data%unit([column_d, column_lambda]) = upper(reading%deck%length_name)
          data%unit([column_p, column_tau]) = upper(reading%deck%stress_name)
-      else
-         call check_system(header, data%warnings)
+         return
       end if
-   end subroutine keep_header
+      length = header%units(merge(column_d, column_lambda, header%kind == data_shear))
+      stress = header%units(merge([column_p, column_tau], column_p, header%kind == data_shear))
+      values = [unit_value(trim(length), 0), unit_value(trim(stress(1)), 1)]
+      if (any(values <= 0.0_wp) .or. any(stress == '')) return
+      if (stress(1) == stress(2) .and. has_force(values(1), values(2))) return
+      if (stress(1) /= stress(2)) length = stress(2)
+      call data%warnings%add(0, trim(length)//' and '//trim(stress(1))//' are not consistent units of a deck: --units mm,n '// &
+                             'converts both')
+   end subroutine complete_data
 
    !> Read one row of data.
    subroutine read_row(line, at, entries, header, data, errors)
@@ -130,66 +141,53 @@ contains
       type(header_type), intent(in)        :: header
       type(test_data_type), intent(inout)  :: data
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: help
-      integer :: k
-
-      associate (columns => header%columns)
-         if (size(entries) /= size(columns)) then
-            k = min(size(entries), size(columns) + 1)
-            help = ''
-            if (size(entries) > size(columns) .and. index(line, ',') > 0) help = '; --decimal-comma reads 1,5 as 1.5'
-            call errors%add(at, 'entries on this line: '//integer_text(size(entries))//', expected '// &
-                            integer_text(size(columns))//', one a column'//help, entries(k)%first, entries(size(entries))%last)
-            return
-         end if
-         data%n = data%n + 1
-         data%kind = header%kind
-         data%part(data%n) = header%part
-         data%line(data%n) = at
-         do k = 1, size(columns)
-            if (columns(k) == 0) cycle
-            data%place(:, columns(k), data%n) = [entries(k)%first, max(entries(k)%first, entries(k)%last)]
-            call read_entry(line(entries(k)%first:entries(k)%last), columns(k), header%factors(columns(k)), data, errors)
-         end do
-      end associate
-   end subroutine read_row
-
-   !> Read the entry WORD in its COLUMN of the last row, to be multiplied by FACTOR.
-   subroutine read_entry(word, column, factor, data, errors)
-      character(*), intent(in)             :: word
-      integer, intent(in)                  :: column
-      real(wp), intent(in)                 :: factor
-      type(test_data_type), intent(inout)  :: data
-      type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: fault
+      integer :: column, k
       logical :: ok
 
-      fault = ''
-      associate (value => data%value(column, data%n), branch => data%branch(data%n), run => data%run(data%n))
-         if (word == '') then
-            fault = 'nothing between two commas, expected an entry'
-         else if (column == column_branch .and. (data%kind == data_cubics .or. .not. is_number(word))) then
-            branch = branch_number(upper(word))
-            if (branch == 0) fault = ''''//word//''', expected LOAD, UNLOAD or RELOAD'
-         else if (column == column_run .or. column == column_branch) then
-            call read_number(word, value, ok)
-            ok = ok .and. abs(value) <= huge(run)
-            if (ok) run = nint(value)
-            if (ok) ok = run > 0 .and. abs(value - run) < 1.0e-6_wp
-            if (.not. ok) fault = ''''//word//''' is not the number of a run, expected 1, 2, 3 and so on'
-         else
-            call read_number(word, value, ok)
-            if (.not. ok) then
-               fault = ''''//word//''' is not a number'
-            else if (abs(value) > 1.0e30_wp) then
-               fault = ''''//word//''' is beyond 1E30'
-               value = 0.0_wp ! reading continues and finds the errors in the next entries
-            end if
-            value = value*factor
+      associate (n => size(entries), expected => size(header%columns))
+         if (n /= expected) then
+            fault = 'entries on this line: '//integer_text(n)//', expected '//integer_text(expected)//', one a column'
+            if (n > expected .and. index(line, ',') > 0) fault = fault//'; --decimal-comma reads 1,5 as 1.5'
+            call errors%add(at, fault, entries(min(n, expected + 1))%first, entries(n)%last)
+            return
          end if
       end associate
-      if (fault /= '') call errors%add(data%line(data%n), trim(column_names(column))//': '//fault, &
-                                       data%place(1, column, data%n), data%place(2, column, data%n))
-   end subroutine read_entry
+      data%n = data%n + 1
+      data%kind = header%kind
+      data%part(data%n) = header%part
+      data%line(data%n) = at
+      do k = 1, size(header%columns)
+         column = header%columns(k)
+         if (column == 0) cycle
+         fault = ''
+         associate (word => line(entries(k)%first:entries(k)%last), place => data%place(:, column, data%n), &
+                    value => data%value(column, data%n), branch => data%branch(data%n), run => data%run(data%n))
+            if (word == '') then
+               fault = 'nothing between two commas, expected an entry'
+            else if (column == column_branch .and. (data%kind == data_cubics .or. .not. is_number(word))) then
+               branch = findloc(branch_words == upper(word), .true., 1)
+               if (branch == 0) fault = ''''//word//''', expected LOAD, UNLOAD or RELOAD'
+            else if (column == column_run .or. column == column_branch) then
+               call read_number(word, value, ok)
+               ok = ok .and. abs(value) <= huge(run)
+               if (ok) run = nint(value)
+               if (ok) ok = run > 0 .and. abs(value - run) < 1.0e-6_wp
+               if (.not. ok) fault = ''''//word//''' is not the number of a run, expected 1, 2, 3 and so on'
+            else
+               call read_number(word, value, ok)
+               if (.not. ok) then
+                  fault = ''''//word//''' is not a number'
+               else if (abs(value) > 1.0e30_wp) then
+                  fault = ''''//word//''' is beyond 1E30'
+                  value = 0.0_wp ! reading continues and finds the errors in the next entries
+               end if
+               value = value*header%factors(column)
+            end if
+            place = [entries(k)%first, max(entries(k)%first, entries(k)%last)]
+            if (fault /= '') call errors%add(at, trim(column_names(column))//': '//fault, place(1), place(2))
+         end associate
+      end do
+   end subroutine read_row
 
 end module fit_data

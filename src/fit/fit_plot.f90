@@ -7,7 +7,7 @@ module fit_plot
    use fit_data, only: test_data_type
    use kinds, only: wp
    use output_file, only: output_file_type
-   use surface_fit, only: normal_fit_type, surface_fit_type
+   use surface_fit, only: surface_fit_type
    use text_tools, only: integer_text, real_text
    implicit none
    private
@@ -26,7 +26,7 @@ contains
       type(output_file_type), intent(inout) :: out
       character(:), allocatable :: picture, plots
       character(32) :: label
-      integer :: axes(2), b, k
+      integer :: axes(2), k
 
       picture = command%plot
       k = index(picture, '.', back=.true.)
@@ -34,21 +34,7 @@ contains
       if (size(command%files) > 1) picture = picture//'_'//integer_text(command%id + number - 1)
       call out%put('# '//command%files(number)%name//' and its fit by jointfit; gnuplot draws '//picture//'.svg')
       call out%put('reset')
-      plots = ''
-      if (fit%kind == data_normal) call put_normal(data, fit%normal, plots, out)
-      do b = fit_load, fit_reload
-         associate (branch => fit%branch(b))
-            if (branch%n_points == 0) cycle
-            if (fit%kind == data_shear) then
-               call put_shear(data, fit, b, plots, out)
-            else
-               do k = 1, 3
-                  call put_block(out, plots, branch_letters(b)//integer_text(k), [b, k], branch%group_p, branch%cubic(k, :), &
-                                 branch%group_p, branch%lines(1, k) + branch%lines(2, k)*branch%group_p)
-               end do
-            end if
-         end associate
-      end do
+      call put_fit(data, fit, plots, out)
       call out%put('set terminal svg size 900,600 noenhanced background "white"')
       call out%put('set output '//quoted(picture//'.svg'))
       call out%put('set title '//quoted(command%files(number)%name))
@@ -65,53 +51,52 @@ contains
       call out%put('plot '//plots(3:))
    end subroutine write_plot
 
-   !> Plot the points of loading with the power law, and the points of each unloading or reloading line with its slope E_u.
-   subroutine put_normal(data, fit, plots, out)
-      type(test_data_type), intent(in)         :: data
-      type(normal_fit_type), intent(in)        :: fit
-      character(:), allocatable, intent(inout) :: plots
-      type(output_file_type), intent(inout)    :: out
+   !> Put the points and the fit: loading with the power law, each line of unloading or reloading with its slope E_u; each run of shear
+   !! with the law of the card and its best constant; the coefficients of published cubics with their lines.
+   subroutine put_fit(data, fit, plots, out)
+      type(test_data_type), intent(in)       :: data
+      type(surface_fit_type), intent(in)     :: fit
+      character(:), allocatable, intent(out) :: plots !! arguments of the plot command
+      type(output_file_type), intent(inout)  :: out
       integer, allocatable  :: rows(:)
       real(wp), allocatable :: fitted(:), p(:)
-      integer :: b, i, k
+      integer :: b, g, i, k
 
-      do k = 0, size(fit%loops%lines)
-         rows = pack([(i, i = 1, data%n)], fit%loops%line_of == k)
-         p = data%value(column_p, rows)
-         b = fit_load
-         fitted = fit%c*max(p, 0.0_wp)**fit%m
-         if (k > 0) then
-            b = fit%loops%lines(k)%branch
-            fitted = 0.0_wp*p + fit%loops%lines(k)%lambda
-            if (fit%loops%e_u > 0.0_wp) fitted = fitted + (p - fit%loops%lines(k)%p)/fit%loops%e_u
-         end if
-         call put_block(out, plots, trim(branch_words(b)), [b, b], data%value(column_lambda, rows), p, fitted, p)
+      plots = ''
+      if (fit%kind == data_normal) then
+         associate (loops => fit%normal%loops)
+            do k = 0, size(loops%lines)
+               rows = pack([(i, i = 1, data%n)], loops%line_of == k)
+               p = data%value(column_p, rows)
+               b = fit_load
+               fitted = fit%normal%c*max(p, 0.0_wp)**fit%normal%m
+               if (k > 0) b = loops%lines(k)%branch
+               if (k > 0) fitted = 0.0_wp*p + loops%lines(k)%lambda
+               if (k > 0 .and. loops%e_u > 0.0_wp) fitted = fitted + (p - loops%lines(k)%p)/loops%e_u
+               call put_block(out, plots, trim(branch_words(b)), [b, b], data%value(column_lambda, rows), p, fitted, p)
+            end do
+         end associate
+      end if
+      do b = fit_load, fit_reload
+         associate (branch => fit%branch(b))
+            if (branch%n_points == 0) cycle
+            do k = 1, merge(size(branch%start), 0, fit%kind == data_shear)
+               rows = pack(branch%row, branch%curve == k)
+               g = branch%group(branch%curve_at(k))
+               associate (d => data%value(column_d, rows), tau => data%value(column_tau, rows))
+                  fitted = cubic_value(cubic(fit%card(:, :, b)), d, branch%group_p(g))
+                  if (branch%constant) fitted = fitted + sum(tau - fitted)/size(rows)
+                  call put_block(out, plots, trim(branch_words(b))//', p = '//real_text(branch%group_p(g)), [b, g], d, tau, d, &
+                                 fitted)
+               end associate
+            end do
+            do k = 1, merge(0, 3, fit%kind == data_shear)
+               call put_block(out, plots, branch_letters(b)//integer_text(k), [b, k], branch%group_p, branch%cubic(k, :), &
+                              branch%group_p, branch%lines(1, k) + branch%lines(2, k)*branch%group_p)
+            end do
+         end associate
       end do
-   end subroutine put_normal
-
-   !> Plot the points of branch B of shear at each pressure and the law of the card, with the best constant of each run.
-   subroutine put_shear(data, fit, b, plots, out)
-      type(test_data_type), intent(in)         :: data
-      type(surface_fit_type), intent(in)       :: fit
-      integer, intent(in)                      :: b
-      character(:), allocatable, intent(inout) :: plots
-      type(output_file_type), intent(inout)    :: out
-      integer, allocatable  :: own(:)
-      real(wp), allocatable :: fitted(:)
-      integer :: g, k
-
-      associate (branch => fit%branch(b))
-         do k = 1, size(branch%start)
-            own = pack(branch%row, branch%curve == k)
-            g = branch%group(branch%curve_at(k))
-            associate (d => data%value(column_d, own), tau => data%value(column_tau, own))
-               fitted = cubic_value(cubic(fit%card(:, :, b)), d, branch%group_p(g))
-               if (branch%constant) fitted = fitted + sum(tau - fitted)/size(own)
-               call put_block(out, plots, trim(branch_words(b))//', p = '//real_text(branch%group_p(g)), [b, g], d, tau, d, fitted)
-            end associate
-         end do
-      end associate
-   end subroutine put_shear
+   end subroutine put_fit
 
    !> Add a block of points X, Y with the fit FITTED_X, FITTED_Y at each point, in a LOOK of shape and colour. Consecutive blocks of one
    !! TITLE share an entry of the key.

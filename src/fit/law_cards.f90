@@ -1,108 +1,259 @@
-!> Writes JNORM and JSHEAR cards and warns where the slope of a fitted cubic turns negative in the range of the card.
-!! The numbers have as many digits as the columns hold. A joint has no negative stiffness.
+!> Writes the fitted JNORM and JSHEAR cards below comments: data, residuals, range, coefficients and warnings.
+!! The numbers on the cards have as many digits as the columns hold.
 module law_cards
-   use data_columns, only: branch_words, fit_load, fit_reload, fit_unload
+   use branch_fit, only: branch_fit_type, residual_type
+   use terminal, only: version
+   use data_columns, only: branch_letters, branch_words, column_d, column_p, column_symbols, data_normal, fit_load, fit_reload, &
+                           fit_unload, n_columns
    use field_rules, only: parse_real
+   use fit_command, only: fit_command_type
+   use fit_data, only: test_data_type
    use kinds, only: wp
-   use surface_fit, only: surface_fit_type
-   use text_tools, only: integer_text, real_text
+   use output_file, only: output_file_type
+   use surface_fit, only: normal_fit_type, surface_fit_type
+   use text_tools, only: integer_text, plural, real_text
    implicit none
    private
 
-   public :: check_slopes, find_slope_loss, jnorm_card, jshear_card, coefficient_line, real_field_text
+   public :: write_cards, jnorm_card, jshear_card, coefficient_line, real_field_text
 
 contains
 
-   !> Check the slope of every fitted branch in the range of its data and, if it is positive there, in the range of the card: p from 0 to
-   !! PMAX, d to DMAX, and d below zero too for unloading and reloading, because these branches extend past zero to the mirror image of
-   !! their point A. A branch is followed as in the joint: unloading with decreasing d, the others with increasing d.
-   subroutine check_slopes(fit)
-      type(surface_fit_type), intent(inout) :: fit
-      integer  :: b
-      real(wp) :: d_max, way(2)
+   !> Write the card of surface NUMBER of the command with its comments.
+   subroutine write_cards(command, number, data, fit, out)
+      type(fit_command_type), intent(in)    :: command
+      integer, intent(in)                   :: number
+      type(test_data_type), intent(in)      :: data
+      type(surface_fit_type), intent(in)    :: fit
+      type(output_file_type), intent(inout) :: out
+      character(:), allocatable :: words
+      integer :: id, k
 
-      d_max = fit%d_max
-      if (d_max <= 0.0_wp) d_max = huge(d_max)
-      do b = fit_load, fit_reload
-         associate (branch => fit%branch(b))
-            if (branch%n_points == 0) cycle
-            way = [0.0_wp, d_max]
-            if (branch%from_points) way = [branch%d_low, branch%d_high]
-            if (b == fit_load) way(1) = min(way(1), 0.0_wp)
-            if (b == fit_unload .and. branch%from_points) way = way([2, 1])
-            if (loses_slope(fit, b, [branch%p_low, branch%p_high], way, 'inside the tested range')) cycle
-            if (.not. fit%has_loading) cycle
-            way = [0.0_wp, d_max]
-            if (b /= fit_load .and. fit%d_max > 0.0_wp) way(1) = -d_max
-            if (b == fit_unload .and. fit%d_max > 0.0_wp) way = way([2, 1])
-            if (loses_slope(fit, b, [0.0_wp, fit%p_max], way, 'outside the tested range of the branch, but inside the '// &
-                            'range of the card, which --dmax sets')) cycle
-         end associate
+      id = command%id + (number - 1)
+      call comment(out, '', 'fitted by jointfit '//version//' to '//command%files(number)%name)
+      if (data%units /= '') call comment(out, 'units', data%units)
+      words = ''
+      do k = 1, n_columns
+         if (data%unit_read(k) /= '') words = words//', '//trim(column_symbols(k))//' ['//trim(data%unit_read(k))//']'
       end do
-   end subroutine check_slopes
-
-   !> Whether the slope of branch B becomes zero or negative for pressures between P(1) and P(2) and d from WAY(1) to WAY(2); then warn.
-   logical function loses_slope(fit, b, p, way, range) result(lost)
-      type(surface_fit_type), intent(inout) :: fit
-      integer, intent(in)      :: b
-      real(wp), intent(in)     :: p(2), way(2)
-      character(*), intent(in) :: range
-      real(wp) :: p_lost, d_lost
-
-      call find_slope_loss(fit%card(:, :, b), p(1), p(2), way(1), way(2), lost, p_lost, d_lost)
-      if (lost) call fit%warnings%add(0, trim(branch_words(b))//': the slope of tau becomes zero or negative at p = '// &
-                                      real_text(p_lost)//', d = '//real_text(d_lost)//', '//range)
-   end function loses_slope
-
-   !> From d = FROM to d = TO, find the first d at which dtau/dd = sum over k of k (a_k1 + a_k2 p) d^(k-1) is not positive for some p
-   !! between P_LOW and P_HIGH. The slope is linear in p, so its minimum is at P_LOW or P_HIGH: two quadratics in d decide.
-   pure subroutine find_slope_loss(lines, p_low, p_high, from, to, found, p, d)
-      real(wp), intent(in)  :: lines(2, 3)   !! a_k1 and a_k2 for k = 1, 2, 3
-      real(wp), intent(in)  :: p_low, p_high !! [pressure]
-      real(wp), intent(in)  :: from, to      !! [length], TO = +-huge: unbounded
-      logical, intent(out)  :: found
-      real(wp), intent(out) :: p, d          !! the place, if FOUND
-      real(wp) :: ends(2), place
-      logical  :: lost
-      integer  :: i
-
-      found = .false.
-      p = 0.0_wp
-      d = 0.0_wp
-      ends = [p_low, p_high]
-      do i = 1, 2
-         call find_first_root(lines(1, :) + lines(2, :)*ends(i), from, to, lost, place)
-         if (.not. lost .or. (found .and. abs(place - from) >= abs(d - from))) cycle
-         found = .true.
-         p = ends(i)
-         d = place
-      end do
-   end subroutine find_slope_loss
-
-   !> The first d from FROM to TO with a(1) + 2 a(2) d + 3 a(3) d^2 <= 0.
-   pure subroutine find_first_root(a, from, to, found, d)
-      real(wp), intent(in)  :: a(3), from, to
-      logical, intent(out)  :: found
-      real(wp), intent(out) :: d
-      real(wp) :: discriminant, q, roots(2), sense
-      logical  :: inside(2)
-
-      d = from
-      found = a(1) + from*(2.0_wp*a(2) + from*3.0_wp*a(3)) <= 0.0_wp
-      if (found) return
-      discriminant = a(2)**2 - 3.0_wp*a(3)*a(1)
-      if (discriminant < 0.0_wp) return
-      q = -(a(2) + sign(sqrt(discriminant), a(2)))
-      roots = from
-      if (abs(q) > 0.0_wp) then                ! the two roots q/(3 a3) and a1/q, without cancellation
-         roots(1) = a(1)/q
-         if (abs(a(3)) > tiny(q)) roots(2) = q/(3.0_wp*a(3))
+      if (command%reading%deck%length > 0.0_wp) then ! the cards have units of their own
+         if (words /= '') words = ', converted from'//words(2:)
+         call comment(out, 'units', trim(data%unit(column_d))//', '//trim(data%unit(column_p))//words)
+      else if (words /= '') then
+         call comment(out, 'units', words(3:))
       end if
-      sense = sign(1.0_wp, to - from)
-      inside = (roots - from)*sense > 0.0_wp .and. (roots - to)*sense <= 0.0_wp
-      found = any(inside)
-      if (found) d = roots(minloc(abs(roots - from), 1, inside))
-   end subroutine find_first_root
+      do k = 1, data%notes%n
+         call comment(out, 'record', data%notes%items(k)%message)
+      end do
+      if (fit%kind == data_normal) then
+         call describe_normal(fit%normal, out)
+      else
+         call describe_shear(data, command, fit, out)
+      end if
+      do k = 1, fit%warnings%n
+         call comment(out, 'WARNING', fit%warnings%items(k)%message)
+      end do
+      if (fit%kind == data_normal) then
+         call put_lines(out, '', jnorm_card(id, fit%normal%c, fit%normal%m, fit%normal%loops%e_u, command%small))
+      else if (fit%has_loading) then
+         call put_lines(out, '', jshear_card(id, fit%card, fit%branch%n_points > 0, fit%p_max, fit%d_max, command%small))
+      else
+         do k = fit_unload, fit_reload
+            if (fit%branch(k)%n_points == 0) cycle
+            call comment(out, '', 'no card: there are no loading data. The '//trim(branch_words(k))// &
+                         ' continuation of a JSHEAR card, without its $:')
+            call put_lines(out, '$', coefficient_line(fit%card(:, :, k), command%small))
+         end do
+      end if
+   end subroutine write_cards
+
+   subroutine describe_normal(fit, out)
+      type(normal_fit_type), intent(in)     :: fit
+      type(output_file_type), intent(inout) :: out
+      character(:), allocatable :: points
+      character(14) :: cells(6)
+      integer :: k
+
+      points = plural(fit%n_points, 'point')
+      if (size(fit%loops%lines) > 0) points = points//' of loading'
+      call comment(out, 'law', 'lambda = c p^m, c = '//real_text(fit%c)//', m = '//real_text(fit%m))
+      call comment(out, 'data', points//', p '//range_text(fit%p_low, fit%p_high)//', lambda to '//real_text(fit%lambda_high))
+      call comment(out, 'residual', 'of lambda: rms '//real_text(fit%residual%rms)//', largest '// &
+                   real_text(fit%residual%largest)//' at p = '//real_text(fit%p_largest))
+      associate (loops => fit%loops, lines => fit%loops%lines) ! the lines of unloading and reloading do not contribute to c and m
+         if (size(lines) == 0) return
+         call comment(out, 'unload', 'E_u = '//real_text(loops%e_u)//', standard error '// &
+                      real_text(0.01_wp*nint(1.0e4_wp*min(loops%error, 1.0e4_wp)))//' %, from '// &
+                      plural(size(lines), 'line')//' through '//plural(loops%n_points, 'point')//' apart from loading')
+         call comment(out, '', 'residual of lambda about lines of this slope: rms '//real_text(loops%rms))
+         call comment_row(out, [character(14) :: 'line', 'p from', 'to', 'lambda, p = 0', 'E_u', 'points'])
+         do k = 1, size(lines)
+            cells = [character(14) :: branch_words(lines(k)%branch), real_text(lines(k)%p_low), real_text(lines(k)%p_high), &
+                     real_text(lines(k)%set), real_text(lines(k)%e_u), integer_text(lines(k)%n_points)]
+            call comment_row(out, cells)
+         end do
+      end associate
+   end subroutine describe_normal
+
+   subroutine describe_shear(data, command, fit, out)
+      type(test_data_type), intent(in)      :: data
+      type(fit_command_type), intent(in)    :: command
+      type(surface_fit_type), intent(in)    :: fit
+      type(output_file_type), intent(inout) :: out
+      character(:), allocatable :: words
+      logical :: is_used(data%n)
+      integer :: b
+
+      call comment(out, 'law', 'tau = (a11 + a12 p) d + (a21 + a22 p) d^2 + (a31 + a32 p) d^3, b unloading, c reloading')
+      is_used = data%branch(:data%n) == 0      ! rows without a branch have been reported as ignored
+      do b = fit_load, fit_reload
+         if (fit%branch(b)%n_points == 0) then
+            if (b /= fit_load .and. fit%has_loading) call comment(out, branch_words(b), 'no data: left blank, as loading')
+            cycle
+         end if
+         is_used(fit%branch(b)%row) = .true.
+         if (fit%source(b) /= b) call comment(out, branch_words(b), 'taken from the '//trim(branch_words(fit%source(b)))//' data')
+         call describe_branch(data, fit, b, command%fit%one_step, out)
+      end do
+      if (fit%has_loading) then
+         words = 'unloading does not reach tau = 0'
+         if (fit%closure%is_known) words = real_text(0.01_wp*nint(1.0e4_wp*min(fit%closure%share, 1.0e4_wp)))//' % of tau_r, '// &
+            trim(merge('widest at                              ', 'of the smallest loops, DMAX unknown, at', &
+                       fit%closure%d > 0.0_wp))//' p = '//real_text(fit%closure%p)//', d = '//real_text(fit%closure%d)
+         call comment(out, 'closure', words)
+      end if
+      if (.not. all(is_used)) call comment(out, '', plural(count(.not. is_used), 'row')//' of other branches left out')
+      if (fit%has_loading .and. fit%d_max <= 0.0_wp) call comment(out, 'DMAX', 'left blank: the data do not show it')
+   end subroutine describe_shear
+
+   !> Write branch B of the card: the cubic of each pressure (the points of Fig. 2), the constant of each run, the lines through the cubics
+   !! and, for test points, the one-step fit.
+   subroutine describe_branch(data, fit, b, joint_fit, out)
+      type(test_data_type), intent(in)      :: data
+      type(surface_fit_type), intent(in)    :: fit
+      integer, intent(in)                   :: b
+      logical, intent(in)                   :: joint_fit
+      type(output_file_type), intent(inout) :: out
+      character(14) :: cells(6), on_card(2)
+      integer :: first, i, last
+      logical :: by_run
+
+      on_card = ', on the card'                      ! the lines of the two steps, those of the one step
+      on_card(merge(1, 2, joint_fit .and. fit%branch(b)%from_points)) = ''
+      associate (branch => fit%branch(b), points => fit%branch(b)%from_points, letter => branch_letters(b))
+         if (points) then
+            call comment(out, branch_words(b), plural(branch%n_points, 'point')//' at '// &
+                         plural(size(branch%group_p), 'pressure')//', p '//range_text(branch%p_low, branch%p_high)//', d '// &
+                         range_text(branch%d_low, branch%d_high))
+         else
+            call comment(out, branch_words(b), plural(branch%n_points, 'cubic')//' given, p '// &
+                         range_text(branch%p_low, branch%p_high))
+         end if
+         if (branch%two_step) then
+            by_run = branch%constant .and. size(branch%start) > size(branch%group_p) ! several constants at a pressure
+            first = merge(2, 3, branch%constant .and. .not. by_run)
+            last = merge(6, 5, points)
+            cells = [character(14) :: 'p', letter//'0', letter//'1', letter//'2', letter//'3', 'points']
+            call comment_row(out, [cells(1), cells(first:last)])
+            do i = 1, size(branch%group_p)
+               cells = [character(14) :: real_text(branch%group_p(i)), '', real_text(branch%cubic(1, i)), &
+                        real_text(branch%cubic(2, i)), real_text(branch%cubic(3, i)), integer_text(count(branch%group == i))]
+               if (first == 2) cells(2) = real_text(branch%start(branch%curve(findloc(branch%group, i, 1))))
+               call comment_row(out, [cells(1), cells(first:last)])
+            end do
+            if (by_run) then
+               call comment_row(out, [character(14) :: 'run', 'p', letter//'0', 'd from', 'to', 'points'])
+               do i = 1, size(branch%start)
+                  associate (at => branch%curve_at(i), own => branch%curve == i, d => data%value(column_d, branch%row))
+                     cells = [character(14) :: integer_text(data%run(branch%row(at))), &
+                              real_text(branch%group_p(branch%group(at))), real_text(branch%start(i)), &
+                              real_text(minval(d, own)), real_text(maxval(d, own)), integer_text(count(own))]
+                  end associate
+                  call comment_row(out, cells)
+               end do
+            end if
+            if (points) call comment(out, '', 'residual of these cubics: '//residual_words(branch%of_cubics))
+            call comment(out, '', 'lines through their coefficients (Fig. 2)'//trim(on_card(1))//':')
+            call lines_of_coefficients(branch, b, branch%lines, .true., out)
+            if (points) call comment(out, '', '   residual: '//residual_words(branch%of_lines))
+         end if
+         if (.not. points) return
+         call comment(out, '', 'all points in one step'//trim(on_card(2))//':')
+         call lines_of_coefficients(branch, b, branch%joint, .false., out)
+         call comment(out, '', '   residual: '//residual_words(branch%of_joint))
+      end associate
+
+   contains
+
+      function residual_words(residual) result(words)
+         type(residual_type), intent(in) :: residual
+         character(:), allocatable :: words
+
+         words = 'rms '//real_text(residual%rms)//', largest '//real_text(residual%largest)//' at p = '// &
+                 real_text(data%value(column_p, fit%branch(b)%row(residual%at)))//', d = '// &
+                 real_text(data%value(column_d, fit%branch(b)%row(residual%at)))
+      end function residual_words
+
+   end subroutine describe_branch
+
+   !> Write a1 = a11 + a12 p and so on; WITH_SCATTER adds the scatter of the coefficients of the cubics.
+   subroutine lines_of_coefficients(branch, b, lines, with_scatter, out)
+      type(branch_fit_type), intent(in)     :: branch
+      integer, intent(in)                   :: b
+      real(wp), intent(in)                  :: lines(2, 3)
+      logical, intent(in)                   :: with_scatter
+      type(output_file_type), intent(inout) :: out
+      character(120) :: words
+      integer :: k
+
+      do k = 1, 3
+         words = '   '//branch_letters(b)//integer_text(k)//' = '//real_text(lines(1, k))// &
+                 merge(' - ', ' + ', lines(2, k) < 0.0_wp)//real_text(abs(lines(2, k)))//' p'
+         associate (off => branch%of_coefficients(k))
+            if (with_scatter) words(41:) = 'scatter rms '//real_text(off%rms)//', largest '//real_text(off%largest)// &
+                                           ' at p = '//real_text(branch%group_p(off%at))
+         end associate
+         call comment(out, '', words)
+      end do
+   end subroutine lines_of_coefficients
+
+   pure function range_text(low, high) result(words)
+      real(wp), intent(in)      :: low, high
+      character(:), allocatable :: words
+
+      words = real_text(low)//' to '//real_text(high)
+   end function range_text
+
+   !> Write one comment line: a word in its own column, then the text.
+   subroutine comment(out, label, words)
+      type(output_file_type), intent(inout) :: out
+      character(*), intent(in)              :: label, words
+      character(9) :: column
+
+      column = label
+      call out%put('$ '//column//words)
+   end subroutine comment
+
+   !> Write one row of a table.
+   subroutine comment_row(out, cells)
+      type(output_file_type), intent(inout) :: out
+      character(14), intent(in)             :: cells(:)
+      character(84) :: words
+
+      write (words, '(6a)') cells
+      call comment(out, '', '   '//words)
+   end subroutine comment_row
+
+   subroutine put_lines(out, before, lines)
+      type(output_file_type), intent(inout) :: out
+      character(*), intent(in)              :: before
+      character(80), intent(in)             :: lines(:)
+      integer :: k
+
+      do k = 1, size(lines)
+         call out%put(before//lines(k))
+      end do
+   end subroutine put_lines
 
    !> JNORM NID C M EU; a zero E_U leaves its field blank.
    function jnorm_card(id, c, m, e_u, small) result(lines)

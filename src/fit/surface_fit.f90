@@ -1,8 +1,9 @@
 !> Fits the laws of one surface to its test data: the shear branches and the power law lambda = c p^m (Eq. 1).
+!! Warns where the slope of a fitted cubic turns negative in the range of the card: a joint has no negative stiffness.
 module surface_fit
    use branch_cubic, only: cubic
    use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_none, fault_one_pressure, fit_lines_only, &
-                         fit_loops, fit_points, loop_fit_type
+                         fit_loops, fit_points, loop_fit_type, residual_of, residual_type
    use data_columns, only: branch_words, column_c, column_d, column_lambda, column_p, column_tau, data_normal, data_shear, &
                            fit_load, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
@@ -18,7 +19,7 @@ module surface_fit
    implicit none
    private
 
-   public :: fit_surface, fit_normal, fit_power_law, fit_proportional
+   public :: fit_surface, fit_power_law, fit_proportional, check_slopes, find_slope_loss
 
    real(wp), parameter :: much = 0.05_wp ! a residual above this share of the largest reading is reported
 
@@ -27,7 +28,8 @@ module surface_fit
       integer  :: n_points = 0
       real(wp) :: p_low = 0.0_wp, p_high = 0.0_wp  !! [pressure]
       real(wp) :: lambda_high = 0.0_wp             !! [length]
-      real(wp) :: rms = 0.0_wp, largest = 0.0_wp, p_largest = 0.0_wp !! residual of lambda [length], and its place [pressure]
+      type(residual_type) :: residual              !! of lambda [length]
+      real(wp) :: p_largest = 0.0_wp               !! p of the largest residual [pressure]
       type(loop_fit_type) :: loops                 !! lines of unloading and reloading
    end type normal_fit_type
 
@@ -58,6 +60,7 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(shear_law) :: law
       real(wp) :: largest, smallest, positive(4)
+      integer  :: from(3) ! branch of the card for each branch of the law
 
       fit%kind = data%kind
       fit%warnings = data%warnings
@@ -70,7 +73,7 @@ contains
                     branch => data%branch(:data%n))
             call fit_loops(p, lambda, branch, data%run(:data%n), data%joined(:data%n), fit%normal%loops)
             call fit_normal(pack(p, branch == fit_load), pack(lambda, branch == fit_load), fit%normal, errors, fit%warnings)
-            call check_residual('', 'lambda', fit%normal%largest, maxval(abs(lambda)), fit%warnings)
+            call check_residual('lambda', 'lambda', fit%normal%residual%largest, maxval(abs(lambda)), fit%warnings)
          end associate
       end if
       if (errors%any()) return
@@ -82,10 +85,9 @@ contains
       if (smallest < smallest_size) call errors%add(0, 'the law that fits these data has a number of '//real_text(smallest)// &
          ', and a deck accepts none below '//real_text(smallest_size)//': are the units right?')
       if (errors%any() .or. .not. fit%has_loading) return
-      law = shear_law(given=.true., load=cubic(fit%card(:, :, fit_load)), unload=cubic(fit%card(:, :, fit_load)), &
-                      reload=cubic(fit%card(:, :, fit_load)), p_max=fit%p_max)
-      if (fit%branch(fit_unload)%n_points > 0) law%unload = cubic(fit%card(:, :, fit_unload))
-      if (fit%branch(fit_reload)%n_points > 0) law%reload = cubic(fit%card(:, :, fit_reload))
+      from = merge([fit_load, fit_unload, fit_reload], fit_load, fit%branch%n_points > 0)
+      law = shear_law(given=.true., load=cubic(fit%card(:, :, fit_load)), unload=cubic(fit%card(:, :, from(fit_unload))), &
+                      reload=cubic(fit%card(:, :, from(fit_reload))), p_max=fit%p_max)
       if (fit%d_max > 0.0_wp) law%d_max = fit%d_max
       fit%closure = worst_closure(law, fit%p_max)
       if (fit%closure%is_known .and. fit%closure%share > wide_gap) &
@@ -120,7 +122,7 @@ contains
          fit%card(:, :, b) = fit%branch(b)%lines
          if (.not. fit%branch(b)%from_points) cycle
          if (command%fit%one_step) fit%card(:, :, b) = fit%branch(b)%joint
-         call check_residual(trim(branch_words(fit%source(b))), 'tau', merge(fit%branch(b)%of_joint%largest, &
+         call check_residual(trim(branch_words(fit%source(b)))//': tau', 'tau', merge(fit%branch(b)%of_joint%largest, &
                              fit%branch(b)%of_lines%largest, command%fit%one_step), maxval(abs(data%value(column_tau, :data%n))), &
                              fit%warnings)
       end do
@@ -135,17 +137,13 @@ contains
    end subroutine fit_shear
 
    !> Warn where readings lie far off the fit.
-   subroutine check_residual(branch, reading, residual, largest, warnings)
-      character(*), intent(in)             :: branch, reading
+   subroutine check_residual(subject, reading, residual, largest, warnings)
+      character(*), intent(in)             :: subject, reading  !! 'LOAD: tau', 'tau'
       real(wp), intent(in)                 :: residual, largest !! largest deviation from the law; largest reading
       type(deck_error_list), intent(inout) :: warnings
-      character(:), allocatable :: whose
 
-      if (residual <= much*largest) return
-      whose = branch
-      if (branch /= '') whose = branch//': '
-      call warnings%add(0, whose//reading//' lies up to '//real_text(residual)//' off the law on the card, more than 5 % '// &
-                        'of the largest '//reading//', '//real_text(largest))
+      if (residual > much*largest) call warnings%add(0, subject//' lies up to '//real_text(residual)//' off the law on the card'// &
+         ', more than 5 % of the largest '//reading//', '//real_text(largest))
    end subroutine check_residual
 
    !> Fit a branch of the card to the rows of branch SOURCE.
@@ -156,7 +154,7 @@ contains
       type(branch_fit_type), intent(out)   :: fit
       type(deck_error_list), intent(inout) :: errors
       integer, allocatable :: rows(:)
-      character(:), allocatable :: name
+      character(:), allocatable :: help, name
       integer :: i
       logical :: met(data%n)
 
@@ -174,6 +172,10 @@ contains
          call fit_lines_only(data%value(column_c, rows), data%value(column_p, rows), command%fit%one_pressure, fit)
       end if
       fit%row = rows
+      help = ''                   ! where measured pressures are close to each other but count as different
+      associate (p => fit%group_p, n => size(fit%group_p))
+         if (any(p(2:) < 1.05_wp*p(:n - 1))) help = ', --p-tolerance 0.05 counts pressures within 5 % as one'
+      end associate
       select case (fit%fault)
       case (fault_one_pressure)
          call errors%add(data%line(rows(1)), name//': all data at one pressure, p = '//real_text(fit%p_high)// &
@@ -183,10 +185,10 @@ contains
          call errors%add(data%line(rows(i)), name//', p = '//real_text(fit%group_p(fit%fault_at))//': '// &
                          plural(count(fit%group == fit%fault_at), 'point')//' that fix no cubic, expected '// &
                          trim(merge('four different d or more             ', 'three different d or more, not zero  ', &
-                         fit%constant))//'; --joint-fit needs no cubic of each pressure'//tolerance_help(fit))
+                         fit%constant))//'; --joint-fit needs no cubic of each pressure'//help)
       case (fault_dependent)
          call errors%add(data%line(rows(1)), name//': '//plural(size(rows), 'point')// &
-                         ' that do not fix the coefficients: expected more different d and p'//tolerance_help(fit))
+                         ' that do not fix the coefficients: expected more different d and p'//help)
       end select
 
    contains
@@ -215,25 +217,13 @@ contains
 
    end subroutine fit_branch
 
-   !> The option that helps where measured pressures are close to each other but count as different.
-   function tolerance_help(fit) result(words)
-      type(branch_fit_type), intent(in) :: fit
-      character(:), allocatable :: words
-
-      words = ''
-      associate (p => fit%group_p, n => size(fit%group_p))
-         if (any(p(2:) < 1.05_wp*p(:n - 1))) words = ', --p-tolerance 0.05 counts pressures within 5 % as one'
-      end associate
-   end function tolerance_help
-
    !> Fit the power law to points of loading, with m at most 1. Missing data go to ERRORS, an m held at 1 goes to WARNINGS.
    subroutine fit_normal(p, lambda, fit, errors, warnings)
       real(wp), intent(in)                 :: p(:)      !! [pressure]; noise below 0 counts as 0
       real(wp), intent(in)                 :: lambda(:) !! [length]
       type(normal_fit_type), intent(inout) :: fit
       type(deck_error_list), intent(inout) :: errors, warnings
-      real(wp) :: off(size(p)), slope
-      integer  :: at
+      real(wp) :: slope
       logical  :: ok
 
       call fit_power_law(p, lambda, fit%c, fit%m, ok)
@@ -250,15 +240,12 @@ contains
          fit%m = 1.0_wp
          fit%c = fit_proportional(p, lambda)
       end if
-      off = abs(lambda - fit%c*max(p, 0.0_wp)**fit%m)
-      at = maxloc(off, 1)
+      fit%residual = residual_of(lambda - fit%c*max(p, 0.0_wp)**fit%m)
+      fit%p_largest = p(fit%residual%at)
       fit%n_points = size(p)
       fit%p_low = minval(p)
       fit%p_high = maxval(p)
       fit%lambda_high = maxval(lambda)
-      fit%rms = norm2(off)/sqrt(real(size(p), wp))
-      fit%largest = off(at)
-      fit%p_largest = p(at)
       if (size(fit%loops%lines) == 0) return
       slope = fit%p_high**(1.0_wp - fit%m)/(fit%m*fit%c)
       if (fit%loops%e_u <= 0.0_wp) then
@@ -279,9 +266,10 @@ contains
       real(wp), intent(out) :: c         !! [length/pressure^m]
       real(wp), intent(out) :: m         !! [-]
       logical, intent(out)  :: ok
-      real(wp), allocatable :: x(:), y(:)
-      real(wp) :: line(2), mean
+      real(wp), allocatable :: jacobian(:, :), law(:), x(:), y(:)
+      real(wp) :: before, mean, now, q(2), step(2)  ! q: ln c at the mean of ln p, and m
       logical  :: above(size(p))
+      integer  :: halvings, k
 
       c = 0.0_wp
       m = 0.0_wp
@@ -289,41 +277,30 @@ contains
       ok = count(above) >= 2
       if (.not. ok) return
       x = log(pack(p, above))
-      y = log(pack(lambda, above))
       mean = sum(x)/size(x)      ! at the mean of ln p the two unknowns are almost independent
-      call fit_line(x - mean, y, line, ok)
+      call fit_line(x - mean, log(pack(lambda, above)), q, ok)
       if (.not. ok) return
-      call gauss_newton(log(pack(p, p > 0.0_wp)) - mean, pack(lambda, p > 0.0_wp), line, ok)
-      m = line(2)
-      c = exp(line(1) - m*mean)
-   end subroutine fit_power_law
-
-   !> From the start Q, the Q that minimizes the sum of (exp(Q(1) + Q(2) x) - lambda)^2.
-   subroutine gauss_newton(x, lambda, q, ok)
-      real(wp), intent(in)    :: x(:), lambda(:)
-      real(wp), intent(inout) :: q(2)
-      logical, intent(out)    :: ok
-      real(wp) :: jacobian(size(x), 2), law(size(x)), step(2), now, before
-      integer  :: halvings, k
-
+      x = log(pack(p, p > 0.0_wp)) - mean
+      y = pack(lambda, p > 0.0_wp)
       before = sum_of_squares(q)
       do k = 1, most_steps
          law = exp(q(1) + q(2)*x)
-         jacobian(:, 1) = law
-         jacobian(:, 2) = law*x
-         call solve_least_squares(jacobian, lambda - law, step, ok)
-         if (.not. ok) return
+         jacobian = reshape([law, law*x], [size(x), 2])
+         call solve_least_squares(jacobian, y - law, step, ok)
+         if (.not. ok) exit
          do halvings = 1, most_halvings
             now = sum_of_squares(q + step)
             if (now <= before) exit
             step = 0.5_wp*step
          end do
-         if (now > before) return     ! no direction of descent is left: q is the minimum to rounding
+         if (now > before) exit  ! no direction of descent is left: q is the minimum to rounding
          q = q + step
          before = now
-         if (maxval(abs(step)) <= settled) return
+         if (maxval(abs(step)) <= settled) exit
       end do
-      ok = .false.
+      ok = ok .and. k <= most_steps
+      m = q(2)
+      c = exp(q(1) - m*mean)
 
    contains
 
@@ -331,10 +308,10 @@ contains
          real(wp), intent(in) :: trial(2)
 
          total = huge(total)
-         if (maxval(abs(trial(1) + trial(2)*x)) < 300.0_wp) total = sum((exp(trial(1) + trial(2)*x) - lambda)**2)
+         if (maxval(abs(trial(1) + trial(2)*x)) < 300.0_wp) total = sum((exp(trial(1) + trial(2)*x) - y)**2)
       end function sum_of_squares
 
-   end subroutine gauss_newton
+   end subroutine fit_power_law
 
    !> The c of lambda = c p, the law with m = 1 [length/pressure].
    pure real(wp) function fit_proportional(p, lambda) result(c)
@@ -342,5 +319,79 @@ contains
 
       c = dot_product(p, lambda)/dot_product(p, p)
    end function fit_proportional
+
+   !> Check the slope of every fitted branch in the range of its data and, if it is positive there, in the range of the card: p from 0 to
+   !! PMAX, d to DMAX, and d below zero too for unloading and reloading, because these branches extend past zero to the mirror image of
+   !! their point A. A branch is followed as in the joint: unloading with decreasing d, the others with increasing d.
+   subroutine check_slopes(fit)
+      type(surface_fit_type), intent(inout) :: fit
+      character(:), allocatable :: words
+      integer  :: b, k
+      logical  :: lost
+      real(wp) :: d, d_max, p, pressures(2), way(2)
+
+      d_max = fit%d_max
+      if (d_max <= 0.0_wp) d_max = huge(d_max)
+      do b = fit_load, fit_reload
+         associate (branch => fit%branch(b))
+            if (branch%n_points == 0) cycle
+            do k = 1, merge(2, 1, fit%has_loading)
+               way = [0.0_wp, d_max]
+               if (k == 1) then
+                  pressures = [branch%p_low, branch%p_high]
+                  if (branch%from_points) way = [branch%d_low, branch%d_high]
+                  if (b == fit_load) way(1) = min(way(1), 0.0_wp)
+                  words = ', inside the tested range'
+               else
+                  pressures = [0.0_wp, fit%p_max]
+                  if (b /= fit_load .and. fit%d_max > 0.0_wp) way(1) = -d_max
+                  words = ', outside the tested range of the branch, but inside the range of the card, which --dmax sets'
+               end if
+               if (b == fit_unload .and. merge(branch%from_points, fit%d_max > 0.0_wp, k == 1)) way = way([2, 1])
+               call find_slope_loss(fit%card(:, :, b), pressures(1), pressures(2), way(1), way(2), lost, p, d)
+               if (lost) call fit%warnings%add(0, trim(branch_words(b))//': the slope of tau becomes zero or negative at p = '// &
+                                               real_text(p)//', d = '//real_text(d)//words)
+               if (lost) exit
+            end do
+         end associate
+      end do
+   end subroutine check_slopes
+
+   !> From d = FROM to d = TO, find the first d at which dtau/dd = sum over k of k (a_k1 + a_k2 p) d^(k-1) is not positive for some p
+   !! between P_LOW and P_HIGH. The slope is linear in p, so its minimum is at P_LOW or P_HIGH: two quadratics in d decide.
+   pure subroutine find_slope_loss(lines, p_low, p_high, from, to, found, p, d)
+      real(wp), intent(in)  :: lines(2, 3)   !! a_k1 and a_k2 for k = 1, 2, 3
+      real(wp), intent(in)  :: p_low, p_high !! [pressure]
+      real(wp), intent(in)  :: from, to      !! [length], TO = +-huge: unbounded
+      logical, intent(out)  :: found
+      real(wp), intent(out) :: p, d          !! the place, if FOUND
+      real(wp) :: a(3), ends(2), discriminant, places(3), q, sense
+      logical  :: lost(3)
+      integer  :: first, i
+
+      found = .false.
+      p = 0.0_wp
+      d = 0.0_wp
+      ends = [p_low, p_high]
+      sense = sign(1.0_wp, to - from)
+      do i = 1, 2
+         a = lines(1, :) + lines(2, :)*ends(i)
+         places = from                            ! the start, and the roots of a1 + 2 a2 d + 3 a3 d^2
+         discriminant = a(2)**2 - 3.0_wp*a(3)*a(1)
+         q = -(a(2) + sign(sqrt(max(discriminant, 0.0_wp)), a(2)))
+         if (discriminant >= 0.0_wp .and. abs(q) > 0.0_wp) then ! the two roots q/(3 a3) and a1/q, without cancellation
+            places(2) = a(1)/q
+            if (abs(a(3)) > tiny(q)) places(3) = q/(3.0_wp*a(3))
+         end if
+         lost = (places - from)*sense > 0.0_wp .and. (places - to)*sense <= 0.0_wp
+         lost(1) = a(1) + from*(2.0_wp*a(2) + from*3.0_wp*a(3)) <= 0.0_wp
+         if (.not. any(lost)) cycle
+         first = minloc(abs(places - from), 1, lost)
+         if (found .and. abs(places(first) - from) >= abs(d - from)) cycle
+         found = .true.
+         p = ends(i)
+         d = places(first)
+      end do
+   end subroutine find_slope_loss
 
 end module surface_fit

@@ -24,16 +24,6 @@ module test_branches
    real(wp), parameter :: exact = 1.0e-6_wp    ! share of the stress, or of d, by which readings count as different
    real(wp), parameter :: known = 1.5_wp       ! the loading cubic is trusted up to this multiple of the largest d of loading
 
-   !> The loading curve of a test through its points so far.
-   type :: curve_type
-      logical  :: is_known = .false.
-      integer  :: n = 0                        ! number of points
-      type(cubic) :: law                       ! at no pressure
-      real(wp) :: d = 0.0_wp                   ! d of the last point [length]
-      real(wp) :: scatter = 0.0_wp             ! scatter of the points [stress]
-      real(wp) :: least = 0.0_wp               ! smallest difference between readings [stress]
-   end type curve_type
-
 contains
 
    !> Assign a branch and a run to every row of DATA where the file does not give them: by turning points where the rows are in the order
@@ -158,9 +148,8 @@ contains
       integer, intent(out) :: branch(:)  !! fit_load, fit_unload, fit_reload, no_branch
       integer, intent(out) :: sense(:)   !! 1 or -1
       real(wp), intent(in), optional :: tau(:)
-      type(curve_type) :: curve
       real(wp) :: reached               ! deflection of point A, in the sense S; during loading the largest deflection so far
-      integer  :: before, goal, i, joins, k, last, s, way
+      integer  :: before, goal, joins, k, last, s, way
 
       s = 1
       reached = 0.0_wp
@@ -183,10 +172,7 @@ contains
             if (joins < starts(k)) joins = last + 1
             branch(starts(k):last) = way
             sense(starts(k):last) = s
-            if (present(tau)) then
-               curve = loading_curve(starts(k) - 1)
-               call find_meeting(curve, goal*forward(:last), goal*tau(:last), starts(k), joins, branch(:last))
-            end if
+            if (present(tau)) call find_meeting(forward(:last), tau(:last), sense(:last), goal, starts(k), joins, branch(:last))
             if (joins > last) cycle
             s = goal
             reached = s*forward(joins)
@@ -195,48 +181,39 @@ contains
          sense(joins:last) = s
          reached = max(reached, maxval(s*forward(joins:last)))
       end do
-
-   contains
-
-      !> The loading curve tau = a1 d + a2 d^2 + a3 d^3 fitted to the first N points.
-      type(curve_type) function loading_curve(n) result(curve)
-         integer, intent(in) :: n
-         integer :: points(n)
-         logical :: belongs(n, 0)
-         real(wp), allocatable :: starts(:)
-
-         curve%n = count(branch(:n) == fit_load)
-         if (curve%n < few) return
-         points(:curve%n) = pack([(i, i = 1, n)], branch(:n) == fit_load)
-         associate (own => points(:curve%n))
-            associate (d => sense(own)*forward(own), stress => sense(own)*tau(own))
-               call fit_cubic(d, stress, belongs(:curve%n, :), curve%law%coefficients(1, :), starts, curve%is_known)
-               curve%d = maxval(d)
-               curve%scatter = norm2(stress - cubic_value(curve%law, d, 0.0_wp))/sqrt(real(max(1, curve%n - 3), wp))
-               curve%least = exact*maxval(abs(stress))
-            end associate
-         end associate
-      end function loading_curve
-
    end subroutine follow
 
-   !> Where a return path from point FIRST on meets its loading CURVE: after the last point up to A that is off the curve on the side
-   !! of the path. Where that is the last point before A, JOINS keeps the value from A. Points beyond A that are still off the curve,
-   !! within its known range, then belong to no branch of the law.
-   subroutine find_meeting(curve, d, tau, first, joins, branch)
-      type(curve_type), intent(in) :: curve
-      real(wp), intent(in)         :: d(:), tau(:) !! in the sense of the curve
-      integer, intent(in)          :: first
-      integer, intent(inout)       :: joins        !! first point of loading
-      integer, intent(inout)       :: branch(:)
-      real(wp) :: off(size(d)), side
-      logical  :: is_on(size(d))
+   !> Where a return path from point FIRST on meets the loading curve tau = a1 d + a2 d^2 + a3 d^3 through the points of loading before:
+   !! after the last point up to A that is off the curve on the side of the path. Where that is the last point before A, JOINS keeps the
+   !! value from A. Points beyond A that are still off the curve, within its known range, then belong to no branch of the law.
+   subroutine find_meeting(forward, stress, sense, goal, first, joins, branch)
+      real(wp), intent(in)   :: forward(:), stress(:)
+      integer, intent(in)    :: sense(:), goal      !! of loading, 1 or -1: at the points; of the curve that the path may meet
+      integer, intent(in)    :: first
+      integer, intent(inout) :: joins               !! first point of loading
+      integer, intent(inout) :: branch(:)
+      type(cubic) :: law
+      integer, allocatable  :: own(:)
+      logical, allocatable  :: no_curves(:, :)
+      real(wp), allocatable :: starts(:)
+      real(wp) :: d(size(forward)), d_most, least, off(size(forward)), scatter, side
+      logical  :: is_on(size(forward)), ok
       integer  :: i, last_off
 
-      if (.not. curve%is_known) return
-      off = tau - cubic_value(curve%law, d, 0.0_wp)
-      ! on the curve: within three times the scatter of its points, more beyond the last point
-      is_on = abs(off) <= curve%least + 3.0_wp*curve%scatter*max(1.0_wp, d/curve%d)**6
+      own = pack([(i, i = 1, first - 1)], branch(:first - 1) == fit_load)
+      if (size(own) < few) return
+      allocate (no_curves(size(own), 0))
+      d = goal*forward
+      associate (d_own => sense(own)*forward(own), tau_own => sense(own)*stress(own))
+         call fit_cubic(d_own, tau_own, no_curves, law%coefficients(1, :), starts, ok)
+         if (.not. ok) return
+         scatter = norm2(tau_own - cubic_value(law, d_own, 0.0_wp))/sqrt(real(max(1, size(own) - 3), wp))
+         least = exact*maxval(abs(tau_own)) ! smallest difference between readings
+         off = goal*stress - cubic_value(law, d, 0.0_wp)
+         ! on the curve: within three times the scatter of its points, more beyond the last point
+         d_most = maxval(d_own)
+         is_on = abs(off) <= least + 3.0_wp*scatter*max(1.0_wp, d/d_most)**6
+      end associate
       side = 0.0_wp
       last_off = 0
       do i = first, joins - 1
@@ -247,9 +224,9 @@ contains
       if (last_off == 0) return
       if (last_off < joins - 1) then
          joins = behind(last_off, joins)
-      else if (curve%n > 2*few) then
+      else if (size(own) > 2*few) then
          do i = joins, size(d)
-            if (is_on(i) .or. d(i) > known*curve%d) exit
+            if (is_on(i) .or. d(i) > known*d_most) exit
             branch(i) = no_branch
             joins = i + 1
          end do
@@ -270,7 +247,7 @@ contains
             call solve_least_squares(reshape([(1.0_wp, i = 1, k), x, x**2], [k, 3]), off(points), parabola, ok)
          end associate
          do behind = last + 1, end - 1
-            if (.not. ok .or. abs(off(behind)) <= curve%least) return
+            if (.not. ok .or. abs(off(behind)) <= least) return
             if (side*(parabola(1) + d(behind)*(parabola(2) + d(behind)*parabola(3))) <= 0.0_wp) return
          end do
       end function behind
@@ -340,11 +317,12 @@ contains
       end do
    end subroutine take_off_offset
 
-   !> Report readings below zero by more than the band of noise: p, and d of rows given as loading. The p of a shear test is prescribed, without noise.
+   !> Report readings below zero by more than the band of noise: p, and d of rows given as loading. The p of a shear test is prescribed,
+   !! without noise.
    subroutine check_signs(data, errors)
       type(test_data_type), intent(in)     :: data
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: fault, help, word
+      character(:), allocatable :: help, help_of_p, word
       real(wp) :: lowest(2)
       integer  :: i
 
@@ -352,14 +330,15 @@ contains
       if (data%kind == data_shear) lowest(2) = 0.0_wp
       help = '; --zero subtracts the first reading of a test from all its readings, --noise allows more noise than '// &
              real_text(0.01_wp*anint(1.0e4_wp*data%band))//' % of the range'
+      help_of_p = ''
+      if (data%kind == data_normal) help_of_p = help
       do i = 1, data%n
          associate (p => data%place(:, column_p, i), d => data%place(:, column_d, i))
+            word = data%text%line(data%line(i))
+            word = word(p(1):min(p(2), len(word)))
             if (data%value(column_p, i) < lowest(2)) then
-               word = data%text%line(data%line(i))
-               word = word(p(1):min(p(2), len(word)))
-               fault = 'P: '''//word//''' is negative, expected 0 or more (compression is positive)'
-               if (data%kind == data_normal) fault = fault//help
-               call errors%add(data%line(i), fault, p(1), p(2))
+               call errors%add(data%line(i), 'P: '''//word//''' is negative, expected 0 or more (compression is positive)'// &
+                               help_of_p, p(1), p(2))
             else if (data%kind == data_shear .and. data%has_branch .and. data%branch(i) == fit_load .and. &
                      data%value(column_d, i) < lowest(1)) then
                call errors%add(data%line(i), 'd of the LOAD branch is negative: expected d and tau counted in the sense of '// &

@@ -85,7 +85,7 @@ contains
       type(command_type), intent(out) :: command
       integer, intent(out)            :: status
       type(command_reader) :: reader
-      character(:), allocatable :: option, value
+      character(:), allocatable :: option, text, value
       type(setting_type), allocatable :: settings(:)
       logical :: is_missing, ok
 
@@ -105,8 +105,10 @@ contains
          case ('')
             exit
          case ('--help', '-h')
-            if (is_missing) call say(help, status)
-            if (.not. is_missing) call print_entry(upper(value), status)
+            text = help
+            if (.not. is_missing) text = manual_entry(upper(value))
+            if (text == '') call complain(program, 'the manual has no entry '''//upper(value)//'''; it has'//trim(manual_names))
+            if (text /= '') call say(text(:verify(text, nl, back=.true.)), status)
             return
          case ('--version')
             call say(program//' '//version, status)
@@ -172,8 +174,8 @@ contains
                                          [0, pack([(k, k = 1, len(values))], [(values(k:k) == ',', k = 1, len(values))])])]
    end subroutine read_setting
 
-   !> The runs of COMMAND: each of FILES with every combination of values of SETTINGS. beam.bdf gives beam.out and beam.joint.csv. No two
-   !! runs may write the same file, and no result may replace a deck.
+   !> The runs of COMMAND: each of FILES with every combination of values of SETTINGS. beam.bdf gives beam.out and beam.joint.csv. No
+   !! two runs may write the same file, and no result may replace a deck.
    subroutine plan_runs(files, settings, command, ok)
       type(input_argument), intent(in)  :: files(:)
       type(setting_type), intent(in)    :: settings(:)
@@ -227,13 +229,12 @@ contains
       ok = .true.
    end subroutine plan_runs
 
-   !> Set the parameters of DECK to combination RUN = 0, 1, ... of the values of SETTINGS, the last setting changing fastest. The values of
-   !! a setting with several values become part of its name and its base.
+   !> Set the parameters of DECK to combination RUN = 0, 1, ... of the values of SETTINGS, the last setting changing fastest. The
+   !! values of a setting with several values become part of its name and its base.
    subroutine set_parameters(settings, run, deck)
       type(setting_type), intent(in)     :: settings(:)
       integer, intent(in)                :: run
       type(deck_argument), intent(inout) :: deck
-      character(:), allocatable :: value
       integer :: i, k, n(size(settings)), which
 
       n = [(size(settings(k)%commas) - 1, k = 1, size(settings))]
@@ -242,16 +243,15 @@ contains
       do k = 1, size(settings)
          which = modulo(run/product(n(k + 1:)), n(k)) + 1
          associate (commas => settings(k)%commas, parameter => deck%parameters(k))
-            value = settings(k)%values(commas(which) + 1:commas(which + 1) - 1)
             parameter%name = settings(k)%name
-            parameter%value = value
+            parameter%value = settings(k)%values(commas(which) + 1:commas(which + 1) - 1)
             if (n(k) == 1) cycle
-            do i = 1, len(value) ! the name of a file cannot have slashes
-               if (value(i:i) == '/') value(i:i) = '-'
-            end do
-            deck%base = deck%base//'_'//parameter%name//'='//value
+            deck%base = deck%base//'_'//parameter%name//'='//parameter%value
             deck%name = deck%name//', '//parameter%name//'='//parameter%value
          end associate
+      end do
+      do i = 1, len(deck%base) ! the name of a file cannot have slashes
+         if (deck%base(i:i) == '/') deck%base(i:i) = '-'
       end do
    end subroutine set_parameters
 
@@ -283,20 +283,5 @@ contains
       base = true_path(deck%base(:slash)//'.')//'/'//deck%base(slash + 1:) ! whether or not there is a file
       if (index(file, base) == 1 .and. is_result_ending(file(len(base) + 1:))) is_result_of = .true.
    end function is_result_of
-
-   !> Print the entry of NAME in the card manual.
-   subroutine print_entry(name, status)
-      character(*), intent(in) :: name
-      integer, intent(out)     :: status
-      character(:), allocatable :: text
-
-      text = manual_entry(name)
-      if (text /= '') then
-         call say(text(:len(text) - 2), status) ! the text ends with an empty line
-      else
-         call complain(program, 'the manual has no entry '''//name//'''; it has'//trim(manual_names))
-         status = 1
-      end if
-   end subroutine print_entry
 
 end module command_line

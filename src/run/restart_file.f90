@@ -13,11 +13,11 @@ module restart_file
    use equation_solver, only: equation_system
    use incomplete_results, only: create_part, name_part, say_at_interrupts
    use model_data, only: model_type
-   use progress, only: goes_on, is_over, is_refused, run_type
+   use run_of_deck, only: goes_on, is_over, is_refused, run_type, tell
    use restart_stream, only: open_restart, restart_stream_type
    use results, only: record_results, restart_ending
    use stage_plan, only: stage_plan_type, where_in_plan
-   use terminal, only: say_line, version
+   use terminal, only: version
    use text_tools, only: integer_text
    implicit none
    private
@@ -37,7 +37,7 @@ contains
       name = run%argument%base//restart_ending
       inquire (file=name, exist=there)
       if (.not. there) then
-         call say_line(run%argument%name//': there is no '//name//', the run '// &
+         call tell(run, 'there is no '//name//', the run '// &
                        trim(merge('would start from the beginning', 'starts from the beginning     ', run%check_only)))
          return
       end if
@@ -50,7 +50,7 @@ contains
       if (run%problem /= '') return
       run%resumes = .not. run%check_only
       run%ending = goes_on
-      if (run%check_only) call say_line(run%argument%name//': '//name//' is complete and belongs to this deck and this program')
+      if (run%check_only) call tell(run, name//' is complete and belongs to this deck and this program')
    end subroutine open_restart_file
 
    !> TAKE UP FROM THE RESTART FILE: the state of ANALYSIS, of the bolts in the equations of SYSTEM, and the results so far.
@@ -61,7 +61,6 @@ contains
       class(equation_system), intent(inout), allocatable :: system
       type(analysis_type), intent(inout)    :: analysis
       character(:), allocatable :: name, words
-      integer :: s
 
       if (is_over(run) .or. .not. run%resumes) return
       call record_analysis(run%restart, analysis)
@@ -83,14 +82,13 @@ contains
       analysis%goes_on = analysis%increment < size(plan%stages(analysis%stage)%fractions)
       name = run%argument%base//restart_ending
       call say_at_interrupts(run%argument%name//': interrupted; '//name//' stays as it was')
-      call run%progress%expect(plan, sum([(size(plan%stages(s)%fractions), s = 1, analysis%stage - 1)]) + analysis%increment)
       words = ' after stage '//integer_text(plan%stages(analysis%stage)%id)//', increment '//integer_text(analysis%increment)
       if (allocated(analysis%kept)) then
          words = words//', '//integer_text(size(analysis%kept, 2))//' amplitudes of its backbone done'
       else if (analysis%stage == size(plan%stages) .and. .not. analysis%goes_on) then
          words = ', where the run is complete; its results are written again'
       end if
-      call say_line(run%argument%name//': resumed from '//name//words)
+      call tell(run, 'resumed from '//name//words)
    end subroutine take_up
 
    !> WRITE THE RESTART FILE at the end of a stage, and after every n increments where RESTART gives n; otherwise do nothing. A new file
@@ -133,7 +131,7 @@ contains
          call say_at_interrupts(run%argument%name//': interrupted; '//name//' keeps the state behind '// &
                                 where_in_plan(plan, analysis%stage, analysis%increment)//': --resume goes on from there')
       else if (.not. run%misses_output) then
-         call say_line(run%argument%name//': the restart file '//name//' cannot be written; the run continues')
+         call tell(run, 'the restart file '//name//' cannot be written; the run continues')
          run%misses_output = .true.
       end if
       call system%forget_past()
@@ -199,19 +197,15 @@ contains
          n = -1
          if (allocated(temperature%at)) n = size(temperature%at)
          call stream%extent(n, 8)
-         if (.not. stream%writes) then
-            if (allocated(temperature%at)) deallocate (temperature%at)
-            if (n >= 0) allocate (temperature%at(n))
-         end if
+         if (.not. stream%writes .and. allocated(temperature%at)) deallocate (temperature%at)
+         if (.not. stream%writes .and. n >= 0) allocate (temperature%at(n))
          if (n >= 0) call stream%item(temperature%at)
          call stream%item(temperature%reference_share)
          n = -1
          if (allocated(temperature%plate)) n = size(temperature%plate, 2)
          call stream%extent(n, 40)
-         if (.not. stream%writes) then
-            if (allocated(temperature%plate)) deallocate (temperature%plate)
-            if (n >= 0) allocate (temperature%plate(5, n))
-         end if
+         if (.not. stream%writes .and. allocated(temperature%plate)) deallocate (temperature%plate)
+         if (.not. stream%writes .and. n >= 0) allocate (temperature%plate(5, n))
          if (n >= 0) call stream%item(temperature%plate)
       end associate
    end subroutine record_loads

@@ -1,5 +1,5 @@
 !> Runs the boxes of the flow chart that belong to no method: reading, building and printing.
-!! Each box shows its phase on the terminal. After an end of the run the later boxes do nothing. Only finish_run of run_end reports
+!! Each box shows its phase on the terminal. After an end of the run the later boxes do nothing. Only finish_run reports
 !! why the run ended.
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
@@ -28,16 +28,15 @@ module run_boxes
    use model_data, only: model_type
    use natural_modes, only: find_natural_modes, release_supports, oscillating_type, spectrum_type, start_oscillation
    use newton_method, only: seat_joints
-   use progress, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, phase_recover, &
-                       phase_write, goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, &
-                       was_searched, would_overwrite
    use restart_file, only: open_restart_file, take_up, write_restart
    use results, only: list_results => print_increment, print_modes, print_stage, remove_old_results, start_results
+   use run_of_deck, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, &
+                          phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
+                          is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
    use unit_watch, only: unit_words
    use vibration_tables, only: list_backbone, list_response
    use vtu_grids, only: write_piece
-   use terminal, only: say_line
    use text_tools, only: integer_text
    implicit none
    private
@@ -61,7 +60,7 @@ contains
       if (is_over(run)) return
       associate (stage => plan%stages(analysis%stage))
          if (analysis%increment == size(stage%fractions) .and. allocated(stage%vibration)) then
-            call run%progress%enter(phase_modes)
+            call enter(run, phase_modes)
             if (stage%vibration%free) then
                allocate (loose, source=model)
                call release_supports(loose)
@@ -69,7 +68,7 @@ contains
             else
                call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
             end if
-            call run%progress%enter(phase_increments)
+            call enter(run, phase_increments)
          end if
       end associate
       call write_restart(run, deck, plan, system, analysis)
@@ -100,7 +99,7 @@ contains
       end if
       call evaluate_modes(model, analysis, structure, wanted, spectrum, shifted, modes)
       if (allocated(wanted%backbone)) then
-         call run%progress%enter(phase_backbone)
+         call enter(run, phase_backbone)
          call start_backbone(model, plan, analysis, system, modes, found, run%failure)
          more = .not. run%failure%raised
          do while (more)
@@ -109,7 +108,7 @@ contains
          end do
          if (.not. run%failure%raised) call finish_backbone(model, wanted, modes, found)
          if (allocated(analysis%kept)) deallocate (analysis%kept)
-         call run%progress%enter(phase_modes)
+         call enter(run, phase_modes)
       end if
       call print_modes(model, plan, analysis%stage, modes, run%results)
       if (run%failure%raised) return
@@ -148,12 +147,8 @@ contains
       logical :: readable
       integer :: i
 
-      run%argument = argument
-      run%check_only = command%check_only .or. command%suggest
-      run%suggests = command%suggest
-      run%is_dated = command%dated
       call say_at_interrupts(argument%name//': interrupted; nothing of this run is kept (RESTART would keep its stages)')
-      call run%progress%start(command, argument)
+      call start_run(command, argument, run)
       call read_deck(argument%path, deck, run%errors, readable, argument%parameters, command%watched)
       if (.not. readable) then
          run%ending = is_unreadable
@@ -178,7 +173,7 @@ contains
 
       if (is_over(run)) return
       call keep_memory()
-      call run%progress%enter(phase_build)
+      call enter(run, phase_build)
       if (.not. (run%check_only .or. run%errors%any())) call check_model_size(deck, run%failure)
       if (is_over(run)) return
       call build_model(deck, model, plan, run%errors)
@@ -196,11 +191,11 @@ contains
          run%ending = was_checked
       end if
       if (run%errors%any() .or. run%suggests) return
-      if (unit_words(deck) /= '') call say_line(run%argument%name//': '//unit_words(deck))
+      call tell(run, unit_words(deck))
       if (deck%control%method /= method_newton) return
       drops = pack(model%joints%id, (model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given) .and. &
                    .not. model%joints%law%has_friction)
-      if (size(drops) > 0) call say_line(run%argument%name//': JOINT '//integer_text(drops(1))// &
+      if (size(drops) > 0) call tell(run, 'JOINT '//integer_text(drops(1))// &
          trim(merge(' and others', '           ', size(drops) > 1))//': shear stiffness without MU on PJOINT: an element '// &
          'that opens drops its shear at once, and NEWTON may find no equilibrium')
    end subroutine build_structure
@@ -216,13 +211,13 @@ contains
       logical :: ok
 
       if (is_over(run)) return
-      call run%progress%enter(phase_order)
+      call enter(run, phase_order)
       call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
-      call run%progress%enter(phase_factor)
+      call enter(run, phase_factor)
       if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
       if (run%failure%raised) return
-      call run%progress%enter(phase_write)
-      run%progress%solver = system%description
+      call enter(run, phase_write)
+      run%solver = system%description
       call date_and_time(date, time)
       if (run%is_dated) run%results%page%date = date(:4)//'-'//date(5:6)//'-'//date(7:8)//' '//time(:2)//':'//time(3:4)
       call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
@@ -249,9 +244,9 @@ contains
          if (deck%control%method /= method_back) call seat_joints(model, analysis, system, run%failure)
          call interface_stiffness(model, system, analysis, run%failure)
       end if
-      call run%progress%expect(plan, 0)
-      call run%progress%enter(phase_increments)
       call take_up(run, model, plan, system, analysis)
+      call expect(run, plan, analysis%stage, analysis%increment)
+      call enter(run, phase_increments)
       if (allocated(analysis%kept)) call go_on(run, deck, model, plan, system, analysis)
    end subroutine start_joints
 
@@ -299,7 +294,7 @@ contains
          if (plan%stages(analysis%stage)%output%condensed .and. analysis%increment == 1) &
             call condense_on_joints(model, system, analysis%before%condensed_load, analysis%after%condensed_load, &
                                     analysis%record%condensed)
-         call run%progress%enter(phase_recover)
+         call enter(run, phase_recover)
          if (run%keeps_results .or. analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) then
             call recover_bodies(model, system, analysis)
          else if (completes_stage) then
@@ -311,21 +306,21 @@ contains
          end if
          call check_state(model, plan, system, analysis, overflow)
          if (.not. overflow%raised) then
-            call run%progress%enter(phase_write)
-            run%progress%solver = system%description
+            call enter(run, phase_write)
+            run%solver = system%description
             call list_results(model, plan, analysis, run%results)
-            call run%progress%advance(analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%fractions))
+            call advance(run, analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%fractions))
          end if
       end if
       if (analysis%increment > 0 .and. (completes_stage .or. run%keeps_results) .and. .not. overflow%raised) then
-         call run%progress%enter(phase_write)
+         call enter(run, phase_write)
          call print_stage(model, plan, analysis, run%results, overflow)
       end if
       if (overflow%raised) then
          run%failure = overflow
          run%keeps_results = .false.
       end if
-      call run%progress%enter(phase_increments)
+      call enter(run, phase_increments)
    end subroutine print_increment
 
 end module run_boxes

@@ -1,35 +1,69 @@
-!> Ends a run and the program: names the results or reports the error, writes the summary, and sets the exit status.
-!! The summary has a row for each run of the command. The exit status is the highest of all runs.
-module run_end
+!> Holds the run of one deck, which its boxes share: its state, its progress on the terminal, its end. Ends the program with a summary.
+!! The progress line has the phase, the increment and the time left; it appears only where standard error is a terminal. With --times
+!! the run ends with a table: the seconds of each phase, operations, memory. The summary has a row for each run of the command. The
+!! exit status is the highest of all runs.
+module run_of_deck
    use c_library, only: end_run, write_bytes
-   use command_line, only: command_type, is_result_of
+   use command_line, only: command_type, deck_argument, is_result_of
+   use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
-   use distribution, only: leave_processes
+   use distribution, only: leave_processes, memory_of_all
+   use equation_solver, only: failure_type, solver_description
    use error_report, only: print_errors
    use incomplete_results, only: say_at_interrupts, what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
-   use result_page, only: history_ending
-   use table_writer, only: column, column_type, csv, csv_titles, heading, table_type
    use model_data, only: model_type, n_points
    use output_file, only: output_file_type
-   use progress, only: phase_write, has_errors, is_over, is_refused, is_unreadable, is_unsolved, is_unwritten, run_type, &
-                       status_of, was_checked, was_searched, would_overwrite
    use range_watch, only: distance_words, tetra_words
-   use results, only: digest_type, discard_results, finish_results, listing_ending, restart_ending, show_answers
+   use restart_stream, only: restart_stream_type
+   use result_page, only: history_ending
+   use results, only: digest_type, discard_results, finish_results, listing_ending, restart_ending, results_type, show_answers
    use stage_plan, only: stage_plan_type
-   use terminal, only: clear_line, complain_of_input, say_line
-   use text_tools, only: plural
+   use table_writer, only: column, column_type, csv, csv_titles, heading, table_type
+   use terminal, only: clear_line, complain_of_input, open_line, say_line, show_line
+   use text_tools, only: integer_text, plural
    use unit_watch, only: stress_words
    use watched_nodes, only: watched_node
    implicit none
    private
 
-   public :: finish_run, end_program
+   public :: start_run, enter, expect, advance, is_over, tell, finish_run, end_program
 
+   integer, parameter, public :: phase_read = 1, phase_build = 2, phase_order = 3, phase_factor = 4, phase_increments = 5, &
+                                 phase_recover = 6, phase_write = 7, phase_modes = 8, phase_backbone = 9
+   character(10), parameter :: phase_name(9) = [character(10) :: 'read', 'build', 'order', 'factor', 'increments', 'recover', &
+                                                'write', 'modes', 'backbone']
+
+   ! early ends of a run, and the exit status of each
+   integer, parameter, public :: goes_on = 0, is_unreadable = 1, would_overwrite = 2, has_errors = 3, was_checked = 4, &
+                                 is_unsolved = 5, is_unwritten = 6, is_refused = 7, was_searched = 8
+   integer, parameter :: status_of(0:8) = [0, 1, 1, 2, 0, 3, 4, 1, 0]
    integer :: exit_status = 0 ! the highest so far
 
-   integer, parameter :: name_width = 40 ! of the table on the screen
+   !> The run of one deck.
+   type, public :: run_type
+      type(failure_type) :: failure            !! why the structure cannot be solved
+      type(deck_argument) :: argument
+      logical :: check_only = .false., is_dated = .false., suggests = .false. !! of the command; suggests: --joints
+      type(output_file_type) :: suggestions    !! of --joints, for the standard output
+      type(deck_error_list) :: errors
+      type(results_type) :: results
+      integer :: ending = goes_on
+      logical :: keeps_results = .false.       !! the run ended early, but its last equilibrium is a result
+      integer(long) :: deck_sum = 0            !! checksum of the deck
+      type(restart_stream_type) :: restart     !! the restart file to continue from, while it is read
+      logical :: resumes = .false.             !! there is such a file
+      character(:), allocatable :: problem     !! why the restart file cannot be used
+      logical :: misses_output = .false.       !! a restart file, the answer or a VTU file could not be written
+      integer(long), private :: began = 0      ! clock at the start
+      type(solver_description) :: solver       !! for the operations in the table at the end
+      logical, private :: is_timed = .false.   ! --times
+      integer, private :: phase = 0
+      integer, private :: done = 0, total = 0, before = 0 ! increments; before: by an earlier run
+      integer(long), private :: entered = 0, increments_began = 0, rate = 1
+      integer(long), private :: ticks(size(phase_name)) = 0
+   end type run_type
 
    !> The row of a run in the summary.
    type, public :: summary_row
@@ -45,6 +79,110 @@ module run_end
 
 contains
 
+   !> Begin a run of COMMAND, of the deck of ARGUMENT, with the phase of reading.
+   subroutine start_run(command, argument, run)
+      type(command_type), intent(in)  :: command
+      type(deck_argument), intent(in) :: argument
+      type(run_type), intent(out)     :: run
+      character(:), allocatable :: words
+
+      run%argument = argument
+      run%check_only = command%check_only .or. command%suggest
+      run%suggests = command%suggest
+      run%is_dated = command%dated
+      run%is_timed = command%times
+      words = ''
+      if (argument%of > 1) words = ' ('//integer_text(argument%number)//' of '//integer_text(argument%of)//')'
+      call open_line(argument%name//words, command%quiet)
+      call system_clock(run%began, run%rate)
+      run%entered = run%began
+      run%phase = phase_read
+   end subroutine start_run
+
+   !> Begin the next PHASE.
+   subroutine enter(run, phase)
+      type(run_type), intent(inout) :: run
+      integer, intent(in)           :: phase
+      integer(long) :: now
+
+      call system_clock(now)
+      run%ticks(run%phase) = run%ticks(run%phase) + now - run%entered
+      run%entered = now
+      run%phase = phase
+      if (phase < phase_increments .or. phase >= phase_modes) call show_line(trim(phase_name(phase)), at_once=.true.)
+   end subroutine enter
+
+   !> Count the increments of PLAN from now on; an earlier run has done those up to INCREMENT of STAGE.
+   subroutine expect(run, plan, stage, increment)
+      type(run_type), intent(inout)     :: run
+      type(stage_plan_type), intent(in) :: plan
+      integer, intent(in)               :: stage, increment
+      integer :: s
+
+      associate (increments => [(size(plan%stages(s)%fractions), s = 1, size(plan%stages))])
+         run%before = sum(increments(:stage - 1)) + increment
+         run%total = sum(increments)
+      end associate
+      run%done = run%before
+      call system_clock(run%increments_began)
+   end subroutine expect
+
+   !> Count one more increment. The first one of a run is always shown.
+   subroutine advance(run, stage, increment, increments)
+      type(run_type), intent(inout) :: run
+      integer, intent(in)           :: stage, increment, increments
+      integer(long) :: now
+      real(wp) :: left
+      character(:), allocatable :: words
+
+      run%done = run%done + 1
+      call system_clock(now)
+      left = real(now - run%increments_began, wp)/run%rate*(run%total - run%done)/(run%done - run%before)
+      words = 'stage '//integer_text(stage)//', increment '//integer_text(increment)//' of '//integer_text(increments)// &
+              ', '//integer_text(nint(left))//' s left'
+      if (run%solver%solutions > 0) words = words//', '//integer_text(int(run%solver%steps/run%solver%solutions))// &
+                                            ' steps a solution'
+      call show_line(words, at_once=run%done == run%before + 1)
+   end subroutine advance
+
+   !> End the progress: clear the line, print the times.
+   subroutine end_progress(run)
+      type(run_type), intent(inout) :: run
+      real(wp) :: bytes
+      integer  :: i
+
+      call enter(run, phase_write)
+      call clear_line()
+      if (.not. run%is_timed) return
+      associate (deck => run%argument%name, solver => run%solver)
+         do i = 1, size(phase_name)
+            write (error_unit, '(3a, f12.4, a)') deck, ': ', phase_name(i), real(run%ticks(i), wp)/run%rate, ' s'
+         end do
+         write (error_unit, '(3a, f12.4, a)') deck, ': ', 'elements  ', solver%assembly_time, ' s of factor'
+         write (error_unit, '(3a, es12.4)') deck, ': ', 'operations static     ', solver%static_operations, &
+            deck, ': ', 'operations refactored ', solver%refactored_operations
+         if (solver%solutions > 0) write (error_unit, '(2a, 3(a, i0))') deck, ': ', 'solutions ', solver%solutions, &
+            ', steps ', solver%steps, ', at most ', solver%most_steps
+         call memory_of_all(bytes)
+         write (error_unit, '(3a, i12, a)') deck, ': ', 'memory    ', nint(bytes/1048576.0_wp), ' MiB'
+      end associate
+   end subroutine end_progress
+
+   !> Whether the work on this deck has ended.
+   pure logical function is_over(run)
+      type(run_type), intent(in) :: run
+
+      is_over = run%failure%raised .or. run%ending /= goes_on
+   end function is_over
+
+   !> Print WORDS about the deck of RUN, if any.
+   subroutine tell(run, words)
+      type(run_type), intent(in) :: run
+      character(*), intent(in)   :: words
+
+      if (words /= '') call say_line(run%argument%name//': '//words)
+   end subroutine tell
+
    !> End the current run: name the results or report the error, and set its ROW. The progress line is cleared.
    subroutine finish_run(run, deck, model, plan, row)
       type(run_type), intent(inout)     :: run
@@ -56,9 +194,9 @@ contains
       logical :: ok, shown
 
       if (run%keeps_results .or. .not. is_over(run)) then
-         call run%progress%enter(phase_write)
+         call enter(run, phase_write)
          call finish_results(plan, run%failure, run%results, ok)
-         call run%progress%finish()
+         call end_progress(run)
          associate (watch => run%results%watch)
             if (watch%n_warnings > 0) call tell(run, plural(watch%n_warnings, 'warning')//' in the listing')
             call tell(run, watch%poor_condition)
@@ -86,7 +224,7 @@ contains
       row%name = run%argument%name
       row%status = status_of(run%ending)
       call system_clock(now, rate)
-      row%seconds = real(now - run%progress%began, wp)/real(rate, wp)
+      row%seconds = real(now - run%began, wp)/real(rate, wp)
       row%digest = run%results%digest
       associate (digest => row%digest)
          if (digest%stages == 0) return
@@ -97,14 +235,6 @@ contains
       row%watched = run%results%watched%nodes(1)
       row%node = model%node_id(row%watched%node)
    end subroutine finish_run
-
-   !> Print WORDS about the deck of RUN, if any.
-   subroutine tell(run, words)
-      type(run_type), intent(in) :: run
-      character(*), intent(in)   :: words
-
-      if (words /= '') call say_line(run%argument%name//': '//words)
-   end subroutine tell
 
    !> Report that the standard output is full or closed.
    subroutine miss_output(run)
@@ -185,7 +315,7 @@ contains
       type(output_file_type) :: screen, summary
       type(table_type)       :: table
       type(column_type), allocatable :: columns(:)
-      character(name_width) :: name
+      character(40) :: name ! on the screen, where it is the end of a longer name
       integer :: i
       logical :: ok, shown
 
@@ -202,7 +332,7 @@ contains
       if (summary%is_open) call summary%put(csv_titles(columns))
       do i = 1, size(rows)
          associate (row => rows(i), d => rows(i)%digest)
-            name = row%name(max(1, len(row%name) - name_width + 1):)
+            name = row%name(max(1, len(row%name) - len(name) + 1):)
             call table%add('"'//row%name//'"')
             call table%add(' '//name)
             call table%add([row%status, d%stages, d%increments, d%iterations])
@@ -224,4 +354,4 @@ contains
       call end_run(exit_status)
    end subroutine end_program
 
-end module run_end
+end module run_of_deck
