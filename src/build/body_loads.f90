@@ -3,11 +3,12 @@
 module body_loads
    use property_cards, only: load_types
    use beam_element, only: beam_axes, beam_length, beam_line_load, beam_nodal_forces, beam_point_load
-   use body_elements, only: element_weight
+   use body_elements, only: law_of
    use bulk_data, only: beam_load_card, gravity_card
    use deck_check, only: checked_deck
    use displacement_systems, only: rectangular_axes
    use element_kinds, only: max_nodes
+   use isoparametric, only: body_forces
    use kinds, only: wp
    use load_checks, only: check_plane
    use mass_matrix, only: scalar_mass
@@ -203,7 +204,8 @@ contains
          if (any(corners_of(model, e) == 0) .or. model%element_property(e) == 0 .or. is_beam(model, e)) cycle
          associate (nodes => own_nodes(model, e), d => model%dimension)
             if (field%is_uniform .and. .not. is_shell(model, e)) then
-               call element_weight(model, e, field%uniform(:d), f)
+               call body_forces(law_of(model, e), model%x(:d, corners_of(model, e)), &
+                                model%properties(model%element_property(e))%rho*field%uniform(:d), f)
             else ! from the translational mass alone: at constant speed rotations do not accelerate
                associate (corners => corners_of(model, e))
                   call scalar_mass(model, e, m)

@@ -6,8 +6,8 @@ module surface_build
    use isoparametric, only: side_areas, side_forces
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
-   use model_data, only: has_second_order, is_shell, model_type, side_corners, surface_type
-   use surface_sides, only: nodes_of
+   use model_data, only: has_second_order, is_shell, model_type, surface_type
+   use surface_sides, only: nodes_of, side_corners
    use text_tools, only: integer_text
    implicit none
    private
@@ -31,8 +31,10 @@ contains
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: marks
       integer, allocatable :: surface(:), first(:), members(:), said(:) ! said: missing marks
+      character(:), allocatable :: words
       integer :: i, k, most_nodes
 
+      words = ''
       most_nodes = 2*(model%dimension - 1)                     ! of a side
       if (has_second_order(model)) most_nodes = merge(3, max_side_nodes, model%dimension == 2)
       call marks%build(deck%bulk%pmark%id)
@@ -40,7 +42,16 @@ contains
       do i = 1, size(sides)
          surface(i) = marks%find(sides(i)%property)
          if (surface(i) > 0 .or. sides(i)%property <= 0 .or. any(said == sides(i)%property)) cycle
-         call report_missing(deck, sides(i), count(sides%property == sides(i)%property))
+         words = 'there is no PMARK '//integer_text(sides(i)%property)
+         k = count(sides%property == sides(i)%property)
+         if (k > 1) words = words//' for '//integer_text(k)//' sides'
+         if (sides(i)%id < 0) then
+            call deck%field_error(sides(i)%line, 'S'//integer_text(-sides(i)%id), words)
+         else
+            if (sides(i)%corners > 2) words = words//': in a model of space plane elements mark surfaces; '// &
+               'plane bodies cannot be mixed with solids; shells need MID2 on their PSHELL' ! the card may be meant as an element
+            call deck%field_error(sides(i)%line, 'PID', words)
+         end if
          said = [said, sides(i)%property]
       end do
       call list_owners(size(model%surfaces), reshape(surface, [1, size(sides)]), first, members)
@@ -89,25 +100,6 @@ contains
       surface = findloc(model%surfaces%id, id, dim=1)
       if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id))
    end subroutine find_surface
-
-   !> Error: the mark of SIDE, which N sides have, has no PMARK. The card may be meant as an element, not as a face of solids.
-   subroutine report_missing(deck, side, n)
-      type(checked_deck), intent(in) :: deck
-      type(marked_side), intent(in)  :: side
-      integer, intent(in)            :: n
-      character(:), allocatable :: words
-
-      words = 'there is no PMARK '//integer_text(side%property)
-      if (n > 1) words = words//' for '//integer_text(n)//' sides'
-      if (side%id < 0) then
-         call deck%field_error(side%line, 'S'//integer_text(-side%id), words)
-      else
-         if (side%corners > 2) &
-            words = words//': in a model of space plane elements mark surfaces; plane bodies cannot be mixed with solids; '// &
-               'shells need MID2 on their PSHELL'
-         call deck%field_error(side%line, 'PID', words)
-      end if
-   end subroutine report_missing
 
    !> Add SIDE to its surface, in the node order of its element. Of two elements the side belongs to the one with the order of the card; the
    !! other element is behind it.

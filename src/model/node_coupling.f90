@@ -49,13 +49,9 @@ contains
    pure logical function is_coupled(model, nodes)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
-      integer :: i
 
       is_coupled = .false.
-      if (.not. allocated(model%coupling%of_node)) return
-      do i = 1, size(nodes)
-         if (nodes(i) > 0) is_coupled = is_coupled .or. model%coupling%of_node(nodes(i)) > 0
-      end do
+      if (allocated(model%coupling%of_node)) is_coupled = any(model%coupling%of_node(pack(nodes, nodes > 0)) > 0)
    end function is_coupled
 
    !> Couple NODE: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes. An earlier coupling is replaced.

@@ -10,7 +10,7 @@ module body_tables
    use interface_operator, only: named_node
    use kinds, only: wp
    use table_writer, only: axes, column, heading, in_units, table_type, noise, page_type, page_width, shows
-   use model_data, only: a_point, corners_of, has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, &
+   use model_data, only: a_point, corners_of, has_second_order, is_beam, is_shell, model_type, n_bars, &
                          n_points, n_rotations, node_kind, supported
    use node_coupling, only: held_forces, node_axes
    use stage_entries, only: output_request
@@ -280,7 +280,7 @@ contains
       call balance_line('LOADS', loads(first:), min(floor, of_a_sum*sum(abs(analysis%now%load))))
       call balance_line('SUPPORTS', supports(first:), floor)
       call balance_line('RIGID BASES, THROUGH THE JOINTS', base(first:), floor)
-      if (has_ground_springs(model)) call balance_line('GROUND, THROUGH SPRINGS', ground(first:), floor)
+      if (any(model%bars%nodes(2) == 0)) call balance_line('GROUND, THROUGH SPRINGS', ground(first:), floor)
       call balance_line('SUM: LEFT UNBALANCED', loads(first:) + supports(first:) + base(first:) + ground(first:), floor)
 
    contains

@@ -6,7 +6,7 @@ module joint_tables
    use joint_laws, only: friction_limit
    use kinds, only: wp
    use table_writer, only: axes, column, column_type, heading, joint_table, table_type, noise, page_type, page_width, shows
-   use model_data, only: has_gaps, joint_node_id, joint_type, model_type
+   use model_data, only: joint_node_id, joint_type, model_type
    use normal_curve, only: loading_deflection
    use normal_stiffness, only: branch_name, branch_open, branch_reload, branch_unload, force_reached, normal_state
    use shear_stiffness, only: curve_deflection
@@ -31,7 +31,7 @@ contains
 
       titles = 'stage,increment,load,joint,element,node1,node2,x,y,z,area,branch,lambda,pressure,force,k_n,'// &
                'branch_x,delta_x,tau_x,k_sx,branch_y,delta_y,tau_y,k_sy,slip'
-      if (has_gaps(model)) titles = titles//',gap'
+      if (any(model%joints%gap_kind /= '')) titles = titles//',gap'
       if (any(model%joints%law%has_friction)) titles = titles//',slid_x,slid_y'
    end function history_titles
 
@@ -45,7 +45,7 @@ contains
       integer  :: i, k, same
       logical  :: gaps, slides
 
-      gaps = has_gaps(model)
+      gaps = any(model%joints%gap_kind /= '')
       slides = any(model%joints%law%has_friction)
       call line%add([page%stage_id, analysis%increment], clean([analysis%fraction]))
       same = line%length                  ! the columns that all rows share
@@ -155,7 +155,8 @@ contains
          case (of_stiffness)
             columns = [column([character(6) :: 'LAMBDA', 'C P**M'], 'es13.5', labels%length), &
                        column('K_N, USED', 'es13.5', labels%stiffness(:12)), &
-                       column(['CLOSING', 'GAP    '], 'es13.5', labels%length, is_listed=has_gaps(model)), column('KIND', 'a9')]
+                       column(['CLOSING', 'GAP    '], 'es13.5', labels%length, is_listed=any(model%joints%gap_kind /= '')), &
+                       column('KIND', 'a9')]
          case (of_removed)
             columns = [column([character(13) :: 'SIGMAF', 'SUMF, DECIDED'], ['es13.5', 'es15.5'], labels%force), &
                        column('LAMBDA B', 'es13.5', labels%length)]

@@ -9,10 +9,11 @@ module structural_results
    use kinds, only: wp
    use table_writer, only: column, column_type, csv, in_units, label_type, table_type, noise, page_type, shell_table, shows
    use model_data, only: a_bar, corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
+   use shell_element, only: shell_forces
    use shell_membrane, only: shell_frame, shell_frame_of
    use stage_entries, only: output_request
-   use structural_elements, only: beam_ends, nodal_values, section_forces, structural_stress
-   use temperatures, only: element_rise
+   use structural_elements, only: beam_ends, nodal_values, structural_stress
+   use temperatures, only: element_rise, element_slope
    use text_tools, only: clean
    implicit none
    private
@@ -242,8 +243,11 @@ contains
          associate (nodes => corners_of(model, e))
             frame = shell_frame_of(model%x(:, nodes), 0.0_wp)
             axes = joint_axes(model, frame%axes(:, 3))
-            call section_forces(model, e, analysis%all_u(:, own_nodes(model, e)), analysis%now%temperature, axes(:, 1), &
-                                force(:, :size(nodes) + 1, model%structural%place(e)))
+            call shell_forces(model%structural%shells(model%structural%place(e)), model%x(:, nodes), &
+                              nodal_values(model, e, analysis%all_u(:, own_nodes(model, e))), &
+                              element_rise(model, e, analysis%now%temperature), &
+                              element_slope(model, e, analysis%now%temperature), axes(:, 1), &
+                              force(:, :size(nodes) + 1, model%structural%place(e)))
             thickness = max(thickness, maxval(model%structural%shells(model%structural%place(e))%thickness))
          end associate
       end do

@@ -6,7 +6,7 @@ module support_reactions
    use bolt_locking, only: bar_tension
    use interface_operator, only: at_first_end, named_node
    use kinds, only: wp
-   use model_data, only: a_rotation, has_ground_springs, model_type, n_bars, n_points, n_rotations, node_kind, place_in_kind
+   use model_data, only: a_rotation, model_type, n_bars, n_points, n_rotations, node_kind, place_in_kind
    use node_coupling, only: forces_on_unknowns
    use numbers, only: cross
    use text_tools, only: above
@@ -65,7 +65,7 @@ contains
             call act(answer%parts(base_of(element%joint)), x, -element_force(element, analysis%states(i)))
          end associate
       end do
-      if (has_ground_springs(model)) then
+      if (any(model%bars%nodes(2) == 0)) then
          n = n + 1
          answer%parts(n)%kind = 'SPRINGS'
          do i = 1, n_bars(model)
