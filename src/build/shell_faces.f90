@@ -24,15 +24,24 @@ module shell_faces
 
 contains
 
-   !> Give the sides of shells in marked surfaces nodes of their own.
+   !> Give the sides of shells in marked surfaces nodes of their own, and masses with an offset.
    subroutine build_shell_faces(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(face_node_type), allocatable :: faces(:)
-      integer :: k, n
+      real(wp) :: axes(3, 3)
+      integer  :: k, n
+      logical  :: ok
 
       allocate (faces(0))
-      call offset_masses(deck, model, faces)
+      do k = 1, size(deck%bulk%mass) ! the centre of mass of a CONM2 with an offset has a rigid lever from its node, as faces have
+         associate (card => deck%bulk%mass(k))
+            n = model%node_table%find(card%node)
+            if (n == 0 .or. all(abs(card%offset) <= 0.0_wp)) cycle
+            call find_directions(deck, model%systems, card%line, card%system, model%x(:, n), axes, ok)
+            faces = [faces, face_node_type(point=n, lever=matmul(axes, card%offset))]
+         end associate
+      end do
       do k = 1, merge(size(model%surfaces), 0, allocated(model%structural%place))
          associate (surface => model%surfaces(k))
             if (.not. any([(is_shell(model, surface%element(n)), n = 1, surface%n)])) cycle
@@ -48,24 +57,26 @@ contains
       if (size(faces) > 0) call append_faces(model, faces)
    end subroutine build_shell_faces
 
-   !> The centres of mass of CONM2 with an offset have rigid levers from their nodes, as faces of shells have.
-   subroutine offset_masses(deck, model, faces)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      type(face_node_type), allocatable, intent(inout) :: faces(:)
-      real(wp) :: axes(3, 3)
-      integer  :: i, node
-      logical  :: ok
+   !> Append the nodes of FACES behind those of the deck, with the elements of the shell nodes, which give their material.
+   subroutine append_faces(model, faces)
+      type(model_type), intent(inout)  :: model
+      type(face_node_type), intent(in) :: faces(:)
+      integer :: i, k, n
 
-      do i = 1, size(deck%bulk%mass)
-         associate (card => deck%bulk%mass(i))
-            node = model%node_table%find(card%node)
-            if (node == 0 .or. all(abs(card%offset) <= 0.0_wp)) cycle
-            call find_directions(deck, model%systems, card%line, card%system, model%x(:, node), axes, ok)
-            faces = [faces, face_node_type(point=node, lever=matmul(axes, card%offset))]
+      n = model%n_nodes
+      model%faces = faces
+      model%faces%node = [(n + k, k = 1, size(faces))]
+      model%elements_at = [model%elements_at, ((model%elements_at(i), i = model%first_at(faces(k)%point), &
+                                                model%first_at(faces(k)%point + 1) - 1), k = 1, size(faces))]
+      model%first_at = [model%first_at, spread(0, 1, size(faces))]
+      do k = 1, size(faces)
+         associate (point => faces(k)%point)
+            model%first_at(n + k + 1) = model%first_at(n + k) + model%first_at(point + 1) - model%first_at(point)
          end associate
       end do
-   end subroutine offset_masses
+      call append_nodes(model, model%x(:, faces%point) + reshape([(faces(k)%lever, k = 1, size(faces))], [3, size(faces)]))
+      model%face_of = [spread(0, 1, n), [(k, k = 1, size(faces))]]
+   end subroutine append_faces
 
    !> Give the sides of SURFACE that belong to shells nodes among FACES; a shared node has the mean lever of its sides.
    subroutine offset_sides(model, surface, faces)
@@ -166,37 +177,6 @@ contains
       surface%line = surface%line(from)
       where (surface%corners == 2) surface%nodes(3, :) = -strip
    end subroutine cut_edges
-
-   !> Append the nodes of FACES behind those of the deck, with the elements of the shell nodes, which give their material.
-   subroutine append_faces(model, faces)
-      type(model_type), intent(inout)  :: model
-      type(face_node_type), intent(in) :: faces(:)
-      integer, allocatable :: elements_at(:)
-      real(wp) :: x(3, size(faces))
-      integer  :: k, m, n
-
-      n = model%n_nodes
-      m = size(model%elements_at)
-      model%faces = faces
-      allocate (elements_at(m + sum(model%first_at(faces%point + 1) - model%first_at(faces%point))))
-      elements_at(:m) = model%elements_at
-      model%first_at = [model%first_at, spread(0, 1, size(faces))]
-      do k = 1, size(faces)
-         model%faces(k)%node = n + k
-         x(:, k) = model%x(:, faces(k)%point) + faces(k)%lever
-         associate (at => model%first_at(faces(k)%point:faces(k)%point + 1))
-            elements_at(m + 1:m + at(2) - at(1)) = model%elements_at(at(1):at(2) - 1)
-            m = m + at(2) - at(1)
-         end associate
-         model%first_at(n + k + 1) = m + 1
-      end do
-      call move_alloc(elements_at, model%elements_at)
-      call append_nodes(model, x)
-      allocate (model%face_of(model%n_nodes), source=0)
-      do k = 1, size(faces)
-         model%face_of(n + k) = k
-      end do
-   end subroutine append_faces
 
    !> Couple the face nodes to the nodes from which they stand off, or to the masters of these.
    subroutine couple_shell_faces(model)

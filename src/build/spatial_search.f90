@@ -49,58 +49,47 @@ contains
       if (size(self%number) > 0) call surround(self, 1, size(self%number), whole)
    end subroutine build_boxes
 
-   !> Sort a section of POINTS, with their NUMBERs, into the order of the tree.
+   !> Sort a section of POINTS, with their NUMBERs, into the order of the tree: points are exchanged until none before the middle has a
+   !! larger coordinate along the axis of the largest extent, and none behind it a smaller one; then each half likewise.
+   !! Source: Hoare's FIND; Wirth, Algorithms + Data Structures = Programs, section 2.3.4.
    pure recursive subroutine divide(points, number)
       real(wp), intent(inout) :: points(:, :) !! (3, n)
       integer, intent(inout)  :: number(:)    !! (n)
-      integer :: middle, n
-
-      n = size(number)
-      if (n <= first_undivided) return
-      middle = 1 + (n - 1)/2
-      call select_middle(maxloc(maxval(points, dim=2) - minval(points, dim=2), dim=1), middle, points, number)
-      call divide(points(:, :middle - 1), number(:middle - 1))
-      call divide(points(:, middle + 1:), number(middle + 1:))
-   end subroutine divide
-
-   !> Exchange POINTS until none before MIDDLE has a larger coordinate along AXIS, and none behind it a smaller one.
-   !! Source: Hoare's FIND; Wirth, Algorithms + Data Structures = Programs, section 2.3.4.
-   pure subroutine select_middle(axis, middle, points, number)
-      integer, intent(in)     :: axis, middle
-      real(wp), intent(inout) :: points(:, :) !! (3, n)
-      integer, intent(inout)  :: number(:)    !! (n)
       real(wp) :: pivot, point(3)
-      integer  :: i, j, k, low, high
+      integer  :: axis, i, j, k, low, high, middle
 
       low = 1
       high = size(number)
+      if (high <= first_undivided) return
+      middle = 1 + (high - 1)/2
+      axis = maxloc(maxval(points, dim=2) - minval(points, dim=2), dim=1)
       do while (low < high)
          pivot = points(axis, middle)
          i = low
          j = high
-         do
+         do while (i <= j)
             do while (points(axis, i) < pivot)
                i = i + 1
             end do
             do while (points(axis, j) > pivot)
                j = j - 1
             end do
-            if (i <= j) then
-               point = points(:, i)
-               points(:, i) = points(:, j)
-               points(:, j) = point
-               k = number(i)
-               number(i) = number(j)
-               number(j) = k
-               i = i + 1
-               j = j - 1
-            end if
             if (i > j) exit
+            point = points(:, i)
+            points(:, i) = points(:, j)
+            points(:, j) = point
+            k = number(i)
+            number(i) = number(j)
+            number(j) = k
+            i = i + 1
+            j = j - 1
          end do
          if (j < middle) low = i
          if (i > middle) high = j
       end do
-   end subroutine select_middle
+      call divide(points(:, :middle - 1), number(:middle - 1))
+      call divide(points(:, middle + 1:), number(middle + 1:))
+   end subroutine divide
 
    !> The bounding box AROUND the boxes FIRST to LAST of the tree, stored with its middle.
    pure recursive subroutine surround(self, first, last, around)
