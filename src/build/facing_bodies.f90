@@ -194,7 +194,7 @@ contains
             boxes(:, 2, i) = max(maxval(x, dim=2), sides(i)%centre)
          end associate
       end do
-      call search%build(boxes)
+      call search%build(boxes(:, 1, :), boxes(:, 2, :))
       allocate (found(64))
       sees = 0
       do i = 1, size(sides)

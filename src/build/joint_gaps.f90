@@ -106,14 +106,22 @@ contains
    pure real(wp) function value_at(self, x) result(value)
       class(gap_table_type), intent(in) :: self
       real(wp), intent(in)              :: x(2)
-      real(wp) :: place(2), side(2), on_side(2), nearest(2), least, weights(3)
-      integer  :: corners(3), k, n
+      real(wp) :: place(2), side(2), on_side(2), nearest(2), least, weights(3), at(size(self%values)), share, t
+      integer  :: before, behind, corners(3), k, n
       logical  :: outside
 
       place = (x - self%centre)/self%extent
       n = size(self%outline)
-      if (n == 0) then
-         value = value_on_line(self, dot_product(place - self%x(:, 1), self%along))
+      if (n == 0) then ! all points lie on a line: interpolate between the neighbours along it
+         t = dot_product(place - self%x(:, 1), self%along)
+         at = [(dot_product(self%along, self%x(:, k) - self%x(:, 1)), k = 1, size(at))]
+         before = maxloc(at, mask=at <= t, dim=1)
+         behind = minloc(at, mask=at > t, dim=1)
+         if (before == 0) before = behind
+         if (behind == 0) behind = before
+         share = 0.0_wp
+         if (behind /= before) share = (t - at(before))/(at(behind) - at(before))
+         value = (1.0_wp - share)*self%values(before) + share*self%values(behind)
          return
       end if
       outside = .false.
@@ -133,23 +141,6 @@ contains
       call find_triangle(self, place, corners, weights)
       value = dot_product(weights, self%values(corners))
    end function value_at
-
-   !> The value at the distance T from the first point along the line of all points.
-   pure real(wp) function value_on_line(self, t) result(value)
-      class(gap_table_type), intent(in) :: self
-      real(wp), intent(in)              :: t
-      real(wp) :: at(size(self%values)), share
-      integer  :: before, behind, i
-
-      at = [(dot_product(self%along, self%x(:, i) - self%x(:, 1)), i = 1, size(at))]
-      before = maxloc(at, mask=at <= t, dim=1)
-      behind = minloc(at, mask=at > t, dim=1)
-      if (before == 0) before = behind
-      if (behind == 0) behind = before
-      share = 0.0_wp
-      if (behind /= before) share = (t - at(before))/(at(behind) - at(before))
-      value = (1.0_wp - share)*self%values(before) + share*self%values(behind)
-   end function value_on_line
 
    !> The Delaunay triangle around PLACE, which is inside the convex hull: its CORNERS, and the WEIGHTS of their values there.
    pure subroutine find_triangle(self, place, corners, weights)

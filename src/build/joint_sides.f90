@@ -33,7 +33,7 @@ contains
       type(model_type), intent(inout)                      :: model
       type(interface_element), allocatable, intent(inout)  :: elements(:)
       type(surface_node_list)   :: side1, side2
-      character(:), allocatable :: fault
+      character(:), allocatable :: fault, lack
       type(interface_sums_type) :: sums
       type(joint_cover) :: cover
       integer, allocatable :: kept(:), partner(:)
@@ -57,37 +57,38 @@ contains
             call surface_nodes(model, model%surfaces(surface(2)), side2)
             call pair_nodes(model, surface, side1, side2, card%tolerance, partner, fault, in_tolerance)
          end if
+         lack = ''
          if (fault == '') then
-            call pair_elements(deck, j, model, model%surfaces(surface(1)), side1, partner, elements)
-            return
+            call pair_elements(model, model%surfaces(surface(1)), side1, partner, elements, lack)
          else if (card%fit == fit_no) then
             fault = fault//'; FIT = AUTO joins faces that do not match'
             if (in_tolerance) then
                call deck%field_error(card%line, trim(merge('TOL  ', 'SIDE2', card%tolerance > 0.0_wp)), fault, called='TOL')
-               return
+            else
+               call deck%field_error(card%line, 'SIDE2', fault)
             end if
          else
             call fit_side(model, surface, side1, card%tolerance, sums, cover, partly, fault)
+            if (fault /= '') then
+               call deck%field_error(card%line, 'SIDE2', fault)
+            else
+               model%joints(j)%cover = cover
+               call summed_elements(model, side1, sums, partly, elements, lack)
+            end if
          end if
-         if (fault /= '') then
-            call deck%field_error(card%line, 'SIDE2', fault)
-         else
-            model%joints(j)%cover = cover
-            call summed_elements(deck, j, model, side1, sums, partly, elements)
-         end if
+         if (lack /= '') call deck%errors%add(card%line, 'surface '//integer_text(card%sides(1))//' has no area at node '//lack)
       end associate
    end subroutine join_sides
 
    !> Elements between the nodes of SIDE and their partners, 0: a rigid base. Faces with mid-side nodes have elements at these nodes
    !! alone, which are connected to the corners too.
-   subroutine pair_elements(deck, j, model, surface, side, partner, elements)
-      type(checked_deck), intent(in)                      :: deck
-      integer, intent(in)                                 :: j
+   subroutine pair_elements(model, surface, side, partner, elements, lack)
       type(model_type), intent(in)                        :: model
       type(surface_type), intent(in)                      :: surface
       type(surface_node_list), intent(in)                 :: side
       integer, intent(in)                                 :: partner(:) !! (nodes of SIDE)
       type(interface_element), allocatable, intent(inout) :: elements(:)
+      character(:), allocatable, intent(inout)            :: lack !! of area: the node and the reason, set where there is such a node
       type(interface_sums_type) :: sums
       type(id_table_type) :: place
       type(face_part)     :: part
@@ -114,11 +115,11 @@ contains
             call sums%add_face(at(:n), surface%nodes(:n, s), opposite(:merge(n, 0, any(partner > 0))), part)
          end do
          call sums%finish()
-         call summed_elements(deck, j, model, side, sums, spread(.false., 1, side%n), elements)
+         call summed_elements(model, side, sums, spread(.false., 1, side%n), elements, lack)
          return
       end if
       if (model%axisymmetric .and. any(side%area <= 0.0_wp)) then
-         call no_area(deck, j, model, side%node(minloc(side%area, dim=1)), ': it lies on the axis')
+         lack = integer_text(model%node_id(side%node(minloc(side%area, dim=1))))//': it lies on the axis'
          return
       end if
       deallocate (elements)
@@ -131,14 +132,13 @@ contains
    end subroutine pair_elements
 
    !> The elements of SUMS at the nodes of SIDE, in their order.
-   subroutine summed_elements(deck, j, model, side, sums, may_lack, elements)
-      type(checked_deck), intent(in)                      :: deck
-      integer, intent(in)                                 :: j
+   subroutine summed_elements(model, side, sums, may_lack, elements, lack)
       type(model_type), intent(in)                        :: model
       type(surface_node_list), intent(in)                 :: side
       type(interface_sums_type), intent(in)               :: sums
       logical, intent(in)                                 :: may_lack(:) !! whether the area at a node may be 0, as on the axis
       type(interface_element), allocatable, intent(inout) :: elements(:)
+      character(:), allocatable, intent(inout)            :: lack        !! as of pair_elements
       integer, allocatable :: at(:)
       integer  :: k
       real(wp) :: normal(3)
@@ -146,8 +146,8 @@ contains
       at = pack([(k, k = 1, side%n)], sums%around > 0.0_wp)
       k = findloc(sums%has_area(at) .or. (sums%has_none(at) .and. (may_lack(at) .or. model%axisymmetric)), .false., dim=1)
       if (k > 0) then
-         call no_area(deck, j, model, side%node(at(k)), &
-                      ', or a negative one: move the mid-side nodes back to the middle of the edges')
+         lack = integer_text(model%node_id(side%node(at(k))))// &
+                ', or a negative one: move the mid-side nodes back to the middle of the edges'
          return
       end if
       at = pack(at, sums%has_area(at))
@@ -160,17 +160,6 @@ contains
          elements(k)%axes = joint_axes(model, normal/max(norm2(normal), tiny(1.0_wp)))
       end do
    end subroutine summed_elements
-
-   !> Error: SIDE1 of JOINT card J has no area at NODE.
-   subroutine no_area(deck, j, model, node, words)
-      type(checked_deck), intent(in) :: deck
-      integer, intent(in)            :: j, node
-      type(model_type), intent(in)   :: model
-      character(*), intent(in)       :: words
-
-      call deck%errors%add(deck%bulk%joint(j)%line, 'surface '//integer_text(deck%bulk%joint(j)%sides(1))// &
-                           ' has no area at node '//integer_text(model%node_id(node))//words)
-   end subroutine no_area
 
    !> Axes of an interface element with normal Z (unit): columns x, y, z, right-handed. In the plane x is tangential to the joint and y is
    !! normal to the plane; x points towards +X (+Y where the joint is vertical). In space x is the projection of +X onto the joint, or of

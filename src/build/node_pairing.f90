@@ -220,7 +220,7 @@ contains
          end associate
          opposite%normal(:, s) = frame%axes(:, 3)
       end do
-      call opposite%boxes%build(box)
+      call opposite%boxes%build(box(:, 1, :), box(:, 2, :))
    end subroutine list_opposite
 
    !> FACE S of SIDE1 in its own frame, and the INTEGRALS over the part of it that SIDE2 covers.

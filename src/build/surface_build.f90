@@ -67,26 +67,15 @@ contains
             end do
             call check_repeated(deck, model, this)
             if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! a number given twice is reported elsewhere
-            call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%id)//' has no '// &
-               trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
-               ' or side of a block with this PID'//gmsh_words())
+            words = 'surface '//integer_text(card%id)//' has no '// &
+                    trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
+                    ' or side of a block with this PID'
+            if (any([(index(deck%text%files(i)%bytes(:min(200, len(deck%text%files(i)%bytes))), 'Created by Gmsh') > 0, &
+                      i = 1, deck%text%n_files)])) words = words// &
+               '; Gmsh writes a face once: of two physical groups with the same face only the first has it'
+            call deck%field_error(card%line, 'PID', words)
          end associate
       end do
-
-   contains
-
-      !> Text: why a mesh of Gmsh may lack the face.
-      function gmsh_words() result(words)
-         character(:), allocatable :: words
-         integer :: f
-
-         words = ''
-         do f = 1, deck%text%n_files
-            if (index(deck%text%files(f)%bytes(:min(200, len(deck%text%files(f)%bytes))), 'Created by Gmsh') > 0) words = &
-               '; Gmsh writes a face once: of two physical groups with the same face only the first has it'
-         end do
-      end function gmsh_words
-
    end subroutine build_surfaces
 
    !> The SURFACE of MODEL with this ID, in FIELD of the card on LINE; 0, and an error, for a missing surface.
@@ -160,16 +149,18 @@ contains
       type(marked_side), intent(in)  :: side
       integer, intent(in)            :: e, own(:)
       type(model_type), intent(in)   :: model
+      character(:), allocatable :: element
       integer :: a, b, k, m, mid, place
 
+      element = 'element '//integer_text(model%element_id(e))//', a '//trim(element_table(model%element_kind(e))%card)
       m = side%corners
       if (size(own) == m .and. side%n_nodes > m) then
          if (m == 2) then
             call deck%field_error(side%line, 'X1', 'a node, as the middle of the edge, but the edge is one of '// &
-                                  element_words()//', which is linear; expected a real number, or blank')
+                                  element//', which is linear; expected a real number, or blank')
          else
             call deck%errors%add(side%line, 'face '//integer_text(side%id)//' has mid-side nodes, but is one of '// &
-                                 element_words()//', which is linear; expected its corners alone')
+                                 element//', which is linear; expected its corners alone')
          end if
          return
       end if
@@ -182,18 +173,9 @@ contains
          mid = own(m + place)
          if (mid == side%nodes(m + k)) cycle
          call deck%field_error(side%line, 2 + m + k, integer_text(model%node_id(side%nodes(m + k)))//', but '// &
-                               element_words()//', has node '//integer_text(model%node_id(mid))//' at the middle of this edge')
+                               element//', has node '//integer_text(model%node_id(mid))//' at the middle of this edge')
          return
       end do
-
-   contains
-
-      pure function element_words() result(words)
-         character(:), allocatable :: words
-
-         words = 'element '//integer_text(model%element_id(e))//', a '//trim(element_table(model%element_kind(e))%card)
-      end function element_words
-
    end subroutine check_mark
 
    !> Text that names a side by its nodes.

@@ -253,7 +253,7 @@ contains
 
       call list_sides(model%surfaces(s), at)
       call orient_sides(model%surfaces(s), at)
-      element_nodes = model%element_nodes     ! the model keeps its nodes until all elements behind are known
+      allocate (element_nodes, source=model%element_nodes) ! the model keeps its nodes until all elements behind are known
       do k = 1, at%n
          call elements_behind(model, s, at, k, behind)
          if (size(behind) == 0) cycle         ! the edge of the surface inside a body is not split

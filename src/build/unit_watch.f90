@@ -33,13 +33,13 @@ contains
       integer  :: best, i, unit
 
       words = ''
+      unit = findloc(lengths, upper(deck%control%length_unit), dim=1)
       do i = 1, size(deck%bulk%mat1)
          associate (card => deck%bulk%mat1(i))
             rho = deck%bulk%parameters%mass_factor*card%rho
             if (rho <= 0.0_wp .or. card%e <= 0.0_wp) cycle
             speed = sqrt(card%e/rho)
-            if (any(is_usual(speed*metres) .and. (upper(deck%control%length_unit) == lengths .or. &
-                                                  all(upper(deck%control%length_unit) /= lengths)))) cycle
+            if (any(is_usual(speed*metres) .and. (unit == 0 .or. [1, 2, 3] == unit))) cycle
             words = 'MAT1 '//integer_text(card%id)//': RHO ='//number(card%rho)//' with E ='//number(card%e)// &
                     ' gives a wave speed sqrt(E/RHO) of no solid in mm, m or inches'
             best = minloc(abs(log(sqrt(card%e/(rho*remedies))*metres(1)/usual)), dim=1)
@@ -48,7 +48,6 @@ contains
             return
          end associate
       end do
-      unit = findloc(lengths, upper(deck%control%length_unit), dim=1)
       do i = 1, size(deck%bulk%gravity)
          associate (card => deck%bulk%gravity(i), a => norm2(deck%bulk%gravity(i)%acceleration))
             if (card%is_spin .or. a <= 0.0_wp .or. abs(a - 1.0_wp) <= 1.0e-9_wp) cycle ! a LOAD may multiply 1

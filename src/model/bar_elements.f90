@@ -6,7 +6,7 @@ module bar_elements
    implicit none
    private
 
-   public :: bar_elongation, thermal_pull, add_pull, add_thermal_pulls, add_bar_forces, bar_stiffness
+   public :: bar_elongation, thermal_pull, add_pull, add_bar_forces, bar_stiffness
 
 contains
 
@@ -35,19 +35,6 @@ contains
       tension = -bar%stiffness*bar%expansion* &
                 (0.5_wp*sum(temperature%at(bar%nodes)) - temperature%reference_share*bar%reference)
    end function thermal_pull
-
-   !> Add to F the thermal nodal forces of the elastic bars.
-   pure subroutine add_thermal_pulls(model, is_elastic, temperature, f)
-      type(model_type), intent(in)       :: model
-      logical, intent(in)                :: is_elastic(:) !! (bars)
-      type(temperature_type), intent(in) :: temperature
-      real(wp), intent(inout)            :: f(:, :)       !! (dimension, n_nodes) [force]
-      integer :: i
-
-      do i = 1, size(is_elastic)
-         if (is_elastic(i)) call add_pull(model, i, thermal_pull(model%bars(i), temperature), f)
-      end do
-   end subroutine add_thermal_pulls
 
    !> Add to F the nodal forces of bar I under a tension N.
    pure subroutine add_pull(model, i, n, f)

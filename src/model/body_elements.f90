@@ -11,7 +11,7 @@ module body_elements
    use shape_functions, only: shape_values
    use shell_element, only: shell_stiffness, shell_thermal_forces
    use stress_recovery, only: centre_stress, nodal_stress
-   use structural_elements, only: beam_ends, between_own, most_own, onto_own, structural_stress
+   use structural_elements, only: between_own, most_own, onto_own, structural_stress
    use temperatures, only: element_rise, element_slope
    implicit none
    private
@@ -45,7 +45,7 @@ contains
       real(wp) :: full(3*most_own, 3*most_own) ! between the nodal values of a shell or beam
 
       if (is_beam(model, e)) then
-         full(:12, :12) = beam_stiffness(model%structural%beams(model%structural%place(e)), beam_ends(model, e))
+         full(:12, :12) = beam_stiffness(model%structural%beams(model%structural%place(e)), model%x(:, corners_of(model, e)))
          call between_own(model, e, full, k)
       else if (is_shell(model, e)) then
          call shell_stiffness(model%structural%shells(model%structural%place(e)), model%x(:, corners_of(model, e)), full)
@@ -234,16 +234,13 @@ contains
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
       real(wp), intent(inout)      :: p(:, :) !! (dimension, nodes) [force], set here
       real(wp) :: k(max_felt_dofs, max_felt_dofs), q(max_felt_dofs)
-      integer  :: d, i, n
+      integer  :: n
 
-      d = model%dimension
       call element_stiffness(model, e, k)
       associate (nodes => participating_nodes(model, e))
-         n = d*size(nodes)
-         do i = 1, size(nodes)
-            q(d*(i - 1) + 1:d*i) = u(:, nodes(i))
-         end do
-         p(:, :size(nodes)) = reshape(matmul(k(:n, :n), q(:n)), [d, size(nodes)])
+         n = model%dimension*size(nodes)
+         q(:n) = reshape(u(:, nodes), [n])
+         p(:, :size(nodes)) = reshape(matmul(k(:n, :n), q(:n)), [model%dimension, size(nodes)])
       end associate
    end subroutine element_forces
 

@@ -113,9 +113,10 @@ contains
    pure function joint_movement(element, u) result(movement)
       type(interface_element), intent(in) :: element
       real(wp), intent(in)                :: u(:, :) !! (dimension, nodes) [length]
-      real(wp) :: movement(3)
+      real(wp) :: movement(3), between(3)
 
-      movement = matmul(relative_movement(element, u), element%axes)
+      between = relative_movement(element, u)
+      movement = matmul(between, element%axes)
    end function joint_movement
 
    !> Add FORCE, in the axes of the element, to the nodal forces F: with its sign at end 1, with the opposite sign at end 2. The nodal

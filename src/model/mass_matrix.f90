@@ -11,7 +11,8 @@ module mass_matrix
    use model_data, only: bar_nodes, corners_of, is_beam, is_shell, model_type, n_bars, n_points, own_nodes, point_mass_type
    use node_coupling, only: between_unknowns, extend_stiffness, participating_nodes, onto_unknowns, rotation_at, section_node, &
                             unknown_nodes
-   use structural_elements, only: beam_ends, between_own, shell_mass
+   use numbers, only: identity
+   use structural_elements, only: between_own, shell_mass
    implicit none
    private
 
@@ -66,8 +67,8 @@ contains
       integer  :: c, d, n
 
       if (is_beam(model, e)) then
-         call between_own(model, e, beam_mass(model%structural%beams(model%structural%place(e)), beam_ends(model, e), &
-                                              model%lumped), m)
+         call between_own(model, e, beam_mass(model%structural%beams(model%structural%place(e)), &
+                                              model%x(:, corners_of(model, e)), model%lumped), m)
          return
       end if
       d = model%dimension
@@ -157,14 +158,11 @@ contains
       type(point_mass_type), intent(in) :: mass
       real(wp), allocatable :: m(:, :)
       real(wp) :: of_components(2*model%dimension, 2*model%dimension)
-      integer  :: c, d
+      integer  :: d
 
       d = model%dimension
       of_components = 0.0_wp
-      of_components(:d, :d) = mass%directed(:d, :d)
-      do c = 1, d
-         of_components(c, c) = of_components(c, c) + mass%mass
-      end do
+      of_components(:d, :d) = mass%directed(:d, :d) + mass%mass*identity(:d, :d)
       associate (nodes => mass_nodes(model, mass))
          if (size(nodes) == 2) of_components(d + 1:, d + 1:) = inertia_at_rotation(model, mass)
          m = between_unknowns(model, nodes, of_components)

@@ -18,10 +18,10 @@ module node_coupling
    implicit none
    private
 
-   public :: is_coupled, couple_node, unknown_nodes, onto_unknowns, between_unknowns, displacements, displacements_at, &
-             forces_on_unknowns, held_forces, list_on_unknowns, section_node, participating_nodes, coupled_nodes, &
-             corner_displacements, extend_stiffness, add_section_share, coupling_parts, rotation_at, rotation_component, &
-             node_axes, place_of_component, third_axis
+   public :: is_coupled, couple_node, unknown_nodes, transformation, onto_unknowns, between_unknowns, displacements, &
+             displacements_at, forces_on_unknowns, held_forces, list_on_unknowns, section_node, participating_nodes, &
+             coupled_nodes, corner_displacements, extend_stiffness, add_section_share, coupling_parts, rotation_at, &
+             rotation_component, node_axes, place_of_component, third_axis
 
    !> The place of a nodal component among the unknowns: component D of NODE, times SCALE.
    type, public :: component_place

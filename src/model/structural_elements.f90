@@ -9,20 +9,11 @@ module structural_elements
    implicit none
    private
 
-   public :: structural_stress, shell_mass, nodal_values, beam_ends, between_own, onto_own
+   public :: structural_stress, shell_mass, nodal_values, between_own, onto_own
 
    integer, parameter, public :: most_own = 8 !! own nodes of an element: corners and their rotations
 
 contains
-
-   !> The coordinates of the end nodes of beam E [length].
-   pure function beam_ends(model, e) result(x)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      real(wp) :: x(3, 2)
-
-      x = model%x(:, model%element_nodes(:2, e))
-   end function beam_ends
 
    !> T: the nodal values (3, 2 corners) of element E, as defined in shell_element and beam_element, due to a unit of each unknown
    !! of its own nodes (one column each), components of node 1 first.

@@ -12,7 +12,7 @@ module structural_results
    use shell_element, only: shell_forces
    use shell_membrane, only: shell_frame, shell_frame_of
    use stage_entries, only: output_request
-   use structural_elements, only: beam_ends, nodal_values, structural_stress
+   use structural_elements, only: nodal_values, structural_stress
    use temperatures, only: element_rise, element_slope
    use text_tools, only: clean
    implicit none
@@ -50,7 +50,7 @@ contains
       associate (place => model%structural%place(e), now => analysis%now%temperature)
          load = beam_thermal_load(model%structural%beams(place), sum(element_rise(model, e, now))/2.0_wp)
          load = load + analysis%fraction*of_stage(analysis%stage) + (1.0_wp - analysis%fraction)*of_stage(analysis%stage - 1)
-         s = beam_end_forces(model%structural%beams(place), beam_ends(model, e), &
+         s = beam_end_forces(model%structural%beams(place), model%x(:, corners_of(model, e)), &
                              nodal_values(model, e, analysis%all_u(:, own_nodes(model, e))), load)
       end associate
       forces = reshape([-s(:6), s(7:)], [6, 2])
