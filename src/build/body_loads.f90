@@ -3,18 +3,19 @@
 module body_loads
    use property_cards, only: load_types
    use beam_element, only: beam_axes, beam_length, beam_line_load, beam_nodal_forces, beam_point_load
-   use body_elements, only: element_weight
+   use body_elements, only: law_of
    use bulk_data, only: beam_load_card, gravity_card
    use deck_check, only: checked_deck
    use displacement_systems, only: rectangular_axes
    use element_kinds, only: max_nodes
+   use isoparametric, only: body_forces
    use kinds, only: wp
    use load_checks, only: check_plane
    use mass_matrix, only: scalar_mass
    use model_data, only: corners_of, is_beam, is_shell, model_type, n_points, own_nodes, stage_load_type
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity
-   use structural_elements, only: beam_ends, onto_own
+   use structural_elements, only: onto_own
    use text_tools, only: integer_text
    implicit none
    private
@@ -203,7 +204,8 @@ contains
          if (any(corners_of(model, e) == 0) .or. model%element_property(e) == 0 .or. is_beam(model, e)) cycle
          associate (nodes => own_nodes(model, e), d => model%dimension)
             if (field%is_uniform .and. .not. is_shell(model, e)) then
-               call element_weight(model, e, field%uniform(:d), f)
+               call body_forces(law_of(model, e), model%x(:d, corners_of(model, e)), &
+                                model%properties(model%element_property(e))%rho*field%uniform(:d), f)
             else ! from the translational mass alone: at constant speed rotations do not accelerate
                associate (corners => corners_of(model, e))
                   call scalar_mass(model, e, m)
@@ -231,7 +233,7 @@ contains
 
       do e = 1, model%n_elements
          if (.not. is_beam(model, e)) cycle
-         x = beam_ends(model, e)
+         x = model%x(:, corners_of(model, e))
          associate (law => model%structural%beams(model%structural%place(e)))
             q = 0.0_wp
             do end = 1, 2
@@ -255,7 +257,7 @@ contains
             if (card%element > 0 .and. e == 0) call deck%field_error(card%line, 'EID', 'there is no beam '// &
                integer_text(card%element)//': no CBAR or CBEAM with a PBAR, PBARL, PBEAM or PBEAML')
             if (e == 0 .or. deck%errors%any()) cycle
-            length = beam_length(model%structural%beams(model%structural%place(e)), beam_ends(model, e))
+            length = beam_length(model%structural%beams(model%structural%place(e)), model%x(:, corners_of(model, e)))
             if (.not. card%is_fraction .and. any(card%x > length*(1.0_wp + 1.0e-9_wp))) &
                call deck%field_error(card%line, 'X1', 'X1 or X2 lies beyond the end of the beam')
             if (model%dimension == 2 .and. card%kind <= 6 .and. any(load_types(card%kind) == ['FZ ', 'MX ', 'MY '])) &
@@ -299,7 +301,7 @@ contains
       real(wp) :: f(12), axes(3, 3), q(6, 2), s(2), direction(3)
       integer  :: first, k
 
-      associate (law => model%structural%beams(model%structural%place(e)), x => beam_ends(model, e))
+      associate (law => model%structural%beams(model%structural%place(e)), x => model%x(:, corners_of(model, e)))
          s = card%x
          if (.not. card%is_fraction) s = min(1.0_wp, s/beam_length(law, x))
          axes = beam_axes(law, x)
@@ -332,7 +334,7 @@ contains
       associate (place => model%structural%place(e), d => model%dimension)
          if (.not. allocated(loads%beam)) allocate (loads%beam(12, size(model%structural%beams)), source=0.0_wp)
          loads%beam(:, place) = loads%beam(:, place) + f
-         call onto_own(model, e, beam_nodal_forces(model%structural%beams(place), beam_ends(model, e), f), own)
+         call onto_own(model, e, beam_nodal_forces(model%structural%beams(place), model%x(:, corners_of(model, e)), f), own)
          associate (nodes => own_nodes(model, e))
             force(:d, nodes) = force(:d, nodes) + own
          end associate

@@ -27,7 +27,7 @@ contains
    pure subroutine find_determinate_joints(model)
       type(model_type), intent(inout) :: model
       integer, allocatable :: group(:)              ! parts connected by all other joints; the base is the last one
-      integer, allocatable :: pair(:, :)            ! (3, pairs) two parts and the joint between them, each pair once
+      integer, allocatable :: pair(:, :)            ! (4, pairs) of list_pairs
       logical, allocatable :: grounded(:), on_side(:, :), held(:, :)
       integer :: base, i, j, k, node, side
 
@@ -36,7 +36,7 @@ contains
       call list_pairs(model, pair)
       allocate (held(model%dimension, model%n_parts), source=.false.)
       do node = 1, n_points(model)
-         if (is_coupled(model, [node])) cycle ! its unknowns have other directions: see ground_turned
+         if (is_coupled(model, [node])) cycle ! its unknowns have other directions: see below
          held(:, model%part(node)) = held(:, model%part(node)) .or. supported(model, node)
       end do
       do i = 1, n_bars(model)
@@ -49,8 +49,7 @@ contains
       end do
       do j = 1, size(model%joints)
          associate (joint => model%joints(j))
-            if (allocated(joint%carries)) deallocate (joint%carries)
-            allocate (joint%carries(model%n_parts), source=.false.)
+            joint%carries = spread(.false., 1, model%n_parts)
             joint%determinate = .false.
             if (norm2(joint%normal) <= 0.0_wp) cycle
             if (model%axisymmetric .and. abs(joint%normal(1)) > 1.0e-9_wp) cycle ! hoop stresses carry the rest
@@ -69,76 +68,55 @@ contains
             do k = 1, model%n_parts
                if (any(held(:, k) .and. abs(joint%normal(:model%dimension)) > 1.0e-9_wp)) grounded(root_of(group, k)) = .true.
             end do
-            call ground_turned(model, joint, group, grounded)
+            do i = 1, n_points(model) ! coupled nodes: held in a direction that is not perpendicular to the normal
+               associate (parts => coupling_parts(model, i))
+                  do k = parts(1), parts(2)
+                     if (any(model%held(:, model%coupling%node(k)) .and. &
+                             abs(matmul(joint%normal(:model%dimension), model%coupling%t(:, :, k))) > 1.0e-9_wp)) &
+                        grounded(root_of(group, model%part(i))) = .true.
+                  end do
+               end associate
+            end do
             on_side = .false.
-            do i = joint%first, joint%last
-               do side = 1, 2
-                  associate (parts => parts_at(model, i, side))
-                     do k = 1, size(parts)
-                        on_side(root_of(group, parts(k)), side) = .true.
-                     end do
-                  end associate
-               end do
+            do i = 1, size(pair, 2)
+               if (pair(3, i) == j) on_side(root_of(group, pair(2, i)), pair(4, i)) = .true.
             end do
             if (any(on_side(:, 1) .and. on_side(:, 2))) cycle
             do side = 1, 2
                if (any(on_side(:, side) .and. grounded)) cycle
                joint%determinate = .true.
                joint%direction = merge(1.0_wp, -1.0_wp, side == 1)
-               do k = 1, model%n_parts
-                  joint%carries(k) = on_side(root_of(group, k), side)
-               end do
+               joint%carries = [(on_side(root_of(group, k), side), k = 1, model%n_parts)]
                exit
             end do
          end associate
       end do
    end subroutine find_determinate_joints
 
-   !> Coupled nodes ground their group too, if they are held in a direction that is not perpendicular to the normal of JOINT.
-   pure subroutine ground_turned(model, joint, group, grounded)
-      type(model_type), intent(in)  :: model
-      type(joint_type), intent(in)  :: joint
-      integer, intent(inout)        :: group(:)
-      logical, intent(inout)        :: grounded(:)
-      integer :: i, k
-
-      do i = 1, n_points(model)
-         associate (parts => coupling_parts(model, i))
-            do k = parts(1), parts(2)
-               if (any(model%held(:, model%coupling%node(k)) .and. &
-                       abs(matmul(joint%normal(:model%dimension), model%coupling%t(:, :, k))) > 1.0e-9_wp)) &
-                  grounded(root_of(group, model%part(i))) = .true.
-            end do
-         end associate
-      end do
-   end subroutine ground_turned
-
-   !> The parts that joints connect: PAIR(:, i) are two parts, or one part and the base (the last number), and the joint. Most neighbouring
-   !! interface elements connect the same parts; such a pair is listed once. Where an end lies on several parts, the first part of end 1
-   !! is connected to all others.
+   !> The parts that joints connect: PAIR(:, i) are two parts, or one part and the base (the last number), the joint, and the end on which
+   !! the second part lies. The first part of end 1 is connected to itself and to all others. Most neighbouring interface elements
+   !! connect the same parts; such a pair is listed once.
    pure subroutine list_pairs(model, pair)
       type(model_type), intent(in)      :: model
-      integer, allocatable, intent(out) :: pair(:, :) !! (3, pairs)
-      integer :: i, k, n, side, this(3)
+      integer, allocatable, intent(out) :: pair(:, :) !! (4, pairs)
+      integer :: i, k, n, side, this(4)
 
-      allocate (pair(3, size(model%interface)))
+      allocate (pair(4, 2*size(model%interface)))
       n = 0
-      do i = 1, size(model%interface)
-         associate (first => parts_at(model, i, 1))
-            do side = 1, 2
-               associate (parts => parts_at(model, i, side))
-                  do k = merge(2, 1, side == 1), size(parts)
-                     this = [first(1), parts(k), model%interface(i)%joint]
-                     if (n > 0) then
-                        if (all(this == pair(:, n))) cycle
-                     end if
-                     if (n == size(pair, 2)) pair = reshape([pair, pair], [3, 2*n])
-                     n = n + 1
-                     pair(:, n) = this
-                  end do
-               end associate
-            end do
-         end associate
+      do side = 1, 2
+         do i = 1, size(model%interface)
+            associate (first => parts_at(model, i, 1), parts => parts_at(model, i, side))
+               do k = 1, size(parts)
+                  this = [first(1), parts(k), model%interface(i)%joint, side]
+                  if (n > 0) then
+                     if (all(this == pair(:, n))) cycle
+                  end if
+                  if (n == size(pair, 2)) pair = reshape([pair, pair], [4, 2*n])
+                  n = n + 1
+                  pair(:, n) = this
+               end do
+            end associate
+         end do
       end do
       pair = pair(:, :n)
    end subroutine list_pairs
@@ -197,22 +175,29 @@ contains
       logical, intent(in)                  :: guess_will_do !! the result of the method does not depend on the guess
       type(model_type), intent(inout)      :: model
       type(deck_error_list), intent(inout) :: errors
-      type(stage_load_type) :: loads
+      type(stage_load_type) :: loads ! of the first stage, with the preloads of the bolts that this stage tightens
       real(wp) :: resultant, total
-      integer  :: j
+      integer  :: i, j
 
-      call first_loads(model, loads)
+      loads = model%stage_loads(1)
+      do i = 1, n_bars(model)
+         associate (bar => model%bars(i))
+            if (bar%stage /= 1) cycle
+            call add_force(bar%nodes(1), bar%preload*bar%direction(:, 1), loads)
+            call add_force(bar%nodes(2), -bar%preload*bar%direction(:, 2), loads)
+         end associate
+      end do
+      do i = 1, n_sections(model)
+         associate (section => model%sections(i))
+            if (section%stage == 1) call add_force(section%node, [section%preload, 0.0_wp, 0.0_wp], loads)
+         end associate
+      end do
       total = sum(norm2(loads%force(:, :loads%n), dim=1))
       do j = 1, size(model%joints)
+         if (model%joints(j)%determinate) call orient_by_load(model, loads, j)
          associate (joint => model%joints(j))
             resultant = 0.0_wp
-            if (joint%determinate) then
-               resultant = first_share*carried_resultant(model, joint, loads)
-               if (opens_first(model, joint, loads) .and. .not. touches_body(model, joint)) then
-                  call turn_round(model, joint)
-                  resultant = -resultant
-               end if
-            end if
+            if (joint%determinate) resultant = first_share*carried_resultant(model, joint, loads)
             if (joint%p0 > 0.0_wp) then
                joint%p_av = joint%p0
             else if (guess_will_do .and. (.not. joint%determinate .or. resultant <= nothing*first_share*total)) then
@@ -229,6 +214,37 @@ contains
          end associate
       end do
    end subroutine find_first_pressures
+
+   !> Reverse the normals of joint J, and the y axes, so that the axes stay right-handed, where the first stage that loads the joint opens
+   !! it and none of its nodes belongs to a body: then only the load shows which sense of the normal closes the joint.
+   pure subroutine orient_by_load(model, first_loads, j)
+      type(model_type), intent(inout)   :: model
+      type(stage_load_type), intent(in) :: first_loads !! of the first stage, with its bolts
+      integer, intent(in)               :: j
+      real(wp) :: resultant
+      integer  :: i, s
+
+      associate (joint => model%joints(j))
+         resultant = carried_resultant(model, joint, first_loads)
+         do s = 2, size(model%stage_loads)
+            if (abs(resultant) > 0.0_wp) exit
+            resultant = carried_resultant(model, joint, model%stage_loads(s))
+         end do
+         if (.not. resultant < 0.0_wp) return
+         do i = joint%first, joint%last
+            associate (nodes => model%interface(i)%node)
+               if (any(model%first_at(nodes + 1) > model%first_at(nodes))) return
+            end associate
+         end do
+         joint%normal = -joint%normal
+         do i = joint%first, joint%last
+            associate (element => model%interface(i))
+               element%axes(:, 2:3) = -element%axes(:, 2:3)
+               if (joint%gap_kind == 'TRUE') element%gap = -element%gap ! a distance along the normal
+            end associate
+         end do
+      end associate
+   end subroutine orient_by_load
 
    !> A guess of the pressure in JOINT: the largest total load of a stage over the joint area, or the pressure that its law gives for the
    !! largest prescribed displacement or interference; where none of these exists, a small fraction of the modulus of the bodies.
@@ -268,73 +284,5 @@ contains
          end associate
       end associate
    end function closed_area
-
-   !> The load of the first stage, with the preloads of the bolts that this stage tightens.
-   pure subroutine first_loads(model, loads)
-      type(model_type), intent(in)       :: model
-      type(stage_load_type), intent(out) :: loads
-      integer :: i
-
-      loads%n = model%stage_loads(1)%n
-      loads%node = model%stage_loads(1)%node
-      loads%force = model%stage_loads(1)%force
-      do i = 1, n_bars(model)
-         associate (bar => model%bars(i))
-            if (bar%stage /= 1) cycle
-            call add_force(bar%nodes(1), bar%preload*bar%direction(:, 1), loads)
-            call add_force(bar%nodes(2), -bar%preload*bar%direction(:, 2), loads)
-         end associate
-      end do
-      do i = 1, n_sections(model)
-         associate (section => model%sections(i))
-            if (section%stage == 1) call add_force(section%node, [section%preload, 0.0_wp, 0.0_wp], loads)
-         end associate
-      end do
-   end subroutine first_loads
-
-   !> Whether the first stage that loads JOINT opens it, for the present sense of its normal.
-   pure logical function opens_first(model, joint, loads)
-      type(model_type), intent(in) :: model
-      type(joint_type), intent(in) :: joint
-      type(stage_load_type), intent(in) :: loads !! of the first stage, with its bolts
-      real(wp) :: resultant
-      integer  :: s
-
-      opens_first = .false.
-      do s = 1, size(model%stage_loads)
-         resultant = carried_resultant(model, joint, model%stage_loads(s))
-         if (s == 1) resultant = carried_resultant(model, joint, loads)
-         if (abs(resultant) <= 0.0_wp) cycle
-         opens_first = resultant < 0.0_wp
-         return
-      end do
-   end function opens_first
-
-   !> Whether any node of JOINT belongs to a body. If none does, only the load shows which sense of the normal closes the joint.
-   pure logical function touches_body(model, joint)
-      type(model_type), intent(in) :: model
-      type(joint_type), intent(in) :: joint
-      integer :: i
-
-      touches_body = .false.
-      do i = joint%first, joint%last
-         associate (nodes => model%interface(i)%node)
-            touches_body = touches_body .or. any(model%first_at(nodes + 1) > model%first_at(nodes))
-         end associate
-      end do
-   end function touches_body
-
-   !> Reverse the normals of a joint, and the y axes, so that the axes stay right-handed.
-   pure subroutine turn_round(model, joint)
-      type(model_type), intent(inout) :: model
-      type(joint_type), intent(inout) :: joint
-      integer :: i
-
-      joint%normal = -joint%normal
-      do i = joint%first, joint%last
-         model%interface(i)%axes(:, 2:3) = -model%interface(i)%axes(:, 2:3)
-         if (joint%gap_kind == 'TRUE') model%interface(i)%gap = -model%interface(i)%gap ! a distance along the normal
-      end do
-   end subroutine turn_round
 
 end module determinate_joints

@@ -37,9 +37,7 @@ module face_overlap
       real(wp), allocatable :: weight(:)   !! (room) area, of edges length; the sum is the overlap
    end type plane_points
 
-   integer, parameter  :: most_corners = 4           ! of a part
-   integer, parameter  :: most_parts = 5             ! of a face
-   integer, parameter  :: room = 4*2**most_corners   ! corners of the overlap of two parts
+   integer, parameter  :: room = 4*2**4              ! corners of the overlap of two parts of four corners
    integer, parameter  :: corner_numbers(4) = [1, 2, 3, 4]
    real(wp), parameter :: least_piece = 1.0e-10_wp   ! of the area of the first face: a smaller overlap is dropped
 
@@ -259,19 +257,25 @@ contains
       type(seen_face), intent(in)       :: first, second !! both in the frame of FIRST
       type(plane_points), intent(inout) :: points        !! set here; keeps its room
       type(integration_rule) :: rule
-      integer  :: i, k, n(2), parts_1(most_corners, most_parts), parts_2(most_corners, most_parts)
-      real(wp) :: smallest
+      integer, allocatable :: parts_1(:, :), parts_2(:, :)
+      real(wp) :: low, high, smallest
+      integer  :: i, k, p
 
       points%n = 0
-      call list_parts(first, n(1), parts_1)
-      call list_parts(second, n(2), parts_2)
+      allocate (parts_1, source=parts_of(first))
+      allocate (parts_2, source=parts_of(second))
       smallest = least_piece*seen_area(first)
       if (.not. first%is_edge) call side_product_rule(max(first%n, second%n), rule)
-      do i = 1, n(1)
-         do k = 1, n(2)
+      do i = 1, size(parts_1, 2)
+         do k = 1, size(parts_2, 2)
             associate (a => corners(first, parts_1(:, i)), b => corners(second, parts_2(:, k)))
                if (first%is_edge) then
-                  call add_interval([minval(a(1, :)), maxval(a(1, :))], [minval(b(1, :)), maxval(b(1, :))], smallest, points)
+                  low = max(minval(a(1, :)), minval(b(1, :)))
+                  high = min(maxval(a(1, :)), maxval(b(1, :)))
+                  do p = 1, merge(5, 0, high - low > smallest)
+                     call add_point([0.5_wp*(low + high) + 0.5_wp*(high - low)*gauss_place(p), 0.0_wp], &
+                                    (high - low)*gauss_weight(p), points)
+                  end do
                else
                   call add_polygon(a, b, rule, smallest, points)
                end if
@@ -283,11 +287,12 @@ contains
    !> Projected area of FACE, the sum over its parts; of an edge its length.
    pure real(wp) function seen_area(face) result(area)
       type(seen_face), intent(in) :: face
-      integer :: k, n, parts(most_corners, most_parts)
+      integer, allocatable :: parts(:, :)
+      integer :: k
 
       area = 0.0_wp
-      call list_parts(face, n, parts)
-      do k = 1, n
+      allocate (parts, source=parts_of(face))
+      do k = 1, size(parts, 2)
          associate (rim => corners(face, parts(:, k)))
             if (face%is_edge) then
                area = area + abs(rim(1, 2) - rim(1, 1))
@@ -298,27 +303,21 @@ contains
       end do
    end function seen_area
 
-   !> The N parts of a face as lists of nodes, 0 behind the last. A face with mid-side nodes is divided at them.
-   pure subroutine list_parts(face, n, parts)
+   !> The parts of a face as lists of nodes, one in a column, 0 behind the last node. A face with mid-side nodes is divided at them.
+   pure function parts_of(face) result(parts)
       type(seen_face), intent(in) :: face
-      integer, intent(out)        :: n
-      integer, intent(out)        :: parts(most_corners, most_parts)
+      integer, allocatable :: parts(:, :)
 
-      parts = 0
       if (face%is_edge .and. face%n == 3) then
-         n = 2
-         parts(:2, :n) = reshape([1, 3, 3, 2], [2, 2])
+         parts = reshape([1, 3, 3, 2], [2, 2])
       else if (face%n == 6) then
-         n = 4
-         parts(:3, :n) = reshape([1, 4, 6, 4, 2, 5, 6, 5, 3, 4, 5, 6], [3, 4])
+         parts = reshape([1, 4, 6, 4, 2, 5, 6, 5, 3, 4, 5, 6], [3, 4])
       else if (face%n == 8) then
-         n = 5
-         parts(:, :n) = reshape([1, 5, 8, 0, 5, 2, 6, 0, 6, 3, 7, 0, 8, 7, 4, 0, 5, 6, 7, 8], [4, 5])
+         parts = reshape([1, 5, 8, 0, 5, 2, 6, 0, 6, 3, 7, 0, 8, 7, 4, 0, 5, 6, 7, 8], [4, 5])
       else
-         n = 1
-         parts(:face%n, 1) = corner_numbers(:face%n)
+         parts = reshape(corner_numbers(:face%n), [face%n, 1])
       end if
-   end subroutine list_parts
+   end function parts_of
 
    !> The projected corners of a PART of FACE.
    pure function corners(face, part) result(rim)
@@ -329,23 +328,6 @@ contains
       rim = face%x(:2, part(:size(rim, 2)))
    end function corners
 
-   !> Add the points of the intersection of the intervals A and B.
-   pure subroutine add_interval(a, b, smallest, points)
-      real(wp), intent(in)              :: a(2), b(2)
-      real(wp), intent(in)              :: smallest
-      type(plane_points), intent(inout) :: points
-      real(wp) :: low, high
-      integer  :: i
-
-      low = max(a(1), b(1))
-      high = min(a(2), b(2))
-      if (high - low <= smallest) return
-      do i = 1, 5
-         call add_point([0.5_wp*(low + high) + 0.5_wp*(high - low)*gauss_place(i), 0.0_wp], &
-                        (high - low)*gauss_weight(i), points)
-      end do
-   end subroutine add_interval
-
    !> Add the points of the intersection of the polygons A and B: the RULE over each triangle of a fan from the centroid, so that the
    !! result does not depend on the first corner. A triangle is not divided.
    pure subroutine add_polygon(a, b, rule, smallest, points)
@@ -353,8 +335,8 @@ contains
       type(integration_rule), intent(in) :: rule
       real(wp), intent(in)               :: smallest
       type(plane_points), intent(inout)  :: points
-      real(wp) :: common(2, room), area
-      integer  :: k, n
+      real(wp) :: common(2, room), area, middle(2), triangle(2, 3), twice
+      integer  :: i, k, n
 
       if (any(minval(a, dim=2) > maxval(b, dim=2)) .or. any(minval(b, dim=2) > maxval(a, dim=2))) return
       if (polygon_area(a) > 0.0_wp) then
@@ -367,32 +349,17 @@ contains
       if (abs(area) <= smallest) return
       call drop_straight_corners(straight*smallest, n, common)
       if (n < 3) return
-      if (n == 3) then
-         call add_triangle(common(:, :3), sign(1.0_wp, area), rule, points)
-         return
-      end if
-      associate (middle => polygon_centroid(common(:, :n)))
-         do k = 1, n
-            call add_triangle(reshape([middle, common(:, k), common(:, modulo(k, n) + 1)], [2, 3]), sign(1.0_wp, area), rule, &
-                              points)
+      middle = polygon_centroid(common(:, :n))
+      do k = 1, merge(1, n, n == 3)
+         triangle = common(:, :3)
+         if (n > 3) triangle = reshape([middle, common(:, k), common(:, modulo(k, n) + 1)], [2, 3])
+         twice = sign(2.0_wp, area)*polygon_area(triangle) ! negative for a triangle against the orientation of its polygon
+         do i = 1, rule%n
+            call add_point(triangle(:, 1) + rule%point(1, i)*(triangle(:, 2) - triangle(:, 1)) &
+                           + rule%point(2, i)*(triangle(:, 3) - triangle(:, 1)), twice*rule%weight(i), points)
          end do
-      end associate
-   end subroutine add_polygon
-
-   !> Add the points of the RULE over a triangle with these CORNERS; SENSE is the orientation of its polygon, +1 or -1.
-   pure subroutine add_triangle(corners, sense, rule, points)
-      real(wp), intent(in)               :: corners(2, 3), sense
-      type(integration_rule), intent(in) :: rule
-      type(plane_points), intent(inout)  :: points
-      real(wp) :: twice
-      integer  :: i
-
-      twice = 2.0_wp*sense*polygon_area(corners)
-      do i = 1, rule%n
-         call add_point(corners(:, 1) + rule%point(1, i)*(corners(:, 2) - corners(:, 1)) &
-                        + rule%point(2, i)*(corners(:, 3) - corners(:, 1)), twice*rule%weight(i), points)
       end do
-   end subroutine add_triangle
+   end subroutine add_polygon
 
    !> Append a point; the arrays are doubled when they are full.
    pure subroutine add_point(place, weight, points)

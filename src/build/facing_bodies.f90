@@ -8,10 +8,11 @@ module facing_bodies
    use kinds, only: wp
    use lists, only: join, list_owners, root_of
    use connected_bodies, only: find_bodies
-   use model_data, only: corners_of, is_shell, model_type, n_bars, n_points, side_corners, supported
+   use model_data, only: corners_of, is_shell, model_type, n_bars, n_points, supported
    use node_pairing, only: opposed => facing, reach => default_reach
    use numbers, only: cross
    use spatial_search, only: spatial_search_type
+   use surface_sides, only: side_corners
    use text_tools, only: clean, integer_text, real_text
    implicit none
    private
@@ -103,10 +104,7 @@ contains
       logical, allocatable :: is_outer(:)
       integer :: e, i, j, n, s
 
-      n = 0
-      do e = 1, model%n_elements
-         n = n + merge(2, element_table(model%element_kind(e))%n_sides, is_shell(model, e))
-      end do
+      n = sum([(merge(2, element_table(model%element_kind(e))%n_sides, is_shell(model, e)), e = 1, model%n_elements)])
       allocate (sides(n), is_outer(n), least(1, n))
       i = 0
       do e = 1, model%n_elements
@@ -128,7 +126,11 @@ contains
       do i = 1, n
          if (sides(i)%side <= 0) cycle
          do j = first(least(1, i)), first(least(1, i) + 1) - 1
-            if (owners(j) /= i) is_outer(i) = is_outer(i) .and. .not. are_same(sides(i)%corners, sides(owners(j))%corners)
+            if (owners(j) == i) cycle
+            associate (own => sides(i)%corners(:sides(i)%n), other => sides(owners(j))%corners(:sides(owners(j))%n))
+               if (size(own) /= size(other)) cycle
+               if (all([(any(own(s) == other), s = 1, size(own))])) is_outer(i) = .false.
+            end associate
          end do
       end do
       sides = pack(sides, is_outer)
@@ -136,14 +138,6 @@ contains
          call measure(model, sides(i))
       end do
    end subroutine list_outer_sides
-
-   !> Whether A and B have the same nodes.
-   pure logical function are_same(a, b)
-      integer, intent(in) :: a(4), b(4)
-      integer :: k
-
-      are_same = all([(any(a(k) == b), k = 1, 4)]) .and. count(a > 0) == count(b > 0)
-   end function are_same
 
    !> Centre, normal, area and size of SIDE from its corners.
    pure subroutine measure(model, side)
@@ -200,7 +194,7 @@ contains
             boxes(:, 2, i) = max(maxval(x, dim=2), sides(i)%centre)
          end associate
       end do
-      call search%build(boxes)
+      call search%build(boxes(:, 1, :), boxes(:, 2, :))
       allocate (found(64))
       sees = 0
       do i = 1, size(sides)
@@ -215,7 +209,7 @@ contains
                sees(i) = sides(found(k))%body
             end do
             if (sees(i) == 0) cycle
-            p = place_of(pairs, side%body, sees(i))
+            p = findloc(pairs%body(1) == min(side%body, sees(i)) .and. pairs%body(2) == max(side%body, sees(i)), .true., dim=1)
             if (p == 0) then
                pairs = [pairs, facing_type(body=[min(side%body, sees(i)), max(side%body, sees(i))])]
                p = size(pairs)
@@ -240,16 +234,6 @@ contains
          end associate
       end do
    end subroutine find_facing
-
-   !> The position of the bodies A and B in PAIRS; 0: none.
-   pure integer function place_of(pairs, a, b) result(p)
-      type(facing_type), intent(in) :: pairs(:)
-      integer, intent(in)           :: a, b
-
-      do p = size(pairs), 1, -1
-         if (all(pairs(p)%body == [min(a, b), max(a, b)])) return
-      end do
-   end function place_of
 
    !> Distance of the centre of SIDE from OTHER along its normal, gap or overlap [length]; huge where OTHER does not face SIDE there, or
    !! is farther away than the reach of the search.
@@ -290,22 +274,21 @@ contains
       type(model_type), intent(in) :: model
       character(:), allocatable    :: words
       type(body_type), allocatable :: bodies(:)
-      integer :: parent(0:model%n_parts), body(model%n_elements), ground, e, i, k, said
-      integer, allocatable :: part(:)
+      integer :: body(model%n_elements), e, i, k, said
+      integer, allocatable :: part(:) ! of each body; of connected parts the first, 0: connected to the ground
 
       words = ''
       if (model%n_elements == 0) return
       call list_bodies(model, body, bodies)
-      call connect(model, parent)
       allocate (part(size(bodies)))
-      do e = model%n_elements, 1, -1
-         part(body(e)) = root_of(parent(1:), model%part(model%element_nodes(1, e)))
-      end do
-      ground = parent(0)
-      if (ground > 0) ground = root_of(parent(1:), ground)
+      associate (root => connected_parts(model))
+         do e = model%n_elements, 1, -1
+            part(body(e)) = root(model%part(model%element_nodes(1, e)))
+         end do
+      end associate
       said = 0
       do i = 1, size(bodies)
-         if (part(i) == ground .or. any(part(:i - 1) == part(i))) cycle
+         if (part(i) == 0 .or. any(part(:i - 1) == part(i))) cycle
          said = said + 1
          if (said > most_said) exit
          if (words /= '') words = words//'; '
@@ -321,39 +304,30 @@ contains
       if (said > most_said) words = words//'; and others'
    end function loose_words
 
-   !> Sets of the parts of MODEL that joints connect: PARENT(1:) of a union-find structure; PARENT(0) is a part that is grounded, 0:
-   !! none.
-   subroutine connect(model, parent)
+   !> For each part of MODEL the first of the parts to which joints connect it; 0: supports, grounded springs or rigid bases hold them.
+   pure function connected_parts(model) result(root)
       type(model_type), intent(in) :: model
-      integer, intent(out)         :: parent(0:)
-      integer :: i, k, node
+      integer :: root(model%n_parts), parent(model%n_parts + 1), ground, i, k, node
 
-      parent = [(i, i = 0, size(parent) - 1)]
+      ground = model%n_parts + 1
+      parent = [(i, i = 1, ground)]
       do node = 1, n_points(model)
-         if (any(supported(model, node))) call to_ground(node)
+         if (any(supported(model, node))) call join(parent, model%part(node), ground)
       end do
       do i = 1, n_bars(model)
-         if (model%bars(i)%nodes(2) == 0) call to_ground(model%bars(i)%nodes(1))
+         if (model%bars(i)%nodes(2) == 0) call join(parent, model%part(model%bars(i)%nodes(1)), ground)
       end do
       do i = 1, size(model%interface)
-         associate (nodes => model%interface(i)%node)
-            do k = 2, size(nodes)
-               call join(parent(1:), model%part(nodes(1)), model%part(nodes(k)))
+         associate (parts => model%part(model%interface(i)%node))
+            do k = 2, size(parts)
+               call join(parent, parts(1), parts(k))
             end do
-            if (named_node(model%interface(i), 2) == 0) call to_ground(nodes(1))
+            if (named_node(model%interface(i), 2) == 0) call join(parent, parts(1), ground)
          end associate
       end do
-
-   contains
-
-      subroutine to_ground(node)
-         integer, intent(in) :: node
-
-         if (parent(0) > 0) call join(parent(1:), parent(0), model%part(node))
-         if (parent(0) == 0) parent(0) = model%part(node)
-      end subroutine to_ground
-
-   end subroutine connect
+      root = [(root_of(parent, i), i = 1, model%n_parts)]
+      where (root == root_of(parent, ground)) root = 0
+   end function connected_parts
 
    !> Text about the body next to body I, ', 0 from body 1 over an area of about 1250: a JOINT?'; '' where there is none.
    function neighbour_words(model, body, i) result(words)
@@ -374,9 +348,12 @@ contains
       p = maxloc([(merge(maxval(pairs(k)%n), 0, any(pairs(k)%body == i)), k = 1, size(pairs))], dim=1)
       if (size(pairs) > 0) then
          associate (pair => pairs(p))
-            if (any(pair%body == i)) words = '; it lies '//distance_words(pair%gap)//' from body '// &
-               integer_text(sum(pair%body) - i)//' over an area of about '//real_text(rounded(pair%area(1)))//'; is a JOINT '// &
-                  'missing?'
+            if (any(pair%body == i)) then
+               words = '; it lies '//real_text(rounded(pair%gap(1)))
+               if (pair%gap(2) - pair%gap(1) > 0.01_wp*pair%gap(2)) words = words//' to '//real_text(rounded(pair%gap(2)))
+               words = words//' from body '//integer_text(sum(pair%body) - i)//' over an area of about '// &
+                       real_text(rounded(pair%area(1)))//'; is a JOINT missing?'
+            end if
          end associate
       end if
       if (words /= '' .or. all(sides%body == i)) return
@@ -392,15 +369,6 @@ contains
       end do
       words = '; the nearest body is '//integer_text(sides(p)%body)//', with nodes '//real_text(rounded(nearest))//' apart'
    end function neighbour_words
-
-   !> Text of a gap: '0', or '0.1 to 0.3'.
-   pure function distance_words(gap) result(words)
-      real(wp), intent(in)      :: gap(2)
-      character(:), allocatable :: words
-
-      words = real_text(rounded(gap(1)))
-      if (gap(2) - gap(1) > 0.01_wp*gap(2)) words = words//' to '//real_text(rounded(gap(2)))
-   end function distance_words
 
    !> VALUE rounded to three digits.
    pure real(wp) function rounded(value)

@@ -66,9 +66,7 @@ contains
          return
       end if
       call hold(model, a, merge(123, 12, model%dimension == 3))
-      do i = 1, size(may_be)
-         off(i) = norm2(model%x(:, i) - model%x(:, a))
-      end do
+      off = [(norm2(model%x(:, i) - model%x(:, a)), i = 1, size(off))]
       b = first_largest(off, may_be)
       along = (model%x(:, b) - model%x(:, a))/max(off(b), tiny(1.0_wp))
       k = first_largest(abs(along))
@@ -77,9 +75,7 @@ contains
          return
       end if
       call hold(model, b, merge(23, merge(13, 12, k == 2), k == 1))
-      do i = 1, size(may_be)
-         off(i) = norm2(cross(along, model%x(:, i) - model%x(:, a)))
-      end do
+      off = [(norm2(cross(along, model%x(:, i) - model%x(:, a))), i = 1, size(off))]
       c = first_largest(off, may_be)
       turn = cross(along, model%x(:, c) - model%x(:, a))
       call hold(model, c, first_largest(abs(turn)))

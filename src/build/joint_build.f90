@@ -4,12 +4,11 @@ module joint_build
    use bulk_data, only: cjoint_card
    use deck_check, only: checked_deck
    use interface_operator, only: connect_nodes, interface_element, nodes_of_end, weights_of_end
-   use joint_sides, only: joint_axes, outward, join_one_side, join_two_sides
+   use joint_sides, only: joint_axes, outward, join_sides
    use kinds, only: wp
    use lists, only: id_table_type, list_owners
-   use model_data, only: joint_type, model_type, surface_type
+   use model_data, only: joint_type, model_type
    use node_build, only: find_nodes
-   use surface_build, only: surface_node_list, surface_nodes
    use text_tools, only: integer_text, real_text
    implicit none
    private
@@ -197,7 +196,7 @@ contains
       n = model%joints(j)%last
    end subroutine add_elements
 
-   !> Interface elements of JOINT card J, numbered from HIGHEST + 1.
+   !> Interface elements of JOINT card J, numbered from HIGHEST + 1; none in case of an error.
    subroutine joint_elements(deck, tables, j, model, highest, elements)
       type(checked_deck), intent(in)                    :: deck
       type(joint_tables), intent(in)                    :: tables
@@ -205,38 +204,10 @@ contains
       type(model_type), intent(inout)                   :: model
       integer, intent(inout)                            :: highest
       type(interface_element), allocatable, intent(out) :: elements(:)
-      type(surface_node_list) :: side1
-      integer :: surface(2), k
+      integer :: first, surface(2), k
+      logical :: shared(2)
 
       allocate (elements(0))
-      call find_sides(deck, tables, j, model, surface)
-      if (surface(1) == 0) return
-      call surface_nodes(model, model%surfaces(surface(1)), side1)
-      if (surface(2) > 0) then
-         call join_two_sides(deck, j, model, surface, side1, elements)
-      else
-         call join_one_side(deck, j, model, surface(1), side1, elements)
-      end if
-      if (highest > huge(highest) - size(elements)) then
-         call deck%field_error(deck%bulk%joint(j)%line, 'JID', 'the numbers of its interface elements, which follow those of '// &
-                               'the CJOINTs, would exceed 2147483647')
-         elements = [interface_element ::]
-         return
-      end if
-      elements%id = [(highest + k, k = 1, size(elements))]
-      highest = highest + size(elements)
-   end subroutine joint_elements
-
-   !> The surfaces of JOINT card J. SURFACE(2) = 0 where it names no SIDE2; both are 0 in case of an error.
-   subroutine find_sides(deck, tables, j, model, surface)
-      type(checked_deck), intent(in) :: deck
-      type(joint_tables), intent(in) :: tables
-      integer, intent(in)            :: j
-      type(model_type), intent(in)   :: model
-      integer, intent(out)           :: surface(2)
-      integer :: first, k
-      logical :: fit
-
       associate (card => deck%bulk%joint(j))
          surface = 0
          first = j
@@ -249,30 +220,28 @@ contains
          end do
          if (first < j) call deck%field_error(card%line, 'SIDE1', 'one of the sides is a side of JOINT '// &
                                               integer_text(deck%bulk%joint(first)%id)//' already')
-         fit = surface(1) > 0 .and. (surface(2) > 0 .or. card%sides(2) == 0)
-         do k = 1, 2
-            if (surface(k) > 0) fit = fit .and. model%surfaces(surface(k))%n > 0
-         end do
-         if (fit .and. surface(2) > 0) then
-            if (is_shared(model%surfaces(surface(2)))) then
-               call deck%field_error(card%line, 'SIDE2', 'bodies lie on both sides of surface '//integer_text(card%sides(2)))
-               fit = .false.
-            else if (is_shared(model%surfaces(surface(1)))) then
-               call deck%field_error(card%line, 'SIDE1', 'bodies lie on both sides of surface '//integer_text(card%sides(1))// &
-                                     ': leave SIDE2 blank, and the program splits it')
-               fit = .false.
-            end if
+         if (surface(1) == 0 .or. (surface(2) == 0 .and. card%sides(2) /= 0)) return
+         if (any(model%surfaces(pack(surface, surface > 0))%n == 0)) return
+         shared = .false. ! whether bodies lie on both sides of any part of a surface
+         if (surface(2) > 0) shared = [(any(model%surfaces(surface(k))%other(:model%surfaces(surface(k))%n) > 0), k = 1, 2)]
+         if (shared(2)) then
+            call deck%field_error(card%line, 'SIDE2', 'bodies lie on both sides of surface '//integer_text(card%sides(2)))
+         else if (shared(1)) then
+            call deck%field_error(card%line, 'SIDE1', 'bodies lie on both sides of surface '//integer_text(card%sides(1))// &
+                                  ': leave SIDE2 blank, and the program splits it')
+         else
+            call join_sides(deck, j, model, surface, elements)
          end if
-         if (.not. fit) surface = 0
+         if (highest > huge(highest) - size(elements)) then
+            call deck%field_error(card%line, 'JID', 'the numbers of its interface elements, which follow those of the CJOINTs, '// &
+                                  'would exceed 2147483647')
+            elements = [interface_element ::]
+            return
+         end if
       end associate
-   end subroutine find_sides
-
-   !> Whether bodies lie on both sides of any part of SURFACE.
-   pure logical function is_shared(surface)
-      type(surface_type), intent(in) :: surface
-
-      is_shared = any(surface%other(:surface%n) > 0)
-   end function is_shared
+      elements%id = [(highest + k, k = 1, size(elements))]
+      highest = highest + size(elements)
+   end subroutine joint_elements
 
    !> The interface elements of CJOINT CARDS.
    subroutine cjoint_elements(deck, cards, model, elements)

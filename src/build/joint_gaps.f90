@@ -13,9 +13,9 @@ module joint_gaps
    use bulk_data, only: jgap_card
    use deck_check, only: checked_deck
    use interface_operator, only: at_first_end, joint_movement, nodes_of_end
-   use joint_sides, only: joint_axes
+   use joint_sides, only: joint_axes, joint_centroid
    use kinds, only: wp
-   use model_data, only: joint_centroid, joint_type, model_type
+   use model_data, only: joint_type, model_type
    use text_tools, only: integer_text
    implicit none
    private
@@ -102,52 +102,31 @@ contains
       end do
    end subroutine find_outline
 
-   !> The value at the place X.
+   !> The value at the place X; outside the convex hull that at the nearest point of the hull.
    pure real(wp) function value_at(self, x) result(value)
       class(gap_table_type), intent(in) :: self
       real(wp), intent(in)              :: x(2)
-      real(wp) :: place(2), weights(3)
-      integer  :: corners(3)
-
-      place = (x - self%centre)/self%extent
-      if (size(self%outline) == 0) then
-         value = value_on_line(self, dot_product(place - self%x(:, 1), self%along))
-         return
-      end if
-      call move_inside(self, place)
-      call find_triangle(self, place, corners, weights)
-      value = dot_product(weights, self%values(corners))
-   end function value_at
-
-   !> The value at the distance T from the first point along the line of all points.
-   pure real(wp) function value_on_line(self, t) result(value)
-      class(gap_table_type), intent(in) :: self
-      real(wp), intent(in)              :: t
-      real(wp) :: at(size(self%values)), share
-      integer  :: before, behind, i
-
-      at = [(dot_product(self%along, self%x(:, i) - self%x(:, 1)), i = 1, size(at))]
-      before = maxloc(at, mask=at <= t, dim=1)
-      behind = minloc(at, mask=at > t, dim=1)
-      if (before == 0) before = behind
-      if (behind == 0) behind = before
-      share = 0.0_wp
-      if (behind /= before) share = (t - at(before))/(at(behind) - at(before))
-      value = (1.0_wp - share)*self%values(before) + share*self%values(behind)
-   end function value_on_line
-
-   !> Move a PLACE outside the convex hull to the nearest point of the hull.
-   pure subroutine move_inside(self, place)
-      class(gap_table_type), intent(in) :: self
-      real(wp), intent(inout)           :: place(2)
-      real(wp) :: side(2), on_side(2), nearest(2), least
-      integer  :: k, n
+      real(wp) :: place(2), side(2), on_side(2), nearest(2), least, weights(3), at(size(self%values)), share, t
+      integer  :: before, behind, corners(3), k, n
       logical  :: outside
 
+      place = (x - self%centre)/self%extent
+      n = size(self%outline)
+      if (n == 0) then ! all points lie on a line: interpolate between the neighbours along it
+         t = dot_product(place - self%x(:, 1), self%along)
+         at = [(dot_product(self%along, self%x(:, k) - self%x(:, 1)), k = 1, size(at))]
+         before = maxloc(at, mask=at <= t, dim=1)
+         behind = minloc(at, mask=at > t, dim=1)
+         if (before == 0) before = behind
+         if (behind == 0) behind = before
+         share = 0.0_wp
+         if (behind /= before) share = (t - at(before))/(at(behind) - at(before))
+         value = (1.0_wp - share)*self%values(before) + share*self%values(behind)
+         return
+      end if
       outside = .false.
       nearest = place
       least = huge(least)
-      n = size(self%outline)
       do k = 1, n
          associate (from => self%x(:, self%outline(k)), to => self%x(:, self%outline(modulo(k, n) + 1)))
             side = to - from
@@ -159,7 +138,9 @@ contains
          nearest = on_side
       end do
       if (outside) place = nearest
-   end subroutine move_inside
+      call find_triangle(self, place, corners, weights)
+      value = dot_product(weights, self%values(corners))
+   end function value_at
 
    !> The Delaunay triangle around PLACE, which is inside the convex hull: its CORNERS, and the WEIGHTS of their values there.
    pure subroutine find_triangle(self, place, corners, weights)
@@ -184,7 +165,12 @@ contains
             if (any(corners == i)) cycle
             share = shares(self%x(:, corners), self%x(:, i))
             above = self%height(i) - dot_product(share, self%height(corners))
-            if (abs(above) <= flat) above = merge(-flat, 0.0_wp, counts_as_below(i, corners, share))
+            if (abs(above) <= flat) then
+               ! in the plane, the first of the four points decides, because it is lowered most: it is point i itself, or a corner with
+               ! which the plane at i falls or rises
+               k = minloc(corners, mask=abs(share) > rounding, dim=1)
+               above = merge(-flat, 0.0_wp, i < corners(k) .or. share(k) < 0.0_wp)
+            end if
             if (above >= lowest) cycle
             lowest = above
             entering = i
@@ -205,17 +191,6 @@ contains
       weights = max(0.0_wp, shares(self%x(:, corners), place))
       weights = weights/sum(weights)
    end subroutine find_triangle
-
-   !> Whether point I counts as below the plane of the lifted CORNERS if it lies in this plane, with these SHAREs in the corners. The
-   !! first of the four points decides, because it is lowered most: it is I itself, or a corner with which the plane at I falls or rises.
-   pure logical function counts_as_below(i, corners, share)
-      integer, intent(in)  :: i, corners(3)
-      real(wp), intent(in) :: share(3)
-      integer :: k
-
-      k = minloc(corners, mask=abs(share) > rounding, dim=1)
-      counts_as_below = i < corners(k) .or. share(k) < 0.0_wp
-   end function counts_as_below
 
    !> Barycentric coordinates of a PLACE with respect to three CORNERS(2, 3); their sum is 1.
    pure function shares(corners, place)

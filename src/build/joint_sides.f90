@@ -4,97 +4,122 @@
 module joint_sides
    use bulk_data, only: fit_no, fit_yes
    use deck_check, only: checked_deck
+   use element_kinds, only: max_side_nodes
    use interface_operator, only: at_first_end, connect_nodes, interface_element
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, joint_centroid, joint_frame, joint_type, model_type, surface_type
+   use model_data, only: corners_of, joint_cover, joint_frame, joint_type, model_type, surface_type
    use mortar_integrals, only: face_part, whole_shares, interface_sums_type
-   use node_pairing, only: pair_nodes, pairing_fault, fit_side, side_cover
+   use node_pairing, only: pair_nodes, fit_side
    use numbers, only: cross
-   use spatial_search, only: spatial_search_type
-   use surface_build, only: side_influence, side_name, surface_node_list, surface_nodes
-   use surface_sides, only: nodes_of
-   use text_tools, only: integer_text, real_text
+   use surface_build, only: side_influence, surface_node_list, surface_nodes
+   use text_tools, only: integer_text
    implicit none
    private
 
-   public :: join_one_side, join_two_sides, joint_axes, outward, find_frame
+   public :: join_sides, is_coarser, joint_axes, outward, joint_centroid, find_frame
 
    ! ratio of moments of inertia to the largest one of the joint below which a rotation moves no element
    real(wp), parameter, public :: straight = 1.0e-9_wp
 
 contains
 
-   !> The elements between a surface and its twin, if the surface was split, or a rigid base.
-   subroutine join_one_side(deck, j, model, surface, side, elements)
-      type(checked_deck), intent(in)                       :: deck
-      integer, intent(in)                                  :: j, surface
-      type(model_type), intent(in)                         :: model
-      type(surface_node_list), intent(inout)               :: side
-      type(interface_element), allocatable, intent(inout)  :: elements(:)
-      integer, allocatable :: kept(:)
-      integer :: k
-
-      if (any(model%duplicate(side%node) > 0)) then ! without the nodes of the edge of a split surface inside a body
-         kept = pack([(k, k = 1, side%n)], model%duplicate(side%node) > 0)
-         side = surface_node_list(size(kept), side%node(kept), side%area(kept), side%normal(:, kept))
-      end if
-      call pair_elements(deck, j, model, model%surfaces(surface), side, model%duplicate(side%node), elements)
-   end subroutine join_one_side
-
-   !> The elements between two sides: pairs if every node has a partner and the card does not request a projection.
-   subroutine join_two_sides(deck, j, model, surface, side1, elements)
+   !> The elements between two sides: pairs if every node has a partner and the card does not request a projection; the coverage of
+   !! projected sides is stored in joint J of MODEL. SURFACE(2) = 0: the elements between a surface and its twin, if the surface was
+   !! split, or a rigid base.
+   subroutine join_sides(deck, j, model, surface, elements)
       type(checked_deck), intent(in)                       :: deck
       integer, intent(in)                                  :: j, surface(2)
       type(model_type), intent(inout)                      :: model
-      type(surface_node_list), intent(in)                  :: side1
       type(interface_element), allocatable, intent(inout)  :: elements(:)
-      type(surface_node_list) :: side2
-      type(pairing_fault)     :: fault
-      integer :: partner(side1%n)
+      type(surface_node_list)   :: side1, side2
+      character(:), allocatable :: fault, lack
+      type(interface_sums_type) :: sums
+      type(joint_cover) :: cover
+      integer, allocatable :: kept(:), partner(:)
+      logical, allocatable :: partly(:)
+      logical :: in_tolerance
+      integer :: k
 
+      call surface_nodes(model, model%surfaces(surface(1)), side1)
       associate (card => deck%bulk%joint(j))
-         fault%words = 'a fit is asked for'
-         if (card%fit /= fit_yes) then
+         fault = 'a fit is asked for'
+         in_tolerance = .false.
+         allocate (partner(side1%n), partly(side1%n))
+         if (surface(2) == 0) then
+            fault = ''
+            if (any(model%duplicate(side1%node) > 0)) then ! without the nodes of the edge of a split surface inside a body
+               kept = pack([(k, k = 1, side1%n)], model%duplicate(side1%node) > 0)
+               side1 = surface_node_list(size(kept), side1%node(kept), side1%area(kept), side1%normal(:, kept))
+            end if
+            partner = model%duplicate(side1%node)
+         else if (card%fit /= fit_yes) then
             call surface_nodes(model, model%surfaces(surface(2)), side2)
-            partner = 0
-            call pair_nodes(model, surface, side1, side2, card%tolerance, partner, fault)
+            call pair_nodes(model, surface, side1, side2, card%tolerance, partner, fault, in_tolerance)
          end if
-         if (fault%words == '') then
-            call pair_elements(deck, j, model, model%surfaces(surface(1)), side1, partner, elements)
+         lack = ''
+         if (fault == '') then
+            call pair_elements(model, model%surfaces(surface(1)), side1, partner, elements, lack)
          else if (card%fit == fit_no) then
-            fault%words = fault%words//'; FIT = AUTO joins faces that do not match'
-            if (fault%in_tolerance) then
-               call deck%field_error(card%line, trim(merge('TOL  ', 'SIDE2', card%tolerance > 0.0_wp)), fault%words, called='TOL')
+            fault = fault//'; FIT = AUTO joins faces that do not match'
+            if (in_tolerance) then
+               call deck%field_error(card%line, trim(merge('TOL  ', 'SIDE2', card%tolerance > 0.0_wp)), fault, called='TOL')
             else
-               call deck%field_error(card%line, 'SIDE2', fault%words)
+               call deck%field_error(card%line, 'SIDE2', fault)
             end if
          else
-            call fitted_elements(deck, j, model, surface, side1, elements)
+            call fit_side(model, surface, side1, card%tolerance, sums, cover, partly, fault)
+            if (fault /= '') then
+               call deck%field_error(card%line, 'SIDE2', fault)
+            else
+               model%joints(j)%cover = cover
+               call summed_elements(model, side1, sums, partly, elements, lack)
+            end if
          end if
+         if (lack /= '') call deck%errors%add(card%line, 'surface '//integer_text(card%sides(1))//' has no area at node '//lack)
       end associate
-   end subroutine join_two_sides
+   end subroutine join_sides
 
    !> Elements between the nodes of SIDE and their partners, 0: a rigid base. Faces with mid-side nodes have elements at these nodes
    !! alone, which are connected to the corners too.
-   subroutine pair_elements(deck, j, model, surface, side, partner, elements)
-      type(checked_deck), intent(in)                      :: deck
-      integer, intent(in)                                 :: j
+   subroutine pair_elements(model, surface, side, partner, elements, lack)
       type(model_type), intent(in)                        :: model
       type(surface_type), intent(in)                      :: surface
       type(surface_node_list), intent(in)                 :: side
       integer, intent(in)                                 :: partner(:) !! (nodes of SIDE)
       type(interface_element), allocatable, intent(inout) :: elements(:)
+      character(:), allocatable, intent(inout)            :: lack !! of area: the node and the reason, set where there is such a node
       type(interface_sums_type) :: sums
-      integer :: k
+      type(id_table_type) :: place
+      type(face_part)     :: part
+      integer :: at(max_side_nodes), opposite(max_side_nodes), k, n, s
+      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), share(max_side_nodes, max_side_nodes)
 
       if (any(surface%corners(:surface%n) < surface%n_nodes(:surface%n))) then
-         call add_pairs(model, surface, side, partner, sums)
-         call summed_elements(deck, j, model, side, sums, spread(.false., 1, side%n), elements)
+         call place%build(side%node)
+         call sums%start(side%n, model%n_nodes)
+         do s = 1, surface%n
+            n = surface%n_nodes(s)
+            call side_influence(model, surface, s, area, normal)
+            share = whole_shares(model%dimension, n)
+            part%n = n
+            do k = 1, n
+               part%own(:, k) = share(:, k)*area(k)
+               at(k) = place%find(surface%nodes(k, s))
+               opposite(k) = surface%nodes(k, s) ! a node at the edge of a split surface is its own partner
+               if (at(k) > 0) opposite(k) = partner(at(k))
+            end do
+            part%opposite = part%own
+            part%area = matmul(share, area)
+            part%normal = matmul(normal, transpose(share))
+            call sums%add_face(at(:n), surface%nodes(:n, s), opposite(:merge(n, 0, any(partner > 0))), part)
+         end do
+         call sums%finish()
+         call summed_elements(model, side, sums, spread(.false., 1, side%n), elements, lack)
          return
       end if
       if (model%axisymmetric .and. any(side%area <= 0.0_wp)) then
-         call no_area(deck, j, model, side%node(minloc(side%area, dim=1)), ': it lies on the axis')
+         lack = integer_text(model%node_id(side%node(minloc(side%area, dim=1))))//': it lies on the axis'
          return
       end if
       deallocate (elements)
@@ -106,109 +131,25 @@ contains
       end do
    end subroutine pair_elements
 
-   !> SUMS over the faces of SURFACE, every node opposite its partner. A node without a partner, at the edge of a split surface, is its own
-   !! partner.
-   subroutine add_pairs(model, surface, side, partner, sums)
-      type(model_type), intent(in)             :: model
-      type(surface_type), intent(in)           :: surface
-      type(surface_node_list), intent(in)      :: side
-      integer, intent(in)                      :: partner(:)
-      type(interface_sums_type), intent(inout) :: sums
-      type(id_table_type) :: place
-      type(face_part)     :: part
-      integer :: elements(size(part%area)), opposite(size(part%area)), k, n, s
-      real(wp) :: area(size(part%area)), normal(3, size(part%area)), share(size(part%area), size(part%area))
-
-      call place%build(side%node)
-      call sums%start(side%n, model%n_nodes)
-      do s = 1, surface%n
-         n = surface%n_nodes(s)
-         call side_influence(model, surface, s, area, normal)
-         share = whole_shares(model%dimension, n)
-         part%n = n
-         do k = 1, n
-            part%own(:, k) = share(:, k)*area(k)
-            elements(k) = place%find(surface%nodes(k, s))
-            opposite(k) = surface%nodes(k, s)
-            if (elements(k) > 0) opposite(k) = partner(elements(k))
-         end do
-         part%opposite = part%own
-         part%area = matmul(share, area)
-         part%normal = matmul(normal, transpose(share))
-         call sums%add_face(elements(:n), surface%nodes(:n, s), opposite(:merge(n, 0, any(partner > 0))), part)
-      end do
-      call sums%finish()
-   end subroutine add_pairs
-
-   !> Elements between sides that do not match; the coverage of the sides is stored in joint J of MODEL.
-   subroutine fitted_elements(deck, j, model, surface, side1, elements)
-      type(checked_deck), intent(in)                      :: deck
-      integer, intent(in)                                 :: j, surface(2)
-      type(model_type), intent(inout)                     :: model
-      type(surface_node_list), intent(in)                 :: side1
-      type(interface_element), allocatable, intent(inout) :: elements(:)
-      type(interface_sums_type) :: sums
-      type(side_cover)          :: found
-
-      associate (card => deck%bulk%joint(j), own => model%surfaces(surface(1)))
-         call fit_side(model, own, model%surfaces(surface(2)), side1, card%tolerance, sums, found)
-         if (.not. found%is_any) then
-            call deck%field_error(card%line, 'SIDE2', 'surface '//integer_text(card%sides(2))//' does not cover SIDE1: none of '// &
-               'its faces is opposite to a face of SIDE1 within '//real_text(found%reach)//' along the normal; the nearest '// &
-               'nodes are '// &
-               real_text(nearest_nodes(model, surface))//' apart. Mark the sides that face each other, or '// &
-               'give a larger TOL')
-         else if (found%double > 0) then
-            call deck%field_error(card%line, 'SIDE2', 'faces of surface '//integer_text(card%sides(2))//' lie behind each '// &
-               'other and cover the '//side_name(model, own%nodes(:own%corners(found%double), found%double))//' of SIDE1 '// &
-               real_text(found%double_share)//' times: mark only the nearer ones, or give a TOL below their distance')
-         else
-            model%joints(j)%cover = found%cover
-            call summed_elements(deck, j, model, side1, sums, found%partly, elements)
-         end if
-      end associate
-   end subroutine fitted_elements
-
-   !> The shortest distance between the nodes of two surfaces [length].
-   pure real(wp) function nearest_nodes(model, surface) result(shortest)
-      type(model_type), intent(in)   :: model
-      integer, intent(in)            :: surface(2) !! of MODEL
-      type(spatial_search_type) :: search
-      real(wp) :: distance
-      integer  :: found, k
-
-      shortest = huge(1.0_wp)
-      call search%build(model%x(:, nodes_of(model%surfaces(surface(2)))))
-      associate (nodes => nodes_of(model%surfaces(surface(1))))
-         do k = 1, size(nodes)
-            call search%nearest(model%x(:, nodes(k)), shortest, found, distance)
-            shortest = min(shortest, distance)
-         end do
-      end associate
-   end function nearest_nodes
-
    !> The elements of SUMS at the nodes of SIDE, in their order.
-   subroutine summed_elements(deck, j, model, side, sums, may_lack, elements)
-      type(checked_deck), intent(in)                      :: deck
-      integer, intent(in)                                 :: j
+   subroutine summed_elements(model, side, sums, may_lack, elements, lack)
       type(model_type), intent(in)                        :: model
       type(surface_node_list), intent(in)                 :: side
       type(interface_sums_type), intent(in)               :: sums
       logical, intent(in)                                 :: may_lack(:) !! whether the area at a node may be 0, as on the axis
       type(interface_element), allocatable, intent(inout) :: elements(:)
+      character(:), allocatable, intent(inout)            :: lack        !! as of pair_elements
       integer, allocatable :: at(:)
       integer  :: k
       real(wp) :: normal(3)
 
-      at = pack([(k, k = 1, side%n)], [(sums%around(k) > 0.0_wp, k = 1, side%n)])
-      do k = 1, size(at)
-         associate (i => at(k))
-            if (sums%has_area(i) .or. (sums%has_none(i) .and. (may_lack(i) .or. model%axisymmetric))) cycle
-            call no_area(deck, j, model, side%node(i), ', or a negative one: move the mid-side nodes back to the middle of the '// &
-               'edges')
-            return
-         end associate
-      end do
+      at = pack([(k, k = 1, side%n)], sums%around > 0.0_wp)
+      k = findloc(sums%has_area(at) .or. (sums%has_none(at) .and. (may_lack(at) .or. model%axisymmetric)), .false., dim=1)
+      if (k > 0) then
+         lack = integer_text(model%node_id(side%node(at(k))))// &
+                ', or a negative one: move the mid-side nodes back to the middle of the edges'
+         return
+      end if
       at = pack(at, sums%has_area(at))
       deallocate (elements)
       allocate (elements(size(at)))
@@ -219,17 +160,6 @@ contains
          elements(k)%axes = joint_axes(model, normal/max(norm2(normal), tiny(1.0_wp)))
       end do
    end subroutine summed_elements
-
-   !> Error: SIDE1 of JOINT card J has no area at NODE.
-   subroutine no_area(deck, j, model, node, words)
-      type(checked_deck), intent(in) :: deck
-      integer, intent(in)            :: j, node
-      type(model_type), intent(in)   :: model
-      character(*), intent(in)       :: words
-
-      call deck%errors%add(deck%bulk%joint(j)%line, 'surface '//integer_text(deck%bulk%joint(j)%sides(1))// &
-                           ' has no area at node '//integer_text(model%node_id(node))//words)
-   end subroutine no_area
 
    !> Axes of an interface element with normal Z (unit): columns x, y, z, right-handed. In the plane x is tangential to the joint and y is
    !! normal to the plane; x points towards +X (+Y where the joint is vertical). In space x is the projection of +X onto the joint, or of
@@ -253,44 +183,51 @@ contains
       axes(:, 3) = z
    end function joint_axes
 
+   !> Whether SIDE1 of a joint is coarser than SIDE2: its mean face is more than a tenth larger.
+   pure logical function is_coarser(cover)
+      type(joint_cover), intent(in) :: cover
+
+      is_coarser = cover%spacing(1) > 1.1_wp*cover%spacing(2)
+   end function is_coarser
+
    !> The normal of a CJOINT in the sense from node 1 to node 2: out of the body at node 1, else into the body at node 2,
    !! else as given. The card gives the line of the normal; the bodies give its sense.
    pure function outward(model, nodes, normal) result(z)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(2)
       real(wp), intent(in)         :: normal(3)
-      real(wp) :: z(3), towards
-      integer  :: side
+      real(wp) :: z(3), along, to_body(3)
+      integer  :: i, side
 
       z = normal
       do side = 1, 2
          if (nodes(side) == 0) cycle
-         towards = body_side(model, nodes(side), normal)
-         if (abs(towards) > 0.0_wp) then
-            if ((side == 1) .eqv. (towards > 0.0_wp)) z = -normal
-            return
-         end if
+         to_body = 0.0_wp ! from the node to the centres of its elements
+         do i = model%first_at(nodes(side)), model%first_at(nodes(side) + 1) - 1
+            associate (corners => corners_of(model, model%elements_at(i)))
+               if (any(corners == 0)) cycle
+               to_body = to_body + sum(model%x(:, corners), dim=2)/size(corners) - model%x(:, nodes(side))
+            end associate
+         end do
+         along = dot_product(to_body, normal)
+         if (.not. abs(along) > 0.05_wp*norm2(to_body)) cycle
+         if ((side == 1) .eqv. (along > 0.0_wp)) z = -normal
+         return
       end do
    end function outward
 
-   !> +1 where the body at NODE lies in the direction of NORMAL, -1 where it lies opposite, 0 where neither holds.
-   pure real(wp) function body_side(model, node, normal) result(side)
+   !> The centroid of the area of JOINT [length].
+   pure function joint_centroid(model, joint) result(centroid)
       type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      real(wp), intent(in)         :: normal(3)
-      real(wp) :: to_body(3)
+      type(joint_type), intent(in) :: joint
+      real(wp) :: centroid(3)
       integer  :: i
 
-      to_body = 0.0_wp
-      do i = model%first_at(node), model%first_at(node + 1) - 1
-         associate (corners => corners_of(model, model%elements_at(i)))
-            if (any(corners == 0)) cycle
-            to_body = to_body + sum(model%x(:, corners), dim=2)/size(corners) - model%x(:, node)
-         end associate
+      centroid = 0.0_wp
+      do i = joint%first, joint%last
+         centroid = centroid + model%interface(i)%area*at_first_end(model%interface(i), model%x)/joint%area
       end do
-      side = 0.0_wp
-      if (abs(dot_product(to_body, normal)) > 0.05_wp*norm2(to_body)) side = sign(1.0_wp, dot_product(to_body, normal))
-   end function body_side
+   end function joint_centroid
 
    !> Axes and centroid of JOINT. The axes are those of an interface element with the mean normal; for a closed joint they are the
    !! axes of the model in space, and z is +Y in the plane.

@@ -10,11 +10,11 @@ module mortar_integrals
    use face_overlap, only: face_frame, find_point, map_point, seen_face, surface_vector, overlap_points, plane_points
    use interface_operator, only: interface_element
    use kinds, only: wp
-   use lists, only: sorted_order, list_owners
+   use lists, only: distinct, list_owners
    implicit none
    private
 
-   public :: start_integrals, add_overlap, fit_face, whole_shares, partial_shares
+   public :: add_overlap, fit_face, whole_shares, partial_shares
 
    !> A face of SIDE1, with the thickness or 2 pi r that converts lengths to areas.
    type, public :: own_face
@@ -32,9 +32,8 @@ module mortar_integrals
       real(wp) :: area(max_side_nodes) = 0.0_wp                     !! of N_k [length^2]
       real(wp) :: normal(3, max_side_nodes) = 0.0_wp                !! of N_k n, in global axes [length^2]
       real(wp) :: own(max_side_nodes, max_side_nodes) = 0.0_wp      !! of N_k N_k' [length^2]
-      integer  :: n = 0                                             !! number of opposite nodes
-      integer, allocatable  :: node(:)                              !! (room) their positions
-      real(wp), allocatable :: opposite(:, :)                       !! (max_side_nodes, room) of N_k N_j [length^2]
+      integer, allocatable  :: node(:)                              !! the nodes opposite, positions in the model
+      real(wp), allocatable :: opposite(:, :)                       !! (max_side_nodes, nodes opposite) of N_k N_j [length^2]
    end type cover_integrals
 
    !> The contribution of a face to the element at each of its nodes; zero at a node without an element.
@@ -71,19 +70,6 @@ module mortar_integrals
 
 contains
 
-   !> Set all integrals to zero; keep the room.
-   pure subroutine start_integrals(integrals)
-      type(cover_integrals), intent(inout) :: integrals
-
-      integrals%seen = 0.0_wp
-      integrals%farthest = 0.0_wp
-      integrals%area = 0.0_wp
-      integrals%normal = 0.0_wp
-      integrals%own = 0.0_wp
-      integrals%n = 0
-      if (.not. allocated(integrals%node)) allocate (integrals%node(32), integrals%opposite(max_side_nodes, 32))
-   end subroutine start_integrals
-
    !> Add the integrals over the part of FACE that the face OPPOSITE, given in the frame of FACE, covers. A point is covered where the
    !! distance of the faces along the normal of FACE is at most the reach.
    pure subroutine add_overlap(face, opposite, nodes, points, integrals)
@@ -98,7 +84,14 @@ contains
 
       call overlap_points(face%seen, opposite, points)
       if (points%n == 0) return
-      call find_columns(nodes, integrals, column)
+      if (.not. allocated(integrals%node)) allocate (integrals%node(0), integrals%opposite(max_side_nodes, 0))
+      do j = 1, size(nodes)
+         column(j) = findloc(integrals%node, nodes(j), dim=1)
+         if (column(j) > 0) cycle
+         integrals%node = [integrals%node, nodes(j)]
+         column(j) = size(integrals%node)
+         integrals%opposite = reshape(integrals%opposite, [max_side_nodes, column(j)], pad=[0.0_wp])
+      end do
       associate (n => face%seen%n)
          do i = 1, points%n
             call find_point(face%seen, points%place(:, i), point_1, found_1)
@@ -126,27 +119,6 @@ contains
       end associate
    end subroutine add_overlap
 
-   !> The columns of these NODES of SIDE2 in the integrals; new nodes get new columns of zeros.
-   pure subroutine find_columns(nodes, integrals, column)
-      integer, intent(in)                  :: nodes(:)
-      type(cover_integrals), intent(inout) :: integrals
-      integer, intent(out)                 :: column(:)
-      integer :: k
-
-      do while (integrals%n + size(nodes) > size(integrals%node))
-         integrals%node = [integrals%node, integrals%node]
-         integrals%opposite = reshape([integrals%opposite, integrals%opposite], [max_side_nodes, size(integrals%node)])
-      end do
-      do k = 1, size(nodes)
-         column(k) = findloc(integrals%node(:integrals%n), nodes(k), dim=1)
-         if (column(k) > 0) cycle
-         integrals%n = integrals%n + 1
-         integrals%node(integrals%n) = nodes(k)
-         integrals%opposite(:, integrals%n) = 0.0_wp
-         column(k) = integrals%n
-      end do
-   end subroutine find_columns
-
    !> PART from the INTEGRALS over a face with N nodes. A fully covered face: the displacements u2 of SIDE2 are fitted by least squares,
    !! u2_k = sum of (M^-1)_kl times the integral of N_l u2, where M is the integral of N_k N_l. The fit is exact where the shape functions
    !! of the face represent u2, and a node opposite its partner is connected to the partner only. A partly covered face: the displacements
@@ -156,13 +128,13 @@ contains
       logical, intent(in)               :: is_whole
       type(cover_integrals), intent(in) :: integrals
       type(face_part), intent(inout)    :: part
-      real(wp) :: share(max_side_nodes, max_side_nodes), fitted(n, integrals%n)
+      real(wp) :: share(max_side_nodes, max_side_nodes), fitted(n, size(integrals%node))
       integer  :: k
 
       part%n = n
       if (is_whole) then
          share = whole_shares(dimension, n)
-         call solve_symmetric(integrals%own(:n, :n), integrals%opposite(:n, :integrals%n), fitted)
+         call solve_symmetric(integrals%own(:n, :n), integrals%opposite(:n, :), fitted)
          do k = 1, n
             part%own(:, k) = share(:, k)*integrals%area(k)
          end do
@@ -170,7 +142,7 @@ contains
       else
          share = partial_shares(dimension, n)
          part%own(:, :n) = matmul(share(:, :n), integrals%own(:n, :n))
-         part%opposite = matmul(share(:, :n), integrals%opposite(:n, :integrals%n))
+         part%opposite = matmul(share(:, :n), integrals%opposite(:n, :))
       end if
       part%area = matmul(share(:, :n), integrals%area(:n))
       part%normal = matmul(integrals%normal(:, :n), transpose(share(:, :n)))
@@ -200,16 +172,6 @@ contains
       end do
    end subroutine solve_symmetric
 
-   !> The number of corners among the N nodes of a face; they come first.
-   pure integer function n_corners(dimension, n)
-      integer, intent(in) :: dimension !! of the model: 2, edges, or 3, faces
-      integer, intent(in) :: n
-
-      n_corners = n
-      if (dimension == 2) n_corners = 2
-      if (n > 4) n_corners = n/2
-   end function n_corners
-
    !> Shares of a fully covered face: SHARE(i, k) is the share of the element at node i in area, movement and normal of node k.
    !! An element at a mid-side node has half of each adjacent corner.
    pure function whole_shares(dimension, n) result(share)
@@ -222,8 +184,8 @@ contains
       do k = 1, n
          share(k, k) = 1.0_wp
       end do
-      corners = n_corners(dimension, n)
-      if (dimension == 2 .or. n == corners) return
+      if (dimension == 2 .or. n <= 4) return
+      corners = n/2
       do k = 1, corners
          share(k, k) = 0.0_wp
          share(corners + k, k) = 0.5_wp
@@ -238,25 +200,19 @@ contains
    pure function partial_shares(dimension, n) result(share)
       integer, intent(in) :: dimension, n !! as above
       real(wp) :: share(max_side_nodes, max_side_nodes)
-      integer  :: corners, k, next
+      integer  :: corners, k
 
       share = whole_shares(dimension, n)
       if (dimension == 2) then
          if (n == 3) share(:3, 3) = [0.25_wp, 0.25_wp, 0.5_wp]
          return
       end if
-      corners = n_corners(dimension, n)
-      if (n == corners) return
-      do k = 1, corners
-         next = modulo(k, corners) + 1
-         if (corners == 3) then              ! (L1 + L2)/2: 1/2 on its side and at the ends of it, 1/4 on the other two sides
-            share(4:6, corners + k) = 0.25_wp
-            share(corners + k, corners + k) = 0.5_wp
-         else                                ! (1 - eta)/4: 1/2 on its side, 1/4 on the adjacent ones, 0 on the opposite one
-            share(5:8, corners + k) = 0.25_wp
-            share(corners + k, corners + k) = 0.5_wp
-            share(corners + modulo(k + 1, 4) + 1, corners + k) = 0.0_wp
-         end if
+      if (n <= 4) return
+      corners = n/2
+      do k = corners + 1, n ! 1/2 on its side, 1/4 on the adjacent sides, 0 on the opposite side of a quadrilateral
+         share(corners + 1:n, k) = 0.25_wp
+         share(k, k) = 0.5_wp
+         if (corners == 4) share(5 + modulo(k - 3, 4), k) = 0.0_wp
       end do
    end function partial_shares
 
@@ -286,31 +242,23 @@ contains
          self%area(elements(i)) = self%area(elements(i)) + part%area(i)
          self%normal(:, elements(i)) = self%normal(:, elements(i)) + part%normal(:, i)
          self%around(elements(i)) = self%around(elements(i)) + sum(abs(part%area(:part%n)))
-         do k = 1, part%n
-            call add_entry(self, elements(i), own(k), part%own(i, k))
-         end do
-         do k = 1, size(opposite)
-            call add_entry(self, elements(i), self%n_nodes + opposite(k), part%opposite(i, k))
-         end do
+         associate (key => [own(:part%n), self%n_nodes + opposite], &
+                    weight => [part%own(i, :part%n), part%opposite(i, :size(opposite))])
+            do k = 1, size(key)
+               if (abs(weight(k)) <= 0.0_wp) cycle
+               if (self%n == size(self%owner)) then
+                  self%owner = [self%owner, self%owner]
+                  self%key = [self%key, self%key]
+                  self%weight = [self%weight, self%weight]
+               end if
+               self%n = self%n + 1
+               self%owner(self%n) = elements(i)
+               self%key(self%n) = key(k)
+               self%weight(self%n) = weight(k)
+            end do
+         end associate
       end do
    end subroutine add_face
-
-   pure subroutine add_entry(self, owner, key, weight)
-      type(interface_sums_type), intent(inout) :: self
-      integer, intent(in)  :: owner, key
-      real(wp), intent(in) :: weight
-
-      if (abs(weight) <= 0.0_wp) return
-      if (self%n == size(self%owner)) then
-         self%owner = [self%owner, self%owner]
-         self%key = [self%key, self%key]
-         self%weight = [self%weight, self%weight]
-      end if
-      self%n = self%n + 1
-      self%owner(self%n) = owner
-      self%key(self%n) = key
-      self%weight(self%n) = weight
-   end subroutine add_entry
 
    !> Close the sums after the last face: sort the entries by element.
    pure subroutine finish(self)
@@ -340,35 +288,22 @@ contains
       class(interface_sums_type), intent(in) :: self
       integer, intent(in)                    :: i       !! has_area(i)
       type(interface_element), intent(inout) :: element
-      integer, allocatable  :: order(:), node(:)
+      integer, allocatable  :: node(:)
       real(wp), allocatable :: weight(:)
-      integer :: end, k, n(2)
+      integer :: k, n_1
 
       associate (entries => self%entry(self%first(i):self%first(i + 1) - 1))
-         call sorted_order(self%key(entries), order)
-         allocate (node(size(entries)), weight(size(entries)))
-         n = 0
-         do k = 1, size(entries)
-            associate (this => entries(order(k)))
-               end = merge(2, 1, self%key(this) > self%n_nodes)
-               if (sum(n) > 0) then
-                  if (node(sum(n)) == self%key(this)) then
-                     weight(sum(n)) = weight(sum(n)) + self%weight(this)
-                     cycle
-                  end if
-               end if
-               n(end) = n(end) + 1
-               node(sum(n)) = self%key(this)
-               weight(sum(n)) = self%weight(this)
-            end associate
-         end do
+         associate (keys => self%key(entries), weights => self%weight(entries))
+            call distinct(keys, node)
+            allocate (weight, source=[(sum(weights, mask=keys == node(k)), k = 1, size(node))])
+         end associate
       end associate
-      node = node(:sum(n))
-      weight = weight(:sum(n))/self%area(i)
-      call make_whole(weight(:n(1)))
-      call make_whole(weight(n(1) + 1:))
-      element%n_1 = count(abs(weight(:n(1))) > 0.0_wp)
-      element%weight = pack([weight(:n(1)), -weight(n(1) + 1:)], abs(weight) > 0.0_wp)
+      weight = weight/self%area(i)
+      n_1 = count(node <= self%n_nodes)
+      call make_whole(weight(:n_1))
+      call make_whole(weight(n_1 + 1:))
+      element%n_1 = count(abs(weight(:n_1)) > 0.0_wp)
+      element%weight = pack([weight(:n_1), -weight(n_1 + 1:)], abs(weight) > 0.0_wp)
       element%node = pack(merge(node, node - self%n_nodes, node <= self%n_nodes), abs(weight) > 0.0_wp)
       element%area = self%area(i)
    end subroutine connect

@@ -3,11 +3,12 @@ module node_pairing
    use element_kinds, only: max_side_nodes
    use face_overlap, only: edge_lengths, face_frame, in_frame, make_frame, plane_points, seen_area
    use kinds, only: wp
-   use lists, only: id_table_type
+   use lists, only: distinct, id_table_type
    use model_data, only: joint_cover, model_type, surface_type, whole_share
-   use mortar_integrals, only: face_part, fit_face, add_overlap, cover_integrals, own_face, start_integrals, interface_sums_type
+   use mortar_integrals, only: face_part, fit_face, add_overlap, cover_integrals, own_face, interface_sums_type
    use spatial_search, only: spatial_search_type
-   use surface_build, only: side_influence, surface_node_list
+   use surface_build, only: side_influence, side_name, surface_node_list
+   use surface_sides, only: nodes_of
    use text_tools, only: integer_text, plural, real_text
    implicit none
    private
@@ -17,51 +18,38 @@ module node_pairing
    real(wp), parameter :: default_tolerance = 1.0e-3_wp ! of the shortest edge of SIDE1
    real(wp), parameter, public :: facing = -0.5_wp      !! cosine of the normals of two sides that face each other, at most
 
-   !> The reason why there are no pairs: field of the JOINT card and text; no text: all nodes have partners.
-   type, public :: pairing_fault
-      logical :: in_tolerance = .false.                 !! the error is reported for TOL, else for SIDE2
-      character(:), allocatable :: words
-   end type pairing_fault
-
    real(wp), parameter :: twice = 1.01_wp     ! covered share above which faces lie behind one another
 
    real(wp), parameter, public :: default_reach = 0.1_wp !! of the longest side of a face of SIDE1
 
-   !> Coverage of SIDE1 by SIDE2, face by face.
-   type, public :: side_cover
-      type(joint_cover) :: cover             !! of the whole side
-      logical  :: is_any = .false.           !! whether anything is covered
-      integer  :: double = 0                 !! a face of SIDE1 that is covered twice, 0: none
-      real(wp) :: double_share = 0.0_wp      !! its covered share
-      real(wp) :: reach = 0.0_wp             !! largest reach of the search [length]
-      logical, allocatable :: partly(:)      !! (nodes of SIDE1) at a face that is partly covered
-   end type side_cover
-
-   !> The faces of SIDE2 for the search.
+   !> The faces of SIDE2 for the search, and work space.
    type :: opposite_faces
       type(spatial_search_type) :: boxes
       real(wp), allocatable :: normal(:, :)  ! (3, n) at their centres
       real(wp), allocatable :: area(:)       ! (n) area projected along their normals
       logical, allocatable  :: covers(:)     ! (n) whether it covers any part of SIDE1
+      integer, allocatable  :: near(:)       ! faces that the search has found
+      type(plane_points)    :: points
    end type opposite_faces
 
 contains
 
-   !> For every node of side 1 the coincident node of side 2.
-   subroutine pair_nodes(model, surface, side1, side2, tol, partner, fault)
+   !> For every node of side 1 the coincident node of side 2, or the reason why there are no pairs.
+   subroutine pair_nodes(model, surface, side1, side2, tol, partner, fault, in_tolerance)
       type(model_type), intent(in)        :: model
       integer, intent(in)                 :: surface(2)   !! of the model
       type(surface_node_list), intent(in) :: side1, side2 !! their nodes
       real(wp), intent(in)                :: tol          !! 0: the default [length]
-      integer, intent(inout)              :: partner(:)
-      type(pairing_fault), intent(out)    :: fault
+      integer, intent(out)                :: partner(:)   !! nodes of the model, of use where there is no fault
+      character(:), allocatable, intent(out) :: fault     !! '': all nodes have partners
+      logical, intent(out)                :: in_tolerance !! the error is reported for TOL, else for SIDE2
       type(spatial_search_type) :: search
       real(wp) :: tolerance, distance, worst
-      integer  :: k, found, lonely, shared, turned, worst_node
-      logical, allocatable :: taken(:)
-      character(:), allocatable :: place
+      integer  :: k, found(side1%n), nearest, turned, worst_node
+      integer, allocatable :: each(:)
 
-      fault%words = ''
+      fault = ''
+      in_tolerance = .false.
       tolerance = tol
       if (tol <= 0.0_wp) then
          associate (side => model%surfaces(surface(1)))
@@ -70,47 +58,41 @@ contains
          end associate
       end if
       call search%build(model%x(:, side2%node))
-      allocate (taken(side2%n), source=.false.)
-      lonely = 0
-      turned = 0
-      shared = 0
-      worst = 0.0_wp
-      worst_node = 0
       do k = 1, side1%n
-         call search%nearest(model%x(:, side1%node(k)), tolerance, found, distance)
-         if (found == 0) then
-            lonely = lonely + 1
-            call search%nearest(model%x(:, side1%node(k)), huge(1.0_wp), found, distance)
-            if (distance > worst) then
-               worst = distance
-               worst_node = side1%node(k)
-            end if
-         else
-            partner(k) = side2%node(found)
-            if (taken(found)) shared = shared + 1
-            taken(found) = .true.
-            if (dot_product(side1%normal(:, k), side2%normal(:, found)) > facing) turned = turned + 1
-         end if
+         call search%nearest(model%x(:, side1%node(k)), tolerance, found(k), distance)
       end do
-      if (lonely > 0) then
-         place = ''
-         do k = 1, model%dimension
-            place = place//real_text(model%x(k, worst_node))//', '
+      if (any(found == 0)) then
+         worst = 0.0_wp
+         worst_node = 0
+         do k = 1, side1%n
+            if (found(k) > 0) cycle
+            call search%nearest(model%x(:, side1%node(k)), huge(1.0_wp), nearest, distance)
+            if (distance <= worst) cycle
+            worst = distance
+            worst_node = side1%node(k)
          end do
-         fault%words = 'the sides do not face each other node by node: '//plural(lonely, 'node')//' of '// &
+         fault = 'the sides do not face each other node by node: '//plural(count(found == 0), 'node')//' of '// &
             integer_text(side1%n)//' of SIDE1 found no partner within '//real_text(tolerance)//'; the farthest is node '// &
-            integer_text(model%node_id(worst_node))//' at '//place//real_text(worst)//' away'
-      else if (shared > 0) then
-         fault%in_tolerance = .true.
-         fault%words = 'within '//real_text(tolerance)//' '//plural(shared, 'node')// &
-                       ' of SIDE1 have the partner of another node'
+            integer_text(model%node_id(worst_node))//' at '
+         do k = 1, model%dimension
+            fault = fault//real_text(model%x(k, worst_node))//', '
+         end do
+         fault = fault//real_text(worst)//' away'
+         return
+      end if
+      partner = side2%node(found)
+      call distinct(found, each)
+      turned = count([(dot_product(side1%normal(:, k), side2%normal(:, found(k))) > facing, k = 1, side1%n)])
+      if (size(each) < side1%n) then
+         in_tolerance = .true.
+         fault = 'within '//real_text(tolerance)//' '//plural(side1%n - size(each), 'node')// &
+                 ' of SIDE1 have the partner of another node'
       else if (turned > 0) then
-         fault%words = 'the sides do not face each other: at '//plural(turned, 'node')// &
-            ' their normals are not opposite'
+         fault = 'the sides do not face each other: at '//plural(turned, 'node')//' their normals are not opposite'
       else if (side2%n /= side1%n) then
-         fault%words = 'SIDE2 has '//plural(side2%n, 'node')//', SIDE1 '//integer_text(side1%n)//': every node needs its partner'
+         fault = 'SIDE2 has '//plural(side2%n, 'node')//', SIDE1 '//integer_text(side1%n)//': every node needs its partner'
       else if (.not. same_order(model, surface, side1, partner)) then
-         fault%words = 'mid-side nodes face corner nodes: one side is of second order, the other is not'
+         fault = 'mid-side nodes face corner nodes: one side is of second order, the other is not'
       end if
    end subroutine pair_nodes
 
@@ -131,71 +113,91 @@ contains
       same_order = all([(between(1)%find(side1%node(k)) > 0 .eqv. between(2)%find(partner(k)) > 0, k = 1, side1%n)])
    end function same_order
 
-   !> The mortar projection of the elements at the NODES of SIDE1. REACH of the search along the normal, 0: the default.
-   subroutine fit_side(model, side1, side2, nodes, reach, sums, found)
+   !> The mortar projection of the elements at the NODES of side 1, or the reason why there is none.
+   subroutine fit_side(model, surface, nodes, reach, sums, cover, partly, fault)
       type(model_type), intent(in)             :: model
-      type(surface_type), intent(in)           :: side1, side2
-      type(surface_node_list), intent(in)      :: nodes !! of SIDE1
-      real(wp), intent(in)                     :: reach
-      type(interface_sums_type), intent(inout) :: sums  !! empty
-      type(side_cover), intent(out)            :: found
+      integer, intent(in)                      :: surface(2) !! of the model
+      type(surface_node_list), intent(in)      :: nodes      !! of side 1
+      real(wp), intent(in)                     :: reach      !! of the search along the normal, 0: the default [length]
+      type(interface_sums_type), intent(inout) :: sums       !! empty
+      type(joint_cover), intent(out)           :: cover
+      logical, intent(out)                     :: partly(:)  !! (nodes) at a face that is partly covered
+      character(:), allocatable, intent(out)   :: fault      !! ''; or nothing is covered, or a face is covered twice
       type(opposite_faces)  :: opposite
       type(id_table_type)   :: place
-      type(plane_points)    :: points
       type(cover_integrals) :: integrals
       type(face_part)       :: part
       type(own_face)        :: face
-      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), share, all_area
-      integer  :: elements(max_side_nodes), k, n, own_parts, s
-      integer, allocatable :: near(:)
+      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), share, all_area, highest, farthest_reach
+      integer  :: elements(max_side_nodes), k, n, own_parts, s, double ! parts: linear edges or triangles, to compare the mesh sizes
 
-      found%cover%fitted = .true.
-      found%cover%share = 0.0_wp
+      cover%fitted = .true.
+      cover%share = 0.0_wp
+      partly = .false.
+      fault = ''
       call place%build(nodes%node)
       call sums%start(nodes%n, model%n_nodes)
-      call list_opposite(model, side2, opposite)
-      allocate (found%partly(nodes%n), source=.false.)
-      allocate (near(0))
       all_area = 0.0_wp
       own_parts = 0
-      do s = 1, side1%n
-         n = side1%n_nodes(s)
-         call side_influence(model, side1, s, area, normal)
-         all_area = all_area + sum(area)
-         call set_own_face(model, side1, s, reach, face)
-         found%reach = max(found%reach, face%reach)
-         call cover_face(model, side2, face, opposite, near, points, integrals)
-         share = integrals%seen/max(seen_area(face%seen), tiny(1.0_wp))
-         if (share > max(twice, found%double_share)) then
-            found%double = s
-            found%double_share = share
-         end if
-         if (integrals%seen <= 0.0_wp) cycle
-         found%is_any = .true.
-         own_parts = own_parts + n_parts(model%dimension, n)
-         found%cover%spacing(1) = found%cover%spacing(1) + seen_area(face%seen)
-         call fit_face(model%dimension, n, share >= whole_share, integrals, part)
-         do k = 1, n
-            elements(k) = place%find(side1%nodes(k, s))
-            if (share < whole_share) found%partly(elements(k)) = .true.
+      double = 0
+      highest = twice
+      farthest_reach = 0.0_wp
+      associate (side1 => model%surfaces(surface(1)), side2 => model%surfaces(surface(2)))
+         call list_opposite(model, side2, opposite)
+         do s = 1, side1%n
+            n = side1%n_nodes(s)
+            call side_influence(model, side1, s, area, normal)
+            all_area = all_area + sum(area)
+            call cover_face(model, side1, s, side2, reach, opposite, face, integrals)
+            farthest_reach = max(farthest_reach, face%reach)
+            if (integrals%seen <= 0.0_wp) cycle
+            share = integrals%seen/max(seen_area(face%seen), tiny(1.0_wp))
+            if (share > highest) double = s
+            highest = max(highest, share)
+            own_parts = own_parts + n - model%dimension + 1
+            cover%spacing(1) = cover%spacing(1) + seen_area(face%seen)
+            call fit_face(model%dimension, n, share >= whole_share, integrals, part)
+            do k = 1, n
+               elements(k) = place%find(side1%nodes(k, s))
+               if (share < whole_share) partly(elements(k)) = .true.
+            end do
+            call sums%add_face(elements(:n), side1%nodes(:n, s), integrals%node, part)
+            cover%share = cover%share + merge(1.0_wp, share, share >= whole_share)*sum(area)
+            cover%farthest = max(cover%farthest, integrals%farthest)
          end do
-         call sums%add_face(elements(:n), side1%nodes(:n, s), integrals%node(:integrals%n), part)
-         found%cover%share = found%cover%share + merge(1.0_wp, share, share >= whole_share)*sum(area)
-         found%cover%farthest = max(found%cover%farthest, integrals%farthest)
-      end do
-      call sums%finish()
-      found%cover%share = found%cover%share/max(all_area, tiny(1.0_wp))
-      found%cover%spacing(1) = found%cover%spacing(1)/max(1, own_parts)
-      found%cover%spacing(2) = sum(opposite%area, mask=opposite%covers) &
-                         /max(1, sum([(n_parts(model%dimension, side2%n_nodes(s)), s = 1, side2%n)], mask=opposite%covers))
+         call sums%finish()
+         cover%share = cover%share/max(all_area, tiny(1.0_wp))
+         cover%spacing(1) = cover%spacing(1)/max(1, own_parts)
+         cover%spacing(2) = sum(opposite%area, mask=opposite%covers) &
+                            /max(1, sum(side2%n_nodes(:side2%n) - model%dimension + 1, mask=opposite%covers))
+         if (own_parts == 0) then
+            fault = 'surface '//integer_text(side2%id)//' does not cover SIDE1: none of its faces is opposite to a face of '// &
+                    'SIDE1 within '//real_text(farthest_reach)//' along the normal; the nearest nodes are '// &
+                    real_text(shortest_distance(model, nodes%node, nodes_of(side2)))//' apart. Mark the sides that face '// &
+                    'each other, or give a larger TOL'
+         else if (double > 0) then
+            fault = 'faces of surface '//integer_text(side2%id)//' lie behind each other and cover the '// &
+                    side_name(model, side1%nodes(:side1%corners(double), double))//' of SIDE1 '//real_text(highest)// &
+                    ' times: mark only the nearer ones, or give a TOL below their distance'
+         end if
+      end associate
    end subroutine fit_side
 
-   !> The number of linear edges or triangles that a face with N nodes counts for when mesh sizes are compared.
-   pure integer function n_parts(dimension, n)
-      integer, intent(in) :: dimension, n
+   !> The shortest distance between two lists of nodes [length].
+   pure real(wp) function shortest_distance(model, nodes, others) result(shortest)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: nodes(:), others(:)
+      type(spatial_search_type) :: search
+      real(wp) :: distance
+      integer  :: found, k
 
-      n_parts = n - dimension + 1
-   end function n_parts
+      shortest = huge(1.0_wp)
+      call search%build(model%x(:, others))
+      do k = 1, size(nodes)
+         call search%nearest(model%x(:, nodes(k)), shortest, found, distance)
+         shortest = min(shortest, distance)
+      end do
+   end function shortest_distance
 
    !> The faces of SIDE2 for the search.
    subroutine list_opposite(model, side2, opposite)
@@ -208,6 +210,7 @@ contains
 
       allocate (box(3, 2, side2%n), opposite%normal(3, side2%n), opposite%area(side2%n))
       allocate (opposite%covers(side2%n), source=.false.)
+      allocate (opposite%near(0))
       do s = 1, side2%n
          associate (x => model%x(:, side2%nodes(:side2%n_nodes(s), s)))
             box(:, 1, s) = minval(x, dim=2)
@@ -217,54 +220,41 @@ contains
          end associate
          opposite%normal(:, s) = frame%axes(:, 3)
       end do
-      call opposite%boxes%build(box)
+      call opposite%boxes%build(box(:, 1, :), box(:, 2, :))
    end subroutine list_opposite
 
-   !> Face S of SIDE1 in its own frame.
-   subroutine set_own_face(model, side1, s, reach, face)
-      type(model_type), intent(in)   :: model
-      type(surface_type), intent(in) :: side1
-      integer, intent(in)            :: s
-      real(wp), intent(in)           :: reach
-      type(own_face), intent(out)    :: face
-      real(wp) :: longest
+   !> FACE S of SIDE1 in its own frame, and the INTEGRALS over the part of it that SIDE2 covers.
+   subroutine cover_face(model, side1, s, side2, reach, opposite, face, integrals)
+      type(model_type), intent(in)         :: model
+      type(surface_type), intent(in)       :: side1, side2
+      integer, intent(in)                  :: s
+      real(wp), intent(in)                 :: reach
+      type(opposite_faces), intent(inout)  :: opposite !! of SIDE2
+      type(own_face), intent(out)          :: face
+      type(cover_integrals), intent(out)   :: integrals
+      real(wp) :: low(3), high(3), before
+      integer  :: d, i, n
 
       associate (x => model%x(:, side1%nodes(:side1%n_nodes(s), s)))
          call make_frame(model%dimension, x, face%frame)
          face%seen = in_frame(model%dimension, x, face%frame)
-         longest = maxval(edge_lengths(x(:, :side1%corners(s))))
+         face%reach = merge(reach, default_reach*maxval(edge_lengths(x(:, :side1%corners(s)))), reach > 0.0_wp)
       end associate
       face%on_ring = model%axisymmetric
       if (model%dimension == 2) face%thickness = model%properties(model%element_property(side1%element(s)))%thickness
-      face%reach = merge(reach, default_reach*longest, reach > 0.0_wp)
-   end subroutine set_own_face
-
-   !> INTEGRALS over the part of FACE that SIDE2 covers.
-   subroutine cover_face(model, side2, face, opposite, near, points, integrals)
-      type(model_type), intent(in)         :: model
-      type(surface_type), intent(in)       :: side2
-      type(own_face), intent(in)           :: face
-      type(opposite_faces), intent(inout)  :: opposite
-      integer, allocatable, intent(inout)  :: near(:)
-      type(plane_points), intent(inout)    :: points
-      type(cover_integrals), intent(inout) :: integrals
-      real(wp) :: low(3), high(3), before
-      integer  :: d, i, n
-
-      call start_integrals(integrals)
       do d = 1, 3
          associate (x => face%frame%centre(d) + matmul(face%frame%axes(d, :), face%seen%x(:, :face%seen%n)))
             low(d) = minval(x) - face%reach
             high(d) = maxval(x) + face%reach
          end associate
       end do
-      call opposite%boxes%list_meeting(low, high, near, n)
+      call opposite%boxes%list_meeting(low, high, opposite%near, n)
       do i = 1, n
-         associate (f => near(i))
+         associate (f => opposite%near(i))
             if (dot_product(opposite%normal(:, f), face%frame%axes(:, 3)) > facing) cycle
             before = integrals%seen
             associate (nodes => side2%nodes(:side2%n_nodes(f), f))
-               call add_overlap(face, in_frame(model%dimension, model%x(:, nodes), face%frame), nodes, points, integrals)
+               call add_overlap(face, in_frame(model%dimension, model%x(:, nodes), face%frame), nodes, opposite%points, integrals)
             end associate
             if (integrals%seen > before) opposite%covers(f) = .true.
          end associate

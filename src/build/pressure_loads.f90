@@ -8,8 +8,9 @@ module pressure_loads
    use isoparametric, only: side_forces
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, is_shell, model_type, side_corners
+   use model_data, only: corners_of, is_shell, model_type
    use node_coupling, only: add_section_share
+   use surface_sides, only: side_corners
    use text_tools, only: integer_text
    implicit none
    private

@@ -11,8 +11,8 @@ module shell_faces
    use lists, only: id_table_type
    use model_data, only: corners_of, face_node_type, is_shell, model_type, surface_type
    use node_build, only: append_nodes
-   use node_coupling, only: couple_node, coupling_parts, third_axis
-   use numbers, only: by_rotation, cross, identity
+   use node_coupling, only: couple_node, third_axis, transformation, unknown_nodes
+   use numbers, only: by_rotation, cross
    use shell_membrane, only: shell_frame, shell_frame_of
    use text_tools, only: integer_text
    implicit none
@@ -24,15 +24,24 @@ module shell_faces
 
 contains
 
-   !> Give the sides of shells in marked surfaces nodes of their own.
+   !> Give the sides of shells in marked surfaces nodes of their own, and masses with an offset.
    subroutine build_shell_faces(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(face_node_type), allocatable :: faces(:)
-      integer :: k, n
+      real(wp) :: axes(3, 3)
+      integer  :: i, k, n
+      logical  :: ok
 
       allocate (faces(0))
-      call offset_masses(deck, model, faces)
+      do k = 1, size(deck%bulk%mass) ! the centre of mass of a CONM2 with an offset has a rigid lever from its node, as faces have
+         associate (card => deck%bulk%mass(k))
+            n = model%node_table%find(card%node)
+            if (n == 0 .or. all(abs(card%offset) <= 0.0_wp)) cycle
+            call find_directions(deck, model%systems, card%line, card%system, model%x(:, n), axes, ok)
+            faces = [faces, face_node_type(point=n, lever=matmul(axes, card%offset))]
+         end associate
+      end do
       do k = 1, merge(size(model%surfaces), 0, allocated(model%structural%place))
          associate (surface => model%surfaces(k))
             if (.not. any([(is_shell(model, surface%element(n)), n = 1, surface%n)])) cycle
@@ -45,27 +54,22 @@ contains
             call offset_sides(model, surface, faces)
          end associate
       end do
-      if (size(faces) > 0) call append_faces(model, faces)
-   end subroutine build_shell_faces
-
-   !> The centres of mass of CONM2 with an offset have rigid levers from their nodes, as faces of shells have.
-   subroutine offset_masses(deck, model, faces)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      type(face_node_type), allocatable, intent(inout) :: faces(:)
-      real(wp) :: axes(3, 3)
-      integer  :: i, node
-      logical  :: ok
-
-      do i = 1, size(deck%bulk%mass)
-         associate (card => deck%bulk%mass(i))
-            node = model%node_table%find(card%node)
-            if (node == 0 .or. all(abs(card%offset) <= 0.0_wp)) cycle
-            call find_directions(deck, model%systems, card%line, card%system, model%x(:, node), axes, ok)
-            faces = [faces, face_node_type(point=node, lever=matmul(axes, card%offset))]
+      if (size(faces) == 0) return
+      ! the nodes of the faces follow those of the deck, with the elements of the shell nodes, which give their material
+      n = model%n_nodes
+      faces%node = [(n + k, k = 1, size(faces))]
+      model%elements_at = [model%elements_at, ((model%elements_at(i), i = model%first_at(faces(k)%point), &
+                                                model%first_at(faces(k)%point + 1) - 1), k = 1, size(faces))]
+      model%first_at = [model%first_at, spread(0, 1, size(faces))]
+      do k = 1, size(faces)
+         associate (point => faces(k)%point)
+            model%first_at(n + k + 1) = model%first_at(n + k) + model%first_at(point + 1) - model%first_at(point)
          end associate
       end do
-   end subroutine offset_masses
+      call append_nodes(model, model%x(:, faces%point) + reshape([(faces(k)%lever, k = 1, size(faces))], [3, size(faces)]))
+      model%face_of = [spread(0, 1, n), [(k, k = 1, size(faces))]]
+      call move_alloc(faces, model%faces)
+   end subroutine build_shell_faces
 
    !> Give the sides of SURFACE that belong to shells nodes among FACES; a shared node has the mean lever of its sides.
    subroutine offset_sides(model, surface, faces)
@@ -74,7 +78,7 @@ contains
       type(face_node_type), allocatable, intent(inout) :: faces(:)
       type(face_node_type), allocatable :: own(:)
       integer, allocatable :: n_of(:), of_node(:, :)
-      integer  :: c, i, n, nodes(4), row, s
+      integer  :: c, i, line, n, nodes(4), row, s
       real(wp) :: side
       type(shell_frame) :: frame
 
@@ -98,8 +102,10 @@ contains
                   if (c > 2) then
                      call take(0, nodes(i), (law%offset + side*t)*frame%axes(:, 3), surface%nodes(i, s))
                   else ! edge 1 to 2: 1 and 2 on the lower line of the strip, then 2 and 1 on the upper one
-                     call take(row - 1, nodes(i), height(t, row - 1)*frame%axes(:, 3), surface%nodes(i, s))
-                     call take(row, nodes(i), height(t, row)*frame%axes(:, 3), surface%nodes(5 - i, s))
+                     do line = row - 1, row
+                        call take(line, nodes(i), (law%offset + t*(real(line, wp)/strips - 0.5_wp))*frame%axes(:, 3), &
+                                  surface%nodes(merge(i, 5 - i, line < row), s))
+                     end do
                   end if
                end associate
             end do
@@ -113,15 +119,6 @@ contains
       faces = [faces, own(:n)]
 
    contains
-
-      !> The height of a line of strips above the nodes.
-      pure real(wp) function height(t, line)
-         real(wp), intent(in) :: t
-         integer, intent(in)  :: line
-
-         height = model%structural%shells(model%structural%place(surface%element(s)))%offset + &
-                  t*(real(line, wp)/strips - 0.5_wp)
-      end function height
 
       !> AT is the face node that stands off NODE on LINE of the strips; add LEVER to its mean.
       subroutine take(line, node, lever, at)
@@ -167,93 +164,36 @@ contains
       where (surface%corners == 2) surface%nodes(3, :) = -strip
    end subroutine cut_edges
 
-   !> Append the nodes of FACES behind those of the deck, with the elements of the shell nodes, which give their material.
-   subroutine append_faces(model, faces)
-      type(model_type), intent(inout)  :: model
-      type(face_node_type), intent(in) :: faces(:)
-      integer, allocatable :: elements_at(:)
-      real(wp) :: x(3, size(faces))
-      integer  :: k, m, n
-
-      n = model%n_nodes
-      m = size(model%elements_at)
-      model%faces = faces
-      allocate (elements_at(m + sum(model%first_at(faces%point + 1) - model%first_at(faces%point))))
-      elements_at(:m) = model%elements_at
-      model%first_at = [model%first_at, spread(0, 1, size(faces))]
-      do k = 1, size(faces)
-         model%faces(k)%node = n + k
-         x(:, k) = model%x(:, faces(k)%point) + faces(k)%lever
-         associate (at => model%first_at(faces(k)%point:faces(k)%point + 1))
-            elements_at(m + 1:m + at(2) - at(1)) = model%elements_at(at(1):at(2) - 1)
-            m = m + at(2) - at(1)
-         end associate
-         model%first_at(n + k + 1) = m + 1
-      end do
-      call move_alloc(elements_at, model%elements_at)
-      call append_nodes(model, x)
-      allocate (model%face_of(model%n_nodes), source=0)
-      do k = 1, size(faces)
-         model%face_of(n + k) = k
-      end do
-   end subroutine append_faces
-
-   !> Couple the face nodes to the nodes from which they stand off, or to the masters of these.
+   !> Couple the face nodes to the nodes from which they stand off, or to the masters of these: u + theta x lever.
    subroutine couple_shell_faces(model)
       type(model_type), intent(inout) :: model
       real(wp), allocatable :: t(:, :, :)
-      integer, allocatable  :: masters(:)
-      integer  :: d, k
+      real(wp) :: w(model%dimension, model%dimension)
+      integer  :: d, j, k
 
       if (.not. allocated(model%faces)) return
       d = model%dimension
       if (.not. allocated(model%left_out)) allocate (model%left_out(model%dimension, model%n_nodes), source=.false.)
       do k = 1, size(model%faces)
-         allocate (masters(0), t(d, d, 0))
-         associate (face => model%faces(k))
-            call add(face%point, identity(:d, :d))
-            associate (rotation => model%rotations(model%rotation_of(face%point)), lever => face%lever)
-               if (d == 3) call add(rotation%node, by_rotation(lever)/rotation%arm)
-               if (d == 2) call add(rotation%node, sum(third_axis(model, face%point))/rotation%arm* &
-                                    reshape([-lever(2), lever(1), 0.0_wp, 0.0_wp], [2, 2]))
+         associate (face => model%faces(k), rotation => model%rotations(model%rotation_of(model%faces(k)%point)), &
+                    lever => model%faces(k)%lever)
+            if (d == 3) w = by_rotation(lever)/rotation%arm
+            if (d == 2) w = sum(third_axis(model, face%point))/rotation%arm*reshape([-lever(2), lever(1), 0.0_wp, 0.0_wp], [2, 2])
+            associate (masters => unknown_nodes(model, [face%point, rotation%node]), &
+                       both => transformation(model, [face%point, rotation%node]))
+               allocate (t(d, d, size(masters)))
+               do j = 1, size(masters)
+                  associate (of_master => both(:, d*(j - 1) + 1:d*j))
+                     t(:, :, j) = of_master(:d, :) + matmul(w, of_master(d + 1:, :))
+                  end associate
+               end do
+               call couple_node(model%coupling, model%n_nodes, face%node, masters, t)
+               deallocate (t)
             end associate
-            call couple_node(model%coupling, model%n_nodes, face%node, masters, t)
             model%left_out(:, face%node) = .true.
             model%held(:, face%node) = .true.
          end associate
-         deallocate (masters, t)
       end do
-
-   contains
-
-      !> Add the part MATRIX times the displacement of NODE to the face node.
-      subroutine add(node, matrix)
-         integer, intent(in)  :: node
-         real(wp), intent(in) :: matrix(:, :)
-         integer :: j
-
-         associate (parts => coupling_parts(model, node))
-            if (parts(2) < 0) call add_part(node, matrix)
-            do j = parts(1), parts(2)
-               call add_part(model%coupling%node(j), matmul(matrix, model%coupling%t(:, :, j)))
-            end do
-         end associate
-      end subroutine add
-
-      subroutine add_part(node, matrix)
-         integer, intent(in)  :: node
-         real(wp), intent(in) :: matrix(:, :)
-         integer :: j
-
-         j = findloc(masters, node, dim=1)
-         if (j > 0) then
-            t(:, :, j) = t(:, :, j) + matrix
-         else
-            masters = [masters, node]
-            t = reshape([t, matrix], [d, d, size(masters)])
-         end if
-      end subroutine add_part
-
    end subroutine couple_shell_faces
 
 end module shell_faces

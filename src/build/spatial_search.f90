@@ -15,8 +15,7 @@ module spatial_search
       real(wp), allocatable :: around(:, :, :) ! (3, 2, n) bounding boxes of the sections with this middle
       integer, allocatable  :: number(:)       ! (n) input number of each box
    contains
-      procedure, private :: build_points, build_boxes
-      generic :: build => build_points, build_boxes
+      procedure :: build
       procedure :: nearest
       procedure :: list_meeting
    end type spatial_search_type
@@ -25,82 +24,68 @@ module spatial_search
 
 contains
 
-   !> Build the tree of POINTS(3, n).
-   pure subroutine build_points(self, points)
+   !> Build the tree of the boxes from LOW(3, n) to HIGH(3, n), or of the points LOW.
+   pure subroutine build(self, low, high)
       class(spatial_search_type), intent(inout) :: self
-      real(wp), intent(in) :: points(:, :)
-
-      call self%build_boxes(reshape(spread(points, 2, 2), [3, 2, size(points, 2)]))
-   end subroutine build_points
-
-   !> Build the tree of BOXES(3, 2, n), lower and upper coordinates.
-   pure subroutine build_boxes(self, boxes)
-      class(spatial_search_type), intent(inout) :: self
-      real(wp), intent(in) :: boxes(:, :, :)
+      real(wp), intent(in)           :: low(:, :)
+      real(wp), intent(in), optional :: high(:, :)
+      real(wp) :: boxes(3, 2, size(low, 2))
       real(wp), allocatable :: centres(:, :)
       real(wp) :: whole(3, 2)
       integer  :: i
 
+      boxes(:, 1, :) = low
+      boxes(:, 2, :) = low
+      if (present(high)) boxes(:, 2, :) = high
       allocate (centres, source=0.5_wp*(boxes(:, 1, :) + boxes(:, 2, :)))
       self%number = [(i, i = 1, size(centres, 2))]
       call divide(centres, self%number)
       self%box = boxes(:, :, self%number)
       self%around = self%box
       if (size(self%number) > 0) call surround(self, 1, size(self%number), whole)
-   end subroutine build_boxes
+   end subroutine build
 
-   !> Sort a section of POINTS, with their NUMBERs, into the order of the tree.
+   !> Sort a section of POINTS, with their NUMBERs, into the order of the tree: points are exchanged until none before the middle has a
+   !! larger coordinate along the axis of the largest extent, and none behind it a smaller one; then each half likewise.
+   !! Source: Hoare's FIND; Wirth, Algorithms + Data Structures = Programs, section 2.3.4.
    pure recursive subroutine divide(points, number)
       real(wp), intent(inout) :: points(:, :) !! (3, n)
       integer, intent(inout)  :: number(:)    !! (n)
-      integer :: middle, n
-
-      n = size(number)
-      if (n <= first_undivided) return
-      middle = 1 + (n - 1)/2
-      call select_middle(maxloc(maxval(points, dim=2) - minval(points, dim=2), dim=1), middle, points, number)
-      call divide(points(:, :middle - 1), number(:middle - 1))
-      call divide(points(:, middle + 1:), number(middle + 1:))
-   end subroutine divide
-
-   !> Exchange POINTS until none before MIDDLE has a larger coordinate along AXIS, and none behind it a smaller one.
-   !! Source: Hoare's FIND; Wirth, Algorithms + Data Structures = Programs, section 2.3.4.
-   pure subroutine select_middle(axis, middle, points, number)
-      integer, intent(in)     :: axis, middle
-      real(wp), intent(inout) :: points(:, :) !! (3, n)
-      integer, intent(inout)  :: number(:)    !! (n)
       real(wp) :: pivot, point(3)
-      integer  :: i, j, k, low, high
+      integer  :: axis, i, j, k, low, high, middle
 
       low = 1
       high = size(number)
+      if (high <= first_undivided) return
+      middle = 1 + (high - 1)/2
+      axis = maxloc(maxval(points, dim=2) - minval(points, dim=2), dim=1)
       do while (low < high)
          pivot = points(axis, middle)
          i = low
          j = high
-         do
+         do while (i <= j)
             do while (points(axis, i) < pivot)
                i = i + 1
             end do
             do while (points(axis, j) > pivot)
                j = j - 1
             end do
-            if (i <= j) then
-               point = points(:, i)
-               points(:, i) = points(:, j)
-               points(:, j) = point
-               k = number(i)
-               number(i) = number(j)
-               number(j) = k
-               i = i + 1
-               j = j - 1
-            end if
             if (i > j) exit
+            point = points(:, i)
+            points(:, i) = points(:, j)
+            points(:, j) = point
+            k = number(i)
+            number(i) = number(j)
+            number(j) = k
+            i = i + 1
+            j = j - 1
          end do
          if (j < middle) low = i
          if (i > middle) high = j
       end do
-   end subroutine select_middle
+      call divide(points(:, :middle - 1), number(:middle - 1))
+      call divide(points(:, middle + 1:), number(middle + 1:))
+   end subroutine divide
 
    !> The bounding box AROUND the boxes FIRST to LAST of the tree, stored with its middle.
    pure recursive subroutine surround(self, first, last, around)
@@ -199,23 +184,16 @@ contains
       logical :: is_divided
 
       middle = first + (last - first)/2
-      if (.not. meet(self%around(:, :, middle), low, high)) return
+      if (any(self%around(:, 1, middle) > high) .or. any(self%around(:, 2, middle) < low)) return
       is_divided = last - first >= first_undivided
       if (is_divided) call add_meeting(self, first, middle - 1, low, high, found, n)
       do i = merge(middle, first, is_divided), merge(middle, last, is_divided)
-         if (.not. meet(self%box(:, :, i), low, high)) cycle
+         if (any(self%box(:, 1, i) > high) .or. any(self%box(:, 2, i) < low)) cycle
          if (n == size(found)) found = [found, found, spread(0, 1, 8)]
          n = n + 1
          found(n) = self%number(i)
       end do
       if (is_divided) call add_meeting(self, middle + 1, last, low, high, found, n)
    end subroutine add_meeting
-
-   !> Whether BOX meets the box from LOW to HIGH.
-   pure logical function meet(box, low, high)
-      real(wp), intent(in) :: box(3, 2), low(3), high(3)
-
-      meet = all(box(:, 1) <= high) .and. all(box(:, 2) >= low)
-   end function meet
 
 end module spatial_search

@@ -6,8 +6,8 @@ module surface_build
    use isoparametric, only: side_areas, side_forces
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
-   use model_data, only: has_second_order, is_shell, model_type, side_corners, surface_type
-   use surface_sides, only: nodes_of
+   use model_data, only: has_second_order, is_shell, model_type, surface_type
+   use surface_sides, only: nodes_of, side_corners
    use text_tools, only: integer_text
    implicit none
    private
@@ -31,8 +31,10 @@ contains
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: marks
       integer, allocatable :: surface(:), first(:), members(:), said(:) ! said: missing marks
+      character(:), allocatable :: words
       integer :: i, k, most_nodes
 
+      words = ''
       most_nodes = 2*(model%dimension - 1)                     ! of a side
       if (has_second_order(model)) most_nodes = merge(3, max_side_nodes, model%dimension == 2)
       call marks%build(deck%bulk%pmark%id)
@@ -40,7 +42,16 @@ contains
       do i = 1, size(sides)
          surface(i) = marks%find(sides(i)%property)
          if (surface(i) > 0 .or. sides(i)%property <= 0 .or. any(said == sides(i)%property)) cycle
-         call report_missing(deck, sides(i), count(sides%property == sides(i)%property))
+         words = 'there is no PMARK '//integer_text(sides(i)%property)
+         k = count(sides%property == sides(i)%property)
+         if (k > 1) words = words//' for '//integer_text(k)//' sides'
+         if (sides(i)%id < 0) then
+            call deck%field_error(sides(i)%line, 'S'//integer_text(-sides(i)%id), words)
+         else
+            if (sides(i)%corners > 2) words = words//': in a model of space plane elements mark surfaces; '// &
+               'plane bodies cannot be mixed with solids; shells need MID2 on their PSHELL' ! the card may be meant as an element
+            call deck%field_error(sides(i)%line, 'PID', words)
+         end if
          said = [said, sides(i)%property]
       end do
       call list_owners(size(model%surfaces), reshape(surface, [1, size(sides)]), first, members)
@@ -56,26 +67,15 @@ contains
             end do
             call check_repeated(deck, model, this)
             if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! a number given twice is reported elsewhere
-            call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%id)//' has no '// &
-               trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
-               ' or side of a block with this PID'//gmsh_words())
+            words = 'surface '//integer_text(card%id)//' has no '// &
+                    trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
+                    ' or side of a block with this PID'
+            if (any([(index(deck%text%files(i)%bytes(:min(200, len(deck%text%files(i)%bytes))), 'Created by Gmsh') > 0, &
+                      i = 1, deck%text%n_files)])) words = words// &
+               '; Gmsh writes a face once: of two physical groups with the same face only the first has it'
+            call deck%field_error(card%line, 'PID', words)
          end associate
       end do
-
-   contains
-
-      !> Text: why a mesh of Gmsh may lack the face.
-      function gmsh_words() result(words)
-         character(:), allocatable :: words
-         integer :: f
-
-         words = ''
-         do f = 1, deck%text%n_files
-            if (index(deck%text%files(f)%bytes(:min(200, len(deck%text%files(f)%bytes))), 'Created by Gmsh') > 0) words = &
-               '; Gmsh writes a face once: of two physical groups with the same face only the first has it'
-         end do
-      end function gmsh_words
-
    end subroutine build_surfaces
 
    !> The SURFACE of MODEL with this ID, in FIELD of the card on LINE; 0, and an error, for a missing surface.
@@ -89,25 +89,6 @@ contains
       surface = findloc(model%surfaces%id, id, dim=1)
       if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id))
    end subroutine find_surface
-
-   !> Error: the mark of SIDE, which N sides have, has no PMARK. The card may be meant as an element, not as a face of solids.
-   subroutine report_missing(deck, side, n)
-      type(checked_deck), intent(in) :: deck
-      type(marked_side), intent(in)  :: side
-      integer, intent(in)            :: n
-      character(:), allocatable :: words
-
-      words = 'there is no PMARK '//integer_text(side%property)
-      if (n > 1) words = words//' for '//integer_text(n)//' sides'
-      if (side%id < 0) then
-         call deck%field_error(side%line, 'S'//integer_text(-side%id), words)
-      else
-         if (side%corners > 2) &
-            words = words//': in a model of space plane elements mark surfaces; plane bodies cannot be mixed with solids; '// &
-               'shells need MID2 on their PSHELL'
-         call deck%field_error(side%line, 'PID', words)
-      end if
-   end subroutine report_missing
 
    !> Add SIDE to its surface, in the node order of its element. Of two elements the side belongs to the one with the order of the card; the
    !! other element is behind it.
@@ -168,16 +149,18 @@ contains
       type(marked_side), intent(in)  :: side
       integer, intent(in)            :: e, own(:)
       type(model_type), intent(in)   :: model
+      character(:), allocatable :: element
       integer :: a, b, k, m, mid, place
 
+      element = 'element '//integer_text(model%element_id(e))//', a '//trim(element_table(model%element_kind(e))%card)
       m = side%corners
       if (size(own) == m .and. side%n_nodes > m) then
          if (m == 2) then
             call deck%field_error(side%line, 'X1', 'a node, as the middle of the edge, but the edge is one of '// &
-                                  element_words()//', which is linear; expected a real number, or blank')
+                                  element//', which is linear; expected a real number, or blank')
          else
             call deck%errors%add(side%line, 'face '//integer_text(side%id)//' has mid-side nodes, but is one of '// &
-                                 element_words()//', which is linear; expected its corners alone')
+                                 element//', which is linear; expected its corners alone')
          end if
          return
       end if
@@ -190,18 +173,9 @@ contains
          mid = own(m + place)
          if (mid == side%nodes(m + k)) cycle
          call deck%field_error(side%line, 2 + m + k, integer_text(model%node_id(side%nodes(m + k)))//', but '// &
-                               element_words()//', has node '//integer_text(model%node_id(mid))//' at the middle of this edge')
+                               element//', has node '//integer_text(model%node_id(mid))//' at the middle of this edge')
          return
       end do
-
-   contains
-
-      pure function element_words() result(words)
-         character(:), allocatable :: words
-
-         words = 'element '//integer_text(model%element_id(e))//', a '//trim(element_table(model%element_kind(e))%card)
-      end function element_words
-
    end subroutine check_mark
 
    !> Text that names a side by its nodes.

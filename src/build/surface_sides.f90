@@ -1,4 +1,4 @@
-!> Topology of marked surfaces: sides at each node, consistent orientation, elements behind, and split surfaces.
+!> Topology of sides and marked surfaces: corners of a side, sides at each node, consistent orientation, elements behind, and split surfaces.
 !! If bodies on both sides of a surface with a joint share its nodes, the nodes are doubled to make room for interface elements.
 module surface_sides
    use deck_check, only: checked_deck
@@ -11,7 +11,7 @@ module surface_sides
    implicit none
    private
 
-   public :: nodes_of, list_sides, reverse_side, orient_sides, elements_behind, split_shared_surfaces
+   public :: side_corners, nodes_of, list_sides, reverse_side, orient_sides, elements_behind, split_shared_surfaces
 
    !> The sides of a surface at every node of it: side(first(k):first(k + 1) - 1) at node(k).
    type, public :: side_list
@@ -22,12 +22,19 @@ module surface_sides
       type(id_table_type), private :: place        ! position of a node in NODE
    end type side_list
 
-   !> A list of elements.
-   type :: element_list
-      integer, allocatable :: element(:)
-   end type element_list
-
 contains
+
+   !> The corners of side S of element E, counter-clockwise as seen from outside; 0: the face of a shell along its normal.
+   pure function side_corners(model, e, s) result(nodes)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e, s
+      integer, allocatable :: nodes(:)
+
+      associate (kind => element_table(model%element_kind(e)))
+         if (s == 0) nodes = model%element_nodes(:kind%n_nodes, e)
+         if (s > 0) nodes = model%element_nodes(kind%side_nodes(:kind%side_corners(s), s), e)
+      end associate
+   end function side_corners
 
    !> The nodes of SURFACE, each once, in ascending order.
    pure function nodes_of(surface) result(nodes)
@@ -222,7 +229,17 @@ contains
       twins(model%duplicate(twins) - model%n_nodes) = twins ! in the order of their numbers
       call append_nodes(model, model%x(:, twins))
       call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
-      call move_other_surfaces(model)
+      do s = 1, size(model%surfaces) ! the sides of surfaces that were not split follow their elements
+         associate (surface => model%surfaces(s))
+            do j = 1, merge(0, surface%n, surface%was_split)
+               do k = 1, surface%n_nodes(j)
+                  node = model%duplicate(surface%nodes(k, j))
+                  if (node == 0) cycle
+                  if (any(model%element_nodes(:, surface%element(j)) == node)) surface%nodes(k, j) = node
+               end do
+            end do
+         end associate
+      end do
    end subroutine split_shared_surfaces
 
    !> Give the elements behind surface S twins of its nodes, numbered behind N_DUPLICATES earlier twins. The model gets these nodes later.
@@ -231,46 +248,26 @@ contains
       integer, intent(in)             :: s
       integer, intent(inout)          :: n_duplicates
       type(side_list) :: at
-      type(element_list), allocatable :: behind(:)
+      integer, allocatable :: behind(:), element_nodes(:, :)
       integer :: i, k
 
       call list_sides(model%surfaces(s), at)
       call orient_sides(model%surfaces(s), at)
-      allocate (behind(at%n))
-      do k = 1, at%n                          ! unsplit nodes are needed until all elements behind are known
-         call elements_behind(model, s, at, k, behind(k)%element)
-      end do
+      allocate (element_nodes, source=model%element_nodes) ! the model keeps its nodes until all elements behind are known
       do k = 1, at%n
-         if (size(behind(k)%element) == 0) cycle ! the edge of the surface inside a body is not split
+         call elements_behind(model, s, at, k, behind)
+         if (size(behind) == 0) cycle         ! the edge of the surface inside a body is not split
          n_duplicates = n_duplicates + 1
          model%duplicate(at%node(k)) = model%n_nodes + n_duplicates
-         do i = 1, size(behind(k)%element)
-            associate (nodes => model%element_nodes(:, behind(k)%element(i)))
+         do i = 1, size(behind)
+            associate (nodes => element_nodes(:, behind(i)))
                where (nodes == at%node(k)) nodes = model%n_nodes + n_duplicates
             end associate
          end do
       end do
+      call move_alloc(element_nodes, model%element_nodes)
       model%surfaces(s)%other = 0
       model%surfaces(s)%was_split = .true.
    end subroutine split_surface
-
-   !> Update the sides of surfaces that were not split: their nodes follow their elements.
-   pure subroutine move_other_surfaces(model)
-      type(model_type), intent(inout) :: model
-      integer :: i, k, s, twin
-
-      do s = 1, size(model%surfaces)
-         if (model%surfaces(s)%was_split) cycle
-         associate (surface => model%surfaces(s))
-            do i = 1, surface%n
-               do k = 1, surface%n_nodes(i)
-                  twin = model%duplicate(surface%nodes(k, i))
-                  if (twin == 0) cycle
-                  if (any(model%element_nodes(:, surface%element(i)) == twin)) surface%nodes(k, i) = twin
-               end do
-            end do
-         end associate
-      end do
-   end subroutine move_other_surfaces
 
 end module surface_sides

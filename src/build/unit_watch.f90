@@ -25,21 +25,21 @@ module unit_watch
 contains
 
    !> A warning for the first MAT1 of DECK whose wave speed is not that of a solid, in UNITS or else in any usual system, with a
-   !! guess of the mistake; '' where there is none.
+   !! guess of the mistake; else for the first GRAV that is not gravity; '' where there is none.
    pure function unit_words(deck) result(words)
       type(deck_type), intent(in) :: deck
       character(:), allocatable   :: words
       real(wp) :: speed, rho
-      integer  :: best, i
+      integer  :: best, i, unit
 
       words = ''
+      unit = findloc(lengths, upper(deck%control%length_unit), dim=1)
       do i = 1, size(deck%bulk%mat1)
          associate (card => deck%bulk%mat1(i))
             rho = deck%bulk%parameters%mass_factor*card%rho
             if (rho <= 0.0_wp .or. card%e <= 0.0_wp) cycle
             speed = sqrt(card%e/rho)
-            if (any(is_usual(speed*metres) .and. (upper(deck%control%length_unit) == lengths .or. &
-                                                  all(upper(deck%control%length_unit) /= lengths)))) cycle
+            if (any(is_usual(speed*metres) .and. (unit == 0 .or. [1, 2, 3] == unit))) cycle
             words = 'MAT1 '//integer_text(card%id)//': RHO ='//number(card%rho)//' with E ='//number(card%e)// &
                     ' gives a wave speed sqrt(E/RHO) of no solid in mm, m or inches'
             best = minloc(abs(log(sqrt(card%e/(rho*remedies))*metres(1)/usual)), dim=1)
@@ -49,27 +49,14 @@ contains
          end associate
       end do
       do i = 1, size(deck%bulk%gravity)
-         associate (card => deck%bulk%gravity(i))
-            words = gravity_words(norm2(card%acceleration), upper(deck%control%length_unit))
-            if (card%is_spin) words = ''
-            if (words /= '') return
+         associate (card => deck%bulk%gravity(i), a => norm2(deck%bulk%gravity(i)%acceleration))
+            if (card%is_spin .or. a <= 0.0_wp .or. abs(a - 1.0_wp) <= 1.0e-9_wp) cycle ! a LOAD may multiply 1
+            if (any(a >= least_g*gravity .and. a <= most_g*gravity .and. (unit == 0 .or. gravity_unit == unit))) cycle
+            words = 'GRAV of'//number(a)//' is not gravity; in mm and s that is 9810, in m and s 9.81, in inches and s 386.1'
+            return
          end associate
       end do
    end function unit_words
-
-   !> A warning for a GRAV of acceleration A in a deck of LENGTH_UNIT; '' for gravity, or for 1, which a LOAD multiplies.
-   pure function gravity_words(a, length_unit) result(words)
-      real(wp), intent(in)      :: a
-      character(*), intent(in)  :: length_unit
-      character(:), allocatable :: words
-      integer :: unit
-
-      words = ''
-      unit = findloc(lengths, length_unit, dim=1)
-      if (a <= 0.0_wp .or. abs(a - 1.0_wp) <= 1.0e-9_wp) return
-      if (any(a >= least_g*gravity .and. a <= most_g*gravity .and. (unit == 0 .or. gravity_unit == unit))) return
-      words = 'GRAV of'//number(a)//' is not gravity; in mm and s that is 9810, in m and s 9.81, in inches and s 386.1'
-   end function gravity_words
 
    !> A warning for a structure whose largest von Mises stress is STRAINED times E.
    pure function stress_words(strained) result(words)

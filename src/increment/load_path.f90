@@ -1,7 +1,7 @@
 !> The load path over stages and increments, and the recovery of displacements and forces of the bodies.
 module load_path
    use analysis_state, only: all_held, analysis_type, joint_energy, load_state, subtract_joint_forces
-   use bar_elements, only: add_bar_forces, add_pull, add_thermal_pulls
+   use bar_elements, only: add_bar_forces, add_pull, thermal_pull
    use body_elements, only: add_thermal_forces, internal_forces
    use bolt_locking, only: lock_bolts
    use equations, only: condense_load, equation_system, forces_in_bodies, recover_displacements
@@ -51,7 +51,10 @@ contains
       end do
       if (allocated(analysis%after%temperature%at)) then
          call add_thermal_forces(model, analysis%after%temperature, analysis%after%load)
-         call add_thermal_pulls(model, analysis%is_elastic, analysis%after%temperature, analysis%after%load)
+         do i = 1, n_bars(model)
+            if (analysis%is_elastic(i)) &
+               call add_pull(model, i, thermal_pull(model%bars(i), analysis%after%temperature), analysis%after%load)
+         end do
       end if
       do i = 1, n_sections(model)
          associate (section => model%sections(i))

@@ -2,13 +2,11 @@
 !! A spring has directions of its own; where it has one node, its second node is the ground.
 module bar_elements
    use kinds, only: wp
-   use model_data, only: bar_nodes, bar_type, model_type, temperature_type
-   use node_coupling, only: between_unknowns
-   use temperatures, only: bar_rise
+   use model_data, only: a_spring, bar_nodes, bar_type, model_type, temperature_type
    implicit none
    private
 
-   public :: bar_elongation, thermal_pull, add_pull, add_thermal_pulls, add_bar_forces, bar_stiffness, coupled_bar_stiffness
+   public :: bar_elongation, thermal_pull, add_pull, add_bar_forces, bar_stiffness
 
 contains
 
@@ -26,26 +24,17 @@ contains
       end associate
    end function bar_elongation
 
-   !> Tension of BAR at constant length and at this TEMPERATURE: compression where the temperature rises [force].
+   !> Tension of BAR at constant length and at this TEMPERATURE: compression where the mean temperature along the bar rises above TREF;
+   !! zero for a spring [force].
    pure real(wp) function thermal_pull(bar, temperature) result(tension)
       type(bar_type), intent(in)         :: bar
       type(temperature_type), intent(in) :: temperature
 
-      tension = -bar%stiffness*bar%expansion*bar_rise(bar, temperature)
+      tension = 0.0_wp
+      if (bar%kind == a_spring .or. .not. allocated(temperature%at)) return
+      tension = -bar%stiffness*bar%expansion* &
+                (0.5_wp*sum(temperature%at(bar%nodes)) - temperature%reference_share*bar%reference)
    end function thermal_pull
-
-   !> Add to F the thermal nodal forces of the elastic bars.
-   pure subroutine add_thermal_pulls(model, is_elastic, temperature, f)
-      type(model_type), intent(in)       :: model
-      logical, intent(in)                :: is_elastic(:) !! (bars)
-      type(temperature_type), intent(in) :: temperature
-      real(wp), intent(inout)            :: f(:, :)       !! (dimension, n_nodes) [force]
-      integer :: i
-
-      do i = 1, size(is_elastic)
-         if (is_elastic(i)) call add_pull(model, i, thermal_pull(model%bars(i), temperature), f)
-      end do
-   end subroutine add_thermal_pulls
 
    !> Add to F the nodal forces of bar I under a tension N.
    pure subroutine add_pull(model, i, n, f)
@@ -90,14 +79,5 @@ contains
          end do
       end associate
    end function bar_stiffness
-
-   !> [k] of bar I between the unknowns of unknown_nodes(its nodes), in the order of these nodes [force/length].
-   pure function coupled_bar_stiffness(model, i) result(k)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: i
-      real(wp), allocatable :: k(:, :)
-
-      k = between_unknowns(model, bar_nodes(model%bars(i)), bar_stiffness(model, i))
-   end function coupled_bar_stiffness
 
 end module bar_elements

@@ -1,20 +1,22 @@
 !> Stiffness, stresses and nodal forces of the elements of a model; this module selects the routine of each kind.
 module body_elements
+   use beam_element, only: beam_nodal_forces, beam_stiffness, beam_thermal_load
    use elasticity, only: max_stresses, n_stresses, plane_strain
    use element_kinds, only: element_table, max_felt_dofs, max_nodes, centre_point
    use element_mapping, only: element_law, make_element_law
-   use isoparametric, only: stiffness, body_forces, nodal_thermal_forces
+   use isoparametric, only: stiffness, nodal_thermal_forces
    use kinds, only: wp
    use model_data, only: corners_of, is_beam, is_shell, model_type, own_nodes, temperature_type
    use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, participating_nodes
    use shape_functions, only: shape_values
+   use shell_element, only: shell_stiffness, shell_thermal_forces
    use stress_recovery, only: centre_stress, nodal_stress
-   use structural_elements, only: structural_stiffness, structural_stress, structural_thermal_forces
-   use temperatures, only: element_rise
+   use structural_elements, only: between_own, most_own, onto_own, structural_stress
+   use temperatures, only: element_rise, element_slope
    implicit none
    private
 
-   public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, whole_stress, element_weight
+   public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, whole_stress
    public :: element_stiffness, internal_forces, element_thermal_forces, add_thermal_forces, law_of
 
    ! Element contributions to nodal sums are computed in parallel, block by block, if there are more than a few; they are added in the
@@ -40,13 +42,18 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(inout)      :: k(:, :) !! dimension x participating nodes rows and columns are set
+      real(wp) :: full(3*most_own, 3*most_own) ! between the nodal values of a shell or beam
 
-      if (is_shell(model, e) .or. is_beam(model, e)) then
-         call structural_stiffness(model, e, k)
-         return
+      if (is_beam(model, e)) then
+         full(:12, :12) = beam_stiffness(model%structural%beams(model%structural%place(e)), model%x(:, corners_of(model, e)))
+         call between_own(model, e, full, k)
+      else if (is_shell(model, e)) then
+         call shell_stiffness(model%structural%shells(model%structural%place(e)), model%x(:, corners_of(model, e)), full)
+         call between_own(model, e, full, k)
+      else
+         call stiffness(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), k)
+         call extend_stiffness(model, e, k)
       end if
-      call stiffness(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), k)
-      call extend_stiffness(model, e, k)
    end subroutine element_stiffness
 
    !> The centre of element E, the point of element_stress [length]: of a linear element the mean of its corners.
@@ -193,17 +200,6 @@ contains
       end associate
    end function full_stress
 
-   !> Nodal forces of element E (no shell or beam) under a body force B per mass, an acceleration with the sign of the force.
-   pure subroutine element_weight(model, e, b, f)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      real(wp), intent(in)         :: b(:)     !! (dimension) [length/time^2]
-      real(wp), intent(inout)      :: f(:, :)  !! (dimension, nodes) [force], set here
-
-      call body_forces(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), &
-                       model%properties(model%element_property(e))%rho*b, f)
-   end subroutine element_weight
-
    !> Internal forces of the bodies: F = sum of [k] {u} over the elements.
    subroutine internal_forces(model, u, f)
       type(model_type), intent(in) :: model
@@ -238,16 +234,13 @@ contains
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
       real(wp), intent(inout)      :: p(:, :) !! (dimension, nodes) [force], set here
       real(wp) :: k(max_felt_dofs, max_felt_dofs), q(max_felt_dofs)
-      integer  :: d, i, n
+      integer  :: n
 
-      d = model%dimension
       call element_stiffness(model, e, k)
       associate (nodes => participating_nodes(model, e))
-         n = d*size(nodes)
-         do i = 1, size(nodes)
-            q(d*(i - 1) + 1:d*i) = u(:, nodes(i))
-         end do
-         p(:, :size(nodes)) = reshape(matmul(k(:n, :n), q(:n)), [d, size(nodes)])
+         n = model%dimension*size(nodes)
+         q(:n) = reshape(u(:, nodes), [n])
+         p(:, :size(nodes)) = reshape(matmul(k(:n, :n), q(:n)), [model%dimension, size(nodes)])
       end associate
    end subroutine element_forces
 
@@ -257,13 +250,21 @@ contains
       integer, intent(in)                :: e
       type(temperature_type), intent(in) :: temperature
       real(wp), intent(inout)            :: f(:, :) !! (dimension, nodes) [force], set here
+      real(wp) :: nodal(3, most_own)                ! on the nodal values of a shell or beam
 
-      if (is_shell(model, e) .or. is_beam(model, e)) then
-         call structural_thermal_forces(model, e, temperature, f)
-         return
-      end if
-      associate (nodes => corners_of(model, e))
-         call nodal_thermal_forces(law_of(model, e), model%x(:model%dimension, nodes), element_rise(model, e, temperature), f)
+      associate (rise => element_rise(model, e, temperature), x => model%x(:, corners_of(model, e)))
+         if (is_beam(model, e)) then
+            associate (law => model%structural%beams(model%structural%place(e)))
+               nodal(:, :4) = beam_nodal_forces(law, x, beam_thermal_load(law, sum(rise)/2))
+            end associate
+            call onto_own(model, e, nodal, f)
+         else if (is_shell(model, e)) then
+            call shell_thermal_forces(model%structural%shells(model%structural%place(e)), x, rise, &
+                                      element_slope(model, e, temperature), nodal)
+            call onto_own(model, e, nodal, f)
+         else
+            call nodal_thermal_forces(law_of(model, e), x(:model%dimension, :), rise, f)
+         end if
       end associate
    end subroutine element_thermal_forces
 

@@ -2,15 +2,17 @@
 !! Bodies, bars and nodal masses have the same inertia in every direction: one number per pair of nodes holds for all components.
 !! Beams, elements behind a pretension section and the inertia of rotations have matrices of their own.
 module mass_matrix
+   use beam_element, only: beam_mass
    use body_elements, only: coupled_stiffness, law_of
-   use element_kinds, only: max_felt_dofs, max_nodes
+   use element_kinds, only: element_table, max_felt_dofs, max_nodes
    use isoparametric, only: lump, shape_products
    use kinds, only: wp
    use lists, only: list_owners
    use model_data, only: bar_nodes, corners_of, is_beam, is_shell, model_type, n_bars, n_points, own_nodes, point_mass_type
    use node_coupling, only: between_unknowns, extend_stiffness, participating_nodes, onto_unknowns, rotation_at, section_node, &
                             unknown_nodes
-   use structural_elements, only: shell_mass, structural_mass
+   use numbers, only: identity
+   use structural_elements, only: between_own, shell_mass
    implicit none
    private
 
@@ -43,23 +45,16 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(inout)      :: m(:, :) !! (nodes, nodes), set here
-      integer :: k
 
-      if (is_shell(model, e)) then
-         k = size(corners_of(model, e))
-         m(:2*k, :2*k) = 0.0_wp
-         call shell_mass(model, e, .false., m(:k, :k))
-         call shell_mass(model, e, .true., m(k + 1:2*k, k + 1:2*k))
-         if (model%lumped) call lump(m(:k, :k))
-         if (model%lumped) call lump(m(k + 1:2*k, k + 1:2*k))
-         return
-      end if
-      associate (corners => corners_of(model, e))
-         call shape_products(law_of(model, e), model%x(:model%dimension, corners), m)
-         associate (n => size(corners))
+      associate (corners => corners_of(model, e), n => element_table(model%element_kind(e))%n_nodes)
+         if (is_shell(model, e)) then
+            call shell_mass(model, e, m(:2*n, :2*n))
+            if (model%lumped) call lump(m(n + 1:2*n, n + 1:2*n))
+         else
+            call shape_products(law_of(model, e), model%x(:model%dimension, corners), m)
             m(:n, :n) = model%properties(model%element_property(e))%rho*m(:n, :n)
-            if (model%lumped) call lump(m(:n, :n))
-         end associate
+         end if
+         if (model%lumped) call lump(m(:n, :n))
       end associate
    end subroutine scalar_mass
 
@@ -72,7 +67,8 @@ contains
       integer  :: c, d, n
 
       if (is_beam(model, e)) then
-         call structural_mass(model, e, m)
+         call between_own(model, e, beam_mass(model%structural%beams(model%structural%place(e)), &
+                                              model%x(:, corners_of(model, e)), model%lumped), m)
          return
       end if
       d = model%dimension
@@ -162,14 +158,11 @@ contains
       type(point_mass_type), intent(in) :: mass
       real(wp), allocatable :: m(:, :)
       real(wp) :: of_components(2*model%dimension, 2*model%dimension)
-      integer  :: c, d
+      integer  :: d
 
       d = model%dimension
       of_components = 0.0_wp
-      of_components(:d, :d) = mass%directed(:d, :d)
-      do c = 1, d
-         of_components(c, c) = of_components(c, c) + mass%mass
-      end do
+      of_components(:d, :d) = mass%directed(:d, :d) + mass%mass*identity(:d, :d)
       associate (nodes => mass_nodes(model, mass))
          if (size(nodes) == 2) of_components(d + 1:, d + 1:) = inertia_at_rotation(model, mass)
          m = between_unknowns(model, nodes, of_components)
@@ -332,9 +325,7 @@ contains
       integer  :: c, i
 
       x = 0.0_wp
-      do i = 1, n_points(model)
-         x(:, i) = model%x(:, i)
-      end do
+      x(:, :n_points(model)) = model%x(:, :n_points(model))
       a = 0.0_wp
       a(1, :n_points(model)) = 1.0_wp
       call mass_times(model, mass, a, f)

@@ -5,7 +5,7 @@ module model_data
    use coordinate_systems, only: coordinate_system
    use elasticity, only: plane_stress
    use element_kinds, only: element_table, kind_edge2
-   use interface_operator, only: at_first_end, interface_element, named_node
+   use interface_operator, only: interface_element, named_node
    use joint_laws, only: joint_law
    use kinds, only: wp
    use lists, only: id_table_type
@@ -13,9 +13,8 @@ module model_data
    implicit none
    private
 
-   public :: bar_nodes, corners_of, has_gaps, has_ground_springs, has_second_order, is_beam, is_coarser, is_face_node, is_shell, &
-             joint_centroid, joint_node_id, n_bars, n_points, n_rotations, n_sections, n_springs, node_kind, own_nodes, &
-             place_in_kind, point_of, side_corners, supported
+   public :: bar_nodes, corners_of, has_second_order, is_beam, is_face_node, is_shell, joint_node_id, n_bars, n_points, &
+             n_rotations, n_sections, node_kind, own_nodes, place_in_kind, point_of, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -254,13 +253,6 @@ module model_data
 
 contains
 
-   !> Whether SIDE1 of a joint is coarser than SIDE2: its mean face is more than a tenth larger.
-   pure logical function is_coarser(cover)
-      type(joint_cover), intent(in) :: cover
-
-      is_coarser = cover%spacing(1) > 1.1_wp*cover%spacing(2)
-   end function is_coarser
-
    !> The number of bars.
    pure integer function n_bars(model)
       type(model_type), intent(in) :: model
@@ -268,22 +260,6 @@ contains
       n_bars = 0
       if (allocated(model%bars)) n_bars = size(model%bars)
    end function n_bars
-
-   !> The number of springs among the bars.
-   pure integer function n_springs(model)
-      type(model_type), intent(in) :: model
-
-      n_springs = 0
-      if (allocated(model%bars)) n_springs = count(model%bars%kind == a_spring)
-   end function n_springs
-
-   !> Whether any spring is connected to the ground.
-   pure logical function has_ground_springs(model)
-      type(model_type), intent(in) :: model
-
-      has_ground_springs = .false.
-      if (allocated(model%bars)) has_ground_springs = any(model%bars%nodes(2) == 0)
-   end function has_ground_springs
 
    !> The nodes of BAR, without the ground.
    pure function bar_nodes(bar) result(nodes)
@@ -300,26 +276,6 @@ contains
       n_sections = 0
       if (allocated(model%sections)) n_sections = size(model%sections)
    end function n_sections
-
-   !> Whether the deck gives the initial gap of any joint.
-   pure logical function has_gaps(model)
-      type(model_type), intent(in) :: model
-
-      has_gaps = any(model%joints%gap_kind /= '')
-   end function has_gaps
-
-   !> The centroid of the area of JOINT [length].
-   pure function joint_centroid(model, joint) result(centroid)
-      type(model_type), intent(in) :: model
-      type(joint_type), intent(in) :: joint
-      real(wp) :: centroid(3)
-      integer  :: i
-
-      centroid = 0.0_wp
-      do i = joint%first, joint%last
-         centroid = centroid + model%interface(i)%area*at_first_end(model%interface(i), model%x)/joint%area
-      end do
-   end function joint_centroid
 
    !> The number of points of the structure. The nodes of rotations and sections follow the points.
    pure integer function n_points(model)
@@ -392,18 +348,6 @@ contains
 
       nodes = model%element_nodes(:size(nodes), e)
    end function corners_of
-
-   !> The corners of side S of element E, counter-clockwise as seen from outside; 0: the face of a shell along its normal.
-   pure function side_corners(model, e, s) result(nodes)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e, s
-      integer, allocatable :: nodes(:)
-
-      associate (kind => element_table(model%element_kind(e)))
-         if (s == 0) nodes = model%element_nodes(:kind%n_nodes, e)
-         if (s > 0) nodes = model%element_nodes(kind%side_nodes(:kind%side_corners(s), s), e)
-      end associate
-   end function side_corners
 
    !> Whether element E is a shell.
    pure logical function is_shell(model, e)

@@ -18,10 +18,10 @@ module node_coupling
    implicit none
    private
 
-   public :: is_coupled, couple_node, unknown_nodes, onto_unknowns, between_unknowns, displacements, displacements_at, &
-             forces_on_unknowns, held_forces, list_on_unknowns, section_node, participating_nodes, coupled_nodes, &
-             corner_displacements, extend_stiffness, add_section_share, coupling_parts, rotation_at, rotation_component, &
-             node_axes, place_of_component, third_axis
+   public :: is_coupled, couple_node, unknown_nodes, transformation, onto_unknowns, between_unknowns, displacements, &
+             displacements_at, forces_on_unknowns, held_forces, list_on_unknowns, section_node, participating_nodes, &
+             coupled_nodes, corner_displacements, extend_stiffness, add_section_share, coupling_parts, rotation_at, &
+             rotation_component, node_axes, place_of_component, third_axis
 
    !> The place of a nodal component among the unknowns: component D of NODE, times SCALE.
    type, public :: component_place
@@ -49,13 +49,9 @@ contains
    pure logical function is_coupled(model, nodes)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
-      integer :: i
 
       is_coupled = .false.
-      if (.not. allocated(model%coupling%of_node)) return
-      do i = 1, size(nodes)
-         if (nodes(i) > 0) is_coupled = is_coupled .or. model%coupling%of_node(nodes(i)) > 0
-      end do
+      if (allocated(model%coupling%of_node)) is_coupled = any(model%coupling%of_node(pack(nodes, nodes > 0)) > 0)
    end function is_coupled
 
    !> Couple NODE: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes. An earlier coupling is replaced.

@@ -1,30 +1,19 @@
-!> Stiffness, mass and nodal forces of shells and beams in terms of the unknowns of nodes and rotation nodes.
+!> Shells and beams in terms of the unknowns of nodes and rotation nodes: the transformation of their matrices, forces and displacements,
+!! the stresses and the mass of shells.
 !! The components of a node of rotations are rotations times an arm; in the plane only the first one, about z, is used.
 module structural_elements
-   use beam_element, only: beam_mass, beam_nodal_forces, beam_stiffness, beam_thermal_load
-   use elasticity, only: max_stresses
    use kinds, only: wp
-   use model_data, only: corners_of, is_beam, model_type, temperature_type
-   use shell_element, only: shell_forces, shell_products, shell_stiffness, shell_stresses, shell_thermal_forces
+   use model_data, only: corners_of, model_type, temperature_type
+   use shell_element, only: shell_products, shell_stresses
    use temperatures, only: element_rise, element_slope
    implicit none
    private
 
-   public :: structural_stiffness, structural_stress, section_forces, structural_thermal_forces, structural_mass, &
-             shell_mass, nodal_values, beam_ends, onto_own
+   public :: structural_stress, shell_mass, nodal_values, between_own, onto_own
 
-   integer, parameter :: most = 8 ! own nodes of an element: corners and their rotations
+   integer, parameter, public :: most_own = 8 !! own nodes of an element: corners and their rotations
 
 contains
-
-   !> The coordinates of the end nodes of beam E [length].
-   pure function beam_ends(model, e) result(x)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      real(wp) :: x(3, 2)
-
-      x = model%x(:, model%element_nodes(:2, e))
-   end function beam_ends
 
    !> T: the nodal values (3, 2 corners) of element E, as defined in shell_element and beam_element, due to a unit of each unknown
    !! of its own nodes (one column each), components of node 1 first.
@@ -86,23 +75,6 @@ contains
       end associate
    end function nodal_values
 
-   !> [k] of element E between its own nodes, components of node 1 first [force/length].
-   pure subroutine structural_stiffness(model, e, k)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      real(wp), intent(inout)      :: k(:, :)     !! dimension x own nodes rows and columns are set
-      real(wp) :: full(3*most, 3*most)
-
-      associate (place => model%structural%place(e))
-         if (is_beam(model, e)) then
-            full(:12, :12) = beam_stiffness(model%structural%beams(place), beam_ends(model, e))
-         else
-            call shell_stiffness(model%structural%shells(place), model%x(:, corners_of(model, e)), full)
-         end if
-      end associate
-      call between_own(model, e, full, k)
-   end subroutine structural_stiffness
-
    !> Stresses of shell E in global axes, (xx, yy, zz, xy, yz, zx), at the heights Z above its mean plane, at its corners and then at its
    !! centre, under displacements U of its own nodes.
    pure subroutine structural_stress(model, e, u, temperature, z, stress)
@@ -118,75 +90,27 @@ contains
                           element_slope(model, e, temperature), z, stress)
    end subroutine structural_stress
 
-   !> Forces and moments per length of shell E, as in shell_forces, under displacements U of its own nodes.
-   pure subroutine section_forces(model, e, u, temperature, along, force)
+   !> Mass between the own nodes of shell E, the same for every component: between its corners, and between its rotations the rotary
+   !! inertia of the thickness, divided by the arms and used for the drilling rotation too [force time^2/length].
+   pure subroutine shell_mass(model, e, m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      real(wp), intent(in)         :: u(:, :)     !! (3, own nodes) [length]
-      type(temperature_type), intent(in) :: temperature
-      real(wp), intent(in)         :: along(3)    !! unit, in the plane of the shell
-      real(wp), intent(out)        :: force(:, :) !! (8, corners + 1) [force/length], moments [force]
-
-      call shell_forces(model%structural%shells(model%structural%place(e)), model%x(:, corners_of(model, e)), &
-                        nodal_values(model, e, u), element_rise(model, e, temperature), element_slope(model, e, temperature), &
-                        along, force)
-   end subroutine section_forces
-
-   !> Thermal nodal forces F of element E at its own nodes at this TEMPERATURE.
-   pure subroutine structural_thermal_forces(model, e, temperature, f)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      type(temperature_type), intent(in) :: temperature
-      real(wp), intent(inout)      :: f(:, :)     !! (dimension, own nodes) [force], set here
-      real(wp) :: nodal(3, most)
-
-      associate (rise => element_rise(model, e, temperature), place => model%structural%place(e), nodes => corners_of(model, e))
-         if (is_beam(model, e)) then
-            nodal(:, :4) = beam_nodal_forces(model%structural%beams(place), beam_ends(model, e), &
-                                             beam_thermal_load(model%structural%beams(place), sum(rise)/2))
-         else
-            call shell_thermal_forces(model%structural%shells(place), model%x(:, nodes), rise, &
-                                      element_slope(model, e, temperature), nodal)
-         end if
-      end associate
-      call onto_own(model, e, nodal, f)
-   end subroutine structural_thermal_forces
-
-   !> Mass between the corners of shell E, the same for every component. With OF_ROTATIONS the mass between its rotations, divided by
-   !! the arms [force time^2/length]: the rotary inertia of the thickness, used for the drilling rotation too.
-   pure subroutine shell_mass(model, e, of_rotations, m)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      logical, intent(in)          :: of_rotations
-      real(wp), intent(inout)      :: m(:, :)     !! (corners, corners), set here
+      real(wp), intent(out)        :: m(:, :)     !! (own nodes, own nodes)
       integer :: i, n
 
+      m = 0.0_wp
       associate (nodes => corners_of(model, e), law => model%structural%shells(model%structural%place(e)), &
                  property => model%properties(model%element_property(e)))
          n = size(nodes)
-         if (.not. of_rotations) then
-            call shell_products(model%x(:, nodes), property%rho*law%thickness(:n) + property%extra_mass, m)
-            return
-         end if
-         call shell_products(model%x(:, nodes), property%rho*law%thickness(:n)**3/12.0_wp, m)
+         call shell_products(model%x(:, nodes), property%rho*law%thickness(:n) + property%extra_mass, m(:n, :n))
+         call shell_products(model%x(:, nodes), property%rho*law%thickness(:n)**3/12.0_wp, m(n + 1:, n + 1:))
          do i = 1, n
             associate (arm => model%rotations(model%rotation_of(nodes(i)))%arm)
-               m(i, :n) = m(i, :n)/arm
-               m(:n, i) = m(:n, i)/arm
+               m(n + i, n + 1:) = m(n + i, n + 1:)/arm
+               m(n + 1:, n + i) = m(n + 1:, n + i)/arm
             end associate
          end do
       end associate
    end subroutine shell_mass
-
-   !> [m] of beam E between its own nodes, components of node 1 first [force time^2/length].
-   pure subroutine structural_mass(model, e, m)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      real(wp), intent(inout)      :: m(:, :)     !! dimension x own nodes rows and columns are set
-      real(wp) :: full(12, 12)
-
-      full = beam_mass(model%structural%beams(model%structural%place(e)), beam_ends(model, e), model%lumped)
-      call between_own(model, e, full, m)
-   end subroutine structural_mass
 
 end module structural_elements

@@ -1,12 +1,12 @@
-!> Temperatures of elements, bars and nodes relative to the reference temperature TREF.
+!> Temperatures of elements and nodes relative to the reference temperature TREF.
 module temperatures
    use element_kinds, only: element_table
    use kinds, only: wp
-   use model_data, only: a_spring, bar_type, corners_of, is_shell, model_type, temperature_type
+   use model_data, only: corners_of, is_shell, model_type, temperature_type
    implicit none
    private
 
-   public :: element_rise, element_slope, bar_rise, temperature_between, has_temperatures, node_temperatures
+   public :: element_rise, element_slope, temperature_between, has_temperatures, node_temperatures
 
 contains
 
@@ -34,16 +34,6 @@ contains
       slope = 0.0_wp
       if (allocated(temperature%plate)) slope = temperature%plate(5, model%structural%place(e))
    end function element_slope
-
-   !> The mean of T - TREF along BAR; zero for a spring [temperature].
-   pure real(wp) function bar_rise(bar, temperature) result(rise)
-      type(bar_type), intent(in)         :: bar
-      type(temperature_type), intent(in) :: temperature
-
-      rise = 0.0_wp
-      if (bar%kind == a_spring .or. .not. allocated(temperature%at)) return
-      rise = 0.5_wp*sum(temperature%at(bar%nodes)) - temperature%reference_share*bar%reference
-   end function bar_rise
 
    !> Whether any stage of MODEL has temperatures.
    pure logical function has_temperatures(model)

@@ -9,7 +9,7 @@ module body_tables
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use interface_operator, only: named_node
    use kinds, only: wp
-   use model_data, only: a_point, corners_of, has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, &
+   use model_data, only: a_point, corners_of, has_second_order, is_beam, is_shell, model_type, n_bars, &
                          n_points, n_rotations, node_kind, supported
    use node_coupling, only: held_forces, node_axes
    use result_page, only: page_type, shows
@@ -251,7 +251,7 @@ contains
       floors = floor
       floors(1) = min(floor, of_a_sum*sum(abs(analysis%now%load)))
       do i = 1, 5
-         if (i == 4 .and. .not. has_ground_springs(model)) cycle
+         if (i == 4 .and. all(model%bars%nodes(2) > 0)) cycle
          call table%add(names(i), clean(balance(first:, i), floors(i)))
          call table%print_row(page%file)
       end do

@@ -10,8 +10,9 @@ module listing_opening
    use equation_solver, only: equation_system
    use facing_bodies, only: body_type, list_bodies
    use interface_operator, only: named_node
+   use joint_sides, only: is_coarser
    use kinds, only: long, wp
-   use model_data, only: has_gaps, is_coarser, model_type, n_bars, n_points, n_rotations, n_sections, n_springs, supported, &
+   use model_data, only: a_spring, model_type, n_bars, n_points, n_rotations, n_sections, supported, &
                          whole_share
    use normal_curve, only: pressure_floor
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
@@ -167,9 +168,10 @@ contains
          call count_line(file, '   OF THESE DOUBLED AT SPLIT SURFACES', count(model%duplicate > 0, kind=long))
       call count_line(file, 'BODY ELEMENTS', int(model%n_elements, long))
       call count_formulations(file, model)
-      if (n_bars(model) > n_springs(model)) &
-         call count_line(file, 'BARS, BOLTS INCLUDED', int(n_bars(model) - n_springs(model), long))
-      if (n_springs(model) > 0) call count_line(file, 'SPRINGS, ONE A DIRECTION', int(n_springs(model), long))
+      associate (n_springs => count(model%bars%kind == a_spring, kind=long))
+         if (n_bars(model) > n_springs) call count_line(file, 'BARS, BOLTS INCLUDED', n_bars(model) - n_springs)
+         if (n_springs > 0) call count_line(file, 'SPRINGS, ONE A DIRECTION', n_springs)
+      end associate
       if (n_sections(model) > 0) call count_line(file, 'SOLID BOLTS', size(model%sections, kind=long))
       call count_line(file, 'JOINTS', size(model%joints, kind=long))
       call count_line(file, 'INTERFACE ELEMENTS', size(model%interface, kind=long))
@@ -333,7 +335,7 @@ contains
       end do
 
       ! initial gaps
-      if (.not. has_gaps(model)) return
+      if (all(model%joints%gap_kind == '')) return
       call table%start('INITIAL GAPS, NEGATIVE: INTERFERENCE', &
                        [column('JOINT', 'i11'), column('GIVEN BY', 'a10'), column(['SMALLEST', 'LARGEST '], 'es15.5', &
                         page%labels%length), column(['OPEN   ', 'PRESSED'], 'i9')], page%file)

@@ -2,7 +2,7 @@
 !! A table and the CSV file of the same subject share one list of columns; the listing shows those with a heading.
 module result_page
    use kinds, only: wp
-   use model_data, only: has_gaps, model_type
+   use model_data, only: model_type
    use output_file, only: output_file_type
    use table_writer, only: axes, column, column_type, csv
    implicit none
@@ -85,7 +85,7 @@ contains
          columns = csv([character(9) :: 'stage', 'increment', 'load', 'joint', 'element', 'node1', 'node2', xyz, 'area', 'branch', &
             'lambda', 'pressure', 'force', 'k_n', 'branch_x', 'delta_x', 'tau_x', 'k_sx', 'branch_y', 'delta_y', 'tau_y', 'k_sy', &
             'slip'])
-         if (has_gaps(model)) columns = [columns, csv('gap')]
+         if (any(model%joints%gap_kind /= '')) columns = [columns, csv('gap')]
          if (any(model%joints%law%has_friction)) columns = [columns, csv(['slid_x', 'slid_y'])]
       case (stage_table) ! for each joint: peaks of the bodies, contact, forces, movement, stiffness; percent in the listing only
          columns = [csv('stage'), column('JOINT', 'i11', name='joint'), &

@@ -9,10 +9,11 @@ module structural_results
    use kinds, only: wp
    use model_data, only: a_bar, corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
    use result_page, only: page_type, shell_table, shows, table_columns
+   use shell_element, only: shell_forces
    use shell_membrane, only: shell_frame, shell_frame_of
-   use structural_elements, only: beam_ends, nodal_values, section_forces, structural_stress
+   use structural_elements, only: nodal_values, structural_stress
    use table_writer, only: column, in_units, noise, table_type
-   use temperatures, only: element_rise
+   use temperatures, only: element_rise, element_slope
    use text_tools, only: clean
    implicit none
    private
@@ -49,7 +50,7 @@ contains
       associate (place => model%structural%place(e), now => analysis%now%temperature)
          load = beam_thermal_load(model%structural%beams(place), sum(element_rise(model, e, now))/2.0_wp)
          load = load + analysis%fraction*of_stage(analysis%stage) + (1.0_wp - analysis%fraction)*of_stage(analysis%stage - 1)
-         s = beam_end_forces(model%structural%beams(place), beam_ends(model, e), &
+         s = beam_end_forces(model%structural%beams(place), model%x(:, corners_of(model, e)), &
                              nodal_values(model, e, analysis%all_u(:, own_nodes(model, e))), load)
       end associate
       forces = reshape([-s(:6), s(7:)], [6, 2])
@@ -221,8 +222,11 @@ contains
          associate (nodes => corners_of(model, e))
             frame = shell_frame_of(model%x(:, nodes), 0.0_wp)
             axes = joint_axes(model, frame%axes(:, 3))
-            call section_forces(model, e, analysis%all_u(:, own_nodes(model, e)), analysis%now%temperature, axes(:, 1), &
-                                force(:, :size(nodes) + 1, model%structural%place(e)))
+            call shell_forces(model%structural%shells(model%structural%place(e)), model%x(:, nodes), &
+                              nodal_values(model, e, analysis%all_u(:, own_nodes(model, e))), &
+                              element_rise(model, e, analysis%now%temperature), &
+                              element_slope(model, e, analysis%now%temperature), axes(:, 1), &
+                              force(:, :size(nodes) + 1, model%structural%place(e)))
             thickness = max(thickness, maxval(model%structural%shells(model%structural%place(e))%thickness))
          end associate
       end do

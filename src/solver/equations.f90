@@ -2,14 +2,14 @@
 !! displacements of the retained nodes: with SKYLINE all nodes, with TREE the nodes that remain after condensation of the
 !! bodies. Arrays over retained nodes are (dimension, retained), those over all nodes (dimension, n_nodes).
 module equations
-   use bar_elements, only: coupled_bar_stiffness
+   use bar_elements, only: bar_stiffness
    use case_control, only: solver_auto
    use equation_solver, only: equation_system, exact_digits, failure_type, solver_direction, solver_options
    use interface_operator, only: add_global_force, global_stiffness, relative_movement
    use kinds, only: wp
    use mass_matrix, only: coupled_bar_mass, coupled_point_mass, mass_nodes, n_masses
    use model_data, only: bar_nodes, model_type, n_bars
-   use node_coupling, only: list_on_unknowns, unknown_nodes
+   use node_coupling, only: between_unknowns, list_on_unknowns, unknown_nodes
    use node_graph, only: build_node_graph, node_graph_type
    use numbers, only: is_measure
    use solver_choice, only: choose_solver
@@ -98,7 +98,8 @@ contains
       class(equation_system), intent(inout) :: system
 
       associate (nodes => unknown_nodes(model, bar_nodes(model%bars(i))))
-         call system%add_to_bodies([system%number(:, nodes)], coupled_bar_stiffness(model, i))
+         call system%add_to_bodies([system%number(:, nodes)], &
+                                   between_unknowns(model, bar_nodes(model%bars(i)), bar_stiffness(model, i)))
       end associate
       system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
       call system%forget_factors()
