@@ -18,7 +18,7 @@ module element_build
 
    integer, parameter :: few = 4096 ! number of elements up to which one thread is used
 
-   public :: resolve_properties, collect_elements, collect_sides, check_element_numbers, check_elements, check_one_state, is_face
+   public :: resolve_properties, collect_elements, collect_sides, check_elements, is_face
 
    !> A marked side, before it is sorted into a surface: its card with the PMARK as its property and positions of nodes (0 for a mid-side
    !! node left blank). The id is -k for side Sk of a block.
@@ -166,23 +166,6 @@ contains
       end if
    end subroutine check_property
 
-   !> Errors: an element number that is given twice. Bodies, faces, edges, interface elements and rigid elements share one numbering, as
-   !! in NASTRAN.
-   subroutine check_element_numbers(deck, cards)
-      type(checked_deck), intent(in) :: deck
-      type(element_card), intent(in) :: cards(:) !! those of DECK, then those of blocks
-
-      associate (bulk => deck%bulk, of_blocks => cards(size(deck%bulk%element) + 1:))
-         call deck%report_repeated('element', &
-            [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id, bulk%rigid%id, bulk%spring%id, bulk%mass%id, &
-             of_blocks%id], &
-            [bulk%element%line, bulk%edge%line, bulk%cjoint%line, bulk%conrod%line, bulk%rigid%line, bulk%spring%line, &
-             bulk%mass%line, of_blocks%line], &
-            n_cards=size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + size(bulk%rigid) + &
-                    size(bulk%spring) + size(bulk%mass))
-      end associate
-   end subroutine check_element_numbers
-
    !> Marked sides: CBAR and CROD edges in the plane, faces of solids from cards of plane elements, and sides of blocks.
    subroutine collect_sides(deck, of_blocks, model, sides)
       type(checked_deck), intent(in) :: deck
@@ -235,37 +218,13 @@ contains
 
    end subroutine collect_sides
 
-   !> Plane and axisymmetric bodies must not be mixed: forces of a plane body are those of its thickness, forces of an axisymmetric
-   !! body those of the whole ring.
-   subroutine check_one_state(deck, model)
-      type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
-      logical :: rings, others
-      integer :: e
-
-      rings = .false.
-      others = .false.
-      do e = 1, model%n_elements
-         if (model%element_property(e) == 0) cycle
-         if (model%properties(model%element_property(e))%state == axisymmetric) then
-            rings = .true.
-         else
-            others = .true.
-         end if
-         if (.not. (rings .and. others)) cycle
-         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//': PAXIS and PSHELL '// &
-                              'cannot be mixed in one model')
-         exit
-      end do
-      model%axisymmetric = rings
-   end subroutine check_one_state
-
    !> Errors: an element whose det J is not positive: in a plane element at the corners, in a solid at its integration points.
    subroutine check_elements(deck, nodes, model)
       type(checked_deck), intent(in) :: deck
       type(grid_card), intent(in)    :: nodes(:)    !! of DECK, then of blocks, in global axes
       type(model_type), intent(in)   :: model
       logical, allocatable :: doubtful(:), sound(:) ! doubtful: the position of a node is not known, which has been reported
+      character(:), allocatable :: expected
       integer :: e, i, last_line, node
 
       allocate (doubtful(0:model%n_nodes), source=.false.)
@@ -280,12 +239,26 @@ contains
          sound(e) = is_sound(e)
       end do
       !$omp end parallel do
+      expected = ''
       last_line = 0
       do e = 1, model%n_elements
          if (sound(e) .or. model%element_line(e) == last_line) cycle ! one error per card
          last_line = model%element_line(e)
-         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '// &
-                         shape_words(model%element_kind(e)))
+         associate (kind => element_table(model%element_kind(e)))
+            select case (model%element_kind(e))
+            case (kind_quad4)
+               expected = 'area at some corner; expected four nodes counter-clockwise round a convex quadrilateral'
+            case (kind_tria3)
+               expected = 'area at some corner; expected three nodes counter-clockwise'
+            case (kind_quad8, kind_tria6)
+               expected = 'area at some integration point; expected the corners counter-clockwise, then the nodes near the '// &
+                          'middle of its edges, the first between corners 1 and 2'
+            case default
+               expected = 'volume at some integration point; expected the '//trim(merge('nodes  ', 'corners', kind%n_nodes > &
+                          kind%n_corners))//' in the order of '//trim(kind%card)//' in the card manual'
+            end select
+         end associate
+         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '//expected)
       end do
 
    contains
@@ -309,24 +282,5 @@ contains
       end function is_sound
 
    end subroutine check_elements
-
-   !> Text: what is wrong with the shape of an element of a KIND, and what was expected.
-   pure function shape_words(kind) result(words)
-      integer, intent(in) :: kind
-      character(:), allocatable :: words
-
-      select case (kind)
-      case (kind_quad4)
-         words = 'area at some corner; expected four nodes counter-clockwise round a convex quadrilateral'
-      case (kind_tria3)
-         words = 'area at some corner; expected three nodes counter-clockwise'
-      case (kind_quad8, kind_tria6)
-         words = 'area at some integration point; expected the corners counter-clockwise, then the nodes near the middle of '// &
-                 'its edges, the first between corners 1 and 2'
-      case default
-         words = 'volume at some integration point; expected the '//trim(merge('nodes  ', 'corners', element_table(kind)%n_nodes > &
-                 element_table(kind)%n_corners))//' in the order of '//trim(element_table(kind)%card)//' in the card manual'
-      end select
-   end function shape_words
 
 end module element_build

@@ -15,7 +15,7 @@ module structural_build
    implicit none
    private
 
-   public :: build_beams, build_rotations, build_shells, is_beam_edge, is_cut_beam, leave_out_idle, turn_rotations
+   public :: build_beams, build_rotations, build_shells, is_beam_edge, leave_out_idle
 
 contains
 
@@ -27,15 +27,6 @@ contains
       is_beam_edge = edge%kind /= edge_crod .and. edge%property > 0 .and. any(deck%bulk%beam_property%id == edge%property) &
                      .and. all(deck%bulk%pmark%id /= edge%property)
    end function is_beam_edge
-
-   !> Whether EDGE is a beam with a BOLT.
-   pure logical function is_cut_beam(deck, edge)
-      type(checked_deck), intent(in) :: deck
-      type(edge_card), intent(in)    :: edge
-
-      is_cut_beam = is_beam_edge(deck, edge)
-      if (is_cut_beam) is_cut_beam = any(deck%bulk%bolt%element == edge%id)
-   end function is_cut_beam
 
    !> Give a node of rotations, behind the nodes of the deck, to each node of shells and beams and each reference node of rigid elements.
    !! An axisymmetric model has none. Missing nodes are reported elsewhere.
@@ -124,21 +115,6 @@ contains
       end do
    end subroutine leave_out_idle
 
-   !> The rotations of a node in space are about the axes of its displacement system.
-   subroutine turn_rotations(model)
-      type(model_type), intent(inout) :: model
-      integer :: k
-
-      if (.not. allocated(model%node_system) .or. model%dimension == 2) return
-      do k = 1, n_rotations(model)
-         associate (rotation => model%rotations(k))
-            if (rotation%point > size(model%node_system)) cycle
-            if (model%node_system(rotation%point) > 0) call couple_node(model%coupling, model%n_nodes, rotation%node, &
-               [rotation%node], reshape(node_axes(model, rotation%point), [3, 3, 1]))
-         end associate
-      end do
-   end subroutine turn_rotations
-
    !> Whether the reference node of CARD has rotations.
    pure logical function turns(model, card)
       type(model_type), intent(in) :: model
@@ -209,18 +185,63 @@ contains
       end do
    end subroutine build_shells
 
-   !> Build the beams of MODEL; displacement systems must be known.
+   !> Build the beams of MODEL; displacement systems must be known. Errors: a beam without length, or without plane 1.
    subroutine build_beams(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(id_table_type) :: edges
-      integer :: e
+      real(wp) :: x(3, 2)
+      integer  :: c, e, end, k, other
 
       if (.not. allocated(model%structural%beams)) return
       if (size(model%structural%beams) == 0) return
       call edges%build(deck%bulk%edge%id)
       do e = 1, model%n_elements
-         if (is_beam(model, e)) call build_beam(deck, deck%bulk%edge(edges%find(model%element_id(e))), model, e)
+         if (.not. is_beam(model, e)) cycle
+         if (any(model%element_nodes(:2, e) == 0)) cycle ! reported already
+         x = model%x(:, model%element_nodes(:2, e))
+         associate (card => deck%bulk%edge(edges%find(model%element_id(e))), &
+                    law => model%structural%beams(model%structural%place(e)), &
+                    property => model%properties(model%element_property(e)))
+            k = findloc(deck%bulk%beam_property%id, card%property, dim=1)
+            law%beam_section = deck%bulk%beam_property(k)%section
+            law%e = property%e
+            law%g = 0.5_wp*property%e/(1.0_wp + property%nu)
+            law%rho = property%rho
+            law%expansion = property%alpha
+            law%is_cut = any(deck%bulk%bolt%element == card%id)
+            law%extra_mass = deck%bulk%parameters%mass_factor*deck%bulk%beam_property(k)%extra_mass
+            law%released = [((has_component(card%pins(end), c), c = 1, 6), end = 1, 2)]
+            do end = 1, 2
+               law%offset(:, end) = matmul(node_axes(model, model%element_nodes(end, e)), card%offset(:, end))
+            end do
+            law%orientation = matmul(node_axes(model, model%element_nodes(1, e)), card%orientation)
+            if (card%nodes(3) > 0) then
+               other = model%node_table%find(card%nodes(3))
+               if (other == 0) then
+                  call deck%field_error(card%line, 'X1', 'there is no GRID '//integer_text(card%nodes(3))// &
+                                        ' to lie in plane 1, G0')
+                  cycle
+               end if
+               law%orientation = model%x(:, other) - x(:, 1)
+            end if
+            if (law%is_cut .and. (any(abs(law%offset) > 0.0_wp) .or. any(law%released([1, 7])))) call deck%errors%add(card%line, &
+               'beam '//integer_text(card%id)//' is a bolt; expected no offsets, and no pin along it')
+            if (.not. beam_length(law, x) > 0.0_wp) then
+               call deck%errors%add(card%line, 'beam '//integer_text(card%id)//' has no length')
+               cycle
+            end if
+            if (.not. norm2(law%orientation) > 0.0_wp) then
+               if (model%dimension == 3) then
+                  call deck%field_error(card%line, 'X1', &
+                     'blank: where plane 1 of the beam lies is not given; expected a vector X1, X2, X3 or a node G0')
+                  cycle
+               end if
+               law%orientation = [x(2, 1) - x(2, 2), x(1, 2) - x(1, 1), 0.0_wp] ! plane 1 is the plane of the model
+            end if
+            if (all(abs(beam_axes(law, x)) <= 0.0_wp)) call deck%field_error(card%line, 'X1', &
+               'the orientation of the beam lies along it, and gives no plane 1; expected a direction across the beam')
+         end associate
       end do
    end subroutine build_beams
 
@@ -261,59 +282,5 @@ contains
       end function material_of
 
    end subroutine find_shell
-
-   !> The law of beam E from its CARD. Errors: a beam without length, or without plane 1.
-   subroutine build_beam(deck, card, model, e)
-      type(checked_deck), intent(in)  :: deck
-      type(edge_card), intent(in)     :: card
-      type(model_type), intent(inout) :: model
-      integer, intent(in)             :: e
-      real(wp) :: x(3, 2)
-      integer  :: c, end, k, other
-
-      if (any(model%element_nodes(:2, e) == 0)) return ! reported already
-      x = model%x(:, model%element_nodes(:2, e))
-      associate (law => model%structural%beams(model%structural%place(e)), property => model%properties(model%element_property(e)))
-         k = findloc(deck%bulk%beam_property%id, card%property, dim=1)
-         law%beam_section = deck%bulk%beam_property(k)%section
-         law%e = property%e
-         law%g = 0.5_wp*property%e/(1.0_wp + property%nu)
-         law%rho = property%rho
-         law%expansion = property%alpha
-         law%is_cut = any(deck%bulk%bolt%element == card%id)
-         law%extra_mass = deck%bulk%parameters%mass_factor*deck%bulk%beam_property(k)%extra_mass
-         do end = 1, 2
-            law%offset(:, end) = matmul(node_axes(model, model%element_nodes(end, e)), card%offset(:, end))
-            do c = 1, 6
-               law%released(6*(end - 1) + c) = has_component(card%pins(end), c)
-            end do
-         end do
-         law%orientation = matmul(node_axes(model, model%element_nodes(1, e)), card%orientation)
-         if (card%nodes(3) > 0) then
-            other = model%node_table%find(card%nodes(3))
-            if (other == 0) then
-               call deck%field_error(card%line, 'X1', 'there is no GRID '//integer_text(card%nodes(3))//' to lie in plane 1, G0')
-               return
-            end if
-            law%orientation = model%x(:, other) - x(:, 1)
-         end if
-         if (law%is_cut .and. (any(abs(law%offset) > 0.0_wp) .or. any(law%released([1, 7])))) call deck%errors%add(card%line, &
-            'beam '//integer_text(card%id)//' is a bolt; expected no offsets, and no pin along it')
-         if (.not. beam_length(law, x) > 0.0_wp) then
-            call deck%errors%add(card%line, 'beam '//integer_text(card%id)//' has no length')
-            return
-         end if
-         if (.not. norm2(law%orientation) > 0.0_wp) then
-            if (model%dimension == 3) then
-               call deck%field_error(card%line, 'X1', &
-                  'blank: where plane 1 of the beam lies is not given; expected a vector X1, X2, X3 or a node G0')
-               return
-            end if
-            law%orientation = [x(2, 1) - x(2, 2), x(1, 2) - x(1, 1), 0.0_wp] ! plane 1 is the plane of the model
-         end if
-         if (all(abs(beam_axes(law, x)) <= 0.0_wp)) call deck%field_error(card%line, 'X1', &
-            'the orientation of the beam lies along it, and gives no plane 1; expected a direction across the beam')
-      end associate
-   end subroutine build_beam
 
 end module structural_build

@@ -15,7 +15,7 @@ module support_build
    implicit none
    private
 
-   public :: build_supports, hold, support_sets, add_moves, keep_moved, check_kept, summed_sets, check_sums
+   public :: build_supports, hold, move, keep_moved, check_kept, summed_sets, check_sums
 
    integer, parameter :: most_places = 12 ! of one node: six components, of a split node twice
 
@@ -141,22 +141,6 @@ contains
       end associate
       model%support_groups = [model%support_groups, group]
    end subroutine open_group
-
-   !> Add FACTOR times the displacements of the SPCD cards of load set SET to LOADS.
-   subroutine add_moves(deck, model, set, factor, loads)
-      type(checked_deck), intent(in)       :: deck
-      type(model_type), intent(in)         :: model
-      integer, intent(in)                  :: set
-      real(wp), intent(in)                 :: factor
-      type(stage_load_type), intent(inout) :: loads
-      integer :: i
-
-      do i = 1, size(deck%bulk%displacement)
-         associate (card => deck%bulk%displacement(i))
-            if (card%set == set) call move(model, card%node, card%components, 1.0_wp, factor*card%value, loads)
-         end associate
-      end do
-   end subroutine add_moves
 
    !> Set the displacement of COMPONENTS of node ID in LOADS to SHARE of its former value plus VALUE.
    pure subroutine move(model, id, components, share, value, loads)

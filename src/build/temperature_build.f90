@@ -18,8 +18,9 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       logical, allocatable :: given(:)
+      logical :: needs_one(model%n_nodes) ! nodes of bodies and bars
       type(id_table_type) :: elements
-      integer :: before, s
+      integer :: before, i, s
 
       call check_nodes(deck, model)
       if (size(deck%bulk%plate_temperature) > 0) call elements%build(model%element_id)
@@ -47,7 +48,14 @@ contains
                call fill_in(deck, model, reference%id, temperature%at, given)
                call set_plate_temperatures(deck, model, elements, reference%id, temperature, given)
             end associate
-            if (.not. deck%errors%any()) call check_whole(deck, model, s, given)
+            if (deck%errors%any()) cycle
+            needs_one = model%first_at(2:) > model%first_at(:model%n_nodes)
+            do i = 1, n_bars(model)
+               if (model%bars(i)%kind == a_bar) needs_one(model%bars(i)%nodes) = .true.
+            end do
+            i = findloc(needs_one(:n_points(model)) .and. .not. given(:n_points(model)), .true., dim=1)
+            if (i > 0) call deck%errors%add(reference%line, 'TEMPERATURE: node '//integer_text(model%node_id(i))// &
+               ' has no temperature in set '//integer_text(reference%id)//'; expected a TEMP of it, or a TEMPD')
          end associate
       end do
    end subroutine build_temperatures
@@ -223,25 +231,5 @@ contains
          end associate
       end do
    end subroutine set_plate_temperatures
-
-   !> Error: a node of a body or bar without a temperature in stage S.
-   subroutine check_whole(deck, model, s, given)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      integer, intent(in)            :: s
-      logical, intent(in)            :: given(:)
-      logical :: needs_one(model%n_nodes)
-      integer :: i
-
-      needs_one = model%first_at(2:) > model%first_at(:model%n_nodes)
-      do i = 1, n_bars(model)
-         if (model%bars(i)%kind == a_bar) needs_one(model%bars(i)%nodes) = .true.
-      end do
-      i = findloc(needs_one(:n_points(model)) .and. .not. given(:n_points(model)), .true., dim=1)
-      associate (reference => deck%control%stages(s)%temperature)
-         if (i > 0) call deck%errors%add(reference%line, 'TEMPERATURE: node '//integer_text(model%node_id(i))// &
-            ' has no temperature in set '//integer_text(reference%id)//'; expected a TEMP of it, or a TEMPD')
-      end associate
-   end subroutine check_whole
 
 end module temperature_build
