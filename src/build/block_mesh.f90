@@ -35,7 +35,6 @@ contains
       type(checked_deck), intent(in)    :: deck
       type(mesh_card_type), intent(out) :: cards
       type(block_type), allocatable :: blocks(:)
-      type(grid_card), allocatable  :: nodes(:)
       logical, allocatable :: is_welded(:)
       integer :: b, i
 
@@ -46,12 +45,8 @@ contains
          associate (card => deck%bulk%block(b), block => blocks(b))
             call generate_block(card, block)
             call weld_block(deck, b, blocks, is_welded)
-            allocate (nodes(size(block%node_id)))
-            do i = 1, size(nodes)
-               nodes(i) = grid_card(line=card%line, id=block%node_id(i), x=block%x(:, i), doubtful=card%doubtful)
-            end do
-            cards%grid = [cards%grid, pack(nodes, .not. is_welded)]
-            deallocate (nodes)
+            cards%grid = [cards%grid, pack([(grid_card(line=card%line, id=block%node_id(i), x=block%x(:, i), &
+                                                       doubtful=card%doubtful), i = 1, size(is_welded))], .not. is_welded)]
             call name_nodes(block%node_id, block%element)
             call name_nodes(block%node_id, block%side)
             cards%element = [cards%element, block%element]
@@ -214,7 +209,6 @@ contains
          s(i) = s(i - 1) + step
          step = step*factor
       end do
-      if (abs(ratio - 1.0_wp) <= 0.0_wp) s = [(real(i, wp), i = 0, n)]
       s = s/s(n)
    end subroutine graded_places
 

@@ -89,7 +89,7 @@ contains
             'ACCEL1: the masses of beams belong to no node; expected GRAV, or CONM2 in place of RHO')
       end subroutine check_listed
 
-      !> The FIELD of an RFORCE, whose axis is given along the axes of its system: a = -(w x (w x r)) - dw/dt x r, r from its node, with the sign of the force.
+      !> The FIELD of an RFORCE: a = -(w x (w x r)) - dw/dt x r, r from its node, with the sign of the force.
       !! Errors: an axis other than z in the plane, or y in an axisymmetric model.
       subroutine set_spin(field)
          type(acceleration_field), intent(inout) :: field

@@ -225,11 +225,11 @@ contains
       do j = 1, n
          a(j, n + j) = 1.0_wp
          associate (item => list%item(first - 1 + j))
-            do i = 1, n
-               if (stands_at(i, item%node, item%d)) a(j, i) = a(j, i) + 1.0_wp
-               do k = 1, item%n
-                  if (stands_at(i, item%on(k)%node, item%on(k)%d)) a(j, i) = a(j, i) - item%on(k)%scale
-               end do
+            i = among(item%node, item%d)
+            if (i > 0) a(j, i) = 1.0_wp
+            do k = 1, item%n
+               i = among(item%on(k)%node, item%on(k)%d)
+               if (i > 0) a(j, i) = a(j, i) - item%on(k)%scale
             end do
          end associate
       end do
@@ -239,9 +239,9 @@ contains
          call add_dependence(solved, places(i), list%item(first)%line, at(i))
          do j = 1, n
             associate (item => list%item(first - 1 + j), by => a(i, n + j))
-               call add_other(item%node, item%d, -by)
+               call add_other(component_place(item%node, item%d), -by)
                do k = 1, item%n
-                  call add_other(item%on(k)%node, item%on(k)%d, by*item%on(k)%scale)
+                  call add_other(item%on(k), by*item%on(k)%scale)
                end do
             end associate
          end do
@@ -250,18 +250,18 @@ contains
 
    contains
 
-      pure logical function stands_at(i, node, d)
-         integer, intent(in) :: i, node, d
+      !> The position of component D of NODE among PLACES, 0: none.
+      pure integer function among(node, d)
+         integer, intent(in) :: node, d
 
-         stands_at = places(i)%node == node .and. places(i)%d == d
-      end function stands_at
+         among = findloc(places%node == node .and. places%d == d, .true., dim=1)
+      end function among
 
-      subroutine add_other(node, d, factor)
-         integer, intent(in)  :: node, d
-         real(wp), intent(in) :: factor
-         integer :: m
+      subroutine add_other(place, factor)
+         type(component_place), intent(in) :: place
+         real(wp), intent(in)              :: factor
 
-         if (.not. any([(stands_at(m, node, d), m = 1, n)])) call add_term(solved, component_place(node, d, 1.0_wp), factor)
+         if (among(place%node, place%d) == 0) call add_term(solved, place, factor)
       end subroutine add_other
 
    end subroutine solve_for

@@ -86,54 +86,43 @@ contains
       type(element_card), intent(in)  :: cards(:)
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: properties
-      integer, allocatable :: id(:), kind(:), nodes(:, :), property(:), line(:), order(:)
-      integer :: corners, i, k, n, total
+      integer, allocatable :: beams(:), bodies(:), nodes(:, :), order(:), property(:)
+      integer :: corners, e, i, k
 
+      bodies = pack([(i, i = 1, size(cards))], .not. is_face(model, cards))
+      associate (edges => deck%bulk%edge)
+         beams = pack([(i, i = 1, size(edges))], [(is_beam_edge(deck, edges(i)), i = 1, size(edges))])
+         model%element_id = [cards(bodies)%id, edges(beams)%id]
+         model%element_line = [cards(bodies)%line, edges(beams)%line]
+         model%element_kind = [cards(bodies)%kind, spread(kind_edge2, 1, size(beams))]
+      end associate
+      model%n_elements = size(model%element_id)
+      allocate (property(model%n_elements), source=0)
+      allocate (nodes(maxval([4, element_table(model%element_kind)%n_nodes]), model%n_elements), source=0)
       call properties%build(model%properties%id)
-      total = size(cards) + size(deck%bulk%edge)
-      allocate (id(total), kind(total), property(total), line(total))
-      allocate (nodes(max(4, maxval(element_table(cards%kind)%n_nodes)), total), source=0)
-      n = 0
-      do i = 1, size(cards)
-         associate (element => cards(i))
-            if (is_face(model, element)) cycle
-            call add(element, element%kind)
-            k = element_table(element%kind)%n_nodes
-            corners = element_table(element%kind)%n_corners
-            call find_nodes(deck, element%line, element%nodes(:k), model, nodes(:k, n))
-            where (element%nodes(corners + 1:k) == 0) nodes(corners + 1:k, n) = blank_node
-            property(n) = properties%find(element%property)
-            call check_property(deck, model, element, property(n))
+      do e = 1, size(bodies)
+         associate (card => cards(bodies(e)))
+            k = element_table(card%kind)%n_nodes
+            corners = element_table(card%kind)%n_corners
+            call find_nodes(deck, card%line, card%nodes(:k), model, nodes(:k, e))
+            where (card%nodes(corners + 1:k) == 0) nodes(corners + 1:k, e) = blank_node
+            property(e) = properties%find(card%property)
+            call check_property(deck, model, card, property(e))
          end associate
       end do
-      do i = 1, size(deck%bulk%edge)
-         associate (edge => deck%bulk%edge(i))
-            if (.not. is_beam_edge(deck, edge)) cycle
-            call add(edge%element_card, kind_edge2)
-            call find_nodes(deck, edge%line, edge%nodes(:2), model, nodes(:2, n))
-            property(n) = findloc(model%properties%id == edge%property .and. model%properties%state == beam, .true., dim=1)
+      do i = 1, size(beams)
+         e = size(bodies) + i
+         associate (edge => deck%bulk%edge(beams(i)))
+            call find_nodes(deck, edge%line, edge%nodes(:2), model, nodes(:2, e))
+            property(e) = findloc(model%properties%id == edge%property .and. model%properties%state == beam, .true., dim=1)
          end associate
       end do
-      call sorted_order(id(:n), order)
-      model%n_elements = n
-      model%element_id = id(order)
-      model%element_kind = kind(order)
-      model%element_nodes = nodes(:maxval([4, element_table(kind(:n))%n_nodes]), order)
+      call sorted_order(model%element_id, order)
+      model%element_id = model%element_id(order)
+      model%element_line = model%element_line(order)
+      model%element_kind = model%element_kind(order)
+      model%element_nodes = nodes(:, order)
       model%element_property = property(order)
-      model%element_line = line(order)
-
-   contains
-
-      subroutine add(card, kind_of_card)
-         type(element_card), intent(in) :: card
-         integer, intent(in)            :: kind_of_card
-
-         n = n + 1
-         id(n) = card%id
-         kind(n) = kind_of_card
-         line(n) = card%line
-      end subroutine add
-
    end subroutine collect_elements
 
    !> The property of the element CARD must be one for its kind; PROPERTY is its position, 0 for a missing property or one for another
@@ -143,27 +132,24 @@ contains
       type(model_type), intent(in)   :: model
       type(element_card), intent(in) :: card
       integer, intent(inout)         :: property
-      character(:), allocatable :: wanted
+      integer :: state
 
-      if (property > 0) then
-         if (model%properties(property)%state == shell .and. element_table(card%kind)%linear /= card%kind) then
-            call deck%errors%add(card%line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells in a model of space')
-            property = 0
-            return
-         end if
-         if (model%properties(property)%state /= beam .and. &
-             ((model%properties(property)%state == solid) .eqv. element_table(card%kind)%dimension == 3)) return
+      associate (kind => element_table(card%kind))
+         state = 0
+         if (property > 0) state = model%properties(property)%state
+         if (state > 0 .and. state /= beam .and. (state /= shell .or. kind%linear == card%kind) .and. &
+             (state == solid .eqv. kind%dimension == 3)) return
          property = 0
-      end if
-      if (card%property == 0) return
-      wanted = 'PSHELL or PAXIS '
-      if (element_table(card%kind)%dimension == 3) wanted = 'PSOLID '
-      if (any(deck%bulk%pmark%id == card%property) .and. element_table(card%kind)%dimension == 2) then
-         call deck%field_error(card%line, 'PID', integer_text(card%property)//' is a PMARK: a surface of a plane body is '// &
-                               'marked with CBAR or CROD edges')
-      else
-         call deck%field_error(card%line, 'PID', 'there is no '//wanted//integer_text(card%property))
-      end if
+         if (state == shell .and. kind%linear /= card%kind) then
+            call deck%errors%add(card%line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells in a model of space')
+         else if (kind%dimension == 2 .and. card%property > 0 .and. any(deck%bulk%pmark%id == card%property)) then
+            call deck%field_error(card%line, 'PID', integer_text(card%property)//' is a PMARK: a surface of a plane body is '// &
+                                  'marked with CBAR or CROD edges')
+         else if (card%property > 0) then
+            call deck%field_error(card%line, 'PID', 'there is no '//trim(merge('PSOLID         ', 'PSHELL or PAXIS', &
+                                  kind%dimension == 3))//' '//integer_text(card%property))
+         end if
+      end associate
    end subroutine check_property
 
    !> Marked sides: CBAR and CROD edges in the plane, faces of solids from cards of plane elements, and sides of blocks.

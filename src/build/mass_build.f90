@@ -56,7 +56,7 @@ contains
                cycle
             end if
             model%masses(n)%mass = deck%bulk%parameters%mass_factor*card%mass
-            ! the inertia about the centre of mass, from the system of the card to global axes; I21 is the integral of x_1 x_2 over the mass
+            ! the inertia from the system of the card to global axes; I21 is the integral of x_1 x_2 over the mass
             associate (i11 => card%inertia(1), i21 => card%inertia(2), i22 => card%inertia(3), i31 => card%inertia(4), &
                        i32 => card%inertia(5), i33 => card%inertia(6), inertia => model%masses(n)%inertia)
                inertia = deck%bulk%parameters%mass_factor*reshape([i11, -i21, -i31, -i21, i22, -i32, -i31, -i32, i33], [3, 3])

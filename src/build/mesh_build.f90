@@ -126,7 +126,7 @@ contains
             call append_nodes(model, x)
          end if
       end if
-      model%placed = [placed_node ::]
+      model%placed = [placed_node ::] ! the reference nodes, then the nodes of NODEAT
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
             if (card%surface > 0) model%placed = [model%placed, placed_node(element=card%id, surface=card%surface, &

@@ -15,7 +15,7 @@ module node_build
    implicit none
    private
 
-   public :: build_nodes, append_nodes, find_nodes, fill_mid_sides, append_unknowns, append_rotations, highest_number
+   public :: build_nodes, append_nodes, find_nodes, fill_mid_sides, append_unknowns, highest_number
 
    integer, parameter, public :: blank_node = -1   !! in element_nodes, until fill_mid_sides: left blank on the card
 
@@ -244,23 +244,6 @@ contains
          end if
       end do
    end subroutine check_orders
-
-   !> Append a node for each of the rotations of MODEL, at its point, with the elements of the point if these have rotations. Supports are
-   !! not known yet.
-   subroutine append_rotations(model)
-      type(model_type), intent(inout) :: model
-      integer, allocatable :: elements(:), n_elements(:), points(:)
-      integer :: k
-
-      allocate (points(size(model%rotations)))
-      points(:) = model%rotations%point
-      model%rotations%node = model%n_nodes + [(k, k = 1, size(points))]
-      associate (first => model%first_at)
-         n_elements = merge(first(points + 1) - first(points), 0, model%rotations%of_element)
-         elements = [(model%elements_at(first(points(k)):first(points(k)) + n_elements(k) - 1), k = 1, size(points))]
-      end associate
-      call append_unknowns(model, points, n_elements, elements, spread(.false., 1, model%dimension))
-   end subroutine append_rotations
 
    !> Append nodes for unknowns that are not displacements of points, one at each of POINTS: N_ELEMENTS of the ELEMENTS in turn belong to
    !! each node, and components that are no unknowns are HELD. The number of these nodes is 0.

@@ -46,6 +46,7 @@ contains
       type(named_face), intent(out)          :: face
       character(:), allocatable, intent(out) :: problem
       type(named_face) :: tried
+      character(:), allocatable :: words
       integer :: found, i, node, s
 
       found = 0
@@ -62,16 +63,16 @@ contains
                end do
             end associate
          end do
-         if (node /= model%node_table%find(id(1))) exit
          node = model%duplicate(node)
       end do
-      if (found == 0) then
-         problem = 'no body element has a face with the corners '//list_of_numbers(id)
-      else if (found > 1) then
-         problem = 'bodies lie on both sides of the face with the corners '//list_of_numbers(id)// &
-                   ': the loaded body is ambiguous'
-         face = named_face()
-      end if
+      if (found == 1) return
+      face = named_face()
+      words = ' with the corners '//integer_text(id(1))
+      do i = 2, size(id)
+         words = words//', '//integer_text(id(i))
+      end do
+      problem = 'no body element has a face'//words
+      if (found > 1) problem = 'bodies lie on both sides of the face'//words//': the loaded body is ambiguous'
    end subroutine find_face
 
    !> Side S of element E if the nodes with the numbers ID, or their twins, are its corners in cyclic order, else none.
@@ -102,17 +103,6 @@ contains
          if (node > 0) place = findloc(corners == node .or. corners == model%duplicate(node), .true., dim=1)
       end associate
    end function place_of
-
-   pure function list_of_numbers(id) result(words)
-      integer, intent(in)       :: id(:)
-      character(:), allocatable :: words
-      integer :: k
-
-      words = integer_text(id(1))
-      do k = 2, size(id)
-         words = words//', '//integer_text(id(k))
-      end do
-   end function list_of_numbers
 
    !> The sides that PLOAD4, PLOADE, PLOAD and PLOAD2 cards load, without cards in error.
    subroutine find_pressed_sides(deck, model, pressed)

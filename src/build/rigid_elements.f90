@@ -157,8 +157,10 @@ contains
          if (place(k)%node == place(1)%node .and. place(k)%d == place(1)%d) call deck%field_error(card%line, card%at(k), &
             'this is the dependent component of the first term', called='G')
       end do
-      if (.not. active) list%without = without
-      if (.not. active) return
+      if (.not. active) then
+         list%without = without
+         return
+      end if
       if (any(place%node == 0) .or. deck%errors%any()) return
       call add_dependence(list, place(1), card%line, card%at(1))
       do k = 2, size(place)

@@ -8,7 +8,7 @@ module structural_build
    use kinds, only: wp
    use lists, only: id_table_type
    use model_data, only: corners_of, is_beam, is_shell, model_type, n_rotations, rotation_type
-   use node_build, only: append_rotations
+   use node_build, only: append_unknowns
    use node_coupling, only: couple_node, node_axes
    use shell_membrane, only: shell_law
    use text_tools, only: integer_text
@@ -34,8 +34,10 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(rotation_type), allocatable :: rotations(:)
+      integer, allocatable :: elements(:), n_elements(:), points(:)
       real(wp) :: square(model%n_nodes)
-      integer  :: count_of(model%n_nodes), e, i, n, node
+      integer  :: count_of(model%n_nodes), e, i, k, n, node
+      logical  :: turns
 
       if (model%axisymmetric) return
       if (size(deck%rigid) == 0 .and. all(model%properties%state < shell)) return
@@ -45,8 +47,9 @@ contains
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
             node = model%node_table%find(card%node)
-            if (node == 0 .or. .not. turns(model, card)) cycle
-            if (model%rotation_of(node) > 0) cycle
+            if (node == 0) cycle
+            turns = .not. card%is_mean .or. any([(has_component(card%components, k), k = merge(4, 6, model%dimension == 3), 6)])
+            if (.not. turns .or. model%rotation_of(node) > 0) cycle
             n = n + 1
             rotations(n) = rotation_type(point=node, arm=arm_of(model, node, card))
             model%rotation_of(node) = n
@@ -55,7 +58,7 @@ contains
       do i = 1, size(deck%rigid) ! an end of an RBAR without elements
          associate (card => deck%rigid(i))
             if (card%is_mean .or. card%surface > 0 .or. size(card%nodes) /= 1) cycle
-            if (.not. any([(has_component(card%components, node), node = 4, 6)])) cycle
+            if (.not. any([(has_component(card%components, k), k = 4, 6)])) cycle
             node = model%node_table%find(card%nodes(1))
             if (node == 0 .or. model%node_table%find(card%node) == 0) cycle
             if (model%rotation_of(node) > 0 .or. model%first_at(node + 1) > model%first_at(node)) cycle
@@ -86,9 +89,19 @@ contains
          end if
          rotations(model%rotation_of(node))%of_element = .true.
       end do
-      if (n > 0) model%rotations = rotations(:n)
-      if (n == 0) deallocate (model%rotation_of)
-      if (n > 0) call append_rotations(model)
+      if (n == 0) then
+         deallocate (model%rotation_of)
+         return
+      end if
+      model%rotations = rotations(:n)
+      ! a node for each of them, at its point, with the elements of the point if these have rotations; supports are not known yet
+      model%rotations%node = model%n_nodes + [(k, k = 1, n)]
+      points = [(rotations(k)%point, k = 1, n)]
+      associate (first => model%first_at)
+         n_elements = merge(first(points + 1) - first(points), 0, rotations(:n)%of_element)
+         elements = [(model%elements_at(first(points(k)):first(points(k)) + n_elements(k) - 1), k = 1, n)]
+      end associate
+      call append_unknowns(model, points, n_elements, elements, spread(.false., 1, model%dimension))
    end subroutine build_rotations
 
    !> Whether element E is a shell or a beam, by its property.
@@ -114,15 +127,6 @@ contains
          model%held(2, model%rotations(k)%node) = .true.
       end do
    end subroutine leave_out_idle
-
-   !> Whether the reference node of CARD has rotations.
-   pure logical function turns(model, card)
-      type(model_type), intent(in) :: model
-      type(rigid_card), intent(in) :: card
-
-      turns = .not. card%is_mean .or. has_component(card%components, 6)
-      if (model%dimension == 3) turns = turns .or. has_component(card%components, 4) .or. has_component(card%components, 5)
-   end function turns
 
    !> Root mean square of the distances of the nodes of CARD from POINT; 1 where this is zero [length].
    pure real(wp) function arm_of(model, point, card) result(arm)

@@ -26,7 +26,7 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       integer, allocatable :: sets(:)
-      integer :: i, set, set_line
+      integer :: i, set
 
       allocate (model%held(model%dimension, model%n_nodes), source=.false.)
       allocate (model%support_of(model%dimension, model%n_nodes), source=0)
@@ -45,10 +45,7 @@ contains
          call hold(model, model%node_table%find(deck%bulk%grid(i)%id), deck%bulk%grid(i)%ps)
       end do
       set = 0
-      if (size(deck%control%stages) > 0) then
-         set = deck%control%stages(1)%supports%id
-         set_line = deck%control%stages(1)%supports%line
-      end if
+      if (size(deck%control%stages) > 0) set = deck%control%stages(1)%supports%id
       allocate (sets, source=support_sets(deck))
       do i = 1, size(deck%bulk%support)
          associate (card => deck%bulk%support(i), active => any(sets == deck%bulk%support(i)%set))
@@ -59,8 +56,8 @@ contains
          end associate
       end do
       call check_sums(deck, 'SPCADD', deck%bulk%support_sum, deck%bulk%support%set, 'SPC, SPC1 or SPCM')
-      if (set > 0 .and. all(deck%bulk%support%set /= set) .and. all(deck%bulk%support_sum%set /= set)) &
-         call deck%errors%add(set_line, 'SPC: there is no SPC, SPC1, SPCM or SPCADD with set '//integer_text(set))
+      if (set > 0 .and. all(deck%bulk%support%set /= set) .and. all(deck%bulk%support_sum%set /= set)) call deck%errors%add( &
+         deck%control%stages(1)%supports%line, 'SPC: there is no SPC, SPC1, SPCM or SPCADD with set '//integer_text(set))
    end subroutine build_supports
 
    !> The active sets of supports: that of case control, or those of its SPCADD.

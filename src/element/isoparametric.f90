@@ -110,17 +110,18 @@ contains
       integer, intent(in)           :: n
       real(wp), intent(in)          :: products(3, 3, max_pairs)
       real(wp), intent(inout)       :: full(max_unknowns, max_unknowns)     !! upper triangle; the lower one is undefined
-      integer :: c, i, j, pair, r
+      integer :: c, components, i, j, pair, r
 
+      components = merge(3, 2, law%state == solid)
       pair = 0
       do j = 1, n
          do i = 1, j
             pair = pair + 1
+            r = components*(i - 1) + 1
+            c = components*(j - 1) + 1
             associate (d => law%d, g => products(:, :, pair))
                select case (law%state)
                case (solid)
-                  r = 3*i - 2
-                  c = 3*j - 2
                   full(r, c) = d(1, 1)*g(1, 1) + d(4, 4)*g(2, 2) + d(6, 6)*g(3, 3)
                   full(r + 1, c) = d(2, 1)*g(2, 1) + d(4, 4)*g(1, 2)
                   full(r + 2, c) = d(3, 1)*g(3, 1) + d(6, 6)*g(1, 3)
@@ -131,15 +132,11 @@ contains
                   full(r + 1, c + 2) = d(2, 3)*g(2, 3) + d(5, 5)*g(3, 2)
                   full(r + 2, c + 2) = d(3, 3)*g(3, 3) + d(5, 5)*g(2, 2) + d(6, 6)*g(1, 1)
                case (axisymmetric)
-                  r = 2*i - 1
-                  c = 2*j - 1
                   full(r, c) = d(1, 1)*g(1, 1) + d(1, 3)*g(1, 3) + d(3, 1)*g(3, 1) + d(3, 3)*g(3, 3) + d(4, 4)*g(2, 2)
                   full(r + 1, c) = d(2, 1)*g(2, 1) + d(2, 3)*g(2, 3) + d(4, 4)*g(1, 2)
                   full(r, c + 1) = d(1, 2)*g(1, 2) + d(3, 2)*g(3, 2) + d(4, 4)*g(2, 1)
                   full(r + 1, c + 1) = d(2, 2)*g(2, 2) + d(4, 4)*g(1, 1)
                case default
-                  r = 2*i - 1
-                  c = 2*j - 1
                   full(r, c) = d(1, 1)*g(1, 1) + d(3, 3)*g(2, 2)
                   full(r + 1, c) = d(2, 1)*g(2, 1) + d(3, 3)*g(1, 2)
                   full(r, c + 1) = d(1, 2)*g(1, 2) + d(3, 3)*g(2, 1)

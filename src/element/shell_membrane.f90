@@ -157,6 +157,7 @@ contains
          do i = 1, 16
             k(:, i) = k(:, i) + rule%weight(p)*volume*t*(matmul(matmul(law%d, b(:, i)), b) + g*r*r(i))
          end do
+         if (all(abs(rise) <= 0.0_wp)) cycle
          call shape_values(kind_quad4, rule%point(:, p), n)
          f = f + rule%weight(p)*volume*sum(law%thickness)/4.0_wp*dot_product(n(:4), rise)*law%expansion* &
              matmul(law%d(:, 1) + law%d(:, 2), b)
