@@ -35,7 +35,6 @@ contains
       type(checked_deck), intent(in)    :: deck
       type(mesh_card_type), intent(out) :: cards
       type(block_type), allocatable :: blocks(:)
-      type(grid_card), allocatable  :: nodes(:)
       logical, allocatable :: is_welded(:)
       integer :: b, i
 
@@ -46,12 +45,8 @@ contains
          associate (card => deck%bulk%block(b), block => blocks(b))
             call generate_block(card, block)
             call weld_block(deck, b, blocks, is_welded)
-            allocate (nodes(size(block%node_id)))
-            do i = 1, size(nodes)
-               nodes(i) = grid_card(line=card%line, id=block%node_id(i), x=block%x(:, i), doubtful=card%doubtful)
-            end do
-            cards%grid = [cards%grid, pack(nodes, .not. is_welded)]
-            deallocate (nodes)
+            cards%grid = [cards%grid, pack([(grid_card(line=card%line, id=block%node_id(i), x=block%x(:, i), &
+                                                       doubtful=card%doubtful), i = 1, size(is_welded))], .not. is_welded)]
             call name_nodes(block%node_id, block%element)
             call name_nodes(block%node_id, block%side)
             cards%element = [cards%element, block%element]
@@ -150,13 +145,13 @@ contains
          kind = merge(kind_quad8, kind_quad4, card%order == 2)
          allocate (block%side(2*(n(1) + n(2))))
          do k = 1, 4
-            call mark_edge(card, k, step, block)
+            call mark_side(card, k, step, block)
          end do
       else
          kind = merge(kind_hexa20, kind_hexa8, card%order == 2)
          allocate (block%side(2*(n(1)*n(2) + n(2)*n(3) + n(3)*n(1))))
          do k = 1, 6
-            call mark_face(card, merge(2*k - 1, 2*k - 6, k <= 3), step, block)
+            call mark_side(card, merge(2*k - 1, 2*k - 6, k <= 3), step, block)
          end do
       end if
       block%side = block%side(:block%n_sides)
@@ -214,67 +209,47 @@ contains
          s(i) = s(i - 1) + step
          step = step*factor
       end do
-      if (abs(ratio - 1.0_wp) <= 0.0_wp) s = [(real(i, wp), i = 0, n)]
       s = s/s(n)
    end subroutine graded_places
 
-   !> The marked edges on side NUMBER of a quadrilateral block (1: corners 1-2, 2: 2-3, 3: 3-4, 4: 4-1), in this order.
-   pure subroutine mark_edge(card, number, step, block)
-      type(block_card), intent(in)    :: card
-      integer, intent(in)             :: number
-      integer, intent(in)             :: step(3)
-      type(block_type), intent(inout) :: block
-      integer :: axis, first, i
-
-      if (card%marks(number) == 0) return
-      axis = 2 - modulo(number, 2)
-      first = 1
-      if (number == 2 .or. number == 3) first = first + card%divisions(1)*step(1)
-      if (number >= 3) first = first + card%divisions(2)*step(2)
-      do i = 0, card%divisions(axis) - 1
-         call add_side(card, number, first + [i, i + 1]*merge(step(axis), -step(axis), number < 3), block)
-      end do
-   end subroutine mark_edge
-
-   !> The marked sides on face NUMBER of a box: x low, x high, y low and so on. Their corners are counter-clockwise as seen from outside.
-   pure subroutine mark_face(card, number, step, block)
+   !> The marked sides on side NUMBER of a block. Edges of a quadrilateral (1: corners 1-2, 2: 2-3, 3: 3-4, 4: 4-1) follow in this order.
+   !! Faces of a box (x low, x high, y low and so on) have their corners counter-clockwise as seen from outside. The edges are those of
+   !! the faces at z low: of the faces y low, x high, y high and x low.
+   pure subroutine mark_side(card, number, step, block)
       type(block_card), intent(in)    :: card
       integer, intent(in)             :: number
       integer, intent(in)             :: step(3) !! increments of the position along x, y, z
       type(block_type), intent(inout) :: block
-      integer :: a, axis, b, corner, i, j, places(4)
-      logical :: at_end
+      integer, parameter :: face_of_edge(4) = [3, 2, 4, 1]
+      integer :: a, axis, b, corner, face, i, j, k, places(4)
+      logical :: at_end, is_turned
 
       if (card%marks(number) == 0) return
-      axis = (number + 1)/2
-      at_end = number == 2*axis
-      a = merge(2, 1, axis == 1) ! the two other axes, in ascending order
+      face = number
+      if (card%dimension == 2) face = face_of_edge(number)
+      axis = (face + 1)/2
+      at_end = face == 2*axis
+      is_turned = at_end .eqv. axis == 2 ! y z, z x and x y are right-handed
+      a = merge(2, 1, axis == 1)         ! the two other axes, in ascending order
       b = merge(2, 3, axis == 3)
-      do i = 0, card%divisions(a) - 1
-         do j = 0, card%divisions(b) - 1
+      do k = 0, card%divisions(a) - 1
+         i = k
+         if (is_turned .and. card%dimension == 2) i = card%divisions(a) - 1 - k
+         do j = 0, max(1, card%divisions(b)) - 1
             corner = 1 + i*step(a) + j*step(b)
             if (at_end) corner = corner + card%divisions(axis)*step(axis)
             places = corner + [0, step(a), step(a) + step(b), step(b)]
-            if (at_end .eqv. axis == 2) places = places(4:1:-1) ! y z, z x and x y are right-handed
-            call add_side(card, number, places, block)
+            block%n_sides = block%n_sides + 1
+            associate (side => block%side(block%n_sides), n => merge(2, 4, card%dimension == 2))
+               side%line = card%line
+               side%property = card%marks(number)
+               side%id = -number
+               side%kind = merge(edge_cbar, kind_quad4, card%dimension == 2)
+               side%nodes(:n) = places(:n)
+               if (is_turned) side%nodes(:n) = places(n:1:-1)
+            end associate
          end do
       end do
-   end subroutine mark_face
-
-   !> Append the side with corners at PLACES to the marked sides of side NUMBER.
-   pure subroutine add_side(card, number, places, block)
-      type(block_card), intent(in)    :: card
-      integer, intent(in)             :: number, places(:)
-      type(block_type), intent(inout) :: block
-
-      block%n_sides = block%n_sides + 1
-      associate (side => block%side(block%n_sides))
-         side%line = card%line
-         side%property = card%marks(number)
-         side%id = -number
-         side%kind = merge(edge_cbar, kind_quad4, card%dimension == 2)
-         side%nodes(:size(places)) = places
-      end associate
-   end subroutine add_side
+   end subroutine mark_side
 
 end module block_mesh

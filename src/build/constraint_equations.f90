@@ -13,18 +13,18 @@ module constraint_equations
 
    public :: add_dependence, add_term, check_dependences, eliminate, mean_motion, solve_for
 
-   !> A constraint equation of one dependent component. Components are unknowns, along the axes of their nodes.
+   !> A constraint equation of one dependent component, D of NODE. Components are unknowns, along the axes of their nodes.
    type, public :: dependence_type
-      integer :: node = 0, d = 0             !! component D of NODE
+      integer :: node = 0, d = 0
       integer :: line = 0, field = 0         !! of the card, and the data field that names the node
       integer :: n = 0                       !! number of terms
-      integer, allocatable  :: on(:), on_d(:)  !! (at least n) component ON_D(k) of node ON(k)
-      real(wp), allocatable :: factor(:)     !! (likewise) of each term; a component may occur several times
+      type(component_place), allocatable :: on(:) !! (at least n) independent components, SCALE is the factor; one may occur twice
    end type dependence_type
 
    type, public :: dependence_list
       integer :: n = 0
       type(dependence_type), allocatable :: item(:)
+      logical, allocatable :: without(:)     !! (n_nodes) the node belongs to a rigid element or an equation, not to an element
    end type dependence_list
 
 contains
@@ -39,7 +39,7 @@ contains
       if (list%n == size(list%item)) list%item = [list%item, list%item]
       list%n = list%n + 1
       list%item(list%n) = dependence_type(node=place%node, d=place%d, line=line, field=field)
-      allocate (list%item(list%n)%on(8), list%item(list%n)%on_d(8), list%item(list%n)%factor(8))
+      allocate (list%item(list%n)%on(8))
    end subroutine add_dependence
 
    !> Add FACTOR times the component at PLACE to the last equation; a zero FACTOR adds nothing.
@@ -50,15 +50,9 @@ contains
 
       if (abs(factor) <= 0.0_wp) return
       associate (item => list%item(list%n))
-         if (item%n == size(item%on)) then
-            item%on = [item%on, item%on]
-            item%on_d = [item%on_d, item%on_d]
-            item%factor = [item%factor, item%factor]
-         end if
+         if (item%n == size(item%on)) item%on = [item%on, item%on]
          item%n = item%n + 1
-         item%on(item%n) = place%node
-         item%on_d(item%n) = place%d
-         item%factor(item%n) = factor
+         item%on(item%n) = component_place(place%node, place%d, factor)
       end associate
    end subroutine add_term
 
@@ -89,11 +83,13 @@ contains
       end do
       do i = 1, list%n
          do k = 1, list%item(i)%n
-            other = of(list%item(i)%on_d(k), list%item(i)%on(k))
-            if (other == 0) cycle
-            call name_once(i, component_text(model, list%item(i)%on(k), list%item(i)%on_d(k))//', on which this component '// &
-               'depends, is itself dependent by '//name_of(deck, list%item(other)%line)//'; expected an independent component: '// &
-               'name its own independent nodes')
+            associate (on => list%item(i)%on(k))
+               other = of(on%d, on%node)
+               if (other == 0) cycle
+               call name_once(i, component_text(model, on%node, on%d)//', on which this component depends, is itself dependent '// &
+                  'by '//name_of(deck, list%item(other)%line)//'; expected an independent component: name its own independent '// &
+                  'nodes')
+            end associate
             exit
          end do
       end do
@@ -141,78 +137,62 @@ contains
       words = 'component '//integer_text(digit)//' of node '//integer_text(model%node_id(point_of(model, node)))
    end function component_text
 
-   !> Couple the nodes of LIST, whose cards have no errors: their dependent components lose their unknowns. So do components (rotations
-   !! too) of reference nodes WITHOUT elements that no equation uses.
-   subroutine eliminate(list, without, model)
+   !> Couple the nodes of LIST, whose cards have no errors: their dependent components lose their unknowns and follow the equations, their
+   !! other components keep theirs. Components (rotations too) of reference nodes without elements that no equation uses lose their
+   !! unknowns too.
+   subroutine eliminate(list, model)
       type(dependence_list), intent(in) :: list
-      logical, intent(in)               :: without(:) !! (n_nodes) the node belongs to a rigid element or an equation, not to an element
       type(model_type), intent(inout)   :: model
-      logical, allocatable :: is_used(:, :)
-      logical, allocatable :: depends(:)
-      integer, allocatable :: column(:)
-      integer :: i, k, node
+      real(wp), allocatable :: t(:, :, :)
+      logical, allocatable  :: is_used(:, :)
+      integer, allocatable  :: masters(:), column(:) ! of a node, and their places among them
+      real(wp) :: axes(3, 3)
+      integer  :: d, i, k, n, node
 
-      allocate (model%left_out(model%dimension, model%n_nodes), is_used(model%dimension, model%n_nodes), source=.false.)
-      allocate (depends(model%n_nodes), source=.false.)
-      allocate (column(model%n_nodes), source=0)
+      d = model%dimension
+      allocate (model%left_out(d, model%n_nodes), is_used(d, model%n_nodes), source=.false.)
+      allocate (masters(model%n_nodes), column(model%n_nodes), source=0)
       do i = 1, list%n
          associate (item => list%item(i))
             model%left_out(item%d, item%node) = .true.
-            depends(item%node) = .true.
             do k = 1, item%n
-               is_used(item%on_d(k), item%on(k)) = .true.
+               is_used(item%on(k)%d, item%on(k)%node) = .true.
             end do
          end associate
-      end do
-      do i = 1, model%n_nodes
-         if (depends(i)) call couple_items(list, i, column, model)
       end do
       do node = 1, model%n_nodes
-         if (without(node)) model%left_out(:, node) = model%left_out(:, node) .or. &
-                                                      (.not. is_used(:, node) .and. .not. model%held(:, node))
-      end do
-      model%held = model%held .or. model%left_out
-   end subroutine eliminate
-
-   !> Couple NODE: its independent components to its own unknowns, its dependent ones by the equations of LIST.
-   subroutine couple_items(list, node, column, model)
-      type(dependence_list), intent(in) :: list
-      integer, intent(in)               :: node
-      integer, intent(inout)            :: column(:) !! (n_nodes) zero on entry and on return
-      type(model_type), intent(inout)   :: model
-      real(wp), allocatable :: t(:, :, :)
-      integer, allocatable  :: masters(:)
-      integer :: d, i, k, n
-      real(wp) :: axes(3, 3)
-
-      d = model%dimension
-      axes = node_axes(model, point_of(model, node))
-      if (node_kind(model, node) == a_rotation .and. d == 2) axes = identity ! z in the first column
-      allocate (masters(model%n_nodes))
-      n = 0
-      if (.not. all(model%left_out(:, node))) call add_master(node)
-      do i = 1, list%n
-         if (list%item(i)%node /= node) cycle
-         do k = 1, list%item(i)%n
-            call add_master(list%item(i)%on(k))
+         if (.not. any(model%left_out(:, node))) cycle
+         axes = node_axes(model, point_of(model, node))
+         if (node_kind(model, node) == a_rotation .and. d == 2) axes = identity ! z in the first column
+         n = 0
+         if (.not. all(model%left_out(:, node))) call add_master(node)
+         do i = 1, list%n
+            if (list%item(i)%node /= node) cycle
+            do k = 1, list%item(i)%n
+               call add_master(list%item(i)%on(k)%node)
+            end do
          end do
-      end do
-      allocate (t(d, d, n), source=0.0_wp)
-      do k = 1, d
-         if (.not. model%left_out(k, node)) t(:, k, 1) = axes(:d, k)
-      end do
-      do i = 1, list%n
-         associate (item => list%item(i))
-            if (item%node /= node) cycle
-            do k = 1, item%n
-               associate (part => t(:, item%on_d(k), column(item%on(k))))
-                  part = part + item%factor(k)*axes(:d, item%d)
+         allocate (t(d, d, n), source=0.0_wp)
+         do k = 1, d
+            if (.not. model%left_out(k, node)) t(:, k, 1) = axes(:d, k)
+         end do
+         do i = 1, list%n
+            if (list%item(i)%node /= node) cycle
+            do k = 1, list%item(i)%n
+               associate (on => list%item(i)%on(k))
+                  t(:, on%d, column(on%node)) = t(:, on%d, column(on%node)) + on%scale*axes(:d, list%item(i)%d)
                end associate
             end do
-         end associate
+         end do
+         call couple_node(model%coupling, model%n_nodes, node, masters(:n), t)
+         column(masters(:n)) = 0
+         deallocate (t)
       end do
-      call couple_node(model%coupling, model%n_nodes, node, masters(:n), t)
-      column(masters(:n)) = 0
+      do node = 1, model%n_nodes
+         if (list%without(node)) model%left_out(:, node) = model%left_out(:, node) .or. &
+                                                           (.not. is_used(:, node) .and. .not. model%held(:, node))
+      end do
+      model%held = model%held .or. model%left_out
 
    contains
 
@@ -225,7 +205,7 @@ contains
          column(this) = n
       end subroutine add_master
 
-   end subroutine couple_items
+   end subroutine eliminate
 
    !> Rewrite the equations c_j = sum of factor c_k of LIST, from FIRST on, as equations of the components at PLACES (as many), named in
    !! data fields AT. With [A] the coefficients of these components in c_j - sum of factor c_k = 0, they are -[A]^-1 times the other
@@ -245,11 +225,11 @@ contains
       do j = 1, n
          a(j, n + j) = 1.0_wp
          associate (item => list%item(first - 1 + j))
-            do i = 1, n
-               if (stands_at(i, item%node, item%d)) a(j, i) = a(j, i) + 1.0_wp
-               do k = 1, item%n
-                  if (stands_at(i, item%on(k), item%on_d(k))) a(j, i) = a(j, i) - item%factor(k)
-               end do
+            i = among(item%node, item%d)
+            if (i > 0) a(j, i) = 1.0_wp
+            do k = 1, item%n
+               i = among(item%on(k)%node, item%on(k)%d)
+               if (i > 0) a(j, i) = a(j, i) - item%on(k)%scale
             end do
          end associate
       end do
@@ -259,9 +239,9 @@ contains
          call add_dependence(solved, places(i), list%item(first)%line, at(i))
          do j = 1, n
             associate (item => list%item(first - 1 + j), by => a(i, n + j))
-               call add_other(item%node, item%d, -by)
+               call add_other(component_place(item%node, item%d), -by)
                do k = 1, item%n
-                  call add_other(item%on(k), item%on_d(k), by*item%factor(k))
+                  call add_other(item%on(k), by*item%on(k)%scale)
                end do
             end associate
          end do
@@ -270,18 +250,18 @@ contains
 
    contains
 
-      pure logical function stands_at(i, node, d)
-         integer, intent(in) :: i, node, d
+      !> The position of component D of NODE among PLACES, 0: none.
+      pure integer function among(node, d)
+         integer, intent(in) :: node, d
 
-         stands_at = places(i)%node == node .and. places(i)%d == d
-      end function stands_at
+         among = findloc(places%node == node .and. places%d == d, .true., dim=1)
+      end function among
 
-      subroutine add_other(node, d, factor)
-         integer, intent(in)  :: node, d
-         real(wp), intent(in) :: factor
-         integer :: m
+      subroutine add_other(place, factor)
+         type(component_place), intent(in) :: place
+         real(wp), intent(in)              :: factor
 
-         if (.not. any([(stands_at(m, node, d), m = 1, n)])) call add_term(solved, component_place(node, d, 1.0_wp), factor)
+         if (among(place%node, place%d) == 0) call add_term(solved, place, factor)
       end subroutine add_other
 
    end subroutine solve_for

@@ -2,19 +2,18 @@
 !! A system may depend on other systems in any order. Nodes with CD have their unknowns along the directions of their system, so that
 !! supports and prescribed displacements act along these directions.
 module displacement_systems
-   use bulk_data, only: grid_card
    use coordinate_systems, only: coordinate_system, directions_at, make_system, position_in, rectangular
    use deck_check, only: checked_deck
    use kinds, only: wp
    use lists, only: id_table_type
    use model_data, only: model_type
-   use node_coupling, only: couple_node
+   use node_coupling, only: couple_node, rotation_at
    use numbers, only: identity
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_systems, find_system, find_directions, rectangular_axes, place_grids, build_frames
+   public :: build_systems, find_system, find_directions, rectangular_axes, build_frames
 
 contains
 
@@ -25,7 +24,7 @@ contains
       type(coordinate_system), allocatable, intent(out) :: systems(:)
       type(id_table_type)  :: ids, grids
       logical, allocatable :: is_done(:)
-      integer :: i, n_done
+      integer :: i, k, missing, n_done
 
       associate (cards => deck%bulk%system)
          allocate (systems(size(cards)), is_done(size(cards)))
@@ -37,73 +36,59 @@ contains
          do
             n_done = count(is_done)
             do i = 1, size(cards)
-               if (.not. is_done(i)) call build_system(deck, i, ids, grids, systems, is_done)
+               if (.not. is_done(i)) call build_system(i)
             end do
             if (count(is_done) == n_done) exit
          end do
          do i = 1, size(cards)
-            if (.not. is_done(i)) call report_unplaced(deck, i, ids, grids)
-         end do
-      end associate
-   end subroutine build_systems
-
-   !> Build system I, if the systems and nodes it refers to are done.
-   subroutine build_system(deck, i, ids, grids, systems, is_done)
-      type(checked_deck), intent(in)         :: deck
-      integer, intent(in)                    :: i
-      type(id_table_type), intent(in)        :: ids, grids
-      type(coordinate_system), intent(inout) :: systems(:)
-      logical, intent(inout)                 :: is_done(:)
-      real(wp) :: points(3, 3)
-      integer  :: grid, k, other
-      logical  :: ok
-
-      associate (card => deck%bulk%system(i))
-         do k = 1, 3
-            points(:, k) = card%points(:, k)
-            other = card%reference
-            if (card%nodes(1) > 0) then
-               grid = grids%find(card%nodes(k))
-               if (grid == 0) return
-               points(:, k) = deck%bulk%grid(grid)%x
-               other = deck%bulk%grid(grid)%cp
-            end if
-            if (other == 0) cycle
-            other = ids%find(other)
-            if (other == 0) return
-            if (.not. is_done(other)) return
-            points(:, k) = position_in(systems(other), points(:, k))
-         end do
-         call make_system(card%id, card%kind, points(:, 1), points(:, 2), points(:, 3), systems(i), ok)
-         is_done(i) = .true.
-         if (.not. ok) call deck%errors%add(card%line, 'coordinate system '//integer_text(card%id)// &
-            ': its three points lie on a line; expected an origin, a point on z and one in the x-z plane')
-      end associate
-   end subroutine build_system
-
-   !> Report why system I could not be built.
-   subroutine report_unplaced(deck, i, ids, grids)
-      type(checked_deck), intent(in)  :: deck
-      integer, intent(in)             :: i
-      type(id_table_type), intent(in) :: ids, grids
-      integer :: k
-
-      associate (card => deck%bulk%system(i))
-         if (card%nodes(1) > 0) then
-            do k = 1, 3
-               if (card%nodes(k) > 0 .and. grids%find(card%nodes(k)) == 0) then
-                  call deck%field_error(card%line, card%field + k, 'there is no GRID '//integer_text(card%nodes(k)))
-                  return
+            if (is_done(i)) cycle
+            associate (card => cards(i))
+               missing = findloc(card%nodes > 0 .and. [(grids%find(card%nodes(k)) == 0, k = 1, 3)], .true., dim=1)
+               if (card%nodes(1) > 0 .and. missing > 0) then
+                  call deck%field_error(card%line, card%field + missing, 'there is no GRID '//integer_text(card%nodes(missing)))
+               else if (card%nodes(1) == 0 .and. ids%find(card%reference) == 0) then
+                  call deck%field_error(card%line, 'RID', 'there is no coordinate system '//integer_text(card%reference))
+               else
+                  call deck%errors%add(card%line, 'coordinate system '//integer_text(card%id)//' cannot be placed: it '// &
+                     'refers to itself, directly or through other systems and nodes, or to a system with an error')
                end if
-            end do
-         else if (ids%find(card%reference) == 0) then
-            call deck%field_error(card%line, 'RID', 'there is no coordinate system '//integer_text(card%reference))
-            return
-         end if
-         call deck%errors%add(card%line, 'coordinate system '//integer_text(card%id)//' cannot be placed: it refers to itself, '// &
-            'directly or through other systems and nodes, or to a system with an error')
+            end associate
+         end do
       end associate
-   end subroutine report_unplaced
+
+   contains
+
+      !> Build system I, if the systems and nodes it refers to are done.
+      subroutine build_system(i)
+         integer, intent(in) :: i
+         real(wp) :: points(3, 3)
+         integer  :: grid, k, other
+         logical  :: ok
+
+         associate (card => deck%bulk%system(i))
+            do k = 1, 3
+               points(:, k) = card%points(:, k)
+               other = card%reference
+               if (card%nodes(1) > 0) then
+                  grid = grids%find(card%nodes(k))
+                  if (grid == 0) return
+                  points(:, k) = deck%bulk%grid(grid)%x
+                  other = deck%bulk%grid(grid)%cp
+               end if
+               if (other == 0) cycle
+               other = ids%find(other)
+               if (other == 0) return
+               if (.not. is_done(other)) return
+               points(:, k) = position_in(systems(other), points(:, k))
+            end do
+            call make_system(card%id, card%kind, points(:, 1), points(:, 2), points(:, 3), systems(i), ok)
+            is_done(i) = .true.
+            if (.not. ok) call deck%errors%add(card%line, 'coordinate system '//integer_text(card%id)// &
+               ': its three points lie on a line; expected an origin, a point on z and one in the x-z plane')
+         end associate
+      end subroutine build_system
+
+   end subroutine build_systems
 
    !> Position of the system ID in FIELD of the card on LINE; 0 for global axes, and, with an error, for a missing system.
    subroutine find_system(deck, line, field, id, systems, system)
@@ -120,25 +105,6 @@ contains
          call deck%field_error(line, field, 'there is no CORD1R, CORD2R, CORD2C or CORD2S '//integer_text(id))
       if (system > size(systems)) system = 0
    end subroutine find_system
-
-   !> Transform X of GRID CARDS to global axes; each card is placed once its system is known.
-   subroutine place_grids(deck, systems, cards)
-      type(checked_deck), intent(in)      :: deck
-      type(coordinate_system), intent(in) :: systems(:)
-      type(grid_card), intent(inout)      :: cards(:)
-      real(wp), parameter :: rounding = 1.0e-12_wp ! of the distance of points and systems: a smaller distance from an axis is zero
-      integer :: i, system
-
-      do i = 1, size(cards)
-         associate (x => cards(i)%x)
-            if (cards(i)%cp <= 0) cycle
-            call find_system(deck, cards(i)%line, 'CP', cards(i)%cp, systems, system)
-            if (system == 0) cycle
-            x = position_in(systems(system), x)
-            where (abs(x) <= rounding*(norm2(x) + norm2(systems(system)%origin))) x = 0.0_wp
-         end associate
-      end do
-   end subroutine place_grids
 
    !> The directions, columns, of the system CID of the card on LINE at the point X; global axes for CID 0. OK is false, with an error,
    !! for a missing system, and on the axis of a cylindrical or spherical one.
@@ -185,47 +151,42 @@ contains
       axes = systems(system)%axes
    end subroutine rectangular_axes
 
-   !> Couple the nodes of MODEL that have a CD, and their twins of split surfaces, to unknowns along its directions.
-   !! Errors: no such system; a node on the axis of a cylindrical or spherical one; directions out of the plane of a plane
-   !! model.
+   !> Couple the nodes of MODEL that have a CD, and their twins of split surfaces, to unknowns along its directions; in space the rotations
+   !! of these nodes too are about these directions. Errors: no such system; a node on the axis of a cylindrical or spherical one;
+   !! directions out of the plane of a plane model.
    subroutine build_frames(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       real(wp) :: directions(3, 3)
-      integer  :: i, node, system
+      integer  :: i, node, rotation
       logical  :: ok
 
       do i = 1, size(deck%bulk%grid)
-         associate (grid => deck%bulk%grid(i))
+         associate (grid => deck%bulk%grid(i), d => model%dimension)
             if (grid%cd <= 0) cycle
             node = model%node_table%find(grid%id)
             if (node == 0) cycle
             call find_directions(deck, model%systems, grid%line, grid%cd, model%x(:, node), directions, ok, 'CD')
             if (.not. ok) cycle
-            system = findloc(model%systems%id, grid%cd, dim=1)
-            if (model%dimension == 2 .and. any(abs(directions(3, :2)) > 1.0e-10_wp)) then
+            if (d == 2 .and. any(abs(directions(3, :2)) > 1.0e-10_wp)) then
                call deck%field_error(grid%line, 'CD', 'the first two directions of the system do not lie in the plane of the '// &
                                      'model, x-y')
                cycle
             end if
-            call turn_node(node)
-            if (model%duplicate(node) > 0) call turn_node(model%duplicate(node))
+            if (.not. allocated(model%node_system)) allocate (model%node_system(model%n_nodes), source=0)
+            do while (node > 0)
+               if (model%node_system(node) > 0) exit ! a number given twice has one node
+               model%node_system(node) = findloc(model%systems%id, grid%cd, dim=1)
+               call couple_node(model%coupling, model%n_nodes, node, [node], reshape(directions(:d, :d), [d, d, 1]))
+               rotation = rotation_at(model, node)
+               if (d == 3 .and. rotation > 0) then
+                  rotation = model%rotations(rotation)%node
+                  call couple_node(model%coupling, model%n_nodes, rotation, [rotation], reshape(directions, [3, 3, 1]))
+               end if
+               node = model%duplicate(node)
+            end do
          end associate
       end do
-
-   contains
-
-      subroutine turn_node(k)
-         integer, intent(in) :: k
-
-         if (.not. allocated(model%node_system)) allocate (model%node_system(model%n_nodes), source=0)
-         if (model%node_system(k) > 0) return ! a number given twice has one node
-         model%node_system(k) = system
-         associate (d => model%dimension)
-            call couple_node(model%coupling, model%n_nodes, k, [k], reshape(directions(:d, :d), [d, d, 1]))
-         end associate
-      end subroutine turn_node
-
    end subroutine build_frames
 
 end module displacement_systems

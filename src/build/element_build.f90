@@ -18,7 +18,7 @@ module element_build
 
    integer, parameter :: few = 4096 ! number of elements up to which one thread is used
 
-   public :: resolve_properties, collect_elements, collect_sides, check_element_numbers, check_elements, check_one_state, is_face
+   public :: resolve_properties, collect_elements, collect_sides, check_elements, is_face
 
    !> A marked side, before it is sorted into a surface: its card with the PMARK as its property and positions of nodes (0 for a mid-side
    !! node left blank). The id is -k for side Sk of a block.
@@ -86,54 +86,43 @@ contains
       type(element_card), intent(in)  :: cards(:)
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: properties
-      integer, allocatable :: id(:), kind(:), nodes(:, :), property(:), line(:), order(:)
-      integer :: corners, i, k, n, total
+      integer, allocatable :: beams(:), bodies(:), nodes(:, :), order(:), property(:)
+      integer :: corners, e, i, k
 
+      bodies = pack([(i, i = 1, size(cards))], .not. is_face(model, cards))
+      associate (edges => deck%bulk%edge)
+         beams = pack([(i, i = 1, size(edges))], [(is_beam_edge(deck, edges(i)), i = 1, size(edges))])
+         model%element_id = [cards(bodies)%id, edges(beams)%id]
+         model%element_line = [cards(bodies)%line, edges(beams)%line]
+         model%element_kind = [cards(bodies)%kind, spread(kind_edge2, 1, size(beams))]
+      end associate
+      model%n_elements = size(model%element_id)
+      allocate (property(model%n_elements), source=0)
+      allocate (nodes(maxval([4, element_table(model%element_kind)%n_nodes]), model%n_elements), source=0)
       call properties%build(model%properties%id)
-      total = size(cards) + size(deck%bulk%edge)
-      allocate (id(total), kind(total), property(total), line(total))
-      allocate (nodes(max(4, maxval(element_table(cards%kind)%n_nodes)), total), source=0)
-      n = 0
-      do i = 1, size(cards)
-         associate (element => cards(i))
-            if (is_face(model, element)) cycle
-            call add(element, element%kind)
-            k = element_table(element%kind)%n_nodes
-            corners = element_table(element%kind)%n_corners
-            call find_nodes(deck, element%line, element%nodes(:k), model, nodes(:k, n))
-            where (element%nodes(corners + 1:k) == 0) nodes(corners + 1:k, n) = blank_node
-            property(n) = properties%find(element%property)
-            call check_property(deck, model, element, property(n))
+      do e = 1, size(bodies)
+         associate (card => cards(bodies(e)))
+            k = element_table(card%kind)%n_nodes
+            corners = element_table(card%kind)%n_corners
+            call find_nodes(deck, card%line, card%nodes(:k), model, nodes(:k, e))
+            where (card%nodes(corners + 1:k) == 0) nodes(corners + 1:k, e) = blank_node
+            property(e) = properties%find(card%property)
+            call check_property(deck, model, card, property(e))
          end associate
       end do
-      do i = 1, size(deck%bulk%edge)
-         associate (edge => deck%bulk%edge(i))
-            if (.not. is_beam_edge(deck, edge)) cycle
-            call add(edge%element_card, kind_edge2)
-            call find_nodes(deck, edge%line, edge%nodes(:2), model, nodes(:2, n))
-            property(n) = findloc(model%properties%id == edge%property .and. model%properties%state == beam, .true., dim=1)
+      do i = 1, size(beams)
+         e = size(bodies) + i
+         associate (edge => deck%bulk%edge(beams(i)))
+            call find_nodes(deck, edge%line, edge%nodes(:2), model, nodes(:2, e))
+            property(e) = findloc(model%properties%id == edge%property .and. model%properties%state == beam, .true., dim=1)
          end associate
       end do
-      call sorted_order(id(:n), order)
-      model%n_elements = n
-      model%element_id = id(order)
-      model%element_kind = kind(order)
-      model%element_nodes = nodes(:maxval([4, element_table(kind(:n))%n_nodes]), order)
+      call sorted_order(model%element_id, order)
+      model%element_id = model%element_id(order)
+      model%element_line = model%element_line(order)
+      model%element_kind = model%element_kind(order)
+      model%element_nodes = nodes(:, order)
       model%element_property = property(order)
-      model%element_line = line(order)
-
-   contains
-
-      subroutine add(card, kind_of_card)
-         type(element_card), intent(in) :: card
-         integer, intent(in)            :: kind_of_card
-
-         n = n + 1
-         id(n) = card%id
-         kind(n) = kind_of_card
-         line(n) = card%line
-      end subroutine add
-
    end subroutine collect_elements
 
    !> The property of the element CARD must be one for its kind; PROPERTY is its position, 0 for a missing property or one for another
@@ -143,45 +132,25 @@ contains
       type(model_type), intent(in)   :: model
       type(element_card), intent(in) :: card
       integer, intent(inout)         :: property
-      character(:), allocatable :: wanted
+      integer :: state
 
-      if (property > 0) then
-         if (model%properties(property)%state == shell .and. element_table(card%kind)%linear /= card%kind) then
-            call deck%errors%add(card%line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells in a model of space')
-            property = 0
-            return
-         end if
-         if (model%properties(property)%state /= beam .and. &
-             ((model%properties(property)%state == solid) .eqv. element_table(card%kind)%dimension == 3)) return
+      associate (kind => element_table(card%kind))
+         state = 0
+         if (property > 0) state = model%properties(property)%state
+         if (state > 0 .and. state /= beam .and. (state /= shell .or. kind%linear == card%kind) .and. &
+             (state == solid .eqv. kind%dimension == 3)) return
          property = 0
-      end if
-      if (card%property == 0) return
-      wanted = 'PSHELL or PAXIS '
-      if (element_table(card%kind)%dimension == 3) wanted = 'PSOLID '
-      if (any(deck%bulk%pmark%id == card%property) .and. element_table(card%kind)%dimension == 2) then
-         call deck%field_error(card%line, 'PID', integer_text(card%property)//' is a PMARK: a surface of a plane body is '// &
-                               'marked with CBAR or CROD edges')
-      else
-         call deck%field_error(card%line, 'PID', 'there is no '//wanted//integer_text(card%property))
-      end if
-   end subroutine check_property
-
-   !> Errors: an element number that is given twice. Bodies, faces, edges, interface elements and rigid elements share one numbering, as
-   !! in NASTRAN.
-   subroutine check_element_numbers(deck, cards)
-      type(checked_deck), intent(in) :: deck
-      type(element_card), intent(in) :: cards(:) !! those of DECK, then those of blocks
-
-      associate (bulk => deck%bulk, of_blocks => cards(size(deck%bulk%element) + 1:))
-         call deck%report_repeated('element', &
-            [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id, bulk%rigid%id, bulk%spring%id, bulk%mass%id, &
-             of_blocks%id], &
-            [bulk%element%line, bulk%edge%line, bulk%cjoint%line, bulk%conrod%line, bulk%rigid%line, bulk%spring%line, &
-             bulk%mass%line, of_blocks%line], &
-            n_cards=size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + size(bulk%rigid) + &
-                    size(bulk%spring) + size(bulk%mass))
+         if (state == shell .and. kind%linear /= card%kind) then
+            call deck%errors%add(card%line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells in a model of space')
+         else if (kind%dimension == 2 .and. card%property > 0 .and. any(deck%bulk%pmark%id == card%property)) then
+            call deck%field_error(card%line, 'PID', integer_text(card%property)//' is a PMARK: a surface of a plane body is '// &
+                                  'marked with CBAR or CROD edges')
+         else if (card%property > 0) then
+            call deck%field_error(card%line, 'PID', 'there is no '//trim(merge('PSOLID         ', 'PSHELL or PAXIS', &
+                                  kind%dimension == 3))//' '//integer_text(card%property))
+         end if
       end associate
-   end subroutine check_element_numbers
+   end subroutine check_property
 
    !> Marked sides: CBAR and CROD edges in the plane, faces of solids from cards of plane elements, and sides of blocks.
    subroutine collect_sides(deck, of_blocks, model, sides)
@@ -235,37 +204,13 @@ contains
 
    end subroutine collect_sides
 
-   !> Plane and axisymmetric bodies must not be mixed: forces of a plane body are those of its thickness, forces of an axisymmetric
-   !! body those of the whole ring.
-   subroutine check_one_state(deck, model)
-      type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
-      logical :: rings, others
-      integer :: e
-
-      rings = .false.
-      others = .false.
-      do e = 1, model%n_elements
-         if (model%element_property(e) == 0) cycle
-         if (model%properties(model%element_property(e))%state == axisymmetric) then
-            rings = .true.
-         else
-            others = .true.
-         end if
-         if (.not. (rings .and. others)) cycle
-         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//': PAXIS and PSHELL '// &
-                              'cannot be mixed in one model')
-         exit
-      end do
-      model%axisymmetric = rings
-   end subroutine check_one_state
-
    !> Errors: an element whose det J is not positive: in a plane element at the corners, in a solid at its integration points.
    subroutine check_elements(deck, nodes, model)
       type(checked_deck), intent(in) :: deck
       type(grid_card), intent(in)    :: nodes(:)    !! of DECK, then of blocks, in global axes
       type(model_type), intent(in)   :: model
       logical, allocatable :: doubtful(:), sound(:) ! doubtful: the position of a node is not known, which has been reported
+      character(:), allocatable :: expected
       integer :: e, i, last_line, node
 
       allocate (doubtful(0:model%n_nodes), source=.false.)
@@ -280,12 +225,26 @@ contains
          sound(e) = is_sound(e)
       end do
       !$omp end parallel do
+      expected = ''
       last_line = 0
       do e = 1, model%n_elements
          if (sound(e) .or. model%element_line(e) == last_line) cycle ! one error per card
          last_line = model%element_line(e)
-         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '// &
-                         shape_words(model%element_kind(e)))
+         associate (kind => element_table(model%element_kind(e)))
+            select case (model%element_kind(e))
+            case (kind_quad4)
+               expected = 'area at some corner; expected four nodes counter-clockwise round a convex quadrilateral'
+            case (kind_tria3)
+               expected = 'area at some corner; expected three nodes counter-clockwise'
+            case (kind_quad8, kind_tria6)
+               expected = 'area at some integration point; expected the corners counter-clockwise, then the nodes near the '// &
+                          'middle of its edges, the first between corners 1 and 2'
+            case default
+               expected = 'volume at some integration point; expected the '//trim(merge('nodes  ', 'corners', kind%n_nodes > &
+                          kind%n_corners))//' in the order of '//trim(kind%card)//' in the card manual'
+            end select
+         end associate
+         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '//expected)
       end do
 
    contains
@@ -309,24 +268,5 @@ contains
       end function is_sound
 
    end subroutine check_elements
-
-   !> Text: what is wrong with the shape of an element of a KIND, and what was expected.
-   pure function shape_words(kind) result(words)
-      integer, intent(in) :: kind
-      character(:), allocatable :: words
-
-      select case (kind)
-      case (kind_quad4)
-         words = 'area at some corner; expected four nodes counter-clockwise round a convex quadrilateral'
-      case (kind_tria3)
-         words = 'area at some corner; expected three nodes counter-clockwise'
-      case (kind_quad8, kind_tria6)
-         words = 'area at some integration point; expected the corners counter-clockwise, then the nodes near the middle of '// &
-                 'its edges, the first between corners 1 and 2'
-      case default
-         words = 'volume at some integration point; expected the '//trim(merge('nodes  ', 'corners', element_table(kind)%n_nodes > &
-                 element_table(kind)%n_corners))//' in the order of '//trim(element_table(kind)%card)//' in the card manual'
-      end select
-   end function shape_words
 
 end module element_build

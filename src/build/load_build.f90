@@ -1,25 +1,38 @@
 !> Loads at the end of every stage: nodal forces and prescribed displacements.
 !! FORCE, FORCE1 and FORCE2 are vectors in global axes; MOMENT acts on rotations.
 module load_build
-   use body_loads, only: add_beam_loads, add_gravity, check_beam_loads, check_gravity
-   use bulk_data, only: force_card, surface_load_card
+   use body_loads, only: acceleration_field, add_gravity, add_to_beam, check_plane, find_beam_loads, find_fields
+   use bulk_data, only: bulk_data_type, force_card, has_component, surface_load_card
    use case_entries, only: set_reference
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use element_kinds, only: max_side_nodes
    use kinds, only: wp
-   use load_checks, only: check_combinations, check_displacements, check_plane, check_surface_loads, has_set, nor_others
-   use model_data, only: model_type, stage_load_type, surface_type
-   use node_coupling, only: coupling_parts, add_section_share, node_axes, rotation_at, rotation_component
+   use model_data, only: model_type, stage_load_type, supported, surface_type
+   use node_coupling, only: coupling_parts, add_section_share, node_axes, place_of_component, rotation_at, rotation_component
    use numbers, only: cross, identity
    use pressure_loads, only: add_pressure, find_pressed_sides, pressed_side
-   use support_build, only: add_moves, check_kept, keep_moved
-   use surface_build, only: side_influence
+   use support_build, only: check_kept, keep_moved, move
+   use surface_build, only: find_surface, side_influence
+   use surface_sides, only: nodes_of
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: find_nodal_forces, build_loads, add_force
+   public :: build_loads, add_force
+
+   !> The loads of cards as vectors: where they act and what they are.
+   type :: card_loads
+      integer, allocatable  :: node(:)          ! (cards of nodal forces) the loaded node
+      real(wp), allocatable :: force(:, :)      ! (3, likewise) in global axes [force]
+      type(pressed_side), allocatable :: pressed(:)
+      type(acceleration_field), allocatable :: fields(:)
+      integer, allocatable  :: beam(:)          ! (PLOAD1) the loaded element
+      real(wp), allocatable :: end_force(:, :)  ! (12, PLOAD1) [force], [moment]
+   end type card_loads
+
+   character(*), parameter :: others = 'PLOAD4, PLOADE, PLOAD, PLOAD1, PLOAD2, PLOADM, FORCEM, GRAV or SPCD' ! the other load cards
+   character(*), parameter :: nor_others = ', nor a '//others ! behind the text `there is no FORCE`
 
 contains
 
@@ -55,7 +68,8 @@ contains
                                                                     ' belongs to no element')
                call check_movable(deck, model, card, node(i), node_axes(model, node(i)), force(:, i))
             end if
-            call check_plane(deck, model, card%line, force(:, i), along=card%ends(1) > 0, turned=card%system > 0)
+            call check_plane(deck, model, card%line, force(:, i), &
+                             trim(merge('G1 ', merge('CID', 'N3 ', card%system > 0), card%ends(1) > 0)))
          end associate
       end do
    end subroutine find_nodal_forces
@@ -90,7 +104,8 @@ contains
       call check_movable(deck, model, card, node, axes, force)
    end subroutine onto_rotations
 
-   !> Error: a FORCE on a reference NODE along a component that was left out and depends on nothing, so that it moves nothing.
+   !> Error: a FORCE on a reference NODE along a component that was left out and depends on nothing: the node has no movement along it for
+   !! any value of the unknowns.
    subroutine check_movable(deck, model, card, node, axes, force)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -98,12 +113,13 @@ contains
       integer, intent(in)            :: node
       real(wp), intent(in)           :: axes(3, 3), force(3)
       real(wp), parameter :: rounding = 1.0e-10_wp
-      integer :: d, digit
+      integer :: d, digit, k, parts(2)
 
       if (.not. allocated(model%left_out)) return
+      parts = coupling_parts(model, node)
       do d = 1, model%dimension
-         if (.not. is_idle(model, node, axes(:model%dimension, d)) .or. .not. model%left_out(d, node)) cycle
-         if (abs(dot_product(axes(:, d), force)) <= rounding*norm2(force)) cycle
+         if (.not. model%left_out(d, node) .or. abs(dot_product(axes(:, d), force)) <= rounding*norm2(force)) cycle
+         if (any([(abs(matmul(axes(:model%dimension, d), model%coupling%t(:, :, k))) > 0.0_wp, k = parts(1), parts(2))])) cycle
          digit = d
          if (card%is_moment) digit = findloc([(rotation_component(model, digit), digit = 1, 6)], d, dim=1)
          call deck%field_error(card%line, 'G', 'component '//integer_text(digit)//' of node '//integer_text(card%node)// &
@@ -111,18 +127,6 @@ contains
          return
       end do
    end subroutine check_movable
-
-   !> Whether NODE has no movement along DIRECTION for any value of the unknowns.
-   pure logical function is_idle(model, node, direction)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      real(wp), intent(in)         :: direction(:)
-      integer :: k
-
-      associate (parts => coupling_parts(model, node))
-         is_idle = all([(abs(matmul(direction, model%coupling%t(:, :, k))) <= 0.0_wp, k = parts(1), parts(2))])
-      end associate
-   end function is_idle
 
    !> FORCE of a FORCE1, along a line between two nodes, or of a FORCE2, perpendicular to two such lines.
    subroutine along_lines(deck, model, card, force)
@@ -151,24 +155,114 @@ contains
       end if
    end subroutine along_lines
 
+   !> Errors of PLOADM and FORCEM: missing surfaces, and a pressure on a surface with bodies on both sides.
+   subroutine check_surface_loads(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer :: i, s
+
+      do i = 1, size(deck%bulk%surface_load)
+         associate (card => deck%bulk%surface_load(i))
+            if (card%surface == 0) cycle
+            call find_surface(deck, card%line, 'PID', card%surface, model, s)
+            if (s == 0) cycle
+            associate (surface => model%surfaces(s))
+               if (card%is_pressure .and. (any(surface%other(:surface%n) > 0) .or. surface%was_split)) &
+                  call deck%field_error(card%line, 'PID', 'bodies lie on both sides of surface '//integer_text(card%surface)// &
+                                        ': the loaded body is ambiguous')
+               if (model%axisymmetric .and. surface%n > 0 .and. all(abs(model%x(1, nodes_of(surface))) <= 0.0_wp)) &
+                  call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%surface)// &
+                                        ' lies on the axis and has no area')
+            end associate
+            call check_plane(deck, model, card%line, card%force, 'N3')
+         end associate
+      end do
+   end subroutine check_surface_loads
+
+   !> Error: an SPCD on a component that is not supported.
+   subroutine check_displacements(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      character(:), allocatable :: words
+      logical :: held(model%dimension)
+      integer :: d, i, node
+
+      do i = 1, size(deck%bulk%displacement)
+         associate (card => deck%bulk%displacement(i))
+            node = model%node_table%find(card%node)
+            if (node == 0) cycle
+            do d = 1, 6
+               if (.not. has_component(card%components, d)) cycle
+               words = ''
+               associate (place => place_of_component(model, node, d))
+                  if (place%node == 0) then
+                     words = ', expected 1 to '//integer_text(model%dimension)
+                  else
+                     held = supported(model, place%node)
+                     if (.not. held(place%d)) words = ' of node '//integer_text(card%node)// &
+                                                      ' is not supported: SPCD moves components that an SPC holds'
+                  end if
+               end associate
+               if (words /= '') call deck%field_error(card%line, card%field + 1, 'component '//integer_text(d)//words, &
+                                                      called='C')
+            end do
+         end associate
+      end do
+   end subroutine check_displacements
+
+   !> Error: a LOAD card that combines missing sets.
+   subroutine check_combinations(deck)
+      type(checked_deck), intent(in) :: deck
+      character(:), allocatable :: name
+      integer :: i, k
+
+      name = ''
+      do i = 1, size(deck%bulk%load)
+         associate (card => deck%bulk%load(i))
+            do k = 1, size(card%sets)
+               if (card%sets(k) <= 0 .or. has_set(deck%bulk, card%sets(k))) cycle
+               if (any(deck%bulk%load%set == card%sets(k))) then
+                  call deck%field_error(card%line, card%at(k), integer_text(card%sets(k))//' is a LOAD too; expected the '// &
+                                        'sets of forces and pressures that it combines', called='L'//integer_text(k))
+               else
+                  call deck%field_error(card%line, card%at(k), 'there is no FORCE with set '//integer_text(card%sets(k))// &
+                                        nor_others, called='L'//integer_text(k))
+               end if
+            end do
+            if (.not. has_set(deck%bulk, card%set)) cycle
+            name = others
+            if (any(deck%bulk%force%set == card%set)) name = 'FORCE'
+            call deck%field_error(card%line, 'SID', 'set '//integer_text(card%set)//' is that of a '//name// &
+                                  ' too: case control is ambiguous')
+         end associate
+      end do
+   end subroutine check_combinations
+
+   !> Whether any load card belongs to SET.
+   pure logical function has_set(bulk, set)
+      type(bulk_data_type), intent(in) :: bulk
+      integer, intent(in)              :: set
+
+      has_set = any(bulk%force%set == set) .or. any(bulk%pressure%set == set) .or. any(bulk%surface_load%set == set) .or. &
+                any(bulk%gravity%set == set) .or. any(bulk%displacement%set == set) .or. any(bulk%beam_load%set == set)
+   end function has_set
+
    !> The total load at the end of each stage, and the amplitude of its oscillating load.
    subroutine build_loads(deck, model, oscillating)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(stage_load_type), allocatable, intent(out) :: oscillating(:) !! (stages) DLOAD; empty where none is given
-      type(pressed_side), allocatable :: pressed(:)
-      integer, allocatable  :: node(:)     ! of the cards of nodal forces
-      real(wp), allocatable :: force(:, :) ! likewise
+      type(card_loads) :: cards
       integer :: s
 
-      call find_nodal_forces(deck, model, node, force)
+      call find_nodal_forces(deck, model, cards%node, cards%force)
       call check_surface_loads(deck, model)
       call check_displacements(deck, model)
       call check_combinations(deck)
-      call check_gravity(deck, model)
-      call check_beam_loads(deck, model)
+      call find_fields(deck, model, cards%fields)
+      call find_beam_loads(deck, model, cards%beam, cards%end_force)
       call check_kept(deck, model)
-      call find_pressed_sides(deck, model, pressed)
+      call find_pressed_sides(deck, model, cards%pressed)
       allocate (model%stage_loads(size(deck%control%stages)), oscillating(size(deck%control%stages)))
       do s = 1, size(deck%control%stages)
          associate (loads => model%stage_loads(s), stage => deck%control%stages(s))
@@ -194,11 +288,11 @@ contains
          if (i > 0) then
             associate (load => deck%bulk%load(i))
                do k = 1, size(load%sets)
-                  call add_set(deck, model, node, force, pressed, load%sets(k), load%scale*load%factors(k), loads)
+                  call add_set(deck, model, cards, load%sets(k), load%scale*load%factors(k), loads)
                end do
             end associate
          else
-            call add_set(deck, model, node, force, pressed, reference%id, 1.0_wp, loads)
+            call add_set(deck, model, cards, reference%id, 1.0_wp, loads)
             if (.not. has_set(deck%bulk, reference%id)) call deck%errors%add(reference%line, &
                key//': there is no FORCE or LOAD with set '//integer_text(reference%id)//nor_others)
          end if
@@ -207,12 +301,10 @@ contains
    end subroutine build_loads
 
    !> Add FACTOR times all loads of SET to LOADS: nodal forces one by one, distributed loads as sums per node.
-   subroutine add_set(deck, model, nodal, force, pressed, set, factor, loads)
+   subroutine add_set(deck, model, cards, set, factor, loads)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
-      integer, intent(in)                  :: nodal(:)    !! (cards of nodal forces) the loaded nodes
-      real(wp), intent(in)                 :: force(:, :) !! (3, likewise), in global axes [force]
-      type(pressed_side), intent(in)       :: pressed(:)
+      type(card_loads), intent(in)         :: cards
       integer, intent(in)                  :: set
       real(wp), intent(in)                 :: factor
       type(stage_load_type), intent(inout) :: loads
@@ -221,24 +313,31 @@ contains
 
       associate (bulk => deck%bulk)
          do i = 1, size(bulk%force)
-            if (bulk%force(i)%set == set) call add_force(nodal(i), factor*force(:, i), loads)
+            if (bulk%force(i)%set == set) call add_force(cards%node(i), factor*cards%force(:, i), loads)
          end do
-         call add_moves(deck, model, set, factor, loads)
+         do i = 1, size(bulk%displacement)
+            associate (card => bulk%displacement(i))
+               if (card%set == set) call move(model, card%node, card%components, 1.0_wp, factor*card%value, loads)
+            end associate
+         end do
          if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set) .and. &
              all(bulk%beam_load%set /= set)) return
          if (deck%errors%any()) return ! elements in error may have no area or volume
          allocate (spread_out(3, model%n_nodes), source=0.0_wp)
-         do i = 1, size(pressed)
-            if (bulk%pressure(pressed(i)%card)%set == set) call add_pressure(model, pressed(i), factor, spread_out)
+         do i = 1, size(cards%pressed)
+            if (bulk%pressure(cards%pressed(i)%card)%set == set) call add_pressure(model, cards%pressed(i), factor, spread_out)
          end do
          do i = 1, size(bulk%surface_load)
             if (bulk%surface_load(i)%set /= set) cycle
             s = findloc(model%surfaces%id, bulk%surface_load(i)%surface, dim=1)
             if (s > 0) call add_surface_load(model, model%surfaces(s), bulk%surface_load(i), factor, spread_out)
          end do
+         call add_gravity(model, cards%fields, set, factor, loads, spread_out)
+         do i = 1, size(bulk%beam_load)
+            if (bulk%beam_load(i)%set == set .and. cards%beam(i) > 0) &
+               call add_to_beam(model, cards%beam(i), factor*cards%end_force(:, i), loads, spread_out)
+         end do
       end associate
-      call add_gravity(deck, model, set, factor, loads, spread_out)
-      call add_beam_loads(deck, model, set, factor, loads, spread_out)
       do node = 1, model%n_nodes
          if (any(abs(spread_out(:, node)) > 0.0_wp)) call add_force(node, spread_out(:, node), loads)
       end do

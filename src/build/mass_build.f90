@@ -1,10 +1,9 @@
 !> Masses: CONM2 and CMASS2 at nodes, consistent or lumped element masses, a check for bodies without mass.
 module mass_build
-   use bulk_data, only: mass_card
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions, find_system
    use kinds, only: wp
-   use model_data, only: model_type, n_bars, point_mass_type
+   use model_data, only: model_type, n_bars
    use node_coupling, only: component_place, node_axes, place_of_component, rotation_at
    use text_tools, only: integer_text
    implicit none
@@ -19,7 +18,10 @@ contains
    subroutine build_masses(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
-      integer :: i, n, n_off
+      type(component_place) :: place
+      real(wp) :: along(3, 3), axes(3, 3)
+      integer  :: c, i, n, n_off, system
+      logical  :: ok
 
       model%lumped = deck%control%lumped
       associate (parameters => deck%bulk%parameters)
@@ -42,12 +44,29 @@ contains
                                      integer_text(card%node)//' belongs to no element')
             n = n + 1
             model%masses(n)%node = node
-            if (card%component > 0) then
-               call set_direction(deck, model, card, model%masses(n))
+            if (card%component > 0) then ! directed; for a rotation the moment of inertia about its axis
+               place = place_of_component(model, node, card%component)
+               if (place%node == 0) call deck%field_error(card%line, 'C1', 'node '//integer_text(card%node)// &
+                                                          ' has no component '//integer_text(card%component))
+               axes = node_axes(model, node)
+               c = modulo(card%component - 1, 3) + 1
+               along = deck%bulk%parameters%mass_factor*card%mass*spread(axes(:, c), 2, 3)*spread(axes(:, c), 1, 3)
+               if (card%component <= 3) model%masses(n)%directed = along
+               if (card%component > 3) model%masses(n)%inertia = along
                cycle
             end if
             model%masses(n)%mass = deck%bulk%parameters%mass_factor*card%mass
-            call find_inertia(deck, model, card, model%x(:, node), model%masses(n)%inertia)
+            ! the inertia from the system of the card to global axes; I21 is the integral of x_1 x_2 over the mass
+            associate (i11 => card%inertia(1), i21 => card%inertia(2), i22 => card%inertia(3), i31 => card%inertia(4), &
+                       i32 => card%inertia(5), i33 => card%inertia(6), inertia => model%masses(n)%inertia)
+               inertia = deck%bulk%parameters%mass_factor*reshape([i11, -i21, -i31, -i21, i22, -i32, -i31, -i32, i33], [3, 3])
+               if (any(deck%control%stages%vibration%modes%id > 0) .and. .not. is_inertia(inertia)) call deck%field_error( &
+                  card%line, 'I11', 'not a possible inertia tensor: it must be positive semidefinite')
+               call find_system(deck, card%line, 'CID', card%system, model%systems, system)
+               ok = system > 0 .and. any(abs(card%inertia) > 0.0_wp)
+               if (ok) call find_directions(deck, model%systems, card%line, card%system, model%x(:, node), axes, ok)
+               if (ok) inertia = matmul(axes, matmul(inertia, transpose(axes)))
+            end associate
             if (all(abs(card%offset) <= 0.0_wp)) cycle
             if (rotation_at(model, node) == 0) call deck%field_error(card%line, 'X1', 'node '//integer_text(card%node)// &
                ' has no rotations, by which a mass beside it would move; expected a node of shells or beams, or the reference '// &
@@ -61,53 +80,6 @@ contains
       end do
       model%masses = model%masses(:n)
    end subroutine build_masses
-
-   !> The directed MASS of CARD, a CMASS2, along a component of its node; for a rotation the moment of inertia about its axis.
-   subroutine set_direction(deck, model, card, mass)
-      type(checked_deck), intent(in)       :: deck
-      type(model_type), intent(in)         :: model
-      type(mass_card), intent(in)          :: card
-      type(point_mass_type), intent(inout) :: mass
-      real(wp) :: axes(3, 3), along(3, 3)
-      type(component_place) :: place
-
-      place = place_of_component(model, mass%node, card%component)
-      if (place%node == 0) then
-         call deck%field_error(card%line, 'C1', 'node '//integer_text(card%node)//' has no component '// &
-                               integer_text(card%component))
-         return
-      end if
-      axes = node_axes(model, mass%node)
-      associate (axis => axes(:, modulo(card%component - 1, 3) + 1))
-         along = deck%bulk%parameters%mass_factor*card%mass*spread(axis, 2, 3)*spread(axis, 1, 3)
-      end associate
-      if (card%component <= 3) mass%directed = along
-      if (card%component > 3) mass%inertia = along
-   end subroutine set_direction
-
-   !> The INERTIA of CARD about its node, transformed from its system to global axes [force x time^2 x length]: I11, I22, I33 on the
-   !! diagonal, -I21, -I31, -I32 off it; I21 is the integral of x_1 x_2 over the mass.
-   subroutine find_inertia(deck, model, card, x, inertia)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      type(mass_card), intent(in)    :: card
-      real(wp), intent(in)           :: x(3)          !! of the node [length]
-      real(wp), intent(out)          :: inertia(3, 3)
-      real(wp) :: axes(3, 3)
-      integer  :: system
-      logical  :: ok
-
-      associate (i11 => card%inertia(1), i21 => card%inertia(2), i22 => card%inertia(3), i31 => card%inertia(4), &
-                 i32 => card%inertia(5), i33 => card%inertia(6))
-         inertia = deck%bulk%parameters%mass_factor*reshape([i11, -i21, -i31, -i21, i22, -i32, -i31, -i32, i33], [3, 3])
-      end associate
-      if (any(deck%control%stages%vibration%modes%id > 0) .and. .not. is_inertia(inertia)) call deck%field_error(card%line, &
-         'I11', 'not a possible inertia tensor: it must be positive semidefinite')
-      call find_system(deck, card%line, 'CID', card%system, model%systems, system)
-      if (system == 0 .or. all(abs(card%inertia) <= 0.0_wp)) return
-      call find_directions(deck, model%systems, card%line, card%system, x, axes, ok)
-      if (ok) inertia = matmul(axes, matmul(inertia, transpose(axes)))
-   end subroutine find_inertia
 
    !> Whether A is positive semidefinite: no principal minor is negative, to rounding.
    pure logical function is_inertia(a)

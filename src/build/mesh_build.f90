@@ -1,19 +1,21 @@
 !> The mesh of the model: nodes, bodies and marked sides, from mesh cards and block generators to positions.
-!! The nodes that cards of loads, supports and masses name are checked before anything else is built from these cards, so that missing
+!! A new reference node of RBE2M and RBE3M lies at the centroid of its marked surface. NODEAT is another number for the node nearest to a
+!! position. The nodes that cards of loads, supports and masses name are checked before anything else is built from these cards, so that missing
 !! nodes are reported for a deck with mesh errors too.
 module mesh_build
    use block_mesh, only: collect_cards, mesh_card_type
+   use bulk_data, only: element_card
    use case_control, only: model_axisymmetric, model_plane, model_space
    use deck_check, only: checked_deck
    use displacement_systems, only: build_systems
-   use element_build, only: check_element_numbers, check_elements, check_one_state, collect_elements, collect_sides, marked_side, &
-                            resolve_properties
+   use elasticity, only: axisymmetric
+   use element_build, only: check_elements, collect_elements, collect_sides, marked_side, resolve_properties
    use element_kinds, only: element_table
    use kinds, only: wp
    use lists, only: list_owners
-   use model_data, only: model_type
-   use node_build, only: build_nodes, fill_mid_sides
-   use placed_nodes, only: place_nodes
+   use model_data, only: model_type, placed_node
+   use node_build, only: append_nodes, build_nodes, fill_mid_sides, highest_number
+   use numbers, only: cross
    use text_tools, only: integer_text
    implicit none
    private
@@ -28,16 +30,35 @@ contains
       type(model_type), intent(inout)   :: model
       type(marked_side), allocatable, intent(out) :: sides(:)
       type(mesh_card_type) :: cards
-      integer :: b
-      logical :: has_solids
+      integer, allocatable :: states(:)
+      integer :: b, other, ring
+      logical :: has_rings, has_solids, is_plane
 
       has_solids = any(deck%bulk%block%dimension == 3) .or. any(element_table(deck%bulk%element%kind)%dimension == 3)
       model%dimension = merge(3, 2, has_solids)
       call build_systems(deck, model%systems)
       call collect_cards(deck, cards)
       call build_nodes(deck, cards%grid, model)
-      if (any(abs(model%x(3, :)) > 0.0_wp) .and. .not. is_plane(deck)) model%dimension = 3
-      call take_model(deck, has_solids, model)
+      ! without solids a deck with PAXIS or BLOCK2, or with PSHELL but no bending material, is plane, whatever X3 of its nodes
+      has_rings = size(deck%bulk%paxis) > 0
+      is_plane = has_rings .or. any(deck%bulk%block%dimension == 2) .or. &
+                 (size(deck%bulk%pshell) > 0 .and. all(deck%bulk%pshell%bending <= 0))
+      if (any(abs(model%x(3, :)) > 0.0_wp) .and. .not. is_plane) model%dimension = 3
+      ! the entry MODEL of case control, where the deck does not contradict it
+      associate (control => deck%control)
+         select case (control%model)
+         case (model_space)
+            if (has_rings) call deck%errors%add(control%model_line, 'MODEL = SPACE, but the deck has a PAXIS; expected '// &
+                                                'AXISYMMETRIC, or no PAXIS')
+            if (.not. has_rings) model%dimension = 3
+         case (model_plane, model_axisymmetric)
+            if (has_solids) call deck%errors%add(control%model_line, 'MODEL: the deck has solids; expected SPACE')
+            if (.not. has_solids) model%dimension = 2
+            if (has_rings .eqv. control%model == model_plane) call deck%errors%add(control%model_line, &
+               trim(merge('MODEL = PLANE, but the deck has a PAXIS        ', &
+                          'MODEL = AXISYMMETRIC, but the deck has no PAXIS', control%model == model_plane)))
+         end select
+      end associate
       do b = 1, size(deck%bulk%block)
          if (deck%bulk%block(b)%dimension < model%dimension) call deck%errors%add(deck%bulk%block(b)%line, &
             'BLOCK2: plane bodies cannot stand in a model of space')
@@ -46,47 +67,159 @@ contains
       call resolve_properties(deck, model)
       call collect_elements(deck, cards%element, model)
       call fill_mid_sides(deck, model)
-      call check_element_numbers(deck, cards%element)
+      ! bodies, faces, edges, interface elements and rigid elements share one numbering, as in NASTRAN
+      associate (bulk => deck%bulk, of_blocks => cards%element(size(deck%bulk%element) + 1:))
+         call deck%report_repeated('element', &
+            [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id, bulk%rigid%id, bulk%spring%id, bulk%mass%id, &
+             of_blocks%id], &
+            [bulk%element%line, bulk%edge%line, bulk%cjoint%line, bulk%conrod%line, bulk%rigid%line, bulk%spring%line, &
+             bulk%mass%line, of_blocks%line], &
+            n_cards=size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + size(bulk%rigid) + &
+                    size(bulk%spring) + size(bulk%mass))
+      end associate
       call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
-      call check_one_state(deck, model)
+      ! plane and axisymmetric bodies must not be mixed: forces are those of the thickness, or those of the whole ring
+      allocate (states(0:size(model%properties)), source=0) ! 0: a property in error
+      states(1:) = model%properties%state
+      ring = findloc(states(model%element_property), axisymmetric, dim=1)
+      other = findloc(states(model%element_property) > 0 .and. states(model%element_property) /= axisymmetric, .true., dim=1)
+      model%axisymmetric = ring > 0
+      if (min(ring, other) > 0) call deck%errors%add(model%element_line(max(ring, other)), 'element '// &
+         integer_text(model%element_id(max(ring, other)))//': PAXIS and PSHELL cannot be mixed in one model')
       call check_nodes(deck, model)
       call check_elements(deck, cards%grid, model)
       call collect_sides(deck, cards%side, model, sides)
    end subroutine build_mesh
 
-   !> Whether a deck without solids is plane, whatever X3 of its nodes: it has a PAXIS or a BLOCK2, or it has PSHELL and none of them has a
-   !! bending material.
-   pure logical function is_plane(deck)
+   !> Append the reference nodes of RBE2M and RBE3M that name none: each at the centroid of its surface, numbered from the highest node
+   !! number of the deck on. Find the nodes of NODEAT cards: the number of a card becomes a number of the node nearest to its position. Of
+   !! equally near nodes the new reference node of an RBE2M or RBE3M is taken, else the node with the lowest number.
+   subroutine place_nodes(deck, sides, model)
+      type(checked_deck), intent(inout) :: deck
+      type(element_card), intent(in)    :: sides(:) !! of blocks
+      type(model_type), intent(inout)   :: model
+      type(element_card), allocatable :: marking(:)
+      real(wp), allocatable :: distance(:), x(:, :)
+      logical, allocatable  :: is_meant(:)
+      real(wp) :: rounding
+      integer  :: highest, i, k, n, n_given ! n_given: before the new reference nodes
+
+      n_given = model%n_nodes
+      allocate (model%placed(size(deck%bulk%place)))
+      model%placed%id = deck%bulk%place%id ! reference nodes get higher numbers
+      allocate (x(3, merge(count(deck%rigid%surface > 0 .and. deck%rigid%node == 0), 0, n_given > 0)))
+      if (size(x, 2) > 0) then
+         highest = highest_number(model)
+         if (highest > huge(1) - size(x, 2)) then
+            call deck%errors%add(0, 'the reference nodes of RBE2M and RBE3M get numbers above node '//integer_text(highest)// &
+                                 ', and their numbers would exceed 2147483647')
+         else
+            n = 0
+            do i = 1, size(deck%rigid)
+               associate (card => deck%rigid(i))
+                  if (card%surface == 0 .or. card%node > 0) cycle
+                  n = n + 1
+                  card%node = highest + n
+                  x(:, n) = centroid(model, side_cards(deck, sides, card%surface))
+               end associate
+            end do
+            call append_nodes(model, x)
+         end if
+      end if
+      model%placed = [placed_node ::] ! the reference nodes, then the nodes of NODEAT
+      do i = 1, size(deck%rigid)
+         associate (card => deck%rigid(i))
+            if (card%surface > 0) model%placed = [model%placed, placed_node(element=card%id, surface=card%surface, &
+                                                                            node=model%node_table%find(card%node))]
+         end associate
+      end do
+      if (size(deck%bulk%place) == 0 .or. model%n_nodes == 0) return
+      rounding = 1.0e-9_wp*maxval(maxval(model%x, dim=2) - minval(model%x, dim=2))
+      do i = 1, size(deck%bulk%place)
+         associate (card => deck%bulk%place(i))
+            if (card%id == 0) cycle
+            if (any(model%node_id == card%id)) then
+               call deck%field_error(card%line, 'ID', 'there is a node '//integer_text(card%id)// &
+                                     ' already; expected another number')
+               cycle
+            end if
+            is_meant = spread(card%surface == 0, 1, model%n_nodes)
+            marking = side_cards(deck, sides, card%surface)
+            do k = 1, merge(size(marking), 0, card%surface > 0)
+               is_meant(nodes_on(model, marking(k), merge(3, 8, marking(k)%kind <= 0))) = .true.
+            end do
+            do k = 1, size(model%placed)
+               if (model%placed(k)%surface == card%surface .and. model%placed(k)%node > 0) is_meant(model%placed(k)%node) = .true.
+            end do
+            if (.not. any(is_meant)) then
+               call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%surface)//' has no nodes; '// &
+                                     'expected a PMARK with faces or edges, or blank')
+               cycle
+            end if
+            distance = norm2(model%x - spread(card%x, 2, model%n_nodes), dim=1)
+            is_meant = is_meant .and. distance <= minval(distance, mask=is_meant) + rounding
+            if (any(is_meant(n_given + 1:))) is_meant(:n_given) = .false.
+            model%placed = [model%placed, placed_node(id=card%id, surface=card%surface, x=card%x, &
+                                                      node=findloc(is_meant, .true., dim=1))]
+         end associate
+      end do
+      associate (named => model%placed%id > 0)
+         call model%node_table%add(pack(model%placed%id, named), pack(model%placed%node, named))
+      end associate
+   end subroutine place_nodes
+
+   !> The cards that mark the sides of SURFACE, those of blocks included.
+   pure function side_cards(deck, of_blocks, surface) result(cards)
       type(checked_deck), intent(in) :: deck
+      type(element_card), intent(in) :: of_blocks(:)
+      integer, intent(in)            :: surface
+      type(element_card), allocatable :: cards(:)
 
-      associate (bulk => deck%bulk)
-         is_plane = size(bulk%paxis) > 0 .or. any(bulk%block%dimension == 2) .or. &
-                    (size(bulk%pshell) > 0 .and. all(bulk%pshell%bending <= 0))
+      associate (edge => deck%bulk%edge%element_card, element => deck%bulk%element)
+         cards = [pack(edge, edge%property == surface), pack(element, element%property == surface), &
+                  pack(of_blocks, of_blocks%property == surface)]
       end associate
-   end function is_plane
+   end function side_cards
 
-   !> Set the kind of model from the entry MODEL of case control, if the deck does not contradict it.
-   subroutine take_model(deck, has_solids, model)
-      type(checked_deck), intent(in)  :: deck
-      logical, intent(in)             :: has_solids
-      type(model_type), intent(inout) :: model
+   !> The first N nodes on CARD, without missing ones.
+   pure function nodes_on(model, card, n) result(nodes)
+      type(model_type), intent(in)   :: model
+      type(element_card), intent(in) :: card
+      integer, intent(in)            :: n
+      integer, allocatable :: nodes(:)
+      integer :: k
 
-      associate (control => deck%control)
-         select case (control%model)
-         case (model_space)
-            if (size(deck%bulk%paxis) > 0) call deck%errors%add(control%model_line, 'MODEL = SPACE, but the deck has a PAXIS; '// &
-                                                                'expected AXISYMMETRIC, or no PAXIS')
-            if (size(deck%bulk%paxis) == 0) model%dimension = 3
-         case (model_plane, model_axisymmetric)
-            if (has_solids) call deck%errors%add(control%model_line, 'MODEL: the deck has solids; expected SPACE')
-            if (.not. has_solids) model%dimension = 2
-            if (size(deck%bulk%paxis) == 0 .neqv. control%model == model_plane) call deck%errors%add(control%model_line, &
-               trim(merge('MODEL = PLANE, but the deck has a PAXIS        ', &
-                          'MODEL = AXISYMMETRIC, but the deck has no PAXIS', &
-                          control%model == model_plane)))
-         end select
-      end associate
-   end subroutine take_model
+      nodes = [(model%node_table%find(card%nodes(k)), k = 1, n)]
+      nodes = pack(nodes, nodes > 0)
+   end function nodes_on
+
+   !> The centroid of the sides on CARDS, weighted by length of edges or area of faces; the mean of the nodes where the total is zero.
+   pure function centroid(model, cards)
+      type(model_type), intent(in)   :: model
+      type(element_card), intent(in) :: cards(:)
+      real(wp) :: centroid(3), extent, total
+      integer  :: k, n, s
+
+      centroid = 0.0_wp
+      total = 0.0_wp
+      do s = 1, size(cards)
+         n = merge(2, element_table(max(1, cards(s)%kind))%n_corners, cards(s)%kind <= 0) ! corners
+         associate (p => model%x(:, nodes_on(model, cards(s), n)))
+            n = size(p, 2)
+            if (n == 2) then
+               extent = norm2(p(:, 2) - p(:, 1))
+               centroid = centroid + extent*0.5_wp*(p(:, 1) + p(:, 2))
+               total = total + extent
+            end if
+            do k = 2, n - 1
+               extent = 0.5_wp*norm2(cross(p(:, k) - p(:, 1), p(:, k + 1) - p(:, 1)))
+               centroid = centroid + extent*(p(:, 1) + p(:, k) + p(:, k + 1))/3.0_wp
+               total = total + extent
+            end do
+         end associate
+      end do
+      if (total > 0.0_wp) centroid = centroid/total
+   end function centroid
 
    !> Errors: a node outside the x-y plane in a plane model, or with x < 0 in an axisymmetric one.
    subroutine check_nodes(deck, model)

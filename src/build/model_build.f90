@@ -22,7 +22,7 @@ module model_build
    use shell_ties, only: find_ties, tie_type
    use spring_build, only: build_bars, build_springs
    use stage_plan, only: plan_stages, stage_plan_type
-   use structural_build, only: build_beams, build_rotations, build_shells, leave_out_idle, turn_rotations
+   use structural_build, only: build_beams, build_rotations, build_shells, leave_out_idle
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use surface_sides, only: split_shared_surfaces
@@ -73,7 +73,6 @@ contains
       call hold_free_structure(checked, model)
       call build_sections(checked, model)
       call build_frames(checked, model)
-      call turn_rotations(model)
       call build_beams(checked, model)
       call build_springs(checked, model)
       call build_dependents(checked, ties, model)
@@ -83,7 +82,7 @@ contains
       call build_loads(checked, model, oscillating)
       if (.not. errors%any()) call check_balance(checked, model)
       call build_temperatures(checked, model)
-      call find_shown_nodes(deck, model, plan, errors)
+      call find_shown_nodes(checked, model, plan)
       call plan_vibrations(checked, model, oscillating, plan)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
       if (errors%any()) return

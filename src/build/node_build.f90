@@ -4,8 +4,9 @@
 !! not displacements of points.
 module node_build
    use bulk_data, only: grid_card
+   use coordinate_systems, only: position_in
    use deck_check, only: checked_deck
-   use displacement_systems, only: place_grids
+   use displacement_systems, only: find_system
    use element_kinds, only: element_table
    use kinds, only: wp
    use lists, only: sorted_order, list_owners
@@ -14,7 +15,7 @@ module node_build
    implicit none
    private
 
-   public :: build_nodes, append_nodes, find_nodes, fill_mid_sides, append_unknowns, append_rotations, highest_number
+   public :: build_nodes, append_nodes, find_nodes, fill_mid_sides, append_unknowns, highest_number
 
    integer, parameter, public :: blank_node = -1   !! in element_nodes, until fill_mid_sides: left blank on the card
 
@@ -35,10 +36,19 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(grid_card), intent(inout)  :: cards(:) !! those of blocks last
       type(model_type), intent(inout) :: model
+      real(wp), parameter :: rounding = 1.0e-12_wp ! of the distance of points and systems: a smaller distance from an axis is zero
       integer, allocatable :: order(:)
-      integer :: i
+      integer :: i, system
 
-      call place_grids(deck, model%systems, cards)
+      do i = 1, size(cards)
+         if (cards(i)%cp <= 0) cycle
+         call find_system(deck, cards(i)%line, 'CP', cards(i)%cp, model%systems, system)
+         if (system == 0) cycle
+         associate (x => cards(i)%x)
+            x = position_in(model%systems(system), x)
+            where (abs(x) <= rounding*(norm2(x) + norm2(model%systems(system)%origin))) x = 0.0_wp
+         end associate
+      end do
       call deck%report_repeated('node', cards%id, cards%line, n_cards=size(deck%bulk%grid))
       call sorted_order(cards%id, order)
       model%n_nodes = size(cards)
@@ -99,18 +109,19 @@ contains
    end subroutine find_nodes
 
    !> Place nodes at the middle of the edges with a blank mid-side node: the node that another element names there, else a new node,
-   !! numbered behind all others in the order of the elements. Error: elements that share an edge but not its mid-side
-   !! node.
+   !! numbered behind all others in the order of the elements. Errors: elements that share an edge but not its mid-side
+   !! node; numbers beyond the largest integer.
    subroutine fill_mid_sides(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(edge_list) :: edges
-      integer :: i, n_new
+      real(wp), allocatable :: x(:, :)
+      integer :: i, n, n_new, node
 
       if (.not. has_second_order(model)) return
-      call list_edges(model, edges)
       call match_edges(model, edges)
       call check_orders(deck, model, edges)
+      n = model%n_nodes
       n_new = 0
       do i = 1, edges%n
          if (node_at(model, edges, i) /= blank_node) cycle
@@ -118,20 +129,34 @@ contains
             own = node_at(model, edges, edges%namer(edges%first(i)))
             if (own /= blank_node) cycle
             n_new = n_new + 1
-            own = model%n_nodes + n_new
+            own = n + n_new
          end associate
       end do
       model%n_filled = n_new
-      model%first_filled = model%n_nodes + 1
-      if (n_new > 0) call place_nodes(deck, model, edges, n_new)
+      model%first_filled = n + 1
       where (model%element_nodes == blank_node) model%element_nodes = 0 ! of edges with missing corners
+      if (n_new == 0) return
+      if (highest_number(model) > huge(1) - n_new) then
+         call deck%errors%add(0, 'the blank mid-side nodes get numbers above node '// &
+                              integer_text(highest_number(model))//', and their numbers would exceed 2147483647')
+         where (model%element_nodes > n) model%element_nodes = 0
+         return
+      end if
+      allocate (x(3, n_new))
+      do i = 1, edges%n
+         node = node_at(model, edges, i)
+         if (node > n) x(:, node - n) = 0.5_wp*(model%x(:, edges%ends(1, i)) + model%x(:, edges%ends(2, i)))
+      end do
+      call append_nodes(model, x)
    end subroutine fill_mid_sides
 
-   !> The edges of all elements, without edges with missing corners.
-   pure subroutine list_edges(model, edges)
+   !> The EDGES of all elements, without edges with missing corners; the first between the same corners, and the one that names the
+   !! mid-side node.
+   pure subroutine match_edges(model, edges)
       type(model_type), intent(in) :: model
       type(edge_list), intent(out) :: edges
-      integer :: e, ends(2), k, total
+      integer, allocatable :: start(:), at(:)
+      integer :: c, e, ends(2), i, k, node, total
 
       total = sum(element_table(model%element_kind)%n_edges)
       allocate (edges%ends(2, total), edges%element(total), edges%place(total))
@@ -147,15 +172,6 @@ contains
             end do
          end associate
       end do
-   end subroutine list_edges
-
-   !> Find the edges between the same corners, and the one that names the mid-side node.
-   pure subroutine match_edges(model, edges)
-      type(model_type), intent(in)   :: model
-      type(edge_list), intent(inout) :: edges
-      integer, allocatable :: start(:), at(:)
-      integer :: c, i, k, node
-
       call list_owners(model%n_nodes, reshape(edges%ends(1, :edges%n), [1, edges%n]), start, at)
       allocate (edges%first(edges%n), edges%namer(edges%n))
       do node = 1, model%n_nodes
@@ -228,50 +244,6 @@ contains
          end if
       end do
    end subroutine check_orders
-
-   !> Append the N_NEW mid-edge nodes of elements to MODEL.
-   subroutine place_nodes(deck, model, edges, n_new)
-      type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
-      type(edge_list), intent(in)     :: edges
-      integer, intent(in)             :: n_new
-      real(wp), allocatable :: x(:, :)
-      integer :: i, n, node
-
-      n = model%n_nodes
-      if (highest_number(model) > huge(1) - n_new) then
-         call deck%errors%add(0, 'the blank mid-side nodes get numbers above node '// &
-                              integer_text(highest_number(model))//', and their numbers would exceed 2147483647')
-         where (model%element_nodes > n) model%element_nodes = 0
-         return
-      end if
-      allocate (x(3, n_new))
-      do i = 1, edges%n
-         node = node_at(model, edges, i)
-         if (node > n) x(:, node - n) = 0.5_wp*(model%x(:, edges%ends(1, i)) + model%x(:, edges%ends(2, i)))
-      end do
-      call append_nodes(model, x)
-   end subroutine place_nodes
-
-   !> Append a node for each of the rotations of MODEL, at its point, with the elements of the point if these have rotations. Its
-   !! components are free where the model has such a rotation.
-   subroutine append_rotations(model)
-      type(model_type), intent(inout) :: model
-      integer, allocatable :: elements(:), n_elements(:), points(:)
-      logical :: held(model%dimension)
-      integer :: k
-
-      allocate (points(size(model%rotations)))
-      points(:) = model%rotations%point
-      model%rotations%node = model%n_nodes + [(k, k = 1, size(points))]
-      held = model%dimension == 2
-      held(1) = .false.
-      associate (first => model%first_at)
-         n_elements = merge(first(points + 1) - first(points), 0, model%rotations%of_element)
-         elements = [(model%elements_at(first(points(k)):first(points(k)) + n_elements(k) - 1), k = 1, size(points))]
-      end associate
-      call append_unknowns(model, points, n_elements, elements, held)
-   end subroutine append_rotations
 
    !> Append nodes for unknowns that are not displacements of points, one at each of POINTS: N_ELEMENTS of the ELEMENTS in turn belong to
    !! each node, and components that are no unknowns are HELD. The number of these nodes is 0.

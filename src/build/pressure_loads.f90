@@ -15,13 +15,13 @@ module pressure_loads
    implicit none
    private
 
-   public :: find_face, own_corner, find_pressed_sides, add_pressure
+   public :: find_pressed_sides, add_pressure
 
    !> A face that a card names by its corners, and the order of these corners on it.
-   type, public :: named_face
-      integer :: element = 0, side = 0       !! 0: no such face
-      integer :: first = 0                   !! position of the first named corner on the side
-      logical :: outward = .false.           !! the right-hand normal of the named corners points out of the element
+   type :: named_face
+      integer :: element = 0, side = 0       ! 0: no such face
+      integer :: first = 0                   ! position of the first named corner on the side
+      logical :: outward = .false.           ! the right-hand normal of the named corners points out of the element
    end type named_face
 
    !> Where the pressure of a card acts.
@@ -47,6 +47,7 @@ contains
       type(named_face), intent(out)          :: face
       character(:), allocatable, intent(out) :: problem
       type(named_face) :: tried
+      character(:), allocatable :: words
       integer :: found, i, node, s
 
       found = 0
@@ -63,16 +64,16 @@ contains
                end do
             end associate
          end do
-         if (node /= model%node_table%find(id(1))) exit
          node = model%duplicate(node)
       end do
-      if (found == 0) then
-         problem = 'no body element has a face with the corners '//list_of_numbers(id)
-      else if (found > 1) then
-         problem = 'bodies lie on both sides of the face with the corners '//list_of_numbers(id)// &
-                   ': the loaded body is ambiguous'
-         face = named_face()
-      end if
+      if (found == 1) return
+      face = named_face()
+      words = ' with the corners '//integer_text(id(1))
+      do i = 2, size(id)
+         words = words//', '//integer_text(id(i))
+      end do
+      problem = 'no body element has a face'//words
+      if (found > 1) problem = 'bodies lie on both sides of the face'//words//': the loaded body is ambiguous'
    end subroutine find_face
 
    !> Side S of element E if the nodes with the numbers ID, or their twins, are its corners in cyclic order, else none.
@@ -80,16 +81,12 @@ contains
       type(model_type), intent(in)  :: model
       integer, intent(in)           :: e, s, id(:)
       type(named_face), intent(out) :: face
-      integer :: k, node, place(size(id))
+      integer :: k, place(size(id))
       logical :: outward
 
       associate (own => side_corners(model, e, s))
          if (size(own) /= size(id)) return
-         do k = 1, size(id)
-            node = model%node_table%find(id(k))
-            if (node == 0) return
-            place(k) = findloc(own == node .or. own == model%duplicate(node), .true., dim=1)
-         end do
+         place = [(place_of(model, id(k), own), k = 1, size(id))]
       end associate
       if (any(place == 0)) return
       outward = all(place == cshift([(k, k = 1, size(id))], place(1) - 1))
@@ -97,31 +94,16 @@ contains
       face = named_face(e, s, place(1), outward)
    end subroutine compare_corners
 
-   !> The corner of element E with number ID or with the twin of this node; 0: none.
-   pure integer function own_corner(model, e, id) result(corner)
+   !> The place of the node with number ID, or of its twin, among CORNERS; 0: none.
+   pure integer function place_of(model, id, corners) result(place)
       type(model_type), intent(in) :: model
-      integer, intent(in)          :: e, id
-      integer :: node
+      integer, intent(in)          :: id, corners(:)
 
-      corner = 0
-      node = model%node_table%find(id)
-      if (node == 0) return
-      associate (corners => model%element_nodes(:element_table(model%element_kind(e))%n_corners, e))
-         corner = findloc(corners, node, dim=1)
-         if (corner == 0 .and. model%duplicate(node) > 0) corner = findloc(corners, model%duplicate(node), dim=1)
+      place = 0
+      associate (node => model%node_table%find(id))
+         if (node > 0) place = findloc(corners == node .or. corners == model%duplicate(node), .true., dim=1)
       end associate
-   end function own_corner
-
-   pure function list_of_numbers(id) result(words)
-      integer, intent(in)       :: id(:)
-      character(:), allocatable :: words
-      integer :: k
-
-      words = integer_text(id(1))
-      do k = 2, size(id)
-         words = words//', '//integer_text(id(k))
-      end do
-   end function list_of_numbers
+   end function place_of
 
    !> The sides that PLOAD4, PLOADE, PLOAD and PLOAD2 cards load, without cards in error.
    subroutine find_pressed_sides(deck, model, pressed)
@@ -131,6 +113,8 @@ contains
       type(id_table_type) :: elements, faces
       type(pressed_list)  :: list
       type(pressed_side)  :: new
+      type(named_face)    :: face
+      character(:), allocatable :: problem
       real(wp) :: axes(3, 3)
       integer  :: e, i, k
       logical  :: names_shell
@@ -143,7 +127,11 @@ contains
             call rectangular_axes(deck, model%systems, card%line, card%system, 'the pressure on a face has one direction', axes)
             new = pressed_side(card=i, direction=matmul(axes, card%direction/max(norm2(card%direction), tiny(1.0_wp))))
             if (card%kind == of_nodes) then
-               call press_on_corners(deck, model, new, list)
+               if (any(card%corners(:3) == 0)) cycle ! reported already
+               call find_face(model, card%corners(:merge(4, 3, card%corners(4) > 0)), face, problem)
+               if (problem /= '') call deck%field_error(card%line, 'G1', problem)
+               if (problem == '') call append(pressed_side(card=i, element=face%element, side=face%side, &
+                                                           p=merge(-card%pressure, card%pressure, face%outward)), list)
                cycle
             else if (card%kind == of_marks) then
                do k = 1, size(card%ranges%first)
@@ -246,27 +234,6 @@ contains
       end associate
    end subroutine press_on_marked
 
-   !> The PLOAD of NEW, on the face with the corners on the card.
-   subroutine press_on_corners(deck, model, new, pressed)
-      type(checked_deck), intent(in)    :: deck
-      type(model_type), intent(in)      :: model
-      type(pressed_side), intent(in)    :: new
-      type(pressed_list), intent(inout) :: pressed
-      type(named_face) :: face
-      character(:), allocatable :: problem
-
-      associate (card => deck%bulk%pressure(new%card))
-         if (any(card%corners(:3) == 0)) return ! reported already
-         call find_face(model, card%corners(:merge(4, 3, card%corners(4) > 0)), face, problem)
-         if (problem /= '') then
-            call deck%field_error(card%line, 'G1', problem)
-            return
-         end if
-         call append(pressed_side(card=new%card, element=face%element, side=face%side, &
-                                  p=merge(-card%pressure, card%pressure, face%outward)), pressed)
-      end associate
-   end subroutine press_on_corners
-
    !> Whether CARD gives a pressure at a fourth corner of a face with C corners, 3; this is an error.
    logical function lacks_corner(deck, card, c)
       type(checked_deck), intent(in)  :: deck
@@ -277,53 +244,31 @@ contains
       if (lacks_corner) call deck%field_error(card%line, 'P4', 'a triangular face has no fourth corner, expected a blank or P1')
    end function lacks_corner
 
-   !> The PLOAD4 or PLOADE of NEW, on the side of element E with the corners on the card.
+   !> The PLOAD4 or PLOADE of NEW, on the side of element E with the corners on the card. Error: there is no such side.
    subroutine press_on_side(deck, model, e, new, pressed)
       type(checked_deck), intent(in)    :: deck
       type(model_type), intent(in)      :: model
       integer, intent(in)               :: e
       type(pressed_side), intent(inout) :: new
       type(pressed_list), intent(inout) :: pressed
-      integer :: first
-
-      associate (card => deck%bulk%pressure(new%card), kind => element_table(model%element_kind(e)))
-         call find_side(deck, model, card, e, new%side, first)
-         if (new%side == 0) return
-         new%element = e
-         associate (c => kind%side_corners(new%side))
-            if (lacks_corner(deck, card, c)) return
-            new%p(:c) = cshift(card%pressure(:c), 1 - first)
-         end associate
-         call append(new, pressed)
-      end associate
-   end subroutine press_on_side
-
-   !> The SIDE of element E with the corners on the CARD; 0, and an error, for none. FIRST is the position of G1 on the side.
-   subroutine find_side(deck, model, card, e, side, first)
-      type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(in)    :: model
-      type(pressure_card), intent(in) :: card
-      integer, intent(in)             :: e
-      integer, intent(out)            :: side, first
       character(:), allocatable :: expected
-      integer :: corner(2), k
-      logical :: fits, on_face
+      integer :: c, corner(2), k
+      logical :: fits
 
-      on_face = card%kind == of_face
-      first = 0
-      corner = 0
-      do k = 1, 2
-         if (card%corners(k) == 0) cycle
-         corner(k) = own_corner(model, e, card%corners(k))
-         if (corner(k) > 0) cycle
-         call deck%field_error(card%line, trim(merge('G1 ', merge('G34', 'G2 ', on_face), k == 1)), 'node '// &
-            integer_text(card%corners(k))//' is no corner of element '//integer_text(card%first))
-         side = 0
-         return
-      end do
-      associate (kind => element_table(model%element_kind(e)))
-         do side = 1, kind%n_sides
-            associate (own => kind%side_nodes(:kind%side_corners(side), side))
+      new%element = e
+      associate (card => deck%bulk%pressure(new%card), kind => element_table(model%element_kind(e)))
+         corner = 0
+         do k = 1, 2
+            if (card%corners(k) == 0) cycle
+            corner(k) = place_of(model, card%corners(k), model%element_nodes(:kind%n_corners, e))
+            if (corner(k) > 0) cycle
+            call deck%field_error(card%line, trim(merge('G1 ', merge('G34', 'G2 ', card%kind == of_face), k == 1)), 'node '// &
+               integer_text(card%corners(k))//' is no corner of element '//integer_text(card%first))
+            return
+         end do
+         do k = 1, kind%n_sides
+            c = kind%side_corners(k)
+            associate (own => kind%side_nodes(:c, k))
                if (all(own /= corner(1))) cycle
                select case (kind%linear)
                case (kind_tetra4)            ! G4 is the corner opposite to the face
@@ -338,24 +283,26 @@ contains
                   fits = any(own == corner(2)) .and. corner(1) /= corner(2)
                end select
                if (.not. fits) cycle
+               if (lacks_corner(deck, card, c)) return
+               new%side = k
+               new%p(:c) = cshift(card%pressure(:c), 1 - findloc(own, corner(1), dim=1))
+               call append(new, pressed)
+               return
             end associate
-            first = findloc(kind%side_nodes(:, side), corner(1), dim=1)
-            return
          end do
+         select case (kind%linear)
+         case (kind_tetra4)
+            expected = 'expected in G1 a corner of the face and in G4 the opposite corner'
+         case (kind_hexa8)
+            expected = 'expected in G1 and G3 two opposite corners of a face'
+         case (kind_penta6)
+            expected = 'expected two opposite corners of a quadrilateral face, or in G1 alone a corner of a triangular one'
+         case default
+            expected = 'expected the two ends of an edge'
+         end select
+         call deck%field_error(card%line, 'G1', 'no side of element '//integer_text(card%first)//' has these corners; '//expected)
       end associate
-      side = 0
-      select case (element_table(model%element_kind(e))%linear)
-      case (kind_tetra4)
-         expected = 'expected in G1 a corner of the face and in G4 the opposite corner'
-      case (kind_hexa8)
-         expected = 'expected in G1 and G3 two opposite corners of a face'
-      case (kind_penta6)
-         expected = 'expected two opposite corners of a quadrilateral face, or in G1 alone a corner of a triangular one'
-      case default
-         expected = 'expected the two ends of an edge'
-      end select
-      call deck%field_error(card%line, 'G1', 'no side of element '//integer_text(card%first)//' has these corners; '//expected)
-   end subroutine find_side
+   end subroutine press_on_side
 
    !> Add to FORCE the nodal forces of FACTOR times the pressure on one side; a mid-side node has the mean of the adjacent corners.
    !! Source: side_forces.
@@ -364,41 +311,31 @@ contains
       type(pressed_side), intent(in) :: pressed
       real(wp), intent(in)           :: factor
       real(wp), intent(inout)        :: force(:, :)       !! (3, n_nodes) [force]
-      real(wp) :: at_nodes(max_side_nodes)
+      real(wp) :: f(model%dimension, max_side_nodes), p(max_side_nodes)
+      integer  :: c, n, nodes(max_side_nodes)
 
-      associate (kind => element_table(model%element_kind(pressed%element)), e => pressed%element)
-         if (pressed%side == 0) then
-            call press(corners_of(model, e), factor*pressed%p, force)
-            return
+      associate (e => pressed%element, s => pressed%side, d => model%dimension, &
+                 kind => element_table(model%element_kind(pressed%element)), &
+                 property => model%properties(max(1, model%element_property(pressed%element))))
+         if (s == 0) then
+            n = kind%n_nodes
+            nodes(:n) = corners_of(model, e)
+            p(:n) = factor*pressed%p(:n)
+         else
+            n = kind%side_size(s)
+            nodes(:n) = model%element_nodes(kind%side_nodes(:n, s), e)
+            c = kind%side_corners(s)
+            p(:c) = factor*pressed%p(:c)
+            p(c + 1:2*c) = 0.5_wp*(p(:c) + cshift(p(:c), 1))
          end if
-         associate (c => kind%side_corners(pressed%side))
-            at_nodes(:c) = factor*pressed%p(:c)
-            at_nodes(c + 1:2*c) = 0.5_wp*(at_nodes(:c) + cshift(at_nodes(:c), 1))
-         end associate
-         call press(model%element_nodes(kind%side_nodes(:kind%side_size(pressed%side), pressed%side), e), at_nodes, force)
+         if (norm2(pressed%direction) > 0.0_wp) then
+            call side_forces(property%state, property%thickness, model%x(:d, nodes(:n)), p(:n), f, pressed%direction(:d))
+         else
+            call side_forces(property%state, property%thickness, model%x(:d, nodes(:n)), p(:n), f)
+         end if
+         force(:d, nodes(:n)) = force(:d, nodes(:n)) + f(:, :n)
+         call add_section_share(model, e, nodes(:n), f, force)
       end associate
-
-   contains
-
-      !> The pressure P at NODES.
-      pure subroutine press(nodes, p, force)
-         integer, intent(in)     :: nodes(:)
-         real(wp), intent(in)    :: p(:)
-         real(wp), intent(inout) :: force(:, :)
-         real(wp) :: f(model%dimension, max_side_nodes)
-
-         associate (e => pressed%element, d => model%dimension, &
-                    property => model%properties(max(1, model%element_property(pressed%element))))
-            if (norm2(pressed%direction) > 0.0_wp) then
-               call side_forces(property%state, property%thickness, model%x(:d, nodes), p(:size(nodes)), f, pressed%direction(:d))
-            else
-               call side_forces(property%state, property%thickness, model%x(:d, nodes), p(:size(nodes)), f)
-            end if
-            force(:d, nodes) = force(:d, nodes) + f(:, :size(nodes))
-            call add_section_share(model, e, nodes, f, force)
-         end associate
-      end subroutine press
-
    end subroutine add_pressure
 
 end module pressure_loads

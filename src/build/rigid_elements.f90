@@ -27,7 +27,6 @@ contains
       type(tie_type), intent(in)      :: ties(:) !! from SHELLTO cards
       type(model_type), intent(inout) :: model
       type(dependence_list) :: list
-      logical, allocatable  :: without(:) ! nodes of these cards without elements
       integer, allocatable  :: active(:)  ! active sets of equations
       integer :: i, set
 
@@ -38,28 +37,28 @@ contains
       call check_sums(deck, 'MPCADD', deck%bulk%equation_sum, deck%bulk%equation%set, 'MPC')
       allocate (active, source=summed_sets(deck%bulk%equation_sum, set))
       if (size(deck%rigid) + size(deck%bulk%equation) + size(ties) == 0) return
-      allocate (without(model%n_nodes), source=.false.)
+      allocate (list%without(model%n_nodes), source=.false.)
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
             if (abs(card%alpha) > 0.0_wp .and. any(deck%control%stages%temperature%id > 0)) call deck%field_error(card%line, &
                card%alpha_at, 'not zero, and case control has TEMPERATURE(LOAD), but rigid elements have no thermal expansion; '// &
                'expected blank or zero', called='ALPHA')
-            if (card%is_mean) call add_mean(deck, card, model, list, without)
-            if (.not. card%is_mean) call add_rigid(deck, card, model, list, without)
+            if (card%is_mean) call add_mean(deck, card, model, list)
+            if (.not. card%is_mean) call add_rigid(deck, card, model, list)
          end associate
       end do
       call add_ties(model, ties, list)
       do i = 1, size(deck%bulk%equation)
-         call add_equation(deck, deck%bulk%equation(i), any(active == deck%bulk%equation(i)%set), model, list, without)
+         call add_equation(deck, deck%bulk%equation(i), any(active == deck%bulk%equation(i)%set), model, list)
       end do
-      model%used = model%used .or. without
+      model%used = model%used .or. list%without
       if (deck%errors%any() .or. list%n == 0) return
       call check_dependences(deck, model, list)
       do i = 1, n_rotations(model)
          model%used(model%rotations(i)%node) = .true.
-         if (.not. model%rotations(i)%of_element) without(model%rotations(i)%node) = .true.
+         if (.not. model%rotations(i)%of_element) list%without(model%rotations(i)%node) = .true.
       end do
-      if (.not. deck%errors%any()) call eliminate(list, without, model)
+      if (.not. deck%errors%any()) call eliminate(list, model)
    end subroutine build_dependents
 
    !> The nodes of RBE2M and RBE3M from their surface. RBE3M uses the tributary areas as weights, so that a load on the reference node is
@@ -91,22 +90,24 @@ contains
    end subroutine name_surface_nodes
 
    !> The constraint equations of an RBE2: components CM of its nodes follow the rigid-body motion of GN, {u} + theta x arm and theta.
-   subroutine add_rigid(deck, card, model, list, without)
+   subroutine add_rigid(deck, card, model, list)
       type(checked_deck), intent(in)       :: deck
       type(rigid_card), intent(in)         :: card
       type(model_type), intent(in)         :: model
       type(dependence_list), intent(inout) :: list
-      logical, intent(inout)               :: without(:)
       type(component_place) :: own_place, place
       real(wp) :: direction(6), own(3, 3), motion(6, 6)
       integer  :: c, digit, first, k, node, point
+      logical  :: turns_others
 
-      call find_node(deck, card%line, card%node_at, card%node, model, without, point)
-      if (no_displacement(model, card%components) .and. .not. turn_others()) call deck%field_error(card%line, &
+      call find_node(deck, card%line, card%node_at, card%node, model, list, point)
+      turns_others = any([(has_component(card%components, c), c = 4, 6)]) .and. &
+                     any([(rotation_at(model, max(1, model%node_table%find(card%nodes(k)))) > 0, k = 1, size(card%nodes))])
+      if (no_displacement(model, card%components) .and. .not. turns_others) call deck%field_error(card%line, &
          card%components_at, 'contains no displacement of the nodes of this model; expected some of 1 to '// &
          integer_text(model%dimension), called='CM')
       do k = 1, size(card%nodes)
-         call find_node(deck, card%line, card%at(k), card%nodes(k), model, without, node)
+         call find_node(deck, card%line, card%at(k), card%nodes(k), model, list, node)
          if (node == 0 .and. card%surface > 0) return ! one error for all nodes of the surface
          if (node == 0 .or. point == 0) cycle
          if (node == point) then
@@ -132,34 +133,22 @@ contains
             end do
          end do
       end do
-
-   contains
-
-      !> Whether the card names rotations, and any dependent node has rotations.
-      logical function turn_others()
-         integer :: c, i
-
-         turn_others = any([(has_component(card%components, c), c = 4, 6)]) .and. &
-                       any([(rotation_at(model, max(1, model%node_table%find(card%nodes(i)))) > 0, i = 1, size(card%nodes))])
-      end function turn_others
-
    end subroutine add_rigid
 
    !> The constraint equation of an MPC if its set is ACTIVE.
-   subroutine add_equation(deck, card, active, model, list, without)
+   subroutine add_equation(deck, card, active, model, list)
       type(checked_deck), intent(in)       :: deck
       type(equation_card), intent(in)      :: card
       logical, intent(in)                  :: active
       type(model_type), intent(in)         :: model
       type(dependence_list), intent(inout) :: list
-      logical, intent(inout)               :: without(:)
       type(component_place) :: place(size(card%node))
       integer :: k, node
-      logical :: nowhere(size(without))
+      logical :: without(model%n_nodes)
 
-      nowhere = without
+      without = list%without
       do k = 1, size(card%node)
-         call find_node(deck, card%line, card%at(k), card%node(k), model, nowhere, node)
+         call find_node(deck, card%line, card%at(k), card%node(k), model, list, node)
          if (node == 0 .or. card%component(k) == 0) cycle
          place(k) = place_of_component(model, node, card%component(k))
          if (place(k)%node == 0) call deck%field_error(card%line, card%at(k) + 1, 'node '//integer_text(card%node(k))// &
@@ -168,8 +157,10 @@ contains
          if (place(k)%node == place(1)%node .and. place(k)%d == place(1)%d) call deck%field_error(card%line, card%at(k), &
             'this is the dependent component of the first term', called='G')
       end do
-      if (.not. active) return
-      without = nowhere
+      if (.not. active) then
+         list%without = without
+         return
+      end if
       if (any(place%node == 0) .or. deck%errors%any()) return
       call add_dependence(list, place(1), card%line, card%at(1))
       do k = 2, size(place)
@@ -187,13 +178,13 @@ contains
    end function no_displacement
 
    !> The NODE with the number ID in data field FIELD of the card on LINE; 0, and an error, for a missing node, or one that a joint
-   !! split. A node that belongs to no element is WITHOUT.
-   subroutine find_node(deck, line, field, id, model, without, node)
-      type(checked_deck), intent(in) :: deck
-      integer, intent(in)            :: line, field, id
-      type(model_type), intent(in)   :: model
-      logical, intent(inout)         :: without(:)
-      integer, intent(out)           :: node
+   !! split. A node that belongs to no element is noted in LIST.
+   subroutine find_node(deck, line, field, id, model, list, node)
+      type(checked_deck), intent(in)       :: deck
+      integer, intent(in)                  :: line, field, id
+      type(model_type), intent(in)         :: model
+      type(dependence_list), intent(inout) :: list
+      integer, intent(out)                 :: node
 
       node = 0
       if (id == 0) return
@@ -205,32 +196,40 @@ contains
             'ambiguous; expected other nodes, or bodies meshed apart', called='G')
          node = 0
       else
-         without(node) = without(node) .or. .not. model%used(node)
+         list%without(node) = list%without(node) .or. .not. model%used(node)
       end if
    end subroutine find_node
 
    !> The constraint equations of an RBE3: components REFC of its node are the weighted mean of those of its nodes.
-   subroutine add_mean(deck, card, model, list, without)
+   subroutine add_mean(deck, card, model, list)
       type(checked_deck), intent(in)       :: deck
       type(rigid_card), intent(in)         :: card
       type(model_type), intent(in)         :: model
       type(dependence_list), intent(inout) :: list
-      logical, intent(inout)               :: without(:)
-      real(wp) :: t(6, 3, size(card%nodes)), direction(6)
-      integer  :: before, digit, i, nodes(size(card%nodes)), point, c
-      logical  :: determined(6)
+      real(wp) :: r(3, size(card%nodes)), axes(3, 3, size(card%nodes)), t(6, 3, size(card%nodes)), direction(6)
+      integer  :: before, c, digit, i, nodes(size(card%nodes)), point
+      logical  :: determined(6), used(3, size(card%nodes))
 
       before = list%n
-      call find_node(deck, card%line, card%node_at, card%node, model, without, point)
+      call find_node(deck, card%line, card%node_at, card%node, model, list, point)
       do i = 1, size(card%nodes)
-         call find_node(deck, card%line, card%at(i), card%nodes(i), model, without, nodes(i))
+         call find_node(deck, card%line, card%at(i), card%nodes(i), model, list, nodes(i))
          if (nodes(i) == 0 .and. card%surface > 0) return ! one error for all nodes of the surface
       end do
       if (no_displacement(model, card%components) .and. .not. has_component(card%components, 6)) &
          call deck%field_error(card%line, 'REFC', 'contains no component of the nodes of this model')
       call check_directions(deck, card, model)
       if (point == 0 .or. any(nodes == 0) .or. deck%errors%any()) return
-      call motion_of_mean(model, card, point, nodes, t, determined)
+      do i = 1, size(nodes)
+         r(:, i) = model%x(:, nodes(i)) - model%x(:, point)
+         axes(:, :, i) = node_axes(model, nodes(i))
+         used(:, i) = [(c <= model%dimension .and. has_component(card%directions(i), c), c = 1, 3)]
+      end do
+      if (model%axisymmetric) then ! from axial displacements only
+         r = 0.0_wp
+         axes([1, 3], :, :) = 0.0_wp
+      end if
+      call mean_motion(r, axes, used, card%weight, t, determined)
       do digit = 1, 6
          if (.not. has_component(card%components, digit)) cycle
          associate (place => place_of_component(model, point, digit))
@@ -303,40 +302,26 @@ contains
       if (model%axisymmetric) direction([1, 3, 4, 5, 6]) = 0.0_wp
    end function direction_of
 
-   !> [T] of mean_motion for the NODES of CARD; in an axisymmetric model from axial displacements only.
-   subroutine motion_of_mean(model, card, point, nodes, t, determined)
-      type(model_type), intent(in) :: model
-      type(rigid_card), intent(in) :: card
-      integer, intent(in)          :: point, nodes(:)
-      real(wp), intent(out)        :: t(:, :, :)
-      logical, intent(out)         :: determined(6)
-      real(wp) :: r(3, size(nodes)), axes(3, 3, size(nodes))
-      logical  :: used(3, size(nodes))
-      integer  :: c, i
-
-      do i = 1, size(nodes)
-         r(:, i) = model%x(:, nodes(i)) - model%x(:, point)
-         axes(:, :, i) = node_axes(model, nodes(i))
-         used(:, i) = [(c <= model%dimension .and. has_component(card%directions(i), c), c = 1, 3)]
-      end do
-      if (model%axisymmetric) then
-         r = 0.0_wp
-         axes([1, 3], :, :) = 0.0_wp
-      end if
-      call mean_motion(r, axes, used, card%weight, t, determined)
-   end subroutine motion_of_mean
-
    !> Error: C without a displacement, because the mean is one of displacements. Rotations in C are ignored, as nodes of bodies have none;
    !! a rotation that a node has is an error.
    subroutine check_directions(deck, card, model)
       type(checked_deck), intent(in) :: deck
       type(rigid_card), intent(in)   :: card
       type(model_type), intent(in)   :: model
-      integer :: digit, i
+      type(component_place) :: place
+      integer :: digit, i, node
+      logical :: has_rotation
 
       do i = 1, size(card%nodes)
          if (card%directions(i) == 0) cycle ! reported already
-         if (any([(place_of_rotation(i, digit), digit = 4, 6)])) then
+         node = model%node_table%find(card%nodes(i))
+         has_rotation = .false.
+         do digit = 4, 6
+            if (node == 0 .or. .not. has_component(card%directions(i), digit)) cycle
+            place = place_of_component(model, node, digit)
+            has_rotation = has_rotation .or. place%node > 0
+         end do
+         if (has_rotation) then
             call deck%field_error(card%line, card%at(i), 'its components C, '//integer_text(card%directions(i))// &
                ', are rotations too, which this node has, as the reference node of a rigid element; expected C of 1 to 3', &
                called='G')
@@ -347,20 +332,6 @@ contains
             return
          end if
       end do
-
-   contains
-
-      !> Whether C of node K names the rotation DIGIT and the node has it.
-      logical function place_of_rotation(k, digit)
-         integer, intent(in) :: k, digit
-         type(component_place) :: place
-         integer :: node
-
-         node = model%node_table%find(card%nodes(k))
-         if (node > 0) place = place_of_component(model, node, digit)
-         place_of_rotation = place%node > 0 .and. has_component(card%directions(k), digit)
-      end function place_of_rotation
-
    end subroutine check_directions
 
 end module rigid_elements

@@ -9,7 +9,7 @@ module spring_build
    use node_build, only: find_nodes
    use node_coupling, only: node_axes, rotation_at
    use numbers, only: cross, identity
-   use structural_build, only: is_cut_beam
+   use structural_build, only: is_beam_edge
    use text_tools, only: integer_text
    implicit none
    private
@@ -28,23 +28,34 @@ contains
       is_bar = edge%kind == edge_crod .and. edge%property > 0 .and. any(deck%bulk%prod%id == edge%property)
    end function is_bar
 
-   !> Fill the bars of MODEL.
+   !> Fill the bars of MODEL, and assign the BOLT cards of bars, with the stages that tighten them.
    subroutine build_bars(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
-      integer :: i, n, prod
+      type(prod_card) :: prod
+      integer :: i, k, n, stage
+      logical :: is_cut_beam
 
       allocate (model%bars(size(deck%bulk%edge) + size(deck%bulk%conrod)))
       n = 0
       do i = 1, size(deck%bulk%edge)
          associate (edge => deck%bulk%edge(i))
-            if (is_cut_beam(deck, edge)) call add_cut_beam(edge)
-            if (.not. is_bar(deck, edge)) cycle
+            is_cut_beam = is_beam_edge(deck, edge) .and. any(deck%bulk%bolt%element == edge%id)
+            if (is_cut_beam) then ! the bar has the axial force of a beam with a BOLT, the beam keeps the mass
+               associate (property => deck%bulk%beam_property(findloc(deck%bulk%beam_property%id, edge%property, dim=1)))
+                  prod = prod_card(line=property%line, material=property%material, area=property%section%area)
+               end associate
+               if (all(deck%bulk%mat1%id /= prod%material)) cycle ! reported already
+            else if (is_bar(deck, edge)) then
+               prod = deck%bulk%prod(findloc(deck%bulk%prod%id, edge%property, dim=1))
+            else
+               cycle
+            end if
             n = n + 1
-            prod = findloc(deck%bulk%prod%id, edge%property, dim=1)
             model%bars(n)%id = edge%id
             call find_nodes(deck, edge%line, edge%nodes(:2), model, model%bars(n)%nodes)
-            call build_bar(deck, edge%line, deck%bulk%prod(prod), model, model%bars(n))
+            call build_bar(deck, edge%line, prod, model, model%bars(n))
+            if (is_cut_beam) model%bars(n)%mass = 0.0_wp
          end associate
       end do
       do i = 1, size(deck%bulk%conrod)
@@ -57,26 +68,23 @@ contains
       end do
       model%bars = model%bars(:n)
       do i = 1, size(deck%bulk%bolt)
-         if (deck%bulk%bolt(i)%element > 0) call tighten(deck, deck%bulk%bolt(i), model) ! else a solid bolt
-      end do
-
-   contains
-
-      !> The bar for the axial force of a beam with a BOLT; the mass stays with the beam.
-      subroutine add_cut_beam(edge)
-         type(edge_card), intent(in) :: edge
-
-         associate (property => deck%bulk%beam_property(findloc(deck%bulk%beam_property%id, edge%property, dim=1)))
-            if (all(deck%bulk%mat1%id /= property%material)) return ! reported already
-            n = n + 1
-            model%bars(n)%id = edge%id
-            model%bars(n)%nodes = [model%node_table%find(edge%nodes(1)), model%node_table%find(edge%nodes(2))]
-            call build_bar(deck, edge%line, prod_card(line=property%line, material=property%material, &
-                                                      area=property%section%area), model, model%bars(n))
-            model%bars(n)%mass = 0.0_wp
+         associate (card => deck%bulk%bolt(i))
+            if (card%element == 0) cycle ! a solid bolt
+            k = findloc(model%bars%id, card%element, dim=1)
+            call find_stage(deck, card, stage)
+            if (k == 0) call deck%field_error(card%line, 'EID', 'there is no CROD '//integer_text(card%element)// &
+                                              ' with a PROD, nor a CONROD, CBAR or CBEAM')
+            if (k == 0 .or. stage == 0) cycle
+            if (model%bars(k)%bolt > 0) then
+               call deck%field_error(card%line, 'EID', 'CROD '//integer_text(card%element)//' is BOLT '// &
+                                     integer_text(model%bars(k)%bolt)//' already')
+               cycle
+            end if
+            model%bars(k)%bolt = card%id
+            model%bars(k)%preload = card%preload
+            model%bars(k)%stage = stage
          end associate
-      end subroutine add_cut_beam
-
+      end do
    end subroutine build_bars
 
    !> The stiffness and mass of BAR with the section of PROD; its card is on LINE, its nodes are known.
@@ -113,30 +121,6 @@ contains
          integer_text(bar%id)//': in an axisymmetric model bars stand along y; their area is that of all round the ring')
    end subroutine build_bar
 
-   !> Assign the BOLT of CARD to its bar, with the stage that tightens it.
-   subroutine tighten(deck, card, model)
-      type(checked_deck), intent(in)  :: deck
-      type(bolt_card), intent(in)     :: card
-      type(model_type), intent(inout) :: model
-      integer :: k, stage
-
-      k = findloc(model%bars%id, card%element, dim=1)
-      call find_stage(deck, card, stage)
-      if (k == 0) call deck%field_error(card%line, 'EID', 'there is no CROD '//integer_text(card%element)// &
-                                           ' with a PROD, nor a CONROD, CBAR or CBEAM')
-      if (k == 0 .or. stage == 0) return
-      associate (bar => model%bars(k))
-         if (bar%bolt > 0) then
-            call deck%field_error(card%line, 'EID', 'CROD '//integer_text(card%element)//' is BOLT '//integer_text(bar%bolt)// &
-                                  ' already')
-            return
-         end if
-         bar%bolt = card%id
-         bar%preload = card%preload
-         bar%stage = stage
-      end associate
-   end subroutine tighten
-
    !> Position of the STAGE that tightens the bolt of CARD; 0: it is missing.
    subroutine find_stage(deck, card, stage)
       type(checked_deck), intent(in) :: deck
@@ -153,7 +137,8 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(bar_type), allocatable :: bars(:)
-      integer :: i, n
+      real(wp) :: stiffness(6), damping
+      integer  :: i, k, n
 
       associate (cards => deck%bulk%spring, laws => deck%bulk%spring_property)
          call deck%report_repeated('PELAS', pack(laws%id, .not. laws%is_bush), pack(laws%line, .not. laws%is_bush))
@@ -163,29 +148,39 @@ contains
          allocate (bars(n + 6*size(cards)))
          bars(:n) = model%bars
          do i = 1, size(cards)
-            call build_spring(deck, cards(i), model, bars, n)
+            stiffness = [cards(i)%stiffness, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp] ! of a CELAS2
+            damping = cards(i)%damping
+            k = findloc(laws%id == cards(i)%property .and. (laws%is_bush .eqv. cards(i)%is_bush), .true., dim=1)
+            if (cards(i)%property > 0 .and. k > 0) then
+               stiffness = laws(k)%stiffness
+               damping = laws(k)%damping
+            else if (cards(i)%property > 0) then
+               call deck%field_error(cards(i)%line, 'PID', 'there is no '//trim(merge('PBUSH', 'PELAS', cards(i)%is_bush))//' '// &
+                                     integer_text(cards(i)%property))
+            end if
+            call build_spring(deck, cards(i), stiffness, damping, model, bars, n)
          end do
       end associate
       model%bars = bars(:n)
    end subroutine build_springs
 
    !> Append the springs of one CARD to BARS(:N).
-   subroutine build_spring(deck, card, model, bars, n)
+   subroutine build_spring(deck, card, stiffness, damping, model, bars, n)
       type(checked_deck), intent(in)  :: deck
       type(spring_card), intent(in)   :: card
+      real(wp), intent(in)            :: stiffness(6) !! of a CELAS the first [force/length], [moment]
+      real(wp), intent(in)            :: damping      !! structural [-]
       type(model_type), intent(inout) :: model
       type(bar_type), intent(inout)   :: bars(:)
       integer, intent(inout)          :: n
-      real(wp) :: stiffness(6), damping, directions(3, 3), axes(3, 3)
+      real(wp) :: directions(3, 3), axes(3, 3)
       integer  :: k, nodes(2)
       logical  :: ok
 
-      call find_stiffness(deck, card, stiffness, damping)
       if (card%is_bush) then
          call find_nodes(deck, card%line, card%nodes, model, nodes)
          call find_axes(deck, card, model, nodes, stiffness, directions, ok)
          if (.not. ok) return
-         if (all(nodes > 0)) call check_levers(deck, card, model, nodes, stiffness, directions)
          do k = 1, 6
             if (stiffness(k) > 0.0_wp) call add(k, stiffness(k), spread(directions(:, modulo(k - 1, 3) + 1), 2, 2))
          end do
@@ -247,16 +242,34 @@ contains
 
    end subroutine build_spring
 
-   !> Between nodes apart that have rotations no force may have a lever: the springs of this program apply no moments to their nodes.
-   subroutine check_levers(deck, card, model, nodes, stiffness, directions)
+   !> The axes of a CBUSH at its first node: those of its system; without a system, the line between its nodes if it has K1 and K4
+   !! alone, and global axes if the nodes coincide. Error: a force between nodes apart that have rotations has a lever; the springs of this
+   !! program apply no moments to their nodes.
+   subroutine find_axes(deck, card, model, nodes, stiffness, directions, ok)
       type(checked_deck), intent(in) :: deck
       type(spring_card), intent(in)  :: card
       type(model_type), intent(in)   :: model
       integer, intent(in)            :: nodes(2)
-      real(wp), intent(in)           :: stiffness(6), directions(3, 3)
-      real(wp) :: lever
+      real(wp), intent(in)           :: stiffness(6)
+      real(wp), intent(out)          :: directions(3, 3) !! columns, unit
+      logical, intent(out)           :: ok
+      real(wp) :: along(3), lever
       integer  :: axis, end
 
+      directions = identity
+      ok = nodes(1) > 0 .and. (nodes(2) > 0 .or. card%nodes(2) == 0)
+      if (.not. ok) return
+      if (card%system > 0) then
+         call find_directions(deck, model%systems, card%line, card%system, model%x(:, nodes(1)), directions, ok, point='GA')
+      else if (card%system < 0 .and. nodes(2) > 0) then
+         along = model%x(:, nodes(2)) - model%x(:, nodes(1))
+         if (norm2(along) <= 0.0_wp) return
+         ok = all(stiffness([2, 3, 5, 6]) <= 0.0_wp)
+         if (ok) directions(:, 1) = along/norm2(along)
+         if (.not. ok) call deck%field_error(card%line, 'CID', 'blank, but GA and GB are apart and there is more than '// &
+            'K1 and K4; expected the system of its axes, 0 for global axes')
+      end if
+      if (.not. ok .or. nodes(2) == 0) return
       lever = 0.0_wp
       do axis = 1, model%dimension
          if (stiffness(axis) > 0.0_wp) lever = max(lever, norm2(cross(model%x(:, nodes(2)) - model%x(:, nodes(1)), &
@@ -270,57 +283,6 @@ contains
             'one of them tied to GA or GB by an RBAR')
          return
       end do
-   end subroutine check_levers
-
-   !> The stiffness of the spring of CARD (for a CELAS in the first component), and its structural damping.
-   subroutine find_stiffness(deck, card, stiffness, damping)
-      type(checked_deck), intent(in) :: deck
-      type(spring_card), intent(in)  :: card
-      real(wp), intent(out)          :: stiffness(6) !! [force/length], [moment]
-      real(wp), intent(out)          :: damping      !! [-]
-      integer :: k
-
-      stiffness = 0.0_wp
-      stiffness(1) = card%stiffness
-      damping = card%damping
-      if (card%property == 0) return
-      associate (laws => deck%bulk%spring_property)
-         k = findloc(laws%id == card%property .and. (laws%is_bush .eqv. card%is_bush), .true., dim=1)
-         if (k > 0) then
-            stiffness = laws(k)%stiffness
-            damping = laws(k)%damping
-         else
-            call deck%field_error(card%line, 'PID', 'there is no '//trim(merge('PBUSH', 'PELAS', card%is_bush))//' '// &
-                                  integer_text(card%property))
-         end if
-      end associate
-   end subroutine find_stiffness
-
-   !> The axes of a CBUSH at its first node: those of its system; without a system, the line between its nodes if it has K1 and K4
-   !! alone, and global axes if the nodes coincide.
-   subroutine find_axes(deck, card, model, nodes, stiffness, directions, ok)
-      type(checked_deck), intent(in) :: deck
-      type(spring_card), intent(in)  :: card
-      type(model_type), intent(in)   :: model
-      integer, intent(in)            :: nodes(2)
-      real(wp), intent(in)           :: stiffness(6)
-      real(wp), intent(out)          :: directions(3, 3) !! columns, unit
-      logical, intent(out)           :: ok
-
-      directions = identity
-      ok = nodes(1) > 0 .and. (nodes(2) > 0 .or. card%nodes(2) == 0)
-      if (.not. ok) return
-      if (card%system > 0) then
-         call find_directions(deck, model%systems, card%line, card%system, model%x(:, nodes(1)), directions, ok, point='GA')
-      else if (card%system < 0 .and. nodes(2) > 0) then
-         associate (along => model%x(:, nodes(2)) - model%x(:, nodes(1)))
-            if (norm2(along) <= 0.0_wp) return
-            ok = all(stiffness([2, 3, 5, 6]) <= 0.0_wp)
-            if (ok) directions(:, 1) = along/norm2(along)
-            if (.not. ok) call deck%field_error(card%line, 'CID', 'blank, but GA and GB are apart and there is more than '// &
-               'K1 and K4; expected the system of its axes, 0 for global axes')
-         end associate
-      end if
    end subroutine find_axes
 
 end module spring_build

@@ -122,25 +122,16 @@ contains
    pure function merged(a, b) result(f)
       real(wp), intent(in)  :: a(:), b(:)
       real(wp), allocatable :: f(:)
-      real(wp) :: c(size(a) + size(b))
-      logical  :: take_a
-      integer  :: i, j, k
+      integer :: i
 
-      i = 1
-      j = 1
-      do k = 1, size(c)
-         take_a = j > size(b)
-         if (.not. take_a .and. i <= size(a)) take_a = a(i) <= b(j)
-         if (take_a) then
-            c(k) = a(i)
-            i = i + 1
-         else
-            c(k) = b(j)
-            j = j + 1
-         end if
+      allocate (f(size(a) + size(b)))
+      do i = 1, size(a)
+         f(i + count(b < a(i))) = a(i)
       end do
-      f = c
-      if (size(c) > 1) f = pack(c, [.true., c(2:) - c(:size(c) - 1) > same_frequency*c(size(c))])
+      do i = 1, size(b)
+         f(i + count(a <= b(i))) = b(i)
+      end do
+      if (size(f) > 1) f = pack(f, [.true., f(2:) - f(:size(f) - 1) > same_frequency*f(size(f))])
    end function merged
 
    !> Plan the stages. A stage without INCR has one increment; so has METHOD = BACK.

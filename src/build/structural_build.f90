@@ -8,14 +8,14 @@ module structural_build
    use kinds, only: wp
    use lists, only: id_table_type
    use model_data, only: corners_of, is_beam, is_shell, model_type, n_rotations, rotation_type
-   use node_build, only: append_rotations
+   use node_build, only: append_unknowns
    use node_coupling, only: couple_node, node_axes
    use shell_membrane, only: shell_law
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_beams, build_rotations, build_shells, is_beam_edge, is_cut_beam, leave_out_idle, turn_rotations
+   public :: build_beams, build_rotations, build_shells, is_beam_edge, leave_out_idle
 
 contains
 
@@ -28,23 +28,16 @@ contains
                      .and. all(deck%bulk%pmark%id /= edge%property)
    end function is_beam_edge
 
-   !> Whether EDGE is a beam with a BOLT.
-   pure logical function is_cut_beam(deck, edge)
-      type(checked_deck), intent(in) :: deck
-      type(edge_card), intent(in)    :: edge
-
-      is_cut_beam = is_beam_edge(deck, edge)
-      if (is_cut_beam) is_cut_beam = any(deck%bulk%bolt%element == edge%id)
-   end function is_cut_beam
-
    !> Give a node of rotations, behind the nodes of the deck, to each node of shells and beams and each reference node of rigid elements.
    !! An axisymmetric model has none. Missing nodes are reported elsewhere.
    subroutine build_rotations(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(rotation_type), allocatable :: rotations(:)
+      integer, allocatable :: elements(:), n_elements(:), points(:)
       real(wp) :: square(model%n_nodes)
-      integer  :: count_of(model%n_nodes), e, i, n, node
+      integer  :: count_of(model%n_nodes), e, i, k, n, node
+      logical  :: turns
 
       if (model%axisymmetric) return
       if (size(deck%rigid) == 0 .and. all(model%properties%state < shell)) return
@@ -54,8 +47,9 @@ contains
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
             node = model%node_table%find(card%node)
-            if (node == 0 .or. .not. turns(model, card)) cycle
-            if (model%rotation_of(node) > 0) cycle
+            if (node == 0) cycle
+            turns = .not. card%is_mean .or. any([(has_component(card%components, k), k = merge(4, 6, model%dimension == 3), 6)])
+            if (.not. turns .or. model%rotation_of(node) > 0) cycle
             n = n + 1
             rotations(n) = rotation_type(point=node, arm=arm_of(model, node, card))
             model%rotation_of(node) = n
@@ -64,7 +58,7 @@ contains
       do i = 1, size(deck%rigid) ! an end of an RBAR without elements
          associate (card => deck%rigid(i))
             if (card%is_mean .or. card%surface > 0 .or. size(card%nodes) /= 1) cycle
-            if (.not. any([(has_component(card%components, node), node = 4, 6)])) cycle
+            if (.not. any([(has_component(card%components, k), k = 4, 6)])) cycle
             node = model%node_table%find(card%nodes(1))
             if (node == 0 .or. model%node_table%find(card%node) == 0) cycle
             if (model%rotation_of(node) > 0 .or. model%first_at(node + 1) > model%first_at(node)) cycle
@@ -95,9 +89,19 @@ contains
          end if
          rotations(model%rotation_of(node))%of_element = .true.
       end do
-      if (n > 0) model%rotations = rotations(:n)
-      if (n == 0) deallocate (model%rotation_of)
-      if (n > 0) call append_rotations(model)
+      if (n == 0) then
+         deallocate (model%rotation_of)
+         return
+      end if
+      model%rotations = rotations(:n)
+      ! a node for each of them, at its point, with the elements of the point if these have rotations; supports are not known yet
+      model%rotations%node = model%n_nodes + [(k, k = 1, n)]
+      points = [(rotations(k)%point, k = 1, n)]
+      associate (first => model%first_at)
+         n_elements = merge(first(points + 1) - first(points), 0, rotations(:n)%of_element)
+         elements = [(model%elements_at(first(points(k)):first(points(k)) + n_elements(k) - 1), k = 1, n)]
+      end associate
+      call append_unknowns(model, points, n_elements, elements, spread(.false., 1, model%dimension))
    end subroutine build_rotations
 
    !> Whether element E is a shell or a beam, by its property.
@@ -123,30 +127,6 @@ contains
          model%held(2, model%rotations(k)%node) = .true.
       end do
    end subroutine leave_out_idle
-
-   !> The rotations of a node in space are about the axes of its displacement system.
-   subroutine turn_rotations(model)
-      type(model_type), intent(inout) :: model
-      integer :: k
-
-      if (.not. allocated(model%node_system) .or. model%dimension == 2) return
-      do k = 1, n_rotations(model)
-         associate (rotation => model%rotations(k))
-            if (rotation%point > size(model%node_system)) cycle
-            if (model%node_system(rotation%point) > 0) call couple_node(model%coupling, model%n_nodes, rotation%node, &
-               [rotation%node], reshape(node_axes(model, rotation%point), [3, 3, 1]))
-         end associate
-      end do
-   end subroutine turn_rotations
-
-   !> Whether the reference node of CARD has rotations.
-   pure logical function turns(model, card)
-      type(model_type), intent(in) :: model
-      type(rigid_card), intent(in) :: card
-
-      turns = .not. card%is_mean .or. has_component(card%components, 6)
-      if (model%dimension == 3) turns = turns .or. has_component(card%components, 4) .or. has_component(card%components, 5)
-   end function turns
 
    !> Root mean square of the distances of the nodes of CARD from POINT; 1 where this is zero [length].
    pure real(wp) function arm_of(model, point, card) result(arm)
@@ -209,18 +189,63 @@ contains
       end do
    end subroutine build_shells
 
-   !> Build the beams of MODEL; displacement systems must be known.
+   !> Build the beams of MODEL; displacement systems must be known. Errors: a beam without length, or without plane 1.
    subroutine build_beams(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(id_table_type) :: edges
-      integer :: e
+      real(wp) :: x(3, 2)
+      integer  :: c, e, end, k, other
 
       if (.not. allocated(model%structural%beams)) return
       if (size(model%structural%beams) == 0) return
       call edges%build(deck%bulk%edge%id)
       do e = 1, model%n_elements
-         if (is_beam(model, e)) call build_beam(deck, deck%bulk%edge(edges%find(model%element_id(e))), model, e)
+         if (.not. is_beam(model, e)) cycle
+         if (any(model%element_nodes(:2, e) == 0)) cycle ! reported already
+         x = model%x(:, model%element_nodes(:2, e))
+         associate (card => deck%bulk%edge(edges%find(model%element_id(e))), &
+                    law => model%structural%beams(model%structural%place(e)), &
+                    property => model%properties(model%element_property(e)))
+            k = findloc(deck%bulk%beam_property%id, card%property, dim=1)
+            law%beam_section = deck%bulk%beam_property(k)%section
+            law%e = property%e
+            law%g = 0.5_wp*property%e/(1.0_wp + property%nu)
+            law%rho = property%rho
+            law%expansion = property%alpha
+            law%is_cut = any(deck%bulk%bolt%element == card%id)
+            law%extra_mass = deck%bulk%parameters%mass_factor*deck%bulk%beam_property(k)%extra_mass
+            law%released = [((has_component(card%pins(end), c), c = 1, 6), end = 1, 2)]
+            do end = 1, 2
+               law%offset(:, end) = matmul(node_axes(model, model%element_nodes(end, e)), card%offset(:, end))
+            end do
+            law%orientation = matmul(node_axes(model, model%element_nodes(1, e)), card%orientation)
+            if (card%nodes(3) > 0) then
+               other = model%node_table%find(card%nodes(3))
+               if (other == 0) then
+                  call deck%field_error(card%line, 'X1', 'there is no GRID '//integer_text(card%nodes(3))// &
+                                        ' to lie in plane 1, G0')
+                  cycle
+               end if
+               law%orientation = model%x(:, other) - x(:, 1)
+            end if
+            if (law%is_cut .and. (any(abs(law%offset) > 0.0_wp) .or. any(law%released([1, 7])))) call deck%errors%add(card%line, &
+               'beam '//integer_text(card%id)//' is a bolt; expected no offsets, and no pin along it')
+            if (.not. beam_length(law, x) > 0.0_wp) then
+               call deck%errors%add(card%line, 'beam '//integer_text(card%id)//' has no length')
+               cycle
+            end if
+            if (.not. norm2(law%orientation) > 0.0_wp) then
+               if (model%dimension == 3) then
+                  call deck%field_error(card%line, 'X1', &
+                     'blank: where plane 1 of the beam lies is not given; expected a vector X1, X2, X3 or a node G0')
+                  cycle
+               end if
+               law%orientation = [x(2, 1) - x(2, 2), x(1, 2) - x(1, 1), 0.0_wp] ! plane 1 is the plane of the model
+            end if
+            if (all(abs(beam_axes(law, x)) <= 0.0_wp)) call deck%field_error(card%line, 'X1', &
+               'the orientation of the beam lies along it, and gives no plane 1; expected a direction across the beam')
+         end associate
       end do
    end subroutine build_beams
 
@@ -261,59 +286,5 @@ contains
       end function material_of
 
    end subroutine find_shell
-
-   !> The law of beam E from its CARD. Errors: a beam without length, or without plane 1.
-   subroutine build_beam(deck, card, model, e)
-      type(checked_deck), intent(in)  :: deck
-      type(edge_card), intent(in)     :: card
-      type(model_type), intent(inout) :: model
-      integer, intent(in)             :: e
-      real(wp) :: x(3, 2)
-      integer  :: c, end, k, other
-
-      if (any(model%element_nodes(:2, e) == 0)) return ! reported already
-      x = model%x(:, model%element_nodes(:2, e))
-      associate (law => model%structural%beams(model%structural%place(e)), property => model%properties(model%element_property(e)))
-         k = findloc(deck%bulk%beam_property%id, card%property, dim=1)
-         law%beam_section = deck%bulk%beam_property(k)%section
-         law%e = property%e
-         law%g = 0.5_wp*property%e/(1.0_wp + property%nu)
-         law%rho = property%rho
-         law%expansion = property%alpha
-         law%is_cut = any(deck%bulk%bolt%element == card%id)
-         law%extra_mass = deck%bulk%parameters%mass_factor*deck%bulk%beam_property(k)%extra_mass
-         do end = 1, 2
-            law%offset(:, end) = matmul(node_axes(model, model%element_nodes(end, e)), card%offset(:, end))
-            do c = 1, 6
-               law%released(6*(end - 1) + c) = has_component(card%pins(end), c)
-            end do
-         end do
-         law%orientation = matmul(node_axes(model, model%element_nodes(1, e)), card%orientation)
-         if (card%nodes(3) > 0) then
-            other = model%node_table%find(card%nodes(3))
-            if (other == 0) then
-               call deck%field_error(card%line, 'X1', 'there is no GRID '//integer_text(card%nodes(3))//' to lie in plane 1, G0')
-               return
-            end if
-            law%orientation = model%x(:, other) - x(:, 1)
-         end if
-         if (law%is_cut .and. (any(abs(law%offset) > 0.0_wp) .or. any(law%released([1, 7])))) call deck%errors%add(card%line, &
-            'beam '//integer_text(card%id)//' is a bolt; expected no offsets, and no pin along it')
-         if (.not. beam_length(law, x) > 0.0_wp) then
-            call deck%errors%add(card%line, 'beam '//integer_text(card%id)//' has no length')
-            return
-         end if
-         if (.not. norm2(law%orientation) > 0.0_wp) then
-            if (model%dimension == 3) then
-               call deck%field_error(card%line, 'X1', &
-                  'blank: where plane 1 of the beam lies is not given; expected a vector X1, X2, X3 or a node G0')
-               return
-            end if
-            law%orientation = [x(2, 1) - x(2, 2), x(1, 2) - x(1, 1), 0.0_wp] ! plane 1 is the plane of the model
-         end if
-         if (all(abs(beam_axes(law, x)) <= 0.0_wp)) call deck%field_error(card%line, 'X1', &
-            'the orientation of the beam lies along it, and gives no plane 1; expected a direction across the beam')
-      end associate
-   end subroutine build_beam
 
 end module structural_build

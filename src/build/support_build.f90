@@ -15,7 +15,7 @@ module support_build
    implicit none
    private
 
-   public :: build_supports, hold, support_sets, add_moves, keep_moved, check_kept, summed_sets, check_sums
+   public :: build_supports, hold, move, keep_moved, check_kept, summed_sets, check_sums
 
    integer, parameter :: most_places = 12 ! of one node: six components, of a split node twice
 
@@ -26,7 +26,7 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       integer, allocatable :: sets(:)
-      integer :: i, set, set_line
+      integer :: i, set
 
       allocate (model%held(model%dimension, model%n_nodes), source=.false.)
       allocate (model%support_of(model%dimension, model%n_nodes), source=0)
@@ -45,10 +45,7 @@ contains
          call hold(model, model%node_table%find(deck%bulk%grid(i)%id), deck%bulk%grid(i)%ps)
       end do
       set = 0
-      if (size(deck%control%stages) > 0) then
-         set = deck%control%stages(1)%supports%id
-         set_line = deck%control%stages(1)%supports%line
-      end if
+      if (size(deck%control%stages) > 0) set = deck%control%stages(1)%supports%id
       allocate (sets, source=support_sets(deck))
       do i = 1, size(deck%bulk%support)
          associate (card => deck%bulk%support(i), active => any(sets == deck%bulk%support(i)%set))
@@ -59,8 +56,8 @@ contains
          end associate
       end do
       call check_sums(deck, 'SPCADD', deck%bulk%support_sum, deck%bulk%support%set, 'SPC, SPC1 or SPCM')
-      if (set > 0 .and. all(deck%bulk%support%set /= set) .and. all(deck%bulk%support_sum%set /= set)) &
-         call deck%errors%add(set_line, 'SPC: there is no SPC, SPC1, SPCM or SPCADD with set '//integer_text(set))
+      if (set > 0 .and. all(deck%bulk%support%set /= set) .and. all(deck%bulk%support_sum%set /= set)) call deck%errors%add( &
+         deck%control%stages(1)%supports%line, 'SPC: there is no SPC, SPC1, SPCM or SPCADD with set '//integer_text(set))
    end subroutine build_supports
 
    !> The active sets of supports: that of case control, or those of its SPCADD.
@@ -141,22 +138,6 @@ contains
       end associate
       model%support_groups = [model%support_groups, group]
    end subroutine open_group
-
-   !> Add FACTOR times the displacements of the SPCD cards of load set SET to LOADS.
-   subroutine add_moves(deck, model, set, factor, loads)
-      type(checked_deck), intent(in)       :: deck
-      type(model_type), intent(in)         :: model
-      integer, intent(in)                  :: set
-      real(wp), intent(in)                 :: factor
-      type(stage_load_type), intent(inout) :: loads
-      integer :: i
-
-      do i = 1, size(deck%bulk%displacement)
-         associate (card => deck%bulk%displacement(i))
-            if (card%set == set) call move(model, card%node, card%components, 1.0_wp, factor*card%value, loads)
-         end associate
-      end do
-   end subroutine add_moves
 
    !> Set the displacement of COMPONENTS of node ID in LOADS to SHARE of its former value plus VALUE.
    pure subroutine move(model, id, components, share, value, loads)

@@ -3,7 +3,7 @@ module temperature_build
    use deck_check, only: checked_deck
    use element_kinds, only: element_table
    use kinds, only: wp
-   use lists, only: id_table_type
+   use lists, only: first_not_below
    use model_data, only: a_bar, corners_of, is_shell, model_type, n_bars, n_points, temperature_type
    use text_tools, only: integer_text
    implicit none
@@ -18,12 +18,11 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       logical, allocatable :: given(:)
-      type(id_table_type) :: elements
-      integer :: before, s
+      logical :: needs_one(model%n_nodes) ! nodes of bodies and bars
+      integer :: before, i, s
 
       call check_nodes(deck, model)
-      if (size(deck%bulk%plate_temperature) > 0) call elements%build(model%element_id)
-      call check_plates(deck, model, elements)
+      call check_plates(deck, model)
       do s = 1, size(deck%control%stages)
          associate (reference => deck%control%stages(s)%temperature, stages => deck%control%stages)
             if (reference%id == 0) cycle
@@ -45,9 +44,16 @@ contains
                allocate (temperature%at(model%n_nodes), source=0.0_wp)
                temperature%reference_share = 1.0_wp
                call fill_in(deck, model, reference%id, temperature%at, given)
-               call set_plate_temperatures(deck, model, elements, reference%id, temperature, given)
+               call set_plate_temperatures(deck, model, reference%id, temperature, given)
             end associate
-            if (.not. deck%errors%any()) call check_whole(deck, model, s, given)
+            if (deck%errors%any()) cycle
+            needs_one = model%first_at(2:) > model%first_at(:model%n_nodes)
+            do i = 1, n_bars(model)
+               if (model%bars(i)%kind == a_bar) needs_one(model%bars(i)%nodes) = .true.
+            end do
+            i = findloc(needs_one(:n_points(model)) .and. .not. given(:n_points(model)), .true., dim=1)
+            if (i > 0) call deck%errors%add(reference%line, 'TEMPERATURE: node '//integer_text(model%node_id(i))// &
+               ' has no temperature in set '//integer_text(reference%id)//'; expected a TEMP of it, or a TEMPD')
          end associate
       end do
    end subroutine build_temperatures
@@ -142,10 +148,9 @@ contains
    end subroutine fill_in
 
    !> Errors of TEMPP1: missing shells, and a shell named twice in a set.
-   subroutine check_plates(deck, model, elements)
+   subroutine check_plates(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(in)    :: model
-      type(id_table_type), intent(in) :: elements !! numbers of all
       integer :: i, k, twice
       integer, allocatable :: set_of(:) ! (elements) set of the last card that named the element
 
@@ -154,7 +159,7 @@ contains
          associate (card => deck%bulk%plate_temperature(i))
             do k = 1, size(card%ranges%first)
                if (card%ranges%first(k) == 0) cycle ! reported already
-               associate (named => plates_of(model, elements, card%ranges%first(k), card%ranges%last(k)))
+               associate (named => plates_of(model, card%ranges%first(k), card%ranges%last(k)))
                   twice = findloc(set_of(named), card%set, dim=1)
                   if (size(named) == 0) then
                      call deck%field_error(card%line, card%ranges%at(k), 'there is no shell with this number; expected '// &
@@ -172,26 +177,23 @@ contains
    end subroutine check_plates
 
    !> The shells with numbers from FIRST to LAST.
-   pure function plates_of(model, elements, first, last) result(named)
-      type(model_type), intent(in)    :: model
-      type(id_table_type), intent(in) :: elements
-      integer, intent(in)             :: first, last
+   pure function plates_of(model, first, last) result(named)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: first, last
       integer, allocatable :: named(:)
       integer :: e
 
-      if (first < last) then
-         named = pack([(e, e = 1, model%n_elements)], model%element_id >= first .and. model%element_id <= last)
-      else
-         named = pack([elements%find(first)], [elements%find(first) > 0])
-      end if
+      associate (id => model%element_id, low => first_not_below(model%element_id, first), most => max(first, last))
+         named = [(e, e = low, min(first_not_below(id, most), size(id)))]
+         named = pack(named, id(named) >= first .and. id(named) <= most)
+      end associate
       named = pack(named, [(is_shell(model, named(e)), e = 1, size(named))])
    end function plates_of
 
    !> Temperatures of the shells of SET from TEMPP1. Nodes that have no other temperature get that of these shells, and are then GIVEN.
-   subroutine set_plate_temperatures(deck, model, elements, set, temperature, given)
+   subroutine set_plate_temperatures(deck, model, set, temperature, given)
       type(checked_deck), intent(in)        :: deck
       type(model_type), intent(in)          :: model
-      type(id_table_type), intent(in)       :: elements
       integer, intent(in)                   :: set
       type(temperature_type), intent(inout) :: temperature
       logical, intent(inout)                :: given(:)
@@ -202,7 +204,7 @@ contains
       do i = 1, size(deck%bulk%plate_temperature)
          associate (card => deck%bulk%plate_temperature(i))
             do k = 1, merge(size(card%ranges%first), 0, card%set == set)
-               card_of(plates_of(model, elements, card%ranges%first(k), card%ranges%last(k))) = i
+               card_of(plates_of(model, card%ranges%first(k), card%ranges%last(k))) = i
             end do
          end associate
       end do
@@ -223,25 +225,5 @@ contains
          end associate
       end do
    end subroutine set_plate_temperatures
-
-   !> Error: a node of a body or bar without a temperature in stage S.
-   subroutine check_whole(deck, model, s, given)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      integer, intent(in)            :: s
-      logical, intent(in)            :: given(:)
-      logical :: needs_one(model%n_nodes)
-      integer :: i
-
-      needs_one = model%first_at(2:) > model%first_at(:model%n_nodes)
-      do i = 1, n_bars(model)
-         if (model%bars(i)%kind == a_bar) needs_one(model%bars(i)%nodes) = .true.
-      end do
-      i = findloc(needs_one(:n_points(model)) .and. .not. given(:n_points(model)), .true., dim=1)
-      associate (reference => deck%control%stages(s)%temperature)
-         if (i > 0) call deck%errors%add(reference%line, 'TEMPERATURE: node '//integer_text(model%node_id(i))// &
-            ' has no temperature in set '//integer_text(reference%id)//'; expected a TEMP of it, or a TEMPD')
-      end associate
-   end subroutine check_whole
 
 end module temperature_build

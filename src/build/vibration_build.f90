@@ -5,8 +5,6 @@ module vibration_build
    use bulk_data, only: freq1_card
    use case_entries, only: limit_type, number_set, numbers_in_set
    use deck_check, only: checked_deck
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
    use kinds, only: wp
    use model_data, only: model_type, stage_load_type
    use stage_plan, only: stage_plan_type, backbone_plan, merged, response_plan, vibration_plan_type
@@ -16,66 +14,55 @@ module vibration_build
    implicit none
    private
 
-   public :: plan_vibrations, merged_frequencies, find_shown_nodes, find_limited_nodes
+   public :: plan_vibrations, find_shown_nodes
 
 contains
 
-   !> Plan the vibration of the stages with MODES.
+   !> Plan the vibration of the stages with MODES. A blank ND means the lowest mode, or with V2 all modes up to it, as in NASTRAN.
+   !! Frequencies are not negative, so that V1 <= 0 is no limit.
    subroutine plan_vibrations(deck, model, oscillating, plan)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
       type(stage_load_type), intent(in)    :: oscillating(:) !! (stages) the loads of DLOAD
       type(stage_plan_type), intent(inout) :: plan
-      integer :: s, undamped
+      integer :: k, s, undamped
 
       undamped = 0
       do s = 1, size(plan%stages)
-         associate (asked => deck%control%stages(s)%vibration)
-            if (asked%modes%id == 0) cycle
-            plan%has_modes = .true.
-            allocate (plan%stages(s)%vibration)
-            call plan_modes(deck, model, asked, plan%stages(s)%vibration)
-            if (asked%backbone%id > 0) call plan_backbone(deck, model, asked, plan%stages(s)%vibration)
+         if (deck%control%stages(s)%vibration%modes%id == 0) cycle
+         plan%has_modes = .true.
+         allocate (plan%stages(s)%vibration)
+         associate (asked => deck%control%stages(s)%vibration, vibration => plan%stages(s)%vibration)
+            vibration%id = asked%modes%id
+            vibration%free = asked%free
+            vibration%on_loading = asked%on_loading
+            vibration%amplitude = asked%amplitude
+            vibration%damping = deck%bulk%parameters%damping
+            vibration%has_losses = vibration%amplitude > 0.0_wp .or. vibration%damping > 0.0_wp .or. &
+                                   any(model%properties%damping > 0.0_wp) .or. any(model%bars%damping > 0.0_wp)
+            k = findloc(deck%bulk%eigrl%id, asked%modes%id, dim=1)
+            if (k == 0) then
+               call deck%errors%add(asked%modes%line, 'MODES: there is no EIGRL '//integer_text(asked%modes%id))
+            else
+               vibration%eigrl_card = deck%bulk%eigrl(k)
+               if (vibration%most == 0 .and. .not. vibration%has_highest) vibration%most = 1
+               vibration%has_lowest = vibration%has_lowest .and. vibration%lowest > 0.0_wp
+               if (.not. vibration%has_lowest) vibration%lowest = 0.0_wp
+            end if
+            if (asked%backbone%id > 0) call plan_backbone(deck, model, asked, vibration)
             plan%has_backbones = plan%has_backbones .or. asked%backbone%id > 0
             if (asked%frequency%id == 0) cycle
-            if (asked%damping%id == 0 .and. .not. plan%stages(s)%vibration%has_losses .and. asked%frequency%line /= undamped) then
+            if (asked%damping%id == 0 .and. .not. vibration%has_losses .and. asked%frequency%line /= undamped) then
                undamped = asked%frequency%line ! one warning for an entry above all stages
                call deck%errors%add(undamped, 'FREQUENCY: expected damping: SDAMPING, AMPLITUDE for the loss factors of the '// &
                   'joints, PARAM G, or GE on a MAT1; without it peaks are unbounded')
             end if
             plan%has_responses = .true.
-            allocate (plan%stages(s)%vibration%response)
-            call plan_response(deck, model, asked, oscillating(s), plan%stages(s)%vibration%response)
+            allocate (vibration%response)
+            call plan_response(deck, model, asked, oscillating(s), vibration%response)
          end associate
       end do
    end subroutine plan_vibrations
-
-   !> MODES of one stage. A blank ND means the lowest mode, or with V2 all modes up to it, as in NASTRAN. Frequencies are not
-   !! negative, so that V1 <= 0 is no limit.
-   subroutine plan_modes(deck, model, asked, vibration)
-      type(checked_deck), intent(in)           :: deck
-      type(model_type), intent(in)             :: model
-      type(vibration_entries_type), intent(in) :: asked
-      type(vibration_plan_type), intent(out)   :: vibration
-      integer :: k
-
-      vibration%id = asked%modes%id
-      vibration%free = asked%free
-      vibration%on_loading = asked%on_loading
-      vibration%amplitude = asked%amplitude
-      vibration%damping = deck%bulk%parameters%damping
-      vibration%has_losses = vibration%amplitude > 0.0_wp .or. vibration%damping > 0.0_wp .or. &
-                             any(model%properties%damping > 0.0_wp) .or. any(model%bars%damping > 0.0_wp)
-      k = findloc(deck%bulk%eigrl%id, asked%modes%id, dim=1)
-      if (k == 0) then
-         call deck%errors%add(asked%modes%line, 'MODES: there is no EIGRL '//integer_text(asked%modes%id))
-         return
-      end if
-      vibration%eigrl_card = deck%bulk%eigrl(k)
-      if (vibration%most == 0 .and. .not. vibration%has_highest) vibration%most = 1
-      vibration%has_lowest = vibration%has_lowest .and. vibration%lowest > 0.0_wp
-      if (.not. vibration%has_lowest) vibration%lowest = 0.0_wp
-   end subroutine plan_modes
 
    !> BACKBONE of one stage, with ascending amplitudes.
    subroutine plan_backbone(deck, model, asked, vibration)
@@ -120,9 +107,20 @@ contains
       type(stage_load_type), intent(in)        :: load
       type(response_plan), intent(out)         :: response
       logical, allocatable :: are_named(:)
-      integer :: k
+      integer :: i, k
 
-      response%frequencies = merged_frequencies(pack(deck%bulk%freq1, deck%bulk%freq1%set == asked%frequency%id))
+      allocate (response%frequencies(0))
+      do i = 1, size(deck%bulk%freq1)
+         associate (card => deck%bulk%freq1(i))
+            if (card%set /= asked%frequency%id) cycle
+            if (card%last > 0.0_wp) then
+               response%frequencies = merged(response%frequencies, &
+                                             [(card%first*(card%last/card%first)**(real(k, wp)/card%n), k = 0, card%n)])
+            else
+               response%frequencies = merged(response%frequencies, [(card%first + k*card%step, k = 0, card%n)])
+            end if
+         end associate
+      end do
       response%spreads = pack(deck%bulk%freq4, deck%bulk%freq4%set == asked%frequency%id)
       if (size(response%frequencies) + size(response%spreads) == 0) call deck%errors%add(asked%frequency%line, &
          'FREQUENCY: there is no FREQ1, FREQ2 or FREQ4 with set '//integer_text(asked%frequency%id))
@@ -139,37 +137,18 @@ contains
          if (k == 0) call deck%errors%add(asked%damping%line, 'SDAMPING: there is no TABDMP1 '//integer_text(asked%damping%id))
       end if
       if (.not. allocated(asked%response)) return
-      call find_limited_nodes(deck%control%sets, model, 'RESPONSE', asked%response, are_named, deck%errors)
+      call find_limited_nodes(deck, model, 'RESPONSE', asked%response, are_named)
       are_named = are_named .and. model%used .and. model%node_id > 0
       response%nodes = pack([(k, k = 1, model%n_nodes)], are_named)
       if (size(response%nodes) == 0 .and. .not. deck%errors%any()) call deck%errors%add(asked%response(1)%line, &
          'RESPONSE: names no node of an element')
    end subroutine plan_response
 
-   !> The frequencies of all CARDS, ascending, each once [1/time].
-   pure function merged_frequencies(cards) result(f)
-      type(freq1_card), intent(in) :: cards(:)
-      real(wp), allocatable :: f(:)
-      integer :: i, k
-
-      allocate (f(0))
-      do i = 1, size(cards)
-         associate (card => cards(i))
-            if (card%last > 0.0_wp) then
-               f = merged(f, [(card%first*(card%last/card%first)**(real(k, wp)/card%n), k = 0, card%n)])
-            else
-               f = merged(f, [(card%first + k*card%step, k = 0, card%n)])
-            end if
-         end associate
-      end do
-   end function merged_frequencies
-
    !> Set SHOWN of the limited stages of PLAN, and WATCHED of the stages with WATCH.
-   subroutine find_shown_nodes(deck, model, plan, errors)
-      type(deck_type), intent(in)          :: deck
+   subroutine find_shown_nodes(deck, model, plan)
+      type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(inout) :: plan
-      type(deck_error_list), intent(inout) :: errors
       logical, allocatable :: are_named(:)
       integer :: i, s
 
@@ -177,12 +156,12 @@ contains
          associate (given => deck%control%stages(s), stage => plan%stages(s))
             if (allocated(given%watch)) then
                plan%has_watched_nodes = .true.
-               call find_limited_nodes(deck%control%sets, model, 'WATCH', given%watch, are_named, errors)
+               call find_limited_nodes(deck, model, 'WATCH', given%watch, are_named)
                stage%watched = pack([(i, i = 1, model%n_nodes)], are_named .and. model%used .and. model%node_id > 0)
-               if (size(stage%watched) == 0) call errors%add(given%watch(1)%line, 'WATCH: names no node of an element')
+               if (size(stage%watched) == 0) call deck%errors%add(given%watch(1)%line, 'WATCH: names no node of an element')
             end if
             if (.not. allocated(given%only)) cycle
-            call find_limited_nodes(deck%control%sets, model, 'OUTPUT', given%only, stage%shown, errors)
+            call find_limited_nodes(deck, model, 'OUTPUT', given%only, stage%shown)
             do i = 1, size(given%only)
                associate (only => given%only(i))
                   stage%shown_words = stage%shown_words//trim(merge(', ONLY PMARK', ', ONLY SET  ', only%is_mark))//' '// &
@@ -193,14 +172,13 @@ contains
       end do
    end subroutine find_shown_nodes
 
-   !> The nodes of MODEL that entry KEY of case control names by its LIMITS; missing sets and surfaces are added to ERRORS.
-   subroutine find_limited_nodes(sets, model, key, limits, are_named, errors)
-      type(number_set), intent(in)         :: sets(:) !! of case control
-      type(model_type), intent(in)         :: model
-      character(*), intent(in)             :: key
-      type(limit_type), intent(in)         :: limits(:)
-      logical, allocatable, intent(out)    :: are_named(:) !! (n_nodes)
-      type(deck_error_list), intent(inout) :: errors
+   !> The nodes of MODEL that entry KEY of case control names by its LIMITS. Errors: missing sets and surfaces.
+   subroutine find_limited_nodes(deck, model, key, limits, are_named)
+      type(checked_deck), intent(in)    :: deck
+      type(model_type), intent(in)      :: model
+      character(*), intent(in)          :: key
+      type(limit_type), intent(in)      :: limits(:)
+      logical, allocatable, intent(out) :: are_named(:) !! (n_nodes)
       integer :: at, i
 
       allocate (are_named(model%n_nodes), source=.false.)
@@ -210,38 +188,39 @@ contains
                at = findloc(model%surfaces%id, only%id, dim=1)
                if (at > 0) are_named(nodes_of(model%surfaces(at))) = .true.
             else
-               at = findloc(sets%id, only%id, dim=1, back=.true.)
-               if (at > 0) call find_set_nodes(sets(at), model, are_named, errors)
+               at = findloc(deck%control%sets%id, only%id, dim=1, back=.true.)
+               if (at > 0) call add_set(deck%control%sets(at))
             end if
-            if (at == 0) call errors%add(only%line, key//': there is no '//trim(merge('PMARK', 'SET  ', only%is_mark))//' '// &
-                                         integer_text(only%id))
+            if (at == 0) call deck%errors%add(only%line, key//': there is no '//trim(merge('PMARK', 'SET  ', only%is_mark))// &
+                                              ' '//integer_text(only%id))
          end associate
       end do
+
+   contains
+
+      !> Add the nodes of SET: its numbers, those of NODEAT included, and the nodes of the marked surfaces that it names.
+      subroutine add_set(set)
+         type(number_set), intent(in) :: set
+         integer, allocatable :: marks(:), numbers(:)
+         logical, allocatable :: are_in(:)
+         integer :: at, i
+
+         allocate (numbers, source=model%node_id)
+         if (allocated(model%placed)) numbers = [numbers, model%placed%id]
+         allocate (are_in(size(numbers)))
+         call numbers_in_set(set, numbers, are_in, marks, deck%errors)
+         are_named = are_named .or. are_in(:model%n_nodes)
+         do i = model%n_nodes + 1, size(numbers)
+            if (are_in(i) .and. numbers(i) > 0) are_named(model%placed(i - model%n_nodes)%node) = .true.
+         end do
+         do i = 1, size(marks)
+            at = findloc(model%surfaces%id, marks(i), dim=1)
+            if (at > 0) are_named(nodes_of(model%surfaces(at))) = .true.
+            if (at == 0) call deck%errors%add(set%line, 'SET '//integer_text(set%id)//': there is no PMARK '// &
+                                              integer_text(marks(i)))
+         end do
+      end subroutine add_set
+
    end subroutine find_limited_nodes
-
-   !> Add the nodes of SET: its numbers, those of NODEAT included, and the nodes of the marked surfaces that it names.
-   subroutine find_set_nodes(set, model, are_named, errors)
-      type(number_set), intent(in)         :: set
-      type(model_type), intent(in)         :: model
-      logical, intent(inout)               :: are_named(:) !! (n_nodes)
-      type(deck_error_list), intent(inout) :: errors
-      integer, allocatable :: marks(:), numbers(:)
-      logical, allocatable :: are_in(:)
-      integer :: at, i
-
-      allocate (numbers, source=model%node_id)
-      if (allocated(model%placed)) numbers = [numbers, model%placed%id]
-      allocate (are_in(size(numbers)))
-      call numbers_in_set(set, numbers, are_in, marks, errors)
-      are_named = are_named .or. are_in(:model%n_nodes)
-      do i = model%n_nodes + 1, size(numbers)
-         if (are_in(i) .and. numbers(i) > 0) are_named(model%placed(i - model%n_nodes)%node) = .true.
-      end do
-      do i = 1, size(marks)
-         at = findloc(model%surfaces%id, marks(i), dim=1)
-         if (at > 0) are_named(nodes_of(model%surfaces(at))) = .true.
-         if (at == 0) call errors%add(set%line, 'SET '//integer_text(set%id)//': there is no PMARK '//integer_text(marks(i)))
-      end do
-   end subroutine find_set_nodes
 
 end module vibration_build

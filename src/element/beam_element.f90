@@ -165,7 +165,7 @@ contains
       real(wp), intent(inout), optional :: f(12), m(12, 12)
       real(wp), parameter :: rounding = 1.0e-12_wp
       real(wp) :: ratio(12), whole(12)
-      integer  :: c, r
+      integer  :: r
 
       whole = [(k(r, r), r = 1, 12)]
       do r = 1, 12
@@ -176,18 +176,12 @@ contains
          if (present(f)) f = f - ratio*f(r)
          if (present(m)) then
             ratio(r) = 0.0_wp
-            do c = 1, 12
-               if (c /= r) m(:, c) = m(:, c) - m(:, r)*ratio(c)
-            end do
-            do c = 1, 12
-               if (c /= r) m(c, :) = m(c, :) - m(r, :)*ratio(c)
-            end do
+            m = m - spread(m(:, r), 2, 12)*spread(ratio, 1, 12)
+            m = m - spread(m(r, :), 1, 12)*spread(ratio, 2, 12)
             m(r, :) = 0.0_wp
             m(:, r) = 0.0_wp
          end if
-         do c = 1, 12
-            if (c /= r) k(:, c) = k(:, c) - k(:, r)*ratio(c)
-         end do
+         k = k - spread(k(:, r), 2, 12)*spread(ratio, 1, 12)
          k(r, :) = 0.0_wp
          k(:, r) = 0.0_wp
       end do

@@ -34,7 +34,7 @@ contains
       real(wp), intent(in)                   :: d(:) !! [length], > 0
       type(beam_section), intent(out)        :: section
       character(:), allocatable, intent(out) :: expected
-      real(wp) :: r(4, 3) ! rectangles: height (negative where one is subtracted), width along z, y and z of the centre
+      real(wp) :: inner, r(4, 3) ! r: rectangles: height (negative where one is subtracted), width along z, y and z of the centre
       integer  :: n
 
       expected = ''
@@ -42,7 +42,17 @@ contains
       r = 0.0_wp
       select case (name)
       case ('ROD', 'TUBE', 'TUBE2')
-         call make_round(name, d, section, expected)
+         inner = 0.0_wp
+         if (name == 'TUBE') inner = d(2)
+         if (name == 'TUBE2') inner = d(1) - d(2)
+         if (name == 'TUBE' .and. .not. d(1) > inner) expected = 'DIM1, the outer radius, larger than DIM2, the inner one'
+         if (name == 'TUBE2' .and. inner < 0.0_wp) expected = 'DIM2, the thickness, at most DIM1, the outer radius'
+         if (expected /= '') return
+         section%area = pi*(d(1)**2 - inner**2)
+         section%inertia(:2) = 0.25_wp*pi*(d(1)**4 - inner**4)
+         section%torsion = 2.0_wp*section%inertia(1)
+         section%shear = merge(0.9_wp, 0.5_wp, name == 'ROD')
+         section%point = d(1)*reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, -1.0_wp, 0.0_wp, 0.0_wp, -1.0_wp], [2, 4])
          return
       case ('BAR') ! width along z, height along y
          n = 1
@@ -97,27 +107,6 @@ contains
       call add_up(r(:, :n), section)
       if (name /= 'BAR') section%shear = section%shear/section%area
    end subroutine section_of
-
-   !> SECTION of a round bar or tube, likewise.
-   pure subroutine make_round(name, d, section, expected)
-      character(*), intent(in)                 :: name
-      real(wp), intent(in)                     :: d(:)
-      type(beam_section), intent(inout)        :: section
-      character(:), allocatable, intent(inout) :: expected
-      real(wp) :: inner
-
-      inner = 0.0_wp
-      if (name == 'TUBE') inner = d(2)
-      if (name == 'TUBE2') inner = d(1) - d(2)
-      if (name == 'TUBE' .and. .not. d(1) > inner) expected = 'DIM1, the outer radius, larger than DIM2, the inner one'
-      if (name == 'TUBE2' .and. inner < 0.0_wp) expected = 'DIM2, the thickness, at most DIM1, the outer radius'
-      if (expected /= '') return
-      section%area = pi*(d(1)**2 - inner**2)
-      section%inertia(:2) = 0.25_wp*pi*(d(1)**4 - inner**4)
-      section%torsion = 2.0_wp*section%inertia(1)
-      section%shear = merge(0.9_wp, 0.5_wp, name == 'ROD')
-      section%point = d(1)*reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, -1.0_wp, 0.0_wp, 0.0_wp, -1.0_wp], [2, 4])
-   end subroutine make_round
 
    !> Area, moments of inertia and stress points of rectangles R: height (negative: subtracted), width, y and z of the centre. C and E are
    !! the top and bottom corners of the outline at its largest z, D and F those at its smallest z.

@@ -51,46 +51,24 @@ contains
       real(wp), intent(in)          :: x(:, :)                              !! as in stiffness
       real(wp), intent(inout)       :: full(max_unknowns, max_unknowns)     !! [force/length]
       integer, intent(out)          :: n, n_all                             !! unknowns of the nodes; of nodes and modes
-      type(element_map) :: map
-      real(wp) :: products(3, 3, max_pairs), factor
-      integer  :: i, j, p
-
-      call map_element(law, x, map)
-      call integrate_products(law, map, products)
-      call assemble(law, map%n + map%n_modes, products, full)
-      associate (d => merge(3, 2, law%state == solid))
-         n = d*map%n
-         n_all = n + d*map%n_modes
-      end associate
-      do p = n_all, n + 1, -1
-         do j = 1, p - 1
-            factor = full(j, p)/full(p, p)
-            do i = 1, j
-               full(i, j) = full(i, j) - factor*full(i, p)
-            end do
-         end do
-      end do
-   end subroutine condensed_stiffness
-
-   !> Integrals of g_a(i) g_b(j) in (a, b) for all pairs of shape functions i <= j; for a plane body two components are set.
-   pure subroutine integrate_products(law, map, products)
-      type(element_law), intent(in) :: law
-      type(element_map), intent(in) :: map
-      real(wp), intent(inout)       :: products(3, 3, max_pairs)            !! pairs (1,1), (1,2), (2,2), (1,3), ... are set
+      type(element_map)      :: map
       type(integration_rule) :: rule
-      real(wp) :: g(3, max_shapes), volume, w, w1, w2, w3
-      integer  :: i, j, k, n, pair
+      real(wp) :: products(3, 3, max_pairs), factor, g(3, max_shapes), volume, w, w1, w2, w3
+      integer  :: i, j, k, p, pair, shapes
       logical  :: has_three
 
+      ! integrals of g_a(i) g_b(j) in (a, b) for all pairs of shape functions i <= j, (1,1), (1,2), (2,2), (1,3), ...; for a plane body
+      ! of two components
+      call map_element(law, x, map)
       has_three = law%state == solid .or. law%state == axisymmetric
-      n = map%n + map%n_modes
-      products(:, :, :n*(n + 1)/2) = 0.0_wp
+      shapes = map%n + map%n_modes
+      products(:, :, :shapes*(shapes + 1)/2) = 0.0_wp
       call body_rule(law%kind, law%state == axisymmetric, rule)
       do k = 1, rule%n
          call map_point(law, map, rule%point(:, k), g, volume)
          w = rule%weight(k)*volume
          pair = 0
-         do j = 1, n
+         do j = 1, shapes
             w1 = w*g(1, j)
             w2 = w*g(2, j)
             if (has_three) w3 = w*g(3, j)
@@ -109,7 +87,20 @@ contains
             end do
          end do
       end do
-   end subroutine integrate_products
+      call assemble(law, shapes, products, full)
+      associate (d => merge(3, 2, law%state == solid))
+         n = d*map%n
+         n_all = n + d*map%n_modes
+      end associate
+      do p = n_all, n + 1, -1
+         do j = 1, p - 1
+            factor = full(j, p)/full(p, p)
+            do i = 1, j
+               full(i, j) = full(i, j) - factor*full(i, p)
+            end do
+         end do
+      end do
+   end subroutine condensed_stiffness
 
    !> [B_i]^T [D] [B_j] for all i <= j of N shape functions. Strains in the plane: xx = g_x u, yy = g_y v, xy = g_y u + g_x v;
    !! axisymmetric: rr = g_r u, zz = g_z v, theta theta = h u, rz = g_z u + g_r v, where h = N/r; of a solid: xx = g_x u,
@@ -119,17 +110,18 @@ contains
       integer, intent(in)           :: n
       real(wp), intent(in)          :: products(3, 3, max_pairs)
       real(wp), intent(inout)       :: full(max_unknowns, max_unknowns)     !! upper triangle; the lower one is undefined
-      integer :: c, i, j, pair, r
+      integer :: c, components, i, j, pair, r
 
+      components = merge(3, 2, law%state == solid)
       pair = 0
       do j = 1, n
          do i = 1, j
             pair = pair + 1
+            r = components*(i - 1) + 1
+            c = components*(j - 1) + 1
             associate (d => law%d, g => products(:, :, pair))
                select case (law%state)
                case (solid)
-                  r = 3*i - 2
-                  c = 3*j - 2
                   full(r, c) = d(1, 1)*g(1, 1) + d(4, 4)*g(2, 2) + d(6, 6)*g(3, 3)
                   full(r + 1, c) = d(2, 1)*g(2, 1) + d(4, 4)*g(1, 2)
                   full(r + 2, c) = d(3, 1)*g(3, 1) + d(6, 6)*g(1, 3)
@@ -140,15 +132,11 @@ contains
                   full(r + 1, c + 2) = d(2, 3)*g(2, 3) + d(5, 5)*g(3, 2)
                   full(r + 2, c + 2) = d(3, 3)*g(3, 3) + d(5, 5)*g(2, 2) + d(6, 6)*g(1, 1)
                case (axisymmetric)
-                  r = 2*i - 1
-                  c = 2*j - 1
                   full(r, c) = d(1, 1)*g(1, 1) + d(1, 3)*g(1, 3) + d(3, 1)*g(3, 1) + d(3, 3)*g(3, 3) + d(4, 4)*g(2, 2)
                   full(r + 1, c) = d(2, 1)*g(2, 1) + d(2, 3)*g(2, 3) + d(4, 4)*g(1, 2)
                   full(r, c + 1) = d(1, 2)*g(1, 2) + d(3, 2)*g(3, 2) + d(4, 4)*g(2, 1)
                   full(r + 1, c + 1) = d(2, 2)*g(2, 2) + d(4, 4)*g(1, 1)
                case default
-                  r = 2*i - 1
-                  c = 2*j - 1
                   full(r, c) = d(1, 1)*g(1, 1) + d(3, 3)*g(2, 2)
                   full(r + 1, c) = d(2, 1)*g(2, 1) + d(3, 3)*g(1, 2)
                   full(r, c + 1) = d(1, 2)*g(1, 2) + d(3, 3)*g(2, 1)

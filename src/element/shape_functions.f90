@@ -45,39 +45,13 @@ contains
       end do
    end subroutine wedge_derivatives
 
-   !> Shape functions of the quadrilateral and the hexahedron. At a corner: the product of the linear functions of all coordinates and a
-   !! factor that vanishes at the adjacent mid-edge nodes. On an edge: a parabola along it times linear functions of the other coordinates.
-   pure subroutine serendipity_values(kind, point, n)
+   !> Shape functions N of the quadrilateral and the hexahedron, and their derivatives DN. At a corner: the product of the linear functions
+   !! of all coordinates and a factor that vanishes at the adjacent mid-edge nodes. On an edge: a parabola along it times linear functions
+   !! of the other coordinates.
+   pure subroutine serendipity(kind, point, n, dn)
       integer, intent(in)     :: kind
       real(wp), intent(in)    :: point(3)
-      real(wp), intent(inout) :: n(max_nodes)
-      real(wp) :: whole, x(3)
-      integer  :: a, b, c, corners, d, i
-
-      d = element_table(kind)%dimension
-      corners = element_table(kind)%n_corners
-      whole = merge(0.25_wp, 0.125_wp, d == 2)
-      x = 0.0_wp
-      x(:d) = point(:d)
-      associate (p => node_point(:, :, kind))
-         do i = 1, corners
-            n(i) = whole*(1.0_wp + x(1)*p(1, i))*(1.0_wp + x(2)*p(2, i))*(1.0_wp + x(3)*p(3, i))* &
-                   (x(1)*p(1, i) + x(2)*p(2, i) + x(3)*p(3, i) - (d - 1))
-         end do
-         do i = corners + 1, element_table(kind)%n_nodes
-            a = along(i - corners)
-            b = next(a)
-            c = next(b)
-            n(i) = 2.0_wp*whole*(1.0_wp - x(a))*(1.0_wp + x(a))*(1.0_wp + x(b)*p(b, i))*(1.0_wp + x(c)*p(c, i))
-         end do
-      end associate
-   end subroutine serendipity_values
-
-   !> The derivatives of the functions of serendipity_values.
-   pure subroutine serendipity_derivatives(kind, point, dn)
-      integer, intent(in)     :: kind
-      real(wp), intent(in)    :: point(3)
-      real(wp), intent(inout) :: dn(3, max_nodes)
+      real(wp), intent(inout), optional :: n(max_nodes), dn(3, max_nodes)
       real(wp) :: bubble, f(3), inner, whole, x(3)
       integer  :: a, b, c, corners, d, i
 
@@ -90,6 +64,8 @@ contains
          do i = 1, corners
             inner = x(1)*p(1, i) + x(2)*p(2, i) + x(3)*p(3, i) - (d - 1)
             f = 1.0_wp + x*p(:, i)
+            if (present(n)) n(i) = whole*f(1)*f(2)*f(3)*inner
+            if (.not. present(dn)) cycle
             dn(1, i) = whole*p(1, i)*f(2)*f(3)*(inner + f(1))
             dn(2, i) = whole*p(2, i)*f(3)*f(1)*(inner + f(2))
             if (d == 3) dn(3, i) = whole*p(3, i)*f(1)*f(2)*(inner + f(3))
@@ -99,14 +75,15 @@ contains
             b = next(a)
             c = next(b)
             bubble = 2.0_wp*whole*(1.0_wp - x(a))*(1.0_wp + x(a))
-            f(b) = 1.0_wp + x(b)*p(b, i)
-            f(c) = 1.0_wp + x(c)*p(c, i)
+            f = 1.0_wp + x*p(:, i)
+            if (present(n)) n(i) = bubble*f(b)*f(c)
+            if (.not. present(dn)) cycle
             dn(a, i) = -4.0_wp*whole*x(a)*f(b)*f(c)
             if (b <= d) dn(b, i) = bubble*p(b, i)*f(c)
             if (c <= d) dn(c, i) = bubble*f(b)*p(c, i)
          end do
       end associate
-   end subroutine serendipity_derivatives
+   end subroutine serendipity
 
    !> The barycentric coordinates of a triangle (3 corners; the fourth is 0) or a tetrahedron (4).
    pure function barycentric(corners, point) result(l)
@@ -156,7 +133,7 @@ contains
                end do
             end associate
          case (kind_quad8, kind_hexa20)
-            call serendipity_values(kind, point, n)
+            call serendipity(kind, point, n=n)
          case (kind_penta15)
             l = barycentric(3, point)
             bubble = (1.0_wp - t)*(1.0_wp + t)
@@ -226,7 +203,7 @@ contains
                end associate
             end do
          case (kind_quad8, kind_hexa20)
-            call serendipity_derivatives(kind, point, dn)
+            call serendipity(kind, point, dn=dn)
          case (kind_penta15)
             call wedge_derivatives(point, dn)
          end select

@@ -124,9 +124,7 @@ contains
             k(:m, :m) = k(:m, :m) + matmul(transpose(e), matmul(d, e))/3.0_wp
          end do
       else
-         call mode_stiffness(law, frame, k)
-         f = 0.0_wp
-         call condense(k, f)
+         call condensed_quadrilateral(law, frame, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], k, f)
       end if
       at(:m) = [([6*b - 5, 6*b - 4, 6*b], b = 1, frame%n)]
       do b = 1, m
@@ -134,31 +132,20 @@ contains
       end do
    end subroutine add_membrane
 
-   !> Condense the modes out of [K] and the forces F. The first twelve rows become the condensed ones; the rows of the modes keep what
-   !! gives their parameters.
-   pure subroutine condense(k, f)
-      real(wp), intent(inout) :: k(16, 16), f(16)
-      integer :: i, j
-
-      do i = 16, 13, -1
-         f(:i - 1) = f(:i - 1) - k(:i - 1, i)*f(i)/k(i, i)
-         do j = 1, i - 1
-            k(:i - 1, j) = k(:i - 1, j) - k(:i - 1, i)*k(i, j)/k(i, i)
-         end do
-      end do
-   end subroutine condense
-
-   !> [k] between u, v, theta_z of the corners and the parameters of the four modes. It is formed with the mean thickness, for which the
-   !! modes are orthogonal to constant strain.
-   pure subroutine mode_stiffness(law, frame, k)
+   !> [K] between u, v, theta_z of the corners of a quadrilateral and the parameters of the four modes, and the thermal forces F on them,
+   !! with the modes condensed: the first twelve rows are the condensed ones; the rows of the modes keep what gives their parameters.
+   !! [K] is formed with the mean thickness, for which the modes are orthogonal to constant strain.
+   pure subroutine condensed_quadrilateral(law, frame, rise, k, f)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
-      real(wp), intent(out)         :: k(16, 16)
+      real(wp), intent(in)          :: rise(:) !! (4) T - TREF [temperature]
+      real(wp), intent(out)         :: k(16, 16), f(16)
       type(integration_rule) :: rule
-      real(wp) :: b(3, 16), r(16), g, t, volume
-      integer  :: i, p
+      real(wp) :: b(3, 16), n(max_nodes), r(16), g, t, volume
+      integer  :: i, j, p
 
       k = 0.0_wp
+      f = 0.0_wp
       t = sum(law%thickness)/4.0_wp
       associate (x => frame%x)
          g = 0.5_wp*((x(1, 3) - x(1, 1))*(x(2, 4) - x(2, 2)) - (x(1, 4) - x(1, 2))*(x(2, 3) - x(2, 1))) ! area
@@ -170,8 +157,18 @@ contains
          do i = 1, 16
             k(:, i) = k(:, i) + rule%weight(p)*volume*t*(matmul(matmul(law%d, b(:, i)), b) + g*r*r(i))
          end do
+         if (all(abs(rise) <= 0.0_wp)) cycle
+         call shape_values(kind_quad4, rule%point(:, p), n)
+         f = f + rule%weight(p)*volume*sum(law%thickness)/4.0_wp*dot_product(n(:4), rise)*law%expansion* &
+             matmul(law%d(:, 1) + law%d(:, 2), b)
       end do
-   end subroutine mode_stiffness
+      do i = 16, 13, -1
+         f(:i - 1) = f(:i - 1) - k(:i - 1, i)*f(i)/k(i, i)
+         do j = 1, i - 1
+            k(:i - 1, j) = k(:i - 1, j) - k(:i - 1, i)*k(i, j)/k(i, i)
+         end do
+      end do
+   end subroutine condensed_quadrilateral
 
    !> Strains xx, yy, xy at a POINT of a quadrilateral from u, v, theta_z of the corners and the four modes. TWIST is the difference between
    !! the drilling rotation and the rotation of the membrane.
@@ -209,7 +206,7 @@ contains
       real(wp), intent(out) :: area           !! [length^2]
       real(wp), intent(out) :: basic(3, 9), at_corner(3, 9, 3) !! [1/length], of rotations [-]
       real(wp), parameter :: b(9) = [1.0_wp, 2.0_wp, 1.0_wp, 0.0_wp, 1.0_wp, -1.0_wp, -1.0_wp, -1.0_wp, -2.0_wp] ! beta 1 to 9
-      real(wp) :: to_hierarchical(3, 9), natural(3, 3), q(3, 3), squares(3), from(2, 3), to(2, 3)
+      real(wp) :: to_hierarchical(3, 9), natural(3, 3), a(3, 3), q(3, 3), squares(3), direction(2, 3), from(2, 3), to(2, 3)
       integer  :: i, j, k, row
 
       associate (xs => x(1, :), ys => x(2, :))
@@ -234,8 +231,16 @@ contains
          end do
          basic = basic/area
       end associate
+      ! xx, yy, xy from the strains along the edges: the inverse of e = c^2 xx + s^2 yy + c s xy, whose columns are cross products of rows
       squares = sum((to - from)**2, dim=1)
-      natural = natural_to_cartesian((to - from)/spread(sqrt(squares), 1, 2))
+      direction = (to - from)/spread(sqrt(squares), 1, 2)
+      a(:, 1) = direction(1, :)**2
+      a(:, 2) = direction(2, :)**2
+      a(:, 3) = direction(1, :)*direction(2, :)
+      do i = 1, 3
+         natural(:, i) = cross(a(modulo(i, 3) + 1, :), a(modulo(i + 1, 3) + 1, :))
+      end do
+      natural = natural/dot_product(a(1, :), natural(:, 1))
       do k = 1, 3
          select case (k)
          case (1); q = reshape(b([1, 4, 7, 2, 5, 8, 3, 6, 9]), [3, 3])
@@ -247,23 +252,6 @@ contains
                               matmul(natural, matmul(q, to_hierarchical))
       end do
    end subroutine membrane_strains
-
-   !> The matrix that gives xx, yy, xy from the strains along three DIRECTIONS: the inverse of e = c^2 xx + s^2 yy + c s xy.
-   pure function natural_to_cartesian(direction) result(t)
-      real(wp), intent(in) :: direction(2, 3) !! unit
-      real(wp) :: t(3, 3), a(3, 3)
-      integer  :: i, j, k
-
-      a(:, 1) = direction(1, :)**2
-      a(:, 2) = direction(2, :)**2
-      a(:, 3) = direction(1, :)*direction(2, :)
-      do i = 1, 3                             ! columns of the inverse are cross products of rows
-         j = modulo(i, 3) + 1
-         k = modulo(j, 3) + 1
-         t(:, i) = cross(a(j, :), a(k, :))
-      end do
-      t = t/dot_product(a(1, :), t(:, 1))
-   end function natural_to_cartesian
 
    !> Strains of the mean plane at the corners and at the centre from OWN, the values u, v, w and rotations of every corner in the axes of
    !! the element. Only a thermal load acts on the modes of a quadrilateral.
@@ -286,9 +274,7 @@ contains
          return
       end if
       q(:12) = pack(own([1, 2, 6], :), .true.)
-      call mode_stiffness(law, frame, k)
-      call membrane_thermal_forces(law, frame, rise, f)
-      call condense(k, f)
+      call condensed_quadrilateral(law, frame, rise, k, f)
       do i = 13, 16
          q(i) = (f(i) - dot_product(k(:i - 1, i), q(:i - 1)))/k(i, i)
       end do
@@ -300,26 +286,6 @@ contains
       ! bilinear extrapolation from the integration points to the corners
       strain(:, :4) = matmul(strain(:, :4), to_corners)
    end subroutine find_membrane
-
-   !> The thermal forces F of a quadrilateral membrane on u, v, theta_z of its corners and on its modes.
-   pure subroutine membrane_thermal_forces(law, frame, rise, f)
-      type(shell_law), intent(in)   :: law
-      type(shell_frame), intent(in) :: frame
-      real(wp), intent(in)          :: rise(:) !! (4)
-      real(wp), intent(out)         :: f(16)
-      type(integration_rule) :: rule
-      real(wp) :: b(3, 16), n(max_nodes), r(16), volume
-      integer  :: p
-
-      f = 0.0_wp
-      call body_rule(kind_quad4, .false., rule)
-      do p = 1, rule%n
-         call mode_strains(frame, rule%point(:, p), b, r, volume)
-         call shape_values(kind_quad4, rule%point(:, p), n)
-         f = f + rule%weight(p)*volume*sum(law%thickness)/4.0_wp*dot_product(n(:4), rise)*law%expansion* &
-             matmul(law%d(:, 1) + law%d(:, 2), b)
-      end do
-   end subroutine membrane_thermal_forces
 
    !> Add to F the thermal nodal forces of a membrane; RISE is T - TREF at its corners.
    pure subroutine add_membrane_warmth(law, frame, rise, f)
@@ -333,9 +299,7 @@ contains
          call membrane_strains(law%nu, frame%x(:, :3), area, basic, at_corner)
          q(:9) = area*sum(law%thickness(:3))*sum(rise)/9.0_wp*law%expansion*matmul(transpose(basic), law%d(:, 1) + law%d(:, 2))
       else
-         call membrane_thermal_forces(law, frame, rise, q)
-         call mode_stiffness(law, frame, k)
-         call condense(k, q)
+         call condensed_quadrilateral(law, frame, rise, k, q)
       end if
       f([1, 2, 6], :frame%n) = f([1, 2, 6], :frame%n) + reshape(q(:3*frame%n), [3, frame%n])
    end subroutine add_membrane_warmth
