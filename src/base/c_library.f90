@@ -26,6 +26,23 @@ module c_library
          integer(c_int), value :: flags
       end function c_open
 
+      !> Creates a new file with a unique name: replaces the six X of TEMPLATE before its last LETTERS_BEHIND letters.
+      integer(c_int) function c_mkstemps(template, letters_behind) bind(c, name='mkstemps')
+         import :: c_char, c_int
+         character(kind=c_char), intent(inout) :: template(*)
+         integer(c_int), value :: letters_behind
+      end function c_mkstemps
+
+      integer(c_int) function c_fchmod(descriptor, mode) bind(c, name='fchmod')
+         import :: c_int
+         integer(c_int), value :: descriptor, mode
+      end function c_fchmod
+
+      integer(c_int) function c_umask(mask) bind(c, name='umask')
+         import :: c_int
+         integer(c_int), value :: mask
+      end function c_umask
+
       !> Number of bytes read, 0 at the end of the file, -1 on failure.
       integer(c_size_t) function c_read(descriptor, bytes, count) bind(c, name='read')
          import :: c_char, c_int, c_size_t
@@ -163,22 +180,17 @@ contains
       character(*), intent(in)               :: name, ending
       character(:), allocatable, intent(out) :: path
       integer, intent(out)                   :: descriptor
-      integer, parameter :: tries = 100
-      character(6) :: letters
-      real         :: chance(6)
-      integer      :: i, status, unit
+      integer(c_int), parameter :: read_and_write_for_all = int(o'666', c_int) ! less the user's mask
+      integer(c_int) :: mask, status
 
-      descriptor = -1
-      do i = 1, tries
-         call random_number(chance)
-         letters = transfer(achar(iachar('a') + int(26*chance)), letters)
-         path = name//'.'//letters//ending
-         open (newunit=unit, file=path, status='new', iostat=status)
-         if (status /= 0) cycle
-         close (unit)
-         call open_to_write(path, descriptor)
-         return
-      end do
+      path = name//'.XXXXXX'//ending//c_null_char
+      descriptor = int(c_mkstemps(path, len(ending, c_int)))
+      path = path(:len(path) - 1)
+      if (descriptor < 0) return
+      mask = c_umask(0_c_int) ! umask can only be asked by setting it
+      status = c_umask(mask)
+      status = c_fchmod(int(descriptor, c_int), iand(read_and_write_for_all, not(mask)))
+      if (status /= 0) return   ! a file system without modes is no error
    end subroutine create_unique
 
    !> Open the existing file PATH for writing from its beginning. DESCRIPTOR is negative on failure.

@@ -16,8 +16,8 @@ module deck_input
    use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark, read_grid_defaults, &
                          read_system, system_names
    use nastran_compatibility, only: is_idle_card
-   use property_cards, only: read_beam_load, read_beam_property, read_conrod, read_mat1, read_parameter, read_paxis, &
-                             read_prod, read_pshell, read_psolid
+   use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_parameter, read_paxis, read_pshell, read_psolid, &
+                             read_rod
    use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
    use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, read_support
    use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_jampl, read_tabdmp1
@@ -72,9 +72,9 @@ contains
       call add(['PSHELL'], read_pshell)
       call add(['PAXIS'], read_paxis)
       call add(['PSOLID'], read_psolid)
-      call add(['PROD'], read_prod)
+      call add(['PROD'], read_rod)
       call add(['PBAR  ', 'PBARL ', 'PBEAM ', 'PBEAML'], read_beam_property)
-      call add(['CONROD'], read_conrod)
+      call add(['CONROD'], read_rod)
       call add(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
       call add(['PELAS', 'PBUSH'], read_spring_property)
       call add(['CONM2 ', 'CMASS2'], read_mass)

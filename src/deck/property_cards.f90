@@ -3,7 +3,7 @@
 !! along the beam, and the line load PLOAD1. The module mesh_cards reads CBAR and CBEAM.
 module property_cards
    use beam_sections, only: section_dimensions, section_names, section_of
-   use bulk_data, only: beam_load_card, beam_property_card, bulk_data_type
+   use bulk_data, only: beam_property_card, bulk_data_type, conrod_card
    use card_fields, only: card_fields_type
    use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
    use field_rules, only: not_negative, parse_real, positive, real_range
@@ -13,8 +13,7 @@ module property_cards
    implicit none
    private
 
-   public :: read_pshell, read_paxis, read_psolid, read_prod, read_conrod, read_mat1, read_parameter, read_beam_property, &
-             read_beam_load
+   public :: read_pshell, read_paxis, read_psolid, read_rod, read_mat1, read_parameter, read_beam_property, read_beam_load
 
    character(2), parameter :: point_names(8) = ['C1', 'C2', 'D1', 'D2', 'E1', 'E2', 'F1', 'F2']
    character(4), parameter :: dimension_names(6) = ['DIM1', 'DIM2', 'DIM3', 'DIM4', 'DIM5', 'DIM6']
@@ -99,36 +98,29 @@ contains
       end associate
    end subroutine read_psolid
 
-   !> PROD: a bar of cross-section A. J and C are for torsion, which this bar does not have.
-   subroutine read_prod(card, bulk)
+   !> PROD: a bar of cross-section A. J and C are for torsion, which this bar does not have. CONROD: a CROD and its PROD on one card.
+   subroutine read_rod(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
+      type(conrod_card) :: rod
 
-      associate (prod => bulk%prod(card%i))
-         call card%field('PID', prod%id)
-         call card%field('MID', prod%material)
-         call card%field('A', prod%area, positive)
-         call card%skip(['J', 'C'])
-         call card%field('NSM', prod%extra_mass, not_negative, default=0.0_wp)
-         call card%finish(prod%line)
-      end associate
-   end subroutine read_prod
-
-   !> CONROD: a CROD and its PROD on one card.
-   subroutine read_conrod(card, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(bulk_data_type), intent(inout)   :: bulk
-
-      associate (conrod => bulk%conrod(card%i))
-         call card%field('EID', conrod%id)
-         call card%field(['G1', 'G2'], conrod%nodes)
-         call card%field('MID', conrod%material)
-         call card%field('A', conrod%area, positive)
-         call card%skip(['J', 'C'])
-         call card%field('NSM', conrod%extra_mass, not_negative, default=0.0_wp)
-         call card%finish(conrod%line)
-      end associate
-   end subroutine read_conrod
+      if (card%name == 'PROD') then
+         call card%field('PID', rod%id)
+      else
+         call card%field('EID', rod%id)
+         call card%field(['G1', 'G2'], rod%nodes)
+      end if
+      call card%field('MID', rod%material)
+      call card%field('A', rod%area, positive)
+      call card%skip(['J', 'C'])
+      call card%field('NSM', rod%extra_mass, not_negative, default=0.0_wp)
+      call card%finish(rod%line)
+      if (card%name == 'PROD') then
+         bulk%prod(card%i) = rod%prod_card
+      else
+         bulk%conrod(card%i) = rod
+      end if
+   end subroutine read_rod
 
    !> MAT1: two of E, G and NU suffice, with G = E/(2 (1 + NU)); E suffices for bars. All three must agree within one per cent. Of the
    !! stress limits, the limit in tension is compared with bolt stresses. The material system has no effect on an isotropic material.
