@@ -17,6 +17,7 @@ module incomplete_results
              say_at_interrupts
 
    character(*), parameter, public :: suffix = '.part' !! of an incomplete file
+   integer, parameter :: replaceable(2) = [no_file, regular_file] ! kinds of file that a result may replace; a link counts as its goal
 
    character(:), allocatable :: names     ! each ends with a null character
    character(:), allocatable :: in_the_way ! what blocks the name of the first file that could not be created
@@ -63,20 +64,19 @@ contains
       character(*), intent(in)               :: path
       character(:), allocatable, intent(out) :: part
       integer, intent(out)                   :: descriptor
+      character(14) :: words
+      integer :: kind
 
       part = ''
       descriptor = -1
-      if (.not. is_free(path)) then
+      kind = kind_of_file(path)
+      if (all(kind /= replaceable)) then
          if (allocated(in_the_way)) return
-         in_the_way = path//' is something else and no file'
-         select case (kind_of_file(path))
-         case (folder_file)
-            in_the_way = path//' is a folder and no file'
-         case (pipe_file)
-            in_the_way = path//' is a pipe and no file'
-         case (device_file, block_file)
-            in_the_way = path//' is a device and no file'
-         end select
+         words = 'something else'
+         if (kind == folder_file) words = 'a folder'
+         if (kind == pipe_file) words = 'a pipe'
+         if (kind == device_file .or. kind == block_file) words = 'a device'
+         in_the_way = path//' is '//trim(words)//' and no file'
          return
       end if
       is_changing = .true.
@@ -116,13 +116,6 @@ contains
       if (interrupt /= 0) call end_by_interrupt(interrupt)
    end subroutine end_of_change
 
-   !> Whether PATH can be replaced: nothing has this name, or a plain file, or a link to a plain file or to nothing.
-   logical function is_free(path)
-      character(*), intent(in) :: path
-
-      is_free = any(kind_of_file(path) == [no_file, regular_file])
-   end function is_free
-
    !> Why the first file could not be created; empty where its name was free.
    function what_is_in_the_way() result(words)
       character(:), allocatable :: words
@@ -135,7 +128,7 @@ contains
    subroutine remove_old(path)
       character(*), intent(in) :: path
 
-      if (is_free(path)) call remove_file(path)
+      if (any(kind_of_file(path) == replaceable)) call remove_file(path)
    end subroutine remove_old
 
    !> Remove the noted files and deallocate their list.
@@ -164,8 +157,8 @@ contains
       do while (first <= len(names))
          length = index(names(first:), c_null_char)
          status = c_unlink(names(first:first + length - 1))
-         if (status /= 0) continue ! there is no such file
          first = first + length
+         if (status /= 0) cycle ! there is no such file
       end do
    end subroutine remove_incomplete
 

@@ -174,16 +174,12 @@ contains
          text = '0'
          return
       else if (abs(value) >= 1.0e-3_wp .and. abs(value) < 1.0e6_wp) then
-         write (buffer, '(f0.6)') value
-         if (abs(value) >= 10.0_wp) write (buffer, '(f0.4)') value
-         if (abs(value) >= 1000.0_wp) write (buffer, '(f0.2)') value
-         last = verify(trim(buffer), '0', back=.true.)
+         write (buffer, '(f24.6)') value
+         if (abs(value) >= 10.0_wp) write (buffer, '(f24.4)') value
+         if (abs(value) >= 1000.0_wp) write (buffer, '(f24.2)') value
+         last = verify(buffer, '0', back=.true.)
          if (buffer(last:last) == '.') last = last - 1
-         text = buffer(:last)
-         if (text(1:1) == '.') text = '0'//text
-         if (len(text) > 1) then
-            if (text(1:2) == '-.') text = '-0'//text(2:)
-         end if
+         text = trim(adjustl(buffer(:last)))
          return
       end if
       text = scientific(value, 5)

@@ -200,11 +200,8 @@ contains
       first = merge(comma + 1, 9, comma > 0)
       do k = 1, most
          if (comma > 0) then
-            last = min(first - 1, len(line))
-            do while (last < len(line))
-               if (line(last + 1:last + 1) == ',') exit
-               last = last + 1
-            end do
+            last = index(line(min(first, len(line) + 1):), ',')
+            last = merge(len(line), first + last - 2, last == 0)
             call push(card, line(first:last), at, first, max(first, last), errors)
             first = last + 2
          else

@@ -1,7 +1,12 @@
-!> Collects the errors of a deck, so that a user sees all of them at once.
+!> Collects the errors of a deck, so that a user sees all of them at once, and sorts them into kinds for print.
 module deck_errors
    implicit none
    private
+
+   public :: sort_into_kinds
+
+   integer, parameter :: most_of_kind = 10 ! so many are printed
+   character(*), parameter :: no_card = 'is not a card of' ! such an error is printed once for each name
 
    !> One error: its message and its place (index of the line in the deck text, 0 for the deck as a whole; columns first to last, 0 for
    !! the whole line).
@@ -15,9 +20,17 @@ module deck_errors
       type(deck_error), allocatable :: items(:)
    contains
       procedure :: add
-      procedure :: add_all
       procedure :: any => any_error
    end type deck_error_list
+
+   !> Errors whose messages differ only in numbers and quoted text.
+   type, public :: error_kind
+      character(:), allocatable :: words   ! common part of its messages
+      integer :: n = 0                     ! errors
+      integer :: most = most_of_kind       ! largest number printed
+      integer :: printed = 0               ! so far
+      integer :: last = 0                  ! number of the error printed last
+   end type error_kind
 
 contains
 
@@ -48,23 +61,45 @@ contains
       self%items(self%n) = item
    end subroutine add
 
-   !> Append the errors of OTHERS.
-   subroutine add_all(self, others)
-      class(deck_error_list), intent(inout) :: self
-      type(deck_error_list), intent(in)     :: others
-      integer :: i
-
-      do i = 1, others%n
-         associate (item => others%items(i))
-            call self%add(item%line, item%message, item%first, item%last)
-         end associate
-      end do
-   end subroutine add_all
-
    pure logical function any_error(self)
       class(deck_error_list), intent(in) :: self
 
       any_error = self%n > 0
    end function any_error
+
+   !> The kinds of ERRORS, and the kind of each error in this ORDER: errors of a kind have the same message without numbers, blanks and
+   !! quoted text. Unknown cards are of one kind where the whole message is the same.
+   subroutine sort_into_kinds(errors, order, kinds, kind_of)
+      type(deck_error_list), intent(in)         :: errors
+      integer, intent(in)                       :: order(:)
+      type(error_kind), allocatable, intent(out) :: kinds(:)
+      integer, allocatable, intent(out)         :: kind_of(:)
+      character(:), allocatable :: words
+      logical :: is_card, quoted
+      integer :: i, k, n
+
+      allocate (kinds(size(order)), kind_of(size(order)))
+      n = 0
+      do k = 1, size(order)
+         associate (message => errors%items(order(k))%message)
+            is_card = index(message, no_card) > 0
+            quoted = .false.
+            words = ''
+            do i = 1, len(message)
+               if (message(i:i) == '''') quoted = .not. quoted
+               if (is_card .or. .not. (quoted .or. scan(message(i:i), ' 0123456789.+-') == 1)) words = words//message(i:i)
+            end do
+         end associate
+         do i = 1, n
+            if (kinds(i)%words == words) exit
+         end do
+         kind_of(k) = i
+         if (i <= n) cycle
+         n = n + 1
+         kinds(n)%words = words
+         if (is_card) kinds(n)%most = 1
+      end do
+      kinds = kinds(:n)
+   end subroutine sort_into_kinds
 
 end module deck_errors

@@ -16,8 +16,8 @@ module deck_input
    use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark, read_grid_defaults, &
                          read_system, system_names
    use nastran_compatibility, only: is_idle_card
-   use property_cards, only: read_beam_load, read_beam_property, read_conrod, read_mat1, read_parameter, read_paxis, &
-                             read_prod, read_pshell, read_psolid
+   use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_parameter, read_paxis, read_pshell, read_psolid, &
+                             read_rod
    use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
    use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, read_support
    use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_jampl, read_tabdmp1
@@ -52,8 +52,7 @@ module deck_input
       end subroutine read_one
    end interface
 
-   integer, parameter      :: many_lines = 5000 ! length of a deck from which two threads pay
-   character(*), parameter :: end_of_data = 'ENDDATA', behind_end = 'text behind ENDDATA' ! BEHIND_END as an entry without effect
+   integer, parameter :: many_lines = 5000 ! length of a deck from which two threads pay
 
 contains
 
@@ -73,9 +72,9 @@ contains
       call add(['PSHELL'], read_pshell)
       call add(['PAXIS'], read_paxis)
       call add(['PSOLID'], read_psolid)
-      call add(['PROD'], read_prod)
+      call add(['PROD'], read_rod)
       call add(['PBAR  ', 'PBARL ', 'PBEAM ', 'PBEAML'], read_beam_property)
-      call add(['CONROD'], read_conrod)
+      call add(['CONROD'], read_rod)
       call add(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
       call add(['PELAS', 'PBUSH'], read_spring_property)
       call add(['CONM2 ', 'CMASS2'], read_mass)
@@ -253,7 +252,7 @@ contains
          call text%find(at, file, first, last, comma)
          if (last < first) cycle
          if (ended_file == 1 .or. file == ended_file) then
-            call bulk%ignored%add(behind_end)
+            call bulk%ignored%add('text behind ENDDATA')
             do while (cursor <= text%n) ! once for each file
                if (ended_file /= 1 .and. text%file_number(cursor) /= ended_file) exit
                cursor = cursor + 1
@@ -267,53 +266,49 @@ contains
             end if
             is_open = .false.
             if (is_include(line)) cycle ! the lines of the file follow in the deck text
-            if (card_name(line, comma) == end_of_data) then
+            if (card_name(line, comma) == 'ENDDATA') then
                ended_file = file
             else
                is_open = .true.
                bulk%n_cards = bulk%n_cards + 1
-               call find_card(line, comma, text, at, cards, kind_at, bulk, errors)
+               call find_card(line)
             end if
          end associate
       end do
       if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck may be truncated; expected ENDDATA after the last card')
-   end subroutine find_cards
 
-   !> Note the card that begins with LINE, line AT of TEXT.
-   subroutine find_card(line, comma, text, at, cards, kind_at, bulk, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: comma !! column of the first comma, 0: none
-      type(deck_text_type), intent(in)     :: text
-      integer, intent(in)                  :: at
-      type(card_kind), intent(inout)       :: cards(:)
-      integer(int8), intent(inout)         :: kind_at(:)
-      type(bulk_data_type), intent(inout)  :: bulk
-      type(deck_error_list), intent(inout) :: errors
-      type(card_type)       :: card
-      type(deck_error_list) :: faults
-      character(8) :: name
-      integer :: behind, kind
+   contains
 
-      name = card_name(line, comma)
-      kind = 0
-      call check_first_field(line, comma, at, faults)
-      if (.not. faults%any()) kind = findloc(cards%name, name, dim=1)
-      if (kind > 0) then
-         kind_at(at) = int(kind, int8)
-         cards(kind)%n = cards(kind)%n + 1
-      else if (.not. faults%any() .and. is_idle_card(name)) then
-         call bulk%ignored%add(trim(name))
-      else
-         behind = at
-         call read_card(text, behind, card, errors) ! finds the other errors of the card
-         if (card%name == 'CQUAD9') then
-            call errors%add(card%line, 'CQUAD9 is a complete element of nine nodes; expected a CQUAD8, no node inside'// &
-                            complete_remedy, 1, 8)
-         else if (card%name /= '') then
-            call errors%add(card%line, ''''//trim(card%name)//''' is not a card of jointfem; see input/README.md', 1, 8)
+      !> Note the card that begins with LINE, line AT of TEXT; the first comma is in column COMMA, 0: none.
+      subroutine find_card(line)
+         character(*), intent(in) :: line
+         type(card_type)       :: card
+         type(deck_error_list) :: faults
+         character(8) :: name
+         integer :: behind, kind
+
+         name = card_name(line, comma)
+         kind = 0
+         call check_first_field(line, comma, at, faults)
+         if (.not. faults%any()) kind = findloc(cards%name, name, dim=1)
+         if (kind > 0) then
+            kind_at(at) = int(kind, int8)
+            cards(kind)%n = cards(kind)%n + 1
+         else if (.not. faults%any() .and. is_idle_card(name)) then
+            call bulk%ignored%add(trim(name))
+         else
+            behind = at
+            call read_card(text, behind, card, errors) ! finds the other errors of the card
+            if (card%name == 'CQUAD9') then
+               call errors%add(card%line, 'CQUAD9 is a complete element of nine nodes; expected a CQUAD8, no node inside'// &
+                               complete_remedy, 1, 8)
+            else if (card%name /= '') then
+               call errors%add(card%line, ''''//trim(card%name)//''' is not a card of jointfem; see input/README.md', 1, 8)
+            end if
          end if
-      end if
-   end subroutine find_card
+      end subroutine find_card
+
+   end subroutine find_cards
 
    !> Fill the arrays of BULK with the noted cards, in the order of the deck TEXT; errors go to ERRORS. The first routine, that of the
    !! nodes, reads about half of a long deck: one thread runs it, a second thread runs the others. The errors have the order of a
@@ -328,45 +323,48 @@ contains
       integer :: k
 
       !$omp parallel sections default(shared) if(text%n > many_lines)
-      call read_by(cards, 1, kind_at, text, bulk, errors)
+      call read_by(1, errors)
       !$omp section
       do k = 2, size(cards)
-         call read_by(cards, k, kind_at, text, bulk, others)
+         call read_by(k, others)
       end do
       !$omp end parallel sections
-      call errors%add_all(others)
-   end subroutine read_all
-
-   !> Read all cards of routine number ROUTINE.
-   subroutine read_by(cards, routine, kind_at, text, bulk, errors)
-      type(card_kind), intent(inout)               :: cards(:)
-      integer, intent(in)                          :: routine
-      integer(int8), intent(in)                    :: kind_at(:)
-      type(deck_text_type), intent(in)             :: text
-      type(bulk_data_type), intent(inout)          :: bulk
-      type(deck_error_list), intent(inout), target :: errors
-      type(card_fields_type) :: card
-      integer :: behind, left, line
-
-      if (cards(routine)%routine /= routine) return
-      left = sum(cards%n, mask=cards%routine == routine)
-      card%errors => errors
-      line = 0
-      do while (left > 0)
-         line = line + 1
-         if (kind_at(line) == 0) cycle
-         associate (kind => cards(kind_at(line)))
-            if (kind%routine /= routine) cycle
-            behind = line
-            call read_card(text, behind, card%card_type, errors)
-            call move_alloc(kind%fields, card%names)
-            call card%begin()
-            call kind%read(card, bulk)
-            call move_alloc(card%names, kind%fields)
+      do k = 1, others%n
+         associate (error => others%items(k))
+            call errors%add(error%line, error%message, error%first, error%last)
          end associate
-         left = left - 1
       end do
-   end subroutine read_by
+
+   contains
+
+      !> Read all cards of routine number ROUTINE.
+      subroutine read_by(routine, errors)
+         integer, intent(in)                          :: routine
+         type(deck_error_list), intent(inout), target :: errors
+         type(card_fields_type) :: card
+         integer :: behind, left, line
+
+         if (cards(routine)%routine /= routine) return
+         left = sum(cards%n, mask=cards%routine == routine)
+         card%errors => errors
+         line = 0
+         do while (left > 0)
+            line = line + 1
+            if (kind_at(line) == 0) cycle
+            associate (kind => cards(kind_at(line)))
+               if (kind%routine /= routine) cycle
+               behind = line
+               call read_card(text, behind, card%card_type, errors)
+               call move_alloc(kind%fields, card%names)
+               call card%begin()
+               call kind%read(card, bulk)
+               call move_alloc(card%names, kind%fields)
+            end associate
+            left = left - 1
+         end do
+      end subroutine read_by
+
+   end subroutine read_all
 
    !> Add the unused properties and coordinate systems of BULK to its entries without effect.
    subroutine count_unused(bulk)

@@ -363,11 +363,9 @@ contains
       is_include = .false.
       first = verify(line, ' ')
       if (first == 0) return
-      if (len(line) < first + 6) return
-      if (line(first:first) /= 'I' .and. line(first:first) /= 'i') return ! the usual case
-      if (upper(line(first:first + 6)) /= 'INCLUDE') return
-      is_include = .true.
-      if (len(line) > first + 6) is_include = scan(line(first + 7:first + 7), ' ''"=') == 1
+      if (scan(line(first:first), 'Ii') == 0) return ! the usual case
+      is_include = upper(line(first:min(first + 6, len(line)))) == 'INCLUDE'
+      if (is_include .and. len(line) > first + 6) is_include = scan(line(first + 7:first + 7), ' ''"=') == 1
    end function is_include
 
 end module deck_text

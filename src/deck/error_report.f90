@@ -1,6 +1,6 @@
 !> Prints errors of decks and test data: the place, the line, a mark under its columns, and what was expected.
 module error_report
-   use deck_errors, only: deck_error_list
+   use deck_errors, only: deck_error_list, error_kind, sort_into_kinds
    use deck_text, only: deck_text_type
    use lists, only: sorted_order
    use text_tools, only: integer_text, plural
@@ -10,17 +10,7 @@ module error_report
    public :: print_errors
 
    integer, parameter :: most_printed = 200
-   integer, parameter :: most_of_kind = 10 ! printed errors whose messages differ only in numbers and quoted text
-   character(*), parameter :: no_card = 'is not a card of' ! such an error is printed once for each name
    integer, parameter :: widest = 100 ! printed columns of a deck line
-
-   type :: kind_type
-      character(:), allocatable :: words   ! common part of its messages
-      integer :: n = 0                     ! errors
-      integer :: most = most_of_kind       ! largest number printed
-      integer :: printed = 0               ! so far
-      integer :: last = 0                  ! number of the error printed last
-   end type kind_type
 
 contains
 
@@ -31,7 +21,7 @@ contains
       character(*), intent(in)          :: outcome !! the consequence: 'nothing solved'
       type(deck_text_type), intent(in)  :: text
       type(deck_error_list), intent(in) :: errors
-      type(kind_type), allocatable :: kinds(:)
+      type(error_kind), allocatable :: kinds(:)
       integer, allocatable :: order(:), kind_of(:)
       integer :: i, k, printed
 
@@ -65,41 +55,6 @@ contains
       if (errors%n > printed) write (unit, '(3a, /)') 'and ', plural(errors%n - printed, 'more error'), ', not printed'
       write (unit, '(5a)') text%place(0), ': ', plural(errors%n, 'error'), ', ', outcome
    end subroutine print_errors
-
-   !> The kinds of ERRORS, and the kind of each error in this ORDER: errors of a kind have the same message without numbers, blanks and
-   !! quoted text. Unknown cards are of one kind where the whole message is the same.
-   subroutine sort_into_kinds(errors, order, kinds, kind_of)
-      type(deck_error_list), intent(in)         :: errors
-      integer, intent(in)                       :: order(:)
-      type(kind_type), allocatable, intent(out) :: kinds(:)
-      integer, allocatable, intent(out)         :: kind_of(:)
-      character(:), allocatable :: words
-      logical :: is_card, quoted
-      integer :: i, k, n
-
-      allocate (kinds(size(order)), kind_of(size(order)))
-      n = 0
-      do k = 1, size(order)
-         associate (message => errors%items(order(k))%message)
-            is_card = index(message, no_card) > 0
-            quoted = .false.
-            words = ''
-            do i = 1, len(message)
-               if (message(i:i) == '''') quoted = .not. quoted
-               if (is_card .or. .not. (quoted .or. scan(message(i:i), ' 0123456789.+-') == 1)) words = words//message(i:i)
-            end do
-         end associate
-         do i = 1, n
-            if (kinds(i)%words == words) exit
-         end do
-         kind_of(k) = i
-         if (i <= n) cycle
-         n = n + 1
-         kinds(n)%words = words
-         if (is_card) kinds(n)%most = 1
-      end do
-      kinds = kinds(:n)
-   end subroutine sort_into_kinds
 
    !> LINE for print: a long line is cut, control characters become '?'.
    pure function shown(line) result(words)

@@ -102,7 +102,17 @@ contains
       if (.not. any_digit) return
       exponent = 0
       ok = point
-      if (i <= length) call parse_exponent(text(i:length), point, exponent, ok)
+      if (i <= length) then ! E or D and an integer, or a signed integer alone
+         select case (text(i:i))
+         case ('E', 'D', 'e', 'd')
+            call parse_integer(text(i + 1:length), exponent, ok)
+         case ('+', '-')
+            if (point) call parse_integer(text(i:length), exponent, ok)
+         case default
+            ok = .false.
+         end select
+         ok = ok .and. abs(exponent) < 10000
+      end if
       if (.not. ok) return
       if (digits <= most_digits .and. abs(exponent - decimals) <= max_exact) then
          if (exponent >= decimals) then
@@ -118,24 +128,6 @@ contains
       value = strtod(plain, c_null_ptr)
       ok = ieee_is_finite(value) .and. .not. (abs(value) < tiny(value) .and. digits > 0)
    end subroutine parse_real
-
-   !> The exponent after the mantissa: E or D and an integer, or a signed integer alone.
-   pure subroutine parse_exponent(text, point, exponent, ok)
-      character(*), intent(in) :: text
-      logical, intent(in)      :: point !! the mantissa has a decimal point
-      integer, intent(out)     :: exponent
-      logical, intent(out)     :: ok
-
-      exponent = 0
-      ok = .false.
-      select case (text(1:1))
-      case ('E', 'D', 'e', 'd')
-         call parse_integer(text(2:), exponent, ok)
-      case ('+', '-')
-         if (point) call parse_integer(text, exponent, ok)
-      end select
-      ok = ok .and. abs(exponent) < 10000
-   end subroutine parse_exponent
 
    !> The words for an integer from LEAST to MOST.
    pure function integer_words(least, most) result(words)

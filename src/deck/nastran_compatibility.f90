@@ -19,7 +19,7 @@ module nastran_compatibility
    !> An entry whose effect depends on the stages.
    type :: waiting_entry
       character(name_length) :: name = ''
-      integer :: n = 1                        ! number of entries of this name
+      integer :: n = 0                        ! number of entries of this name
       integer :: line = 0                     ! line of the first in the deck text
       logical :: needs_response = .false.     ! has an effect with FREQUENCY only; otherwise with MODES
       character(:), allocatable :: refusal    ! error message where the entry has an effect; empty: no error
@@ -28,7 +28,7 @@ module nastran_compatibility
    !> The entries without effect of one deck.
    type, public :: ignored_entries_type
       integer :: n = 0                                        !! number of entries
-      character(name_length), allocatable, private :: names(:) ! distinct names in the order of appearance
+      character(:), allocatable, private :: names             ! ', PARAM, DISPLACEMENT': each once, in the order of appearance
       type(waiting_entry), allocatable, private :: waiting(:)
    contains
       procedure :: wait, settle
@@ -95,9 +95,10 @@ contains
       type(parameters_type), intent(inout)   :: parameters
       type(ignored_entries_type), intent(inout)  :: ignored
       character(:), allocatable, intent(out) :: expected
+      character(:), allocatable :: refusal
       real(wp) :: x
       integer  :: number
-      logical  :: is_integer, is_real
+      logical  :: is_default, is_integer, is_real
 
       expected = ''
       call parse_integer(value, number, is_integer)
@@ -122,13 +123,13 @@ contains
          parameters%is_structural = number == -1
          if (.not. is_integer .or. abs(number) /= 1) expected = '1, SDAMPING is viscous, or -1, it is structural'
          call ignored%wait('PARAM KDAMP', line, needs_response=.true.)
-      case ('ALPHA1', 'ALPHA2')
-         call ignored%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(abs(x) <= 0.0_wp, &
-            'expected 0.0: damping is given by SDAMPING, AMPLITUDE, PARAM G and GE of MAT1'))
-      case ('LMODES', 'LFREQ')
-         call ignored%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(abs(x) <= 0.0_wp, which_modes))
-      case ('HFREQ')
-         call ignored%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(x >= all_frequencies, which_modes))
+      case ('ALPHA1', 'ALPHA2', 'LMODES', 'LFREQ', 'HFREQ')
+         refusal = which_modes
+         if (name(:5) == 'ALPHA') refusal = 'expected 0.0: damping is given by SDAMPING, AMPLITUDE, PARAM G and GE of MAT1'
+         is_default = abs(x) <= 0.0_wp
+         if (name == 'HFREQ') is_default = x >= all_frequencies
+         if (is_default .and. (is_integer .or. is_real)) refusal = ''
+         call ignored%wait('PARAM '//name, line, needs_response=.true., refusal=refusal)
       case default
          if (name == 'INREL' .and. (.not. is_integer .or. number /= 0)) then
             expected = '0: inertia relief is not available'
@@ -138,19 +139,6 @@ contains
             call ignored%add('PARAM '//name)
          end if
       end select
-
-   contains
-
-      !> WORDS where the value is refused; empty where it is the default of the PARAM.
-      pure function refusal(is_default, words)
-         logical, intent(in)       :: is_default
-         character(*), intent(in)  :: words
-         character(:), allocatable :: refusal
-
-         refusal = ''
-         if (.not. is_default .or. .not. (is_integer .or. is_real)) refusal = words
-      end function refusal
-
    end subroutine take_parameter
 
    !> Interpret a line without a key of the program: it has no effect, or is unknown.
@@ -208,9 +196,9 @@ contains
       class(ignored_entries_type), intent(inout) :: self
       character(*), intent(in)               :: name
 
-      if (.not. allocated(self%names)) allocate (self%names(0))
+      if (.not. allocated(self%names)) self%names = ''
       self%n = self%n + 1
-      if (all(self%names /= name)) self%names = [character(name_length) :: self%names, name]
+      if (index(self%names//',', ', '//trim(name)//',') == 0) self%names = self%names//', '//trim(name)
    end subroutine add
 
    !> Note the entry NAME on LINE, which has an effect in a stage with MODES or, if NEEDS_RESPONSE, with FREQUENCY. With a
@@ -226,17 +214,16 @@ contains
 
       if (.not. allocated(self%waiting)) allocate (self%waiting(0))
       i = findloc(self%waiting%name == name, .true., dim=1)
-      if (i > 0) then
-         self%waiting(i)%n = self%waiting(i)%n + 1
-         if (present(refusal) .and. self%waiting(i)%refusal == '') self%waiting(i)%refusal = refusal
-         return
+      if (i == 0) then
+         entry%name = name
+         entry%line = line
+         entry%needs_response = needs_response
+         entry%refusal = ''
+         self%waiting = [self%waiting, entry]
+         i = size(self%waiting)
       end if
-      entry%name = name
-      entry%line = line
-      entry%needs_response = needs_response
-      entry%refusal = ''
-      if (present(refusal)) entry%refusal = refusal
-      self%waiting = [self%waiting, entry]
+      self%waiting(i)%n = self%waiting(i)%n + 1
+      if (present(refusal) .and. self%waiting(i)%refusal == '') self%waiting(i)%refusal = refusal
    end subroutine wait
 
    !> Decide the noted entries, now that it is known whether any stage has MODES and FREQUENCY.
@@ -264,14 +251,10 @@ contains
    pure function words(self) result(text)
       class(ignored_entries_type), intent(in) :: self
       character(:), allocatable           :: text
-      integer :: i
 
       text = ''
-      if (self%n == 0) return
-      text = integer_text(self%n)//trim(merge(' entry  ', ' entries', self%n == 1))//' without effect: '//trim(self%names(1))
-      do i = 2, size(self%names)
-         text = text//', '//trim(self%names(i))
-      end do
+      if (self%n > 0) text = integer_text(self%n)//trim(merge(' entry  ', ' entries', self%n == 1))//' without effect: '// &
+                             self%names(3:)
    end function words
 
 end module nastran_compatibility

@@ -2,8 +2,8 @@
 !! Properties and materials: PSHELL, PAXIS, PSOLID, PROD, CONROD, MAT1. Beams: PBAR, PBARL, PBEAM, PBEAML with sections constant
 !! along the beam, and the line load PLOAD1. The module mesh_cards reads CBAR and CBEAM.
 module property_cards
-   use beam_sections, only: beam_section, section_dimensions, section_names, section_of
-   use bulk_data, only: beam_load_card, beam_property_card, bulk_data_type
+   use beam_sections, only: section_dimensions, section_names, section_of
+   use bulk_data, only: beam_property_card, bulk_data_type, conrod_card
    use card_fields, only: card_fields_type
    use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
    use field_rules, only: not_negative, parse_real, positive, real_range
@@ -13,8 +13,7 @@ module property_cards
    implicit none
    private
 
-   public :: read_pshell, read_paxis, read_psolid, read_prod, read_conrod, read_mat1, read_parameter, read_beam_property, &
-             read_beam_load
+   public :: read_pshell, read_paxis, read_psolid, read_rod, read_mat1, read_parameter, read_beam_property, read_beam_load
 
    character(2), parameter :: point_names(8) = ['C1', 'C2', 'D1', 'D2', 'E1', 'E2', 'F1', 'F2']
    character(4), parameter :: dimension_names(6) = ['DIM1', 'DIM2', 'DIM3', 'DIM4', 'DIM5', 'DIM6']
@@ -99,36 +98,29 @@ contains
       end associate
    end subroutine read_psolid
 
-   !> PROD: a bar of cross-section A. J and C are for torsion, which this bar does not have.
-   subroutine read_prod(card, bulk)
+   !> PROD: a bar of cross-section A. J and C are for torsion, which this bar does not have. CONROD: a CROD and its PROD on one card.
+   subroutine read_rod(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
+      type(conrod_card) :: rod
 
-      associate (prod => bulk%prod(card%i))
-         call card%field('PID', prod%id)
-         call card%field('MID', prod%material)
-         call card%field('A', prod%area, positive)
-         call card%skip(['J', 'C'])
-         call card%field('NSM', prod%extra_mass, not_negative, default=0.0_wp)
-         call card%finish(prod%line)
-      end associate
-   end subroutine read_prod
-
-   !> CONROD: a CROD and its PROD on one card.
-   subroutine read_conrod(card, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(bulk_data_type), intent(inout)   :: bulk
-
-      associate (conrod => bulk%conrod(card%i))
-         call card%field('EID', conrod%id)
-         call card%field(['G1', 'G2'], conrod%nodes)
-         call card%field('MID', conrod%material)
-         call card%field('A', conrod%area, positive)
-         call card%skip(['J', 'C'])
-         call card%field('NSM', conrod%extra_mass, not_negative, default=0.0_wp)
-         call card%finish(conrod%line)
-      end associate
-   end subroutine read_conrod
+      if (card%name == 'PROD') then
+         call card%field('PID', rod%id)
+      else
+         call card%field('EID', rod%id)
+         call card%field(['G1', 'G2'], rod%nodes)
+      end if
+      call card%field('MID', rod%material)
+      call card%field('A', rod%area, positive)
+      call card%skip(['J', 'C'])
+      call card%field('NSM', rod%extra_mass, not_negative, default=0.0_wp)
+      call card%finish(rod%line)
+      if (card%name == 'PROD') then
+         bulk%prod(card%i) = rod%prod_card
+      else
+         bulk%conrod(card%i) = rod
+      end if
+   end subroutine read_rod
 
    !> MAT1: two of E, G and NU suffice, with G = E/(2 (1 + NU)); E suffices for bars. All three must agree within one per cent. Of the
    !! stress limits, the limit in tension is compared with bolt stresses. The material system has no effect on an isotropic material.
@@ -186,62 +178,59 @@ contains
       if (expected /= '') call card%error('V1', ''''//card%text_at(2)//''' for '//card%text_at(1)//', expected '//expected)
    end subroutine read_parameter
 
-   !> PBAR and PBEAM give a section by its properties, PBARL and PBEAML by its dimensions.
+   !> PBAR and PBEAM give a section by its properties, PBARL and PBEAML by its dimensions. With K1 and K2 of a PBAR blank a beam is rigid
+   !! in transverse shear, as in NASTRAN; those of a PBEAM are then 1.
    subroutine read_beam_property(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
+      real(wp) :: points(8)
 
-      associate (property => bulk%beam_property(card%i))
+      associate (property => bulk%beam_property(card%i), section => bulk%beam_property(card%i)%section)
          property%name = card%name(:6)
          property%line = card%line
          call card%field('PID', property%id)
          call card%field('MID', property%material)
          select case (card%name)
-         case ('PBAR');  call read_pbar(card, property)
-         case ('PBEAM'); call read_pbeam(card, property)
-         case default;   call read_dimensions(card, property)
+         case ('PBAR')
+            call card%field('A', section%area, positive, default=0.0_wp)
+            call card%field(['I1', 'I2'], section%inertia(:2), not_negative, default=0.0_wp)
+         case ('PBEAM')
+            call card%field('A', section%area, positive)
+            call card%field(['I1 ', 'I2 ', 'I12'], section%inertia, default=0.0_wp)
+         case default
+            call read_dimensions(card, property)
+            return
          end select
+         call card%field('J', section%torsion, not_negative, default=0.0_wp)
+         call card%field('NSM', property%extra_mass, not_negative, default=0.0_wp)
+         if (card%name == 'PBAR') call card%skip(['-'])
+         call card%field(point_names, points, default=0.0_wp)
+         section%point = reshape(points, [2, 4])
+         if (card%name == 'PBAR') then
+            call card%field(['K1', 'K2'], section%shear, not_negative, default=0.0_wp)
+            call card%field('I12', section%inertia(3), default=0.0_wp)
+            call card%finish(property%line)
+         else
+            call read_stations(card, property)
+         end if
+         associate (i => section%inertia) ! I12 squared must be below I1 I2 for a possible section
+            if (any(i(:2) < 0.0_wp) .or. (abs(i(3)) > 0.0_wp .and. i(3)**2 >= i(1)*i(2))) &
+               call card%error('I12', 'no section has these moments; expected I1 and I2 at least 0 and I12 squared below I1 I2')
+         end associate
       end associate
    end subroutine read_beam_property
 
-   !> PBAR: with K1 and K2 blank a beam is rigid in transverse shear, as in NASTRAN.
-   subroutine read_pbar(card, property)
-      type(card_fields_type), intent(inout)   :: card
-      type(beam_property_card), intent(inout) :: property
-      real(wp) :: points(8)
-
-      associate (section => property%section)
-         call card%field('A', section%area, positive, default=0.0_wp)
-         call card%field(['I1', 'I2'], section%inertia(:2), not_negative, default=0.0_wp)
-         call card%field('J', section%torsion, not_negative, default=0.0_wp)
-         call card%field('NSM', property%extra_mass, not_negative, default=0.0_wp)
-         call card%skip(['-'])
-         call card%field(point_names, points, default=0.0_wp)
-         section%point = reshape(points, [2, 4])
-         call card%field(['K1', 'K2'], section%shear, not_negative, default=0.0_wp)
-         call card%field('I12', section%inertia(3), default=0.0_wp)
-         call card%finish(property%line)
-         call check_inertia(card, section)
-      end associate
-   end subroutine read_pbar
-
-   !> PBEAM: the section at end A; other stations must have the same section. Blank K1 and K2 are 1. The shear centre is the centroid:
-   !! warping (CW), shear relief (S1, S2), NSI and the offsets M and N of mass and neutral axis must be blank.
-   subroutine read_pbeam(card, property)
+   !> The rest of a PBEAM: other stations must have the section of end A. The shear centre is the centroid: warping (CW), shear relief
+   !! (S1, S2), NSI and the offsets M and N of mass and neutral axis must be blank.
+   subroutine read_stations(card, property)
       type(card_fields_type), intent(inout)   :: card
       type(beam_property_card), intent(inout) :: property
       real(wp) :: at_end_a(3:8) ! fields 3 to 8 of a station
-      real(wp) :: points(8), value
+      real(wp) :: value
       integer  :: first, k
       logical  :: ok
 
       associate (section => property%section)
-         call card%field('A', section%area, positive)
-         call card%field(['I1 ', 'I2 ', 'I12'], section%inertia, default=0.0_wp)
-         call card%field('J', section%torsion, not_negative, default=0.0_wp)
-         call card%field('NSM', property%extra_mass, not_negative, default=0.0_wp)
-         call card%field(point_names, points, default=0.0_wp)
-         section%point = reshape(points, [2, 4])
          at_end_a = [section%area, section%inertia, section%torsion, property%extra_mass]
          section%shear = 1.0_wp
          first = first_of_station
@@ -265,20 +254,8 @@ contains
             call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank or zero: beams have no warping, no '// &
                'taper and no offset of their axes')
          end do
-         call check_inertia(card, section)
       end associate
-   end subroutine read_pbeam
-
-   !> I12 squared must be below I1 I2 for a possible section.
-   subroutine check_inertia(card, section)
-      type(card_fields_type), intent(inout) :: card
-      type(beam_section), intent(in)        :: section
-
-      associate (i => section%inertia)
-         if (any(i(:2) < 0.0_wp) .or. (abs(i(3)) > 0.0_wp .and. i(3)**2 >= i(1)*i(2))) &
-            call card%error('I12', 'no section has these moments; expected I1 and I2 at least 0 and I12 squared below I1 I2')
-      end associate
-   end subroutine check_inertia
+   end subroutine read_stations
 
    !> PBARL, PBEAML: TYPE and its dimensions, then NSM.
    subroutine read_dimensions(card, property)

@@ -16,26 +16,25 @@ module rigid_cards
 contains
 
    !> RBE2: the components CM of the nodes GM move with node GN as a rigid body. RBE3: the components REFC of node REFGRID are the
-   !! weighted mean of the components C of the nodes G, group by group, each with its weight.
+   !! weighted mean of the components C of the nodes G, group by group, each with its weight. RBE2M, RBE3M: the same with the nodes of
+   !! surface PID; without GN or REFGRID the reference node is a new node.
    subroutine read_rigid(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      integer  :: directions, first, last, node
+      integer  :: c, directions, first, last, node
       real(wp) :: weight
 
       if (card%name == 'RBAR') then
          call read_rigid_bar(card, bulk%rigid(card%i))
          return
-      else if (card%name == 'RBE2M' .or. card%name == 'RBE3M') then
-         call read_rigid_surface(card, bulk%rigid(card%i), bulk)
-         return
       end if
       associate (rigid => bulk%rigid(card%i))
          rigid%line = card%line
-         rigid%is_mean = card%name == 'RBE3'
+         rigid%is_mean = card%name(:4) == 'RBE3'
          allocate (rigid%nodes(0), rigid%at(0), rigid%directions(0), rigid%weight(0))
          call card%field('EID', rigid%id)
-         if (rigid%is_mean) then
+         select case (card%name)
+         case ('RBE3')
             rigid%node_at = 3
             rigid%components_at = 4
             call card%blank(['-'])
@@ -45,9 +44,7 @@ contains
             call card%components('C1', directions)
             call card%field('G1,1', node)
             call read_groups(card, weight, directions, rigid)
-            if (any(has_component(rigid%directions, 4) .or. has_component(rigid%directions, 5) .or. &
-                    has_component(rigid%directions, 6))) call bulk%ignored%add('456 in C of RBE3')
-         else
+         case ('RBE2')
             call card%field('GN', rigid%node)
             call card%components('CM', rigid%components)
             call card%field('GM1', node)
@@ -58,31 +55,20 @@ contains
                last = first - 1
             end if
             call read_list(card, 4, last, rigid%components, 1.0_wp, rigid)
-         end if
+         case default ! the nodes are added by name_surface_nodes
+            call card%field(trim(merge('REFGRID', 'GN     ', rigid%is_mean)), rigid%node, default=0, least=0)
+            call card%components(trim(merge('REFC', 'CM  ', rigid%is_mean)), rigid%components)
+            directions = rigid%components
+            if (rigid%is_mean) call card%components('C', directions)
+            call card%field('PID', rigid%surface)
+            call card%finish(rigid%line)
+            rigid%at = [merge(5, 4, rigid%is_mean)]
+            rigid%directions = [directions]
+         end select
+         if (rigid%is_mean .and. any([(any(has_component(rigid%directions, c)), c = 4, 6)])) &
+            call bulk%ignored%add('456 in C of RBE3')
       end associate
    end subroutine read_rigid
-
-   !> RBE2M, RBE3M: an RBE2 or RBE3 with the nodes of surface PID. Without GN or REFGRID the reference node is a new node.
-   subroutine read_rigid_surface(card, rigid, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(rigid_card), intent(inout)       :: rigid
-      type(bulk_data_type), intent(inout)   :: bulk
-      integer :: directions, c
-
-      rigid%is_mean = card%name == 'RBE3M'
-      call card%field('EID', rigid%id)
-      call card%field(trim(merge('REFGRID', 'GN     ', rigid%is_mean)), rigid%node, default=0, least=0)
-      call card%components(trim(merge('REFC', 'CM  ', rigid%is_mean)), rigid%components)
-      directions = rigid%components
-      if (rigid%is_mean) call card%components('C', directions)
-      if (rigid%is_mean .and. any([(has_component(directions, c), c = 4, 6)])) call bulk%ignored%add('456 in C of RBE3')
-      call card%field('PID', rigid%surface)
-      call card%finish(rigid%line)
-      rigid%nodes = [integer ::]                   ! name_surface_nodes adds them
-      rigid%at = [merge(5, 4, rigid%is_mean)]
-      rigid%directions = [directions]
-      rigid%weight = [real(wp) ::]
-   end subroutine read_rigid_surface
 
    !> NODEAT: the node nearest to a place, on surface PID if given.
    subroutine read_place(card, bulk)
@@ -153,15 +139,15 @@ contains
    end subroutine read_expansion
 
    !> The groups of an RBE3 from data field 5 on. WEIGHT, DIRECTIONS and nodes of the first group are decoded so far; after its nodes a
-   !! real begins the next group.
+   !! real begins the next group. After the groups: UM with pairs of a node and its components, ALPHA and its value, and TREF or nothing.
    subroutine read_groups(card, weight, directions, rigid)
       type(card_fields_type), intent(inout) :: card
       real(wp), intent(in)                  :: weight
       integer, intent(in)                   :: directions
       type(rigid_card), intent(inout)       :: rigid
       real(wp) :: this_weight
-      integer  :: first, last, these
-      logical  :: ok
+      integer  :: components, first, last, node, these
+      logical  :: is_node, ok
 
       first = 7
       this_weight = weight
@@ -173,52 +159,37 @@ contains
          end do
          call read_list(card, first, last - 1, these, this_weight, rigid)
          if (last > card%n) return
-         if (is_word(card%text_at(last))) then
-            call read_tail(card, last, rigid)
-            return
-         end if
+         if (is_word(card%text_at(last))) exit
          call card%real_at(last, 'WT', this_weight, ok, positive, expected='a weight, a real number above 0')
          call card%integer_at(last + 1, 'C', these, ok, expected=component_words)
          first = last + 2
          if (first > card%n) call card%error_at(first, 'G: blank, expected '//a_node)
       end do
-   end subroutine read_groups
-
-   !> The entries after the groups, from the word in data field K on: UM with pairs of a node and its components, ALPHA and its value,
-   !! and TREF or nothing.
-   subroutine read_tail(card, k, rigid)
-      type(card_fields_type), intent(inout) :: card
-      integer, intent(in)                   :: k
-      type(rigid_card), intent(inout)       :: rigid
-      integer :: at, components, node
-      logical :: is_node, ok
-
-      at = k
-      if (card%text_at(at) == 'UM') then
+      if (card%text_at(last) == 'UM') then
          allocate (rigid%um_nodes(0), rigid%um_components(0), rigid%um_at(0))
-         at = at + 1
-         do while (at <= card%n .and. .not. is_word(card%text_at(at)))
-            if (card%text_at(at) == '') then
-               at = at + 1
+         last = last + 1
+         do while (last <= card%n .and. .not. is_word(card%text_at(last)))
+            if (card%text_at(last) == '') then
+               last = last + 1
                cycle
             end if
-            call card%integer_at(at, 'G', node, is_node, expected=a_node)
-            call card%integer_at(at + 1, 'C', components, ok, expected=component_words)
+            call card%integer_at(last, 'G', node, is_node, expected=a_node)
+            call card%integer_at(last + 1, 'C', components, ok, expected=component_words)
             if (is_node) then
                rigid%um_nodes = [rigid%um_nodes, node]
                rigid%um_components = [rigid%um_components, components]
-               rigid%um_at = [rigid%um_at, at]
+               rigid%um_at = [rigid%um_at, last]
             end if
-            at = at + 2
+            last = last + 2
          end do
+         if (last > card%n) return
       end if
-      if (at > card%n) return
-      if (card%text_at(at) == 'ALPHA' .and. at < card%n) then
-         call read_expansion(card, at + 1, card%n, rigid)
+      if (card%text_at(last) == 'ALPHA' .and. last < card%n) then
+         call read_expansion(card, last + 1, card%n, rigid)
       else
-         call card%error_at(at, ''''//card%text_at(at)//''', expected '//a_node//', a weight, UM or ALPHA')
+         call card%error_at(last, ''''//card%text_at(last)//''', expected '//a_node//', a weight, UM or ALPHA')
       end if
-   end subroutine read_tail
+   end subroutine read_groups
 
    !> Whether TEXT begins with a letter.
    pure logical function is_word(text)

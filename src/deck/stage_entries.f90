@@ -123,58 +123,52 @@ contains
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
       character(*), parameter :: beside = 'PLOT, STRESS, FORCES, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N' ! with a level
+      character(9), parameter :: switches(8) = [character(9) :: 'PLOT', 'STRESS', 'FORCES', 'VTU', 'STEPS', 'STATE', &
+                                                'CONDENSED', 'CD']
+      character(5), parameter :: levels(0:3) = [character(5) :: 'NONE', 'LAST', 'JOINT', 'ALL'] ! by their numbers
       character(:), allocatable :: rest, word
-      integer :: comma, levels
-      logical :: ok, twice
+      logical :: is_on(size(switches)), ok, twice
+      integer :: comma, k, level, n_levels
 
       stage%output = output_request()
       if (allocated(stage%only)) deallocate (stage%only)
-      levels = 0
-      twice = .false.
+      n_levels = 0
       word = ''
+      is_on = .false.
+      twice = .false.
       rest = upper(entry%value)
       if (rest == '') call value_error(entry, 'ALL or JOINT or LAST or NONE or '//beside, errors)
       do while (rest /= '')
          comma = index(rest//',', ',')
-         levels = levels + 1
          word = trim(adjustl(rest(:comma - 1)))
-         select case (word)
-         case ('ALL');    stage%output%level = output_all
-         case ('JOINT');  stage%output%level = output_joint
-         case ('LAST');   stage%output%level = output_last
-         case ('NONE');   stage%output%level = output_none
-         case ('PLOT');   call switch_on(stage%output%plot)
-         case ('STRESS'); call switch_on(stage%output%stress)
-         case ('FORCES'); call switch_on(stage%output%forces)
-         case ('VTU');    call switch_on(stage%output%vtu)
-         case ('STEPS');  call switch_on(stage%output%steps)
-         case ('STATE');  call switch_on(stage%output%state)
-         case ('CONDENSED'); call switch_on(stage%output%condensed)
-         case ('CD');     call switch_on(stage%output%along_cd)
-         case default
+         level = findloc(levels == word, .true., dim=1) - 1
+         k = findloc(switches == word, .true., dim=1)
+         if (level >= 0) then
+            stage%output%level = level
+            n_levels = n_levels + 1
+         else if (k > 0) then
+            twice = twice .or. is_on(k)
+            is_on(k) = .true.
+         else
             call read_limit(word, entry%line, stage%only, ok)
-            levels = levels - 1
             if (.not. ok) then
                call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma '//beside, errors)
                return
             end if
-         end select
+         end if
          rest = rest(min(comma + 1, len(rest) + 1):)
       end do
-      stage%output%vtu = stage%output%vtu .or. stage%output%steps
-      if (levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas '//beside, errors)
-
-   contains
-
-      !> A word that may stand beside a level, but not replace it.
-      subroutine switch_on(switch)
-         logical, intent(inout) :: switch
-
-         twice = twice .or. switch
-         switch = .true.
-         levels = levels - 1
-      end subroutine switch_on
-
+      associate (output => stage%output)
+         output%plot = is_on(1)
+         output%stress = is_on(2)
+         output%forces = is_on(3)
+         output%vtu = is_on(4) .or. is_on(5)
+         output%steps = is_on(5)
+         output%state = is_on(6)
+         output%condensed = is_on(7)
+         output%along_cd = is_on(8)
+      end associate
+      if (n_levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas '//beside, errors)
    end subroutine read_output
 
    !> RESPONSE = SET 5, PMARK 20, and WATCH likewise: words with commas.

@@ -1,6 +1,6 @@
 !> Reads the cards of vibration analysis: EIGRL, JAMPL, FREQ1, FREQ2, FREQ4 and TABDMP1.
 module vibration_cards
-   use bulk_data, only: bulk_data_type, tabdmp1_card
+   use bulk_data, only: bulk_data_type
    use card_fields, only: card_fields_type
    use field_rules, only: not_negative, positive, real_range
    use kinds, only: wp
@@ -106,10 +106,16 @@ contains
       end associate
    end subroutine read_freq4
 
-   !> TABDMP1: pairs of frequency and damping, ended by ENDT. TYPE is the kind of damping.
+   !> TABDMP1: pairs of frequency and damping, ended by ENDT. TYPE is the kind of damping. A pair with SKIP or with two blank fields
+   !! does not count. There must be at least two points, in ascending or descending order; descending points are reversed. At a jump a
+   !! frequency may appear twice, but not at the ends.
    subroutine read_tabdmp1(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
+      character(:), allocatable :: first, second
+      real(wp) :: frequency, value
+      integer  :: k, last, n
+      logical  :: ok
 
       associate (table => bulk%tabdmp1(card%i))
          table%line = card%line
@@ -117,62 +123,47 @@ contains
          call card%word('TYPE', '|G|CRIT|Q|', table%kind)
          call card%blank(['blank', 'blank', 'blank', 'blank', 'blank', 'blank'])
          allocate (table%frequency(0), table%value(0))
-         if (.not. card%is_faulty()) call read_pairs(card, table)
+         if (card%is_faulty()) return
+         last = list_from
+         do while (last <= card%n .and. card%text_at(last) /= 'ENDT')
+            last = last + 1
+         end do
+         if (last > card%n) then
+            call card%error_at(card%n, 'ENDT: expected after the last pair of a frequency and its damping')
+            return
+         end if
+         do k = last + 1, card%n
+            if (card%text_at(k) /= '') call card%error_at(k, ''''//card%text_at(k)//''' after ENDT, where the card must be blank')
+         end do
+         do k = list_from, last - 1, 2
+            first = card%text_at(k)
+            second = card%text_at(k + 1)
+            if (first == '' .and. (second == '' .or. second == 'ENDT')) cycle
+            if (first == 'SKIP' .or. second == 'SKIP') cycle
+            call card%real_at(k, 'F', frequency, ok, not_negative, expected='a frequency of 0 or more')
+            if (table%kind == 'Q') then
+               call card%real_at(k + 1, 'G', value, ok, positive, expected='a real number above 0, the amplification Q')
+            else
+               call card%real_at(k + 1, 'G', value, ok, not_negative, expected='a real number of at least 0, the damping')
+            end if
+            table%frequency = [table%frequency, frequency]
+            table%value = [table%value, value]
+         end do
+         n = size(table%frequency)
+         if (n < 2 .and. .not. card%is_faulty()) call card%error_at(card%n, integer_text(n)//' points, expected two or more')
+         if (card%is_faulty()) return
+         if (table%frequency(1) > table%frequency(n)) then
+            table%frequency = table%frequency(n:1:-1)
+            table%value = table%value(n:1:-1)
+         end if
+         associate (f => table%frequency)
+            if (any(f(2:) < f(:n - 1))) then
+               call card%error_at(list_from, 'F: the frequencies are not in order, expected them ascending, or descending')
+            else if (f(1) >= f(2) .or. f(n - 1) >= f(n) .or. any(f(3:) <= f(:n - 2))) then
+               call card%error_at(list_from, 'F: a frequency occurs twice at an end of the table, or three times')
+            end if
+         end associate
       end associate
    end subroutine read_tabdmp1
-
-   !> Read the pairs up to ENDT. A pair with SKIP or with two blank fields does not count. There must be at least two points, in ascending
-   !! or descending order; descending points are reversed. At a jump a frequency may appear twice, but not at the ends.
-   subroutine read_pairs(card, table)
-      type(card_fields_type), intent(inout) :: card
-      type(tabdmp1_card), intent(inout)     :: table
-      character(:), allocatable :: first, second
-      real(wp) :: frequency, value
-      integer  :: k, last, n
-      logical  :: ok
-
-      last = list_from
-      do while (last <= card%n .and. card%text_at(last) /= 'ENDT')
-         last = last + 1
-      end do
-      if (last > card%n) then
-         call card%error_at(card%n, 'ENDT: expected after the last pair of a frequency and its damping')
-         return
-      end if
-      do k = last + 1, card%n
-         if (card%text_at(k) /= '') call card%error_at(k, ''''//card%text_at(k)//''' after ENDT, where the card must be blank')
-      end do
-      do k = list_from, last - 1, 2
-         first = card%text_at(k)
-         second = card%text_at(k + 1)
-         if (first == '' .and. (second == '' .or. second == 'ENDT')) cycle
-         if (first == 'SKIP' .or. second == 'SKIP') cycle
-         call card%real_at(k, 'F', frequency, ok, not_negative, expected='a frequency of 0 or more')
-         if (table%kind == 'Q') then
-            call card%real_at(k + 1, 'G', value, ok, positive, expected='a real number above 0, the amplification Q')
-         else
-            call card%real_at(k + 1, 'G', value, ok, not_negative, expected='a real number of at least 0, the damping')
-         end if
-         table%frequency = [table%frequency, frequency]
-         table%value = [table%value, value]
-      end do
-      if (card%is_faulty()) return
-      n = size(table%frequency)
-      if (n < 2) then
-         call card%error_at(card%n, integer_text(n)//' points, expected two or more')
-         return
-      end if
-      if (table%frequency(1) > table%frequency(n)) then
-         table%frequency = table%frequency(n:1:-1)
-         table%value = table%value(n:1:-1)
-      end if
-      associate (f => table%frequency)
-         if (any(f(2:) < f(:n - 1))) then
-            call card%error_at(list_from, 'F: the frequencies are not in order, expected them ascending, or descending')
-         else if (f(1) >= f(2) .or. f(n - 1) >= f(n) .or. any(f(3:) <= f(:n - 2))) then
-            call card%error_at(list_from, 'F: a frequency occurs twice at an end of the table, or three times')
-         end if
-      end associate
-   end subroutine read_pairs
 
 end module vibration_cards
