@@ -38,7 +38,19 @@ contains
       call check_nodes('the load', analysis%now%load, [(i, i = 1, model%n_nodes)])
       call check_nodes('the displacement', analysis%u, system%retained)
       do i = 1, size(model%interface)
-         call check_element(i)
+         associate (normal => analysis%states(i)%normal, shear => analysis%states(i)%shear, k => analysis%k(:, i))
+            if (all(is_measure([normal%lambda, normal%pressure, normal%sumf, normal%k_n, normal%p_a, normal%lambda_a, &
+                                normal%lambda_b, shear%delta, shear%tau, shear%k_s, k]))) cycle
+            associate (words => ' of interface element '//integer_text(model%interface(i)%id)//' at node '// &
+                       integer_text(joint_node_id(model, i, 1)))
+               call check('the deflection lambda'//words, [normal%lambda, normal%lambda_a, normal%lambda_b])
+               call check('the pressure'//words, [normal%pressure, normal%p_a])
+               call check('the normal force'//words, [normal%sumf])
+               call check('the shear deflection'//words, shear%delta)
+               call check('the shear stress'//words, shear%tau)
+               call check('the stiffness'//words, [normal%k_n, shear%k_s, k])
+            end associate
+         end associate
       end do
       do i = 1, size(model%joints)
          call check('the work done on joint '//integer_text(model%joints(i)%id), [analysis%energy(i)%put_in, &
@@ -75,25 +87,6 @@ contains
             end do
          end do
       end subroutine check_nodes
-
-      !> Test interface element I.
-      subroutine check_element(i)
-         integer, intent(in) :: i
-         character(:), allocatable :: words
-
-         associate (normal => analysis%states(i)%normal, shear => analysis%states(i)%shear, k => analysis%k(:, i))
-            if (all(is_measure([normal%lambda, normal%pressure, normal%sumf, normal%k_n, normal%p_a, normal%lambda_a, &
-                                normal%lambda_b, shear%delta, shear%tau, shear%k_s, k]))) return
-            words = ' of interface element '//integer_text(model%interface(i)%id)//' at node '// &
-                    integer_text(joint_node_id(model, i, 1))
-            call check('the deflection lambda'//words, [normal%lambda, normal%lambda_a, normal%lambda_b])
-            call check('the pressure'//words, [normal%pressure, normal%p_a])
-            call check('the normal force'//words, [normal%sumf])
-            call check('the shear deflection'//words, shear%delta)
-            call check('the shear stress'//words, shear%tau)
-            call check('the stiffness'//words, [normal%k_n, shear%k_s, k])
-         end associate
-      end subroutine check_element
 
       !> Test the VALUES of WHAT.
       subroutine check(what, values)

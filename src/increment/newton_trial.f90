@@ -1,7 +1,9 @@
-!> A trial of METHOD = NEWTON: displacements, joint states and residual; the step, the line search and the commit.
+!> An attempt of METHOD = NEWTON at an increment, and its trials: displacements, joint states and residual; the step, the line
+!! search and the commit.
 module newton_trial
    use analysis_state, only: analysis_type, free_norm, kind_on_branch, note_turns, reach, subtract_joint_forces, tally_work
    use equations, only: equation_system, forces_in_bodies
+   use equation_solver, only: failure_type
    use interface_operator, only: joint_movement
    use joint_laws, only: element_state, follow_element, rest_when_open
    use kinds, only: wp
@@ -13,6 +15,48 @@ module newton_trial
 
    real(wp), parameter :: longest = 10.0_wp           ! line search: largest extension of a step at once
    real(wp), parameter :: enough = 0.8_wp             ! line search: a step with more of the unbalanced work left is searched
+
+   integer, parameter, public :: most_iterations = 60
+
+   !> One attempt at a part of the increment.
+   type, public :: attempt_type
+      ! the goal
+      character(:), allocatable :: where          !! stage and increment, for messages
+      real(wp) :: left = 0.0_wp                   !! fraction of the increment left at the goal [-]
+      real(wp), allocatable :: load(:, :)         !! (dimension, retained) at the goal [force]
+      real(wp), allocatable :: move(:, :)         !! likewise, movement of held components still to do [length]
+      logical  :: moves = .false.                 !! the next step makes this movement
+      real(wp) :: growth = 0.0_wp                 !! ratio to the last increment of the stage, 0: not its continuation
+      logical  :: seats = .false.                 !! interference at rest without load
+      real(wp) :: seat_force = 0.0_wp             !! then the reference force: p_av on the pressed elements [force]
+      logical  :: searches = .false.              !! line search along the tangents of the laws themselves
+      ! the course of the iterations
+      integer  :: iteration = 0
+      real(wp) :: sizes(0:most_iterations) = 0.0_wp !! residuals [force]
+      real(wp) :: step = 1.0_wp                   !! length of the last step, in directions [-]
+      real(wp) :: gain = 1.0_wp                   !! part of the present residual that the next step should leave [-]
+      real(wp) :: tolerance = 1.0e-4_wp           !! residual that the next direction may leave, relative [-]
+      real(wp) :: length = 0.0_wp                 !! of the last direction [length]
+      logical  :: coupled = .false.               !! the last direction was that of a coupled system
+      logical  :: settled = .false.               !! no element has begun or stopped slipping in the last iteration
+      logical  :: floats = .false.                !! only friction holds a body, which stays held
+      integer  :: circles = 0                     !! iterations that did not halve the residual
+      integer, allocatable :: flips(:)            !! changes of branch of each interface element
+      real(wp) :: load_size = 0.0_wp              !! reference force of the residuals [force]
+      real(wp) :: noise = 0.0_wp                  !! present rounding error of the forces in the bodies [force]
+      real(wp) :: spoilt = 0.0_wp                 !! its largest value since these forces were computed [force]
+      real(wp) :: travel = 0.0_wp                 !! of the supports or anything, at the beginning [length]
+      logical  :: carried = .false.               !! bodies only move with supports, and no force acts
+      ! the outcome
+      logical  :: converged = .false.
+      logical  :: ends = .false.                  !! no further iteration
+      type(failure_type) :: trouble               !! a matrix that could not be factorised
+      real(wp) :: left_over = 1.0_wp              !! fraction of the increment left where no part of it was possible [-]
+      integer  :: loose = 0                       !! a joint that is open or slips entirely at the end, 0: none
+      logical  :: slides = .false.                !! ... and the friction limit is reached somewhere
+      integer  :: worst(2) = 0                    !! node and direction of the largest residual at the end
+      logical  :: imprecise = .false.             !! rounding in the bodies is not small compared with the load
+   end type attempt_type
 
    !> A trial: displacements, the joint states that follow from them, and the residual. Arrays over nodes are those of the
    !! retained ones.

@@ -7,7 +7,7 @@ module step_method
    use joint_laws, only: element_state, exceeds_limit, flag_margin, friction_excess, friction_limit, is_apart
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
-   use newton_method, only: cross_gaps
+   use newton_method, only: free_idle_joints, newton_increment
    use normal_stiffness, only: pressure_reached
    use numbers, only: first_largest
    use stage_entries, only: output_joint
@@ -71,7 +71,10 @@ contains
          call solve_equations(model, system, analysis%change, analysis%du, trouble, moved=analysis%move)
          call decide_on(trouble, analysis, failure)
       end if
-      if (analysis%crosses_gaps) call cross_gaps(model, plan, analysis, system, failure)
+      if (.not. analysis%crosses_gaps) return
+      call newton_increment(model, plan, analysis, system, failure)
+      call free_idle_joints(model, analysis)
+      analysis%record%n_iterations = 0 ! these are not re-analyses
    end subroutine solve_increment
 
    !> Add the increment's displacements, deflections and forces to their sums.

@@ -1,4 +1,5 @@
-!> The straight laws from which METHOD = NEWTON takes its tangents, one for each interface element.
+!> The straight laws from which METHOD = NEWTON takes its tangents, one for each interface element, and the search direction under
+!! these laws.
 !! An iteration replaces the law of every interface element by a straight line through a point of its graph, and solves the
 !! structure with these lines. The solution gives a movement m. A kink of the graph may lie between the last point and m, and
 !! the force beyond it may be a thousand times that of the straight line. The next point is therefore not the point of the graph
@@ -10,12 +11,12 @@
 !! used on rigid joints by Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375.
 module straight_laws
    use analysis_state, only: analysis_type
-   use equation_solver, only: equation_system
+   use equations, only: equation_system, form_structure_stiffness, solve_coupled, solve_coupled_again, solve_equations
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: element_state, follow_element, friction_limit, is_apart, joint_law, rest_stiffness => stiffness_at_rest
+   use joint_laws, only: element_state, follow_element, friction_limit, is_apart, joint_law, stiffness_at_rest
    use kinds, only: wp
    use model_data, only: model_type
-   use newton_trial, only: trial_type
+   use newton_trial, only: attempt_type, trial_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_law, normal_tangent, pressure_floor
    use normal_stiffness, only: branch_open, follow_normal, normal_state
    use shear_path, only: follow_shear
@@ -23,7 +24,7 @@ module straight_laws
    implicit none
    private
 
-   public :: first_laws, laws_at, next_laws, residual_of, stiffness_at_rest, point_of_rest
+   public :: first_laws, laws_at, next_laws, residual_of, find_direction, find_again, loose_joint, point_of_rest
 
    integer, parameter  :: most_steps = 40
    real(wp), parameter :: near  = 1.0e-6_wp !! of the force: a point on the graph
@@ -31,6 +32,9 @@ module straight_laws
    real(wp), parameter :: least_rho = 1.0e-3_wp !! relative to the initial rho
    real(wp), parameter :: farthest = 1.0e30_wp  !! point of rest from the movement: powers of it are finite [length]
    real(wp), parameter :: most  = 3.0_wp    !! times the residual: limit of the force of a movement
+   integer, parameter  :: digits = 6                  ! of a direction: the next iteration corrects it
+   real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: substitute for zero stiffness of an element
+   real(wp), parameter :: far = 1.0e3_wp               ! times the last direction: the body is not held
 
    !> The straight laws of all interface elements, in their axes: f = force + tangent (m - point).
    type, public :: straight_laws_type
@@ -40,45 +44,10 @@ module straight_laws
       type(element_state), allocatable :: states(:) !! (n) there
       real(wp), allocatable :: shift(:, :)          !! (3, n) from the last movement to the point [length]
       real(wp), allocatable :: rho(:)               !! (n) relative to the initial rho
+      real(wp), allocatable :: elastic(:, :)        !! (3, n) k_sx, k_sy, k_n of the first increment [force/length]
    end type straight_laws_type
 
 contains
-
-   !> The straight laws for the first iteration from NOW, the committed state. The direction of movement of an element is not
-   !! yet known. An element on its first loading has the secants of Eq. (9). ELASTIC: an element that was pressed before has the
-   !! stiffer side of its kink, that of unloading, like the elastic predictor of plasticity. The elements of a joint without
-   !! pressure and with gaps are taken as closed.
-   subroutine first_laws(model, system, analysis, now, elastic, laws)
-      type(model_type), intent(in)          :: model
-      class(equation_system), intent(in)    :: system
-      type(analysis_type), intent(in)       :: analysis
-      type(trial_type), intent(in)          :: now
-      logical, intent(in)                   :: elastic
-      type(straight_laws_type), intent(out) :: laws
-      real(wp) :: k(3)
-      integer  :: d, i
-      logical  :: is_first, closes
-
-      call laws_at(model, system, now, laws)
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i), state => now%states(i)%normal)
-            k = stiffness_at_rest(model, analysis, i)
-            is_first = abs(state%lambda_a) <= 0.0_wp .and. abs(element%gap) <= 0.0_wp
-            closes = is_apart(now%states(i)) .and. bears_nothing(model, now%states, element%joint)
-            if (is_first .or. closes) then
-               laws%tangent(3, 3, i) = k(3)
-            else if (elastic .and. state%branch /= branch_open) then
-               laws%tangent(3, 3, i) = max(laws%tangent(3, 3, i), model%joints(element%joint)%law%normal%e_u*element%area)
-            end if
-            if (closes) laws%force(3, i) = k(3)*(state%lambda - state%lambda_b)
-            if (.not. (is_first .or. closes .or. (elastic .and. state%branch /= branch_open))) cycle
-            if (elastic) laws%tangent(:2, 3, i) = 0.0_wp
-            do d = 1, 2
-               laws%tangent(d, d, i) = max(laws%tangent(d, d, i), k(d))
-            end do
-         end associate
-      end do
-   end subroutine first_laws
 
    !> The tangents of the laws at the movements of NOW.
    subroutine laws_at(model, system, now, laws)
@@ -88,16 +57,55 @@ contains
       type(straight_laws_type), intent(out) :: laws
       integer :: i
 
-      allocate (laws%point(3, size(now%states)), laws%force(3, size(now%states)))
+      allocate (laws%point(3, size(now%states)), laws%force(3, size(now%states)), laws%elastic(3, size(now%states)))
       allocate (laws%shift(3, size(now%states)), source=0.0_wp)
       allocate (laws%rho(size(now%states)), source=1.0_wp)
       laws%tangent = now%tangent
       laws%states = now%states
       do i = 1, size(now%states)
-         laws%point(:, i) = joint_movement(system%interface(i), now%u)
-         laws%force(:, i) = force_of(model%interface(i)%area, now%states(i))
+         associate (element => model%interface(i), state => now%states(i))
+            laws%point(:, i) = joint_movement(system%interface(i), now%u)
+            laws%force(:, i) = force_of(element%area, state)
+            laws%elastic(:, i) = stiffness_at_rest(model%joints(element%joint)%law, element%area, state%normal%p_av)
+         end associate
       end do
    end subroutine laws_at
+
+   !> Change the LAWS at NOW, the committed state, to those of the first iteration. The direction of movement of an element is not
+   !! yet known. An element on its first loading has the secants of Eq. (9). ELASTIC: an element that was pressed before has the
+   !! stiffer side of its kink, that of unloading, like the elastic predictor of plasticity. The elements of a joint without
+   !! pressure and with gaps are taken as closed.
+   subroutine first_laws(model, now, elastic, laws)
+      type(model_type), intent(in)            :: model
+      type(trial_type), intent(in)            :: now
+      logical, intent(in)                     :: elastic
+      type(straight_laws_type), intent(inout) :: laws
+      integer :: d, i
+      logical :: is_first, closes, unloads
+
+      do i = 1, size(model%interface)
+         associate (element => model%interface(i), joint => model%joints(model%interface(i)%joint), &
+                    state => now%states(i)%normal, tangent => laws%tangent(:, :, i), k => laws%elastic(:, i))
+            is_first = abs(state%lambda_a) <= 0.0_wp .and. abs(element%gap) <= 0.0_wp
+            closes = is_apart(now%states(i))
+            if (closes) closes = all(now%states(joint%first:joint%last)%normal%pressure <= &
+                                     pressure_floor*now%states(joint%first:joint%last)%normal%p_av)
+            unloads = elastic .and. state%branch /= branch_open
+            if (is_first .or. closes) then
+               tangent(3, 3) = k(3)
+            else if (unloads) then
+               tangent(3, 3) = max(tangent(3, 3), joint%law%normal%e_u*element%area)
+            else
+               cycle
+            end if
+            if (closes) laws%force(3, i) = k(3)*(state%lambda - state%lambda_b)
+            if (elastic) tangent(:2, 3) = 0.0_wp
+            do d = 1, 2
+               tangent(d, d) = max(tangent(d, d), k(d))
+            end do
+         end associate
+      end do
+   end subroutine first_laws
 
    !> The straight laws for the next iteration, from the result NOW of the last ones with the residual UNBALANCED [force].
    !! SOFTER: rho relative to the first stiffness of an element; FLIPS: elements that have begun or stopped slipping.
@@ -121,7 +129,7 @@ contains
             force = laws%force(:, i) + matmul(laws%tangent(:, :, i), movement - laws%point(:, i))
             true_force = force_of(element%area, now%states(i))
             if (norm2(true_force - force) > right*norm2(true_force)) then
-               rho = laws%rho(i)*softer*stiffness_at_rest(model, analysis, i)
+               rho = laws%rho(i)*softer*laws%elastic(:, i)
                rho = max(min(rho, most*unbalanced/max(abs(movement - laws%point(:, i)), tiny(1.0_wp))), tiny(1.0_wp))
                shift = point_of_rest(law, element%area, analysis%states(i), movement, force, rho) - movement
                if (.not. norm2(shift) < farthest) shift = 0.0_wp ! no point of rest: the law at the movement serves
@@ -159,16 +167,92 @@ contains
       end do
    end function residual_of
 
-   !> Whether JOINT carries no pressure.
-   pure logical function bears_nothing(model, states, joint)
+   !> The DIRECTION that balances the RESIDUAL of the straight LAWS. The factorised matrix has the symmetric part of the tangents.
+   !! This part is shifted where an eigenvalue is negative (a slipping element has one where its two shear laws differ), and has a
+   !! small stiffness where an element has none. solve_coupled adds the remaining part.
+   !! A joint that slips at all nodes first has its elastic stiffness, as if no element slipped: this finds nodes that turn back,
+   !! which no tangent shows. When no node turns back any more, the tangent is used, which gives quadratic convergence, unless
+   !! nothing else holds the body in its direction of movement.
+   subroutine find_direction(model, residual, analysis, system, attempt, laws, direction)
+      type(model_type), intent(in)            :: model
+      real(wp), intent(in)                    :: residual(:, :)
+      type(analysis_type), intent(inout)      :: analysis
+      class(equation_system), intent(inout)   :: system
+      type(attempt_type), intent(inout)       :: attempt
+      type(straight_laws_type), intent(inout) :: laws !! their tangents become those of the solved equations
+      real(wp), intent(inout)                 :: direction(:, :)
+      real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
+      real(wp) :: least ! eigenvalue
+      integer  :: i, k
+      logical  :: holds, is_loose
+
+      allocate (matrix(3, 3, size(laws%states)), rest(3, 3, size(laws%states)), source=0.0_wp)
+      is_loose = loose_joint(model, laws%states) > 0
+      holds = is_loose .and. (attempt%floats .or. .not. attempt%settled)
+      do
+         do i = 1, size(laws%states)
+            associate (tangent => laws%tangent(:, :, i), elastic => laws%elastic(:, i))
+               analysis%k(:, i) = [tangent(1, 1), tangent(2, 2), tangent(3, 3)]
+               matrix(3, 3, i) = max(tangent(3, 3), little*elastic(3))
+               matrix(:2, :2, i) = 0.5_wp*(tangent(:2, :2) + transpose(tangent(:2, :2)))
+               least = 0.5_wp*(matrix(1, 1, i) + matrix(2, 2, i)) - &
+                       hypot(0.5_wp*(matrix(1, 1, i) - matrix(2, 2, i)), matrix(1, 2, i))
+               do k = 1, 2
+                  matrix(k, k, i) = matrix(k, k, i) - min(0.0_wp, least) + little*elastic(k)
+                  if (holds) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
+               end do
+               rest(:2, :, i) = tangent(:2, :) - matrix(:2, :, i)
+               if (holds) rest(:2, :2, i) = 0.0_wp
+            end associate
+         end do
+         direction = 0.0_wp ! where the equations cannot be solved
+         attempt%coupled = any(abs(rest(:2, 3, :)) > 0.0_wp) .and. all(abs(attempt%move) <= 0.0_wp)
+         if (attempt%coupled) then
+            direction = residual
+            call solve_coupled(model, matrix, rest, attempt%where, attempt%tolerance, system, direction, attempt%trouble)
+         else
+            rest = 0.0_wp
+            call form_structure_stiffness(model, matrix, attempt%where, system, attempt%trouble, one_solution=.true.)
+            call solve_equations(model, system, residual, direction, attempt%trouble, moved=attempt%move, digits=digits)
+         end if
+         if (holds .or. .not. is_loose .or. .not. norm2(direction) > far*attempt%length) exit
+         attempt%floats = .true.
+         holds = .true.
+      end do
+      laws%tangent = matrix + rest
+      attempt%length = norm2(direction)
+   end subroutine find_direction
+
+   !> The DIRECTION that balances another RESIDUAL with the tangents of the last direction.
+   subroutine find_again(model, residual, system, attempt, direction)
+      type(model_type), intent(in)          :: model
+      real(wp), intent(in)                  :: residual(:, :)
+      class(equation_system), intent(inout) :: system
+      type(attempt_type), intent(inout)     :: attempt
+      real(wp), intent(inout)               :: direction(:, :)
+
+      if (attempt%coupled) then
+         direction = residual
+         call solve_coupled_again(model, attempt%tolerance, system, direction, attempt%trouble)
+      else
+         direction = 0.0_wp
+         call solve_equations(model, system, residual, direction, attempt%trouble, &
+                              digits=min(digits, ceiling(-log10(attempt%tolerance))))
+      end if
+   end subroutine find_again
+
+   !> The first joint whose elements are all open or slip in STATES, 0 for none.
+   pure integer function loose_joint(model, states) result(joint)
       type(model_type), intent(in)    :: model
       type(element_state), intent(in) :: states(:)
-      integer, intent(in)             :: joint
 
-      associate (normal => states(model%joints(joint)%first:model%joints(joint)%last)%normal)
-         bears_nothing = all(normal%pressure <= pressure_floor*normal%p_av)
-      end associate
-   end function bears_nothing
+      do joint = 1, size(model%joints)
+         associate (of_joint => states(model%joints(joint)%first:model%joints(joint)%last))
+            if (size(of_joint) > 0 .and. all(of_joint%slips .or. of_joint%normal%branch == branch_open)) return
+         end associate
+      end do
+      joint = 0
+   end function loose_joint
 
    !> The force of an element in this STATE, in its axes [force].
    pure function force_of(area, state) result(force)
@@ -178,16 +262,6 @@ contains
 
       force = [state%shear%tau*area, state%normal%sumf]
    end function force_of
-
-   !> (k_sx, k_sy, k_n) of interface element I in its first increment [force/length].
-   pure function stiffness_at_rest(model, analysis, i) result(k)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: i
-      real(wp) :: k(3)
-
-      k = rest_stiffness(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, analysis%states(i)%normal%p_av)
-   end function stiffness_at_rest
 
    !> The movement at which an element would come to rest: that of the point of its graph, from the state BEFORE, on the line of
    !! slope -RHO through MOVEMENT and FORCE of its straight law. The normal direction is independent of the others and comes
