@@ -16,7 +16,7 @@ module analysis_state
    implicit none
    private
 
-   public :: start_analysis, all_held, interface_stiffness, reach, find_unbalanced, subtract_joint_forces, &
+   public :: start_analysis, all_held, interface_stiffness, find_movements, find_unbalanced, subtract_joint_forces, &
              element_force, tally_work, record_iteration, note_largest, free_norm, force_noise, note_turns
 
    real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: the largest rounding error of forces that joints balance
@@ -220,21 +220,16 @@ contains
       end do
    end subroutine note_turns
 
-   !> Commit the displacements U, under which the bodies carry the forces BODY, and the resulting movements of the interface
-   !! elements. All methods commit here.
-   subroutine reach(system, u, body, analysis)
+   !> The movements of the interface elements under the displacements {u} that have been reached.
+   subroutine find_movements(system, analysis)
       class(equation_system), intent(in) :: system
-      real(wp), intent(in)               :: u(:, :)    !! (dimension, retained) [length]
-      real(wp), intent(in)               :: body(:, :) !! likewise, [k_b] {u} [force]
       type(analysis_type), intent(inout) :: analysis
       integer :: i
 
-      analysis%u = u
-      analysis%body = body
       do i = 1, size(system%interface)
          analysis%movement(:, i) = joint_movement(system%interface(i), analysis%u)
       end do
-   end subroutine reach
+   end subroutine find_movements
 
    !> Force of an interface ELEMENT in this STATE on its end 2 or the base, in global axes [force].
    pure function element_force(element, state) result(force)

@@ -6,10 +6,10 @@ module newton_iterations
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: model_type
-   use newton_trial, only: attempt_type, commit, evaluate, most_iterations, search, start_trial, swap, take_step, trial_type
+   use newton_trial, only: attempt_type, commit, evaluate, evaluate_at, most_iterations, search, swap, trial_type
    use normal_curve, only: pressure_floor
    use numbers, only: first_largest
-   use straight_laws, only: find_again, find_direction, first_laws, laws_at, loose_joint, next_laws, residual_of, straight_laws_type
+   use straight_laws, only: find_again, find_direction, first_laws, laws_at, loose_joint, next_laws, residual_of, straight_law
    implicit none
    private
 
@@ -37,24 +37,24 @@ contains
       type(attempt_type), intent(inout)     :: attempt
       real(wp), intent(in), optional        :: from(:, :) !! the first trial, if not the committed state
       type(trial_type), allocatable :: now, next
-      type(straight_laws_type) :: laws
+      type(straight_law), allocatable :: laws(:)
       real(wp), allocatable :: direction(:, :), residual(:, :)
+      integer :: at
       logical :: guessed, moves
 
-      allocate (now, next)
       allocate (direction, mold=analysis%u)
       attempt%travel = max(maxval(abs(analysis%now%moved)), maxval(abs(analysis%u)))
       attempt%load_size = analysis%tolerance/analysis%load_tolerance ! the largest so far
-      call start_trial(system, analysis, now)
-      call start_trial(system, analysis, next)
       guessed = present(from)
+      allocate (now)
       if (guessed) then
          attempt%moves = .false.
          attempt%move = 0.0_wp
-         now%u = from
-         call forces_in_bodies(system, now%u, now%body)
+         call evaluate_at(model, system, attempt%load, analysis, from, now)
+      else
+         call evaluate_at(model, system, attempt%load, analysis, analysis%u, now)
       end if
-      call evaluate(model, system, attempt%load, analysis, now)
+      allocate (next, source=now)
       if (attempt%growth > 0.0_wp) then
          moves = attempt%moves
          direction = merge(attempt%growth*analysis%du, attempt%move, system%number(:, system%retained) > 0)
@@ -79,12 +79,25 @@ contains
          if (.not. moves) call correct(model, system, analysis, attempt, now, next)
          call note_iteration(now, next, analysis, attempt)
          if (.not. next%size < huge(1.0_wp)) exit
-         call renew_laws(model, system, analysis, next, free_norm(residual, analysis%held), attempt, laws)
+         if (attempt%searches) then
+            call laws_at(model, system, next, laws)
+         else
+            call next_laws(model, system, analysis, next, free_norm(residual, analysis%held), attempt, laws)
+         end if
          call swap(now, next)
          attempt%iteration = attempt%iteration + 1
       end do
-      call note_end(model, system, now, analysis, attempt)
+
+      ! what is said of an attempt that fails
+      attempt%imprecise = attempt%noise > precise*attempt%load_size .and. .not. attempt%carried
+      attempt%loose = loose_joint(model, now%states)
+      attempt%slides = attempt%loose > 0 .and. any(now%states%slips)
+      attempt%worst = 0
+      at = first_largest(pack(abs(now%residual), .true.), pack(.not. analysis%held, .true.))
+      if (at > 0) attempt%worst = [system%retained((at - 1)/model%dimension + 1), modulo(at - 1, model%dimension) + 1]
+      if (attempt%seats) analysis%tolerance = analysis%load_tolerance*attempt%load_size
       if (.not. attempt%converged) return
+
       if (now%size > max(far_below*analysis%tolerance, attempt%noise)) call refine(model, system, analysis, attempt, now, next)
       call commit(model, system, now, analysis)
    end subroutine iterate
@@ -106,7 +119,7 @@ contains
          return
       end if
       attempt%step = 1.0_wp
-      call take_step(model, system, attempt%load, analysis, now, direction, next)
+      call evaluate_at(model, system, attempt%load, analysis, now%u + direction, next)
       if (.not. attempt%moves) return
       attempt%moves = .false.
       attempt%move = 0.0_wp
@@ -141,7 +154,7 @@ contains
          attempt%tolerance = max(half*first, 0.1_wp*enough/next%size, least_tolerance)
          call find_again(model, next%residual, system, attempt, direction)
          if (attempt%trouble%raised) return
-         call take_step(model, system, attempt%load, analysis, next, direction, corrected)
+         call evaluate_at(model, system, attempt%load, analysis, next%u + direction, corrected)
          if (.not. corrected%size < next%size) exit
          call swap(corrected, next)
          if (next%size > worth_while*corrected%size .or. next%size <= enough) exit
@@ -200,33 +213,6 @@ contains
       end associate
    end subroutine judge
 
-   !> Set the straight laws for the next iteration, from NEXT. Iterations that cycle get another rho.
-   subroutine renew_laws(model, system, analysis, next, unbalanced, attempt, laws)
-      type(model_type), intent(in)            :: model
-      class(equation_system), intent(in)      :: system
-      type(analysis_type), intent(in)         :: analysis
-      type(trial_type), intent(in)            :: next
-      real(wp), intent(in)                    :: unbalanced
-      type(attempt_type), intent(inout)       :: attempt
-      type(straight_laws_type), intent(inout) :: laws
-      real(wp) :: softer
-      integer  :: flips
-
-      if (attempt%searches) then
-         call laws_at(model, system, next, laws)
-         return
-      end if
-      associate (n => attempt%iteration)
-         if (n > 4) then
-            if (next%size > 0.5_wp*minval(attempt%sizes(n - 2:n))) attempt%circles = attempt%circles + 1
-         end if
-         softer = 1.0_wp
-         if (attempt%circles > 0) softer = merge(10.0_wp, 0.1_wp, modulo(attempt%circles, 2) == 1)
-         call next_laws(model, system, analysis, next, unbalanced, softer, laws, flips)
-         attempt%settled = n > 1 .and. flips == 0
-      end associate
-   end subroutine renew_laws
-
    !> Which interface elements change their branch, or begin or stop slipping, from NOW to NEXT.
    pure function changes(now, next)
       type(trial_type), intent(in) :: now, next
@@ -247,26 +233,6 @@ contains
       call record_iteration(analysis, iteration_record(before=now%size, after=next%size, step=attempt%step, changes=count(flips), &
                                              part=analysis%record%n_parts + 1))
    end subroutine note_iteration
-
-   !> Record the end of ATTEMPT at the trial NOW.
-   subroutine note_end(model, system, now, analysis, attempt)
-      type(model_type), intent(in)       :: model
-      class(equation_system), intent(in) :: system
-      type(trial_type), intent(in)       :: now
-      type(analysis_type), intent(inout) :: analysis
-      type(attempt_type), intent(inout)  :: attempt
-      integer :: at
-
-      attempt%imprecise = attempt%noise > precise*attempt%load_size .and. .not. attempt%carried
-      attempt%loose = loose_joint(model, now%states)
-      attempt%slides = attempt%loose > 0 .and. any(now%states%slips)
-      at = first_largest(pack(abs(now%residual), .true.), pack(.not. analysis%held, .true.))
-      attempt%worst = 0
-      associate (n => size(now%residual, 1))
-         if (at > 0) attempt%worst = [system%retained((at - 1)/n + 1), modulo(at - 1, n) + 1]
-      end associate
-      if (attempt%seats) analysis%tolerance = analysis%load_tolerance*attempt%load_size
-   end subroutine note_end
 
    !> Whether iterations with residuals SIZES fail: the last of them hardly reduce the residual, or they diverge. A fixed number
    !! of iterations would not do: rounding would decide which of them is the last.
@@ -291,8 +257,8 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       type(attempt_type), intent(inout)     :: attempt !! a failure of this iteration does not count
       type(trial_type), allocatable, intent(inout) :: now, next
-      real(wp), allocatable    :: direction(:, :)
-      type(straight_laws_type) :: laws
+      type(straight_law), allocatable :: laws(:)
+      real(wp), allocatable :: direction(:, :)
 
       allocate (direction, mold=analysis%u)
       call laws_at(model, system, now, laws)

@@ -5,7 +5,7 @@ module newton_method
    use analysis_state, only: all_held, analysis_type, free_norm
    use equations, only: equation_system, form_structure_stiffness
    use equation_solver, only: failure_type
-   use joint_laws, only: stiffness_at_rest
+   use joint_laws, only: stiffness_at_rest, stiffness_matrices
    use kinds, only: wp
    use load_path, only: go_back
    use model_data, only: joint_node_id, model_type
@@ -36,9 +36,8 @@ contains
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(attempt_type) :: attempt
-      real(wp), allocatable :: matrix(:, :, :)
-      real(wp) :: k(3)
-      integer  :: before(size(analysis%states)), d, i, j
+      real(wp) :: k(3, size(analysis%states))
+      integer  :: before(size(analysis%states)), i, j
       logical  :: lifted
 
       if (analysis%is_loose .and. .not. (analysis%moves .or. any(abs(analysis%now%condensed_load) > 0.0_wp))) then
@@ -73,17 +72,14 @@ contains
          end associate
       end do
       if (.not. lifted) return
-      allocate (matrix(3, 3, size(before)), source=0.0_wp)
+      k = 0.0_wp
       do i = 1, size(before)
          associate (element => model%interface(i), state => analysis%states(i)%normal)
-            if (state%branch == branch_open) cycle
-            k = stiffness_at_rest(model%joints(element%joint)%law, element%area, state%p_av)
-            do d = 1, 3
-               matrix(d, d, i) = k(d)
-            end do
+            if (state%branch /= branch_open) &
+               k(:, i) = stiffness_at_rest(model%joints(element%joint)%law, element%area, state%p_av)
          end associate
       end do
-      call form_structure_stiffness(model, matrix, attempt%where, system, failure, one_solution=.true.)
+      call form_structure_stiffness(model, stiffness_matrices(k), attempt%where, system, failure, one_solution=.true.)
    end subroutine newton_increment
 
    !> Interference presses before any load: the equilibrium at rest becomes the initial state of STEP and NEWTON. Nothing is

@@ -13,7 +13,7 @@ module straight_laws
    use analysis_state, only: analysis_type
    use equations, only: equation_system, form_structure_stiffness, solve_coupled, solve_coupled_again, solve_equations
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: element_state, follow_element, friction_limit, is_apart, joint_law, stiffness_at_rest
+   use joint_laws, only: element_state, follow_element, force_of, friction_limit, is_apart, joint_law, stiffness_at_rest
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, trial_type
@@ -36,16 +36,16 @@ module straight_laws
    real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: substitute for zero stiffness of an element
    real(wp), parameter :: far = 1.0e3_wp               ! times the last direction: the body is not held
 
-   !> The straight laws of all interface elements, in their axes: f = force + tangent (m - point).
-   type, public :: straight_laws_type
-      real(wp), allocatable :: point(:, :)          !! (3, n) movement of end 1 against end 2 [length]
-      real(wp), allocatable :: force(:, :)          !! (3, n) there [force]
-      real(wp), allocatable :: tangent(:, :, :)     !! (3, 3, n) [force/length]
-      type(element_state), allocatable :: states(:) !! (n) there
-      real(wp), allocatable :: shift(:, :)          !! (3, n) from the last movement to the point [length]
-      real(wp), allocatable :: rho(:)               !! (n) relative to the initial rho
-      real(wp), allocatable :: elastic(:, :)        !! (3, n) k_sx, k_sy, k_n of the first increment [force/length]
-   end type straight_laws_type
+   !> The straight law of an interface element, in its axes: f = force + tangent (m - point).
+   type, public :: straight_law
+      real(wp) :: point(3) = 0.0_wp       !! movement of end 1 against end 2 [length]
+      real(wp) :: force(3) = 0.0_wp       !! there [force]
+      real(wp) :: tangent(3, 3) = 0.0_wp  !! [force/length]
+      type(element_state) :: state        !! there
+      real(wp) :: shift(3) = 0.0_wp       !! from the last movement to the point [length]
+      real(wp) :: rho = 1.0_wp            !! relative to the initial rho
+      real(wp) :: elastic(3) = 0.0_wp     !! k_sx, k_sy, k_n of the first increment [force/length]
+   end type straight_law
 
 contains
 
@@ -54,19 +54,17 @@ contains
       type(model_type), intent(in)          :: model
       class(equation_system), intent(in)    :: system
       type(trial_type), intent(in)          :: now
-      type(straight_laws_type), intent(out) :: laws
+      type(straight_law), allocatable, intent(out) :: laws(:)
       integer :: i
 
-      allocate (laws%point(3, size(now%states)), laws%force(3, size(now%states)), laws%elastic(3, size(now%states)))
-      allocate (laws%shift(3, size(now%states)), source=0.0_wp)
-      allocate (laws%rho(size(now%states)), source=1.0_wp)
-      laws%tangent = now%tangent
-      laws%states = now%states
-      do i = 1, size(now%states)
+      allocate (laws(size(now%states)))
+      do i = 1, size(laws)
          associate (element => model%interface(i), state => now%states(i))
-            laws%point(:, i) = joint_movement(system%interface(i), now%u)
-            laws%force(:, i) = force_of(element%area, state)
-            laws%elastic(:, i) = stiffness_at_rest(model%joints(element%joint)%law, element%area, state%normal%p_av)
+            laws(i)%point = joint_movement(system%interface(i), now%u)
+            laws(i)%force = force_of(element%area, state)
+            laws(i)%tangent = now%tangent(:, :, i)
+            laws(i)%state = state
+            laws(i)%elastic = stiffness_at_rest(model%joints(element%joint)%law, element%area, state%normal%p_av)
          end associate
       end do
    end subroutine laws_at
@@ -76,16 +74,16 @@ contains
    !! stiffer side of its kink, that of unloading, like the elastic predictor of plasticity. The elements of a joint without
    !! pressure and with gaps are taken as closed.
    subroutine first_laws(model, now, elastic, laws)
-      type(model_type), intent(in)            :: model
-      type(trial_type), intent(in)            :: now
-      logical, intent(in)                     :: elastic
-      type(straight_laws_type), intent(inout) :: laws
+      type(model_type), intent(in)      :: model
+      type(trial_type), intent(in)      :: now
+      logical, intent(in)               :: elastic
+      type(straight_law), intent(inout) :: laws(:)
       integer :: d, i
       logical :: is_first, closes, unloads
 
       do i = 1, size(model%interface)
          associate (element => model%interface(i), joint => model%joints(model%interface(i)%joint), &
-                    state => now%states(i)%normal, tangent => laws%tangent(:, :, i), k => laws%elastic(:, i))
+                    state => now%states(i)%normal, tangent => laws(i)%tangent, k => laws(i)%elastic)
             is_first = abs(state%lambda_a) <= 0.0_wp .and. abs(element%gap) <= 0.0_wp
             closes = is_apart(now%states(i))
             if (closes) closes = all(now%states(joint%first:joint%last)%normal%pressure <= &
@@ -98,7 +96,7 @@ contains
             else
                cycle
             end if
-            if (closes) laws%force(3, i) = k(3)*(state%lambda - state%lambda_b)
+            if (closes) laws(i)%force(3) = k(3)*(state%lambda - state%lambda_b)
             if (elastic) tangent(:2, 3) = 0.0_wp
             do d = 1, 2
                tangent(d, d) = max(tangent(d, d), k(d))
@@ -108,61 +106,66 @@ contains
    end subroutine first_laws
 
    !> The straight laws for the next iteration, from the result NOW of the last ones with the residual UNBALANCED [force].
-   !! SOFTER: rho relative to the first stiffness of an element; FLIPS: elements that have begun or stopped slipping.
-   subroutine next_laws(model, system, analysis, now, unbalanced, softer, laws, flips)
-      type(model_type), intent(in)            :: model
-      class(equation_system), intent(in)      :: system
-      type(analysis_type), intent(in)         :: analysis
-      type(trial_type), intent(in)            :: now
-      real(wp), intent(in)                    :: unbalanced
-      real(wp), intent(in)                    :: softer
-      type(straight_laws_type), intent(inout) :: laws
-      integer, intent(out)                    :: flips
-      real(wp) :: force(3), movement(3), rho(3), shift(3), true_force(3), work(3)
+   !! Iterations that cycle get another rho.
+   subroutine next_laws(model, system, analysis, now, unbalanced, attempt, laws)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(trial_type), intent(in)       :: now
+      real(wp), intent(in)               :: unbalanced
+      type(attempt_type), intent(inout)  :: attempt
+      type(straight_law), intent(inout)  :: laws(:)
+      real(wp) :: force(3), movement(3), rho(3), shift(3), softer, true_force(3), work(3)
       integer  :: i
       logical  :: slipped
 
-      flips = 0
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i), law => model%joints(model%interface(i)%joint)%law)
+      associate (n => attempt%iteration)
+         if (n > 4) then
+            if (now%size > 0.5_wp*minval(attempt%sizes(n - 2:n))) attempt%circles = attempt%circles + 1
+         end if
+         attempt%settled = n > 1
+      end associate
+      softer = 1.0_wp
+      if (attempt%circles > 0) softer = merge(10.0_wp, 0.1_wp, modulo(attempt%circles, 2) == 1)
+      do i = 1, size(laws)
+         associate (straight => laws(i), area => model%interface(i)%area, law => model%joints(model%interface(i)%joint)%law)
             movement = joint_movement(system%interface(i), now%u)
-            force = laws%force(:, i) + matmul(laws%tangent(:, :, i), movement - laws%point(:, i))
-            true_force = force_of(element%area, now%states(i))
+            force = straight%force + matmul(straight%tangent, movement - straight%point)
+            true_force = force_of(area, now%states(i))
+            shift = 0.0_wp
             if (norm2(true_force - force) > right*norm2(true_force)) then
-               rho = laws%rho(i)*softer*laws%elastic(:, i)
-               rho = max(min(rho, most*unbalanced/max(abs(movement - laws%point(:, i)), tiny(1.0_wp))), tiny(1.0_wp))
-               shift = point_of_rest(law, element%area, analysis%states(i), movement, force, rho) - movement
+               rho = straight%rho*softer*straight%elastic
+               rho = max(min(rho, most*unbalanced/max(abs(movement - straight%point), tiny(1.0_wp))), tiny(1.0_wp))
+               shift = point_of_rest(law, area, analysis%states(i), movement, force, rho) - movement
                if (.not. norm2(shift) < farthest) shift = 0.0_wp ! no point of rest: the law at the movement serves
-               if (dot_product(shift, laws%shift(:, i)) > 0.0_wp) laws%rho(i) = max(0.25_wp*laws%rho(i), least_rho)
-               if (dot_product(shift, laws%shift(:, i)) < 0.0_wp) laws%rho(i) = min(4.0_wp*laws%rho(i), 1.0_wp)
+               if (dot_product(shift, straight%shift) > 0.0_wp) straight%rho = max(0.25_wp*straight%rho, least_rho)
+               if (dot_product(shift, straight%shift) < 0.0_wp) straight%rho = min(4.0_wp*straight%rho, 1.0_wp)
                movement = movement + shift
-               laws%shift(:, i) = shift
-            else
-               laws%shift(:, i) = 0.0_wp
             end if
-            slipped = laws%states(i)%slips
-            call follow_element(law, element%area, analysis%states(i), movement, laws%states(i), laws%tangent(:, :, i), work)
-            laws%point(:, i) = movement
-            laws%force(:, i) = force_of(element%area, laws%states(i))
-            if (slipped .neqv. laws%states(i)%slips) flips = flips + 1
+            slipped = straight%state%slips
+            call follow_element(law, area, analysis%states(i), movement, straight%state, straight%tangent, work)
+            straight%point = movement
+            straight%shift = shift
+            straight%force = force_of(area, straight%state)
+            if (slipped .neqv. straight%state%slips) attempt%settled = .false.
          end associate
       end do
    end subroutine next_laws
 
    !> The residual at NOW under the LOAD with the straight LAWS in place of the joints' own, on retained nodes [force].
    function residual_of(system, load, now, laws) result(residual)
-      class(equation_system), intent(in)   :: system
-      real(wp), intent(in)                 :: load(:, :)
-      type(trial_type), intent(in)         :: now
-      type(straight_laws_type), intent(in) :: laws
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: load(:, :)
+      type(trial_type), intent(in)       :: now
+      type(straight_law), intent(in)     :: laws(:)
       real(wp), allocatable :: residual(:, :)
       integer :: i
 
       residual = load - now%body
-      do i = 1, size(laws%states)
-         associate (element => system%interface(i))
-            call add_force(element, -laws%force(:, i) - matmul(laws%tangent(:, :, i), joint_movement(element, now%u) - &
-                                                               laws%point(:, i)), residual)
+      do i = 1, size(laws)
+         associate (element => system%interface(i), straight => laws(i))
+            call add_force(element, -straight%force - matmul(straight%tangent, joint_movement(element, now%u) - straight%point), &
+                           residual)
          end associate
       end do
    end function residual_of
@@ -174,24 +177,24 @@ contains
    !! which no tangent shows. When no node turns back any more, the tangent is used, which gives quadratic convergence, unless
    !! nothing else holds the body in its direction of movement.
    subroutine find_direction(model, residual, analysis, system, attempt, laws, direction)
-      type(model_type), intent(in)            :: model
-      real(wp), intent(in)                    :: residual(:, :)
-      type(analysis_type), intent(inout)      :: analysis
-      class(equation_system), intent(inout)   :: system
-      type(attempt_type), intent(inout)       :: attempt
-      type(straight_laws_type), intent(inout) :: laws !! their tangents become those of the solved equations
-      real(wp), intent(inout)                 :: direction(:, :)
+      type(model_type), intent(in)          :: model
+      real(wp), intent(in)                  :: residual(:, :)
+      type(analysis_type), intent(inout)    :: analysis
+      class(equation_system), intent(inout) :: system
+      type(attempt_type), intent(inout)     :: attempt
+      type(straight_law), intent(inout)     :: laws(:) !! their tangents become those of the solved equations
+      real(wp), intent(inout)               :: direction(:, :)
       real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
       real(wp) :: least ! eigenvalue
       integer  :: i, k
       logical  :: holds, is_loose
 
-      allocate (matrix(3, 3, size(laws%states)), rest(3, 3, size(laws%states)), source=0.0_wp)
-      is_loose = loose_joint(model, laws%states) > 0
+      allocate (matrix(3, 3, size(laws)), rest(3, 3, size(laws)), source=0.0_wp)
+      is_loose = loose_joint(model, laws%state) > 0
       holds = is_loose .and. (attempt%floats .or. .not. attempt%settled)
       do
-         do i = 1, size(laws%states)
-            associate (tangent => laws%tangent(:, :, i), elastic => laws%elastic(:, i))
+         do i = 1, size(laws)
+            associate (tangent => laws(i)%tangent, elastic => laws(i)%elastic)
                analysis%k(:, i) = [tangent(1, 1), tangent(2, 2), tangent(3, 3)]
                matrix(3, 3, i) = max(tangent(3, 3), little*elastic(3))
                matrix(:2, :2, i) = 0.5_wp*(tangent(:2, :2) + transpose(tangent(:2, :2)))
@@ -219,7 +222,9 @@ contains
          attempt%floats = .true.
          holds = .true.
       end do
-      laws%tangent = matrix + rest
+      do i = 1, size(laws)
+         laws(i)%tangent = matrix(:, :, i) + rest(:, :, i)
+      end do
       attempt%length = norm2(direction)
    end subroutine find_direction
 
@@ -254,18 +259,10 @@ contains
       joint = 0
    end function loose_joint
 
-   !> The force of an element in this STATE, in its axes [force].
-   pure function force_of(area, state) result(force)
-      real(wp), intent(in)            :: area
-      type(element_state), intent(in) :: state
-      real(wp) :: force(3)
-
-      force = [state%shear%tau*area, state%normal%sumf]
-   end function force_of
-
    !> The movement at which an element would come to rest: that of the point of its graph, from the state BEFORE, on the line of
    !! slope -RHO through MOVEMENT and FORCE of its straight law. The normal direction is independent of the others and comes
-   !! first. A slipping element stays at its point if it slips there in the same direction.
+   !! first; then, by Newton's method within bounds, each shear direction, whose force increases with the movement. A slipping
+   !! element stays at its point if it slips there in the same direction.
    function point_of_rest(law, area, before, movement, force, rho) result(point)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area        !! a_i [length^2]
@@ -275,8 +272,8 @@ contains
       real(wp), intent(in)            :: rho(3)      !! > 0 [force/length]
       real(wp) :: point(3)
       type(normal_state) :: normal
-      real(wp) :: goal(3), limit, slope, t(2), there(2), work
-      integer  :: i
+      real(wp) :: bounds(2), excess, goal(3), limit, slope, start, t(2), there(2), work
+      integer  :: i, step
 
       goal = force + rho*movement
       point = movement
@@ -287,7 +284,19 @@ contains
       there = 0.0_wp
       do i = 1, 2
          if (.not. law%shear(i)%given) cycle
-         call find_shear_rest(i)
+         start = before%shear(i)%delta + before%origin(i)
+         point(i) = start
+         call shear_force(i, start, t(i), slope)
+         excess = t(i) + rho(i)*start - goal(i)
+         bounds = [min(start, start - excess/rho(i)), max(start, start - excess/rho(i))]
+         do step = 1, most_steps
+            if (abs(excess) <= near*(abs(t(i)) + abs(goal(i) - rho(i)*start))) exit
+            bounds(merge(2, 1, excess > 0.0_wp)) = point(i)
+            point(i) = point(i) - excess/(rho(i) + slope)
+            if (point(i) <= bounds(1) .or. point(i) >= bounds(2)) point(i) = 0.5_wp*sum(bounds)
+            call shear_force(i, point(i), t(i), slope)
+            excess = t(i) + rho(i)*point(i) - goal(i)
+         end do
          call shear_force(i, movement(i), there(i), slope)
       end do
       limit = area*friction_limit(law, normal%pressure)
@@ -310,27 +319,6 @@ contains
          t = area*state%tau
          slope = max(0.0_wp, area*slope)
       end subroutine shear_force
-
-      !> POINT and T in direction I by Newton's method within bounds, from the state before; t increases with the movement.
-      subroutine find_shear_rest(i)
-         integer, intent(in) :: i
-         real(wp) :: bounds(2), excess, slope, start
-         integer  :: step
-
-         start = before%shear(i)%delta + before%origin(i)
-         point(i) = start
-         call shear_force(i, start, t(i), slope)
-         excess = t(i) + rho(i)*start - goal(i)
-         bounds = [min(start, start - excess/rho(i)), max(start, start - excess/rho(i))]
-         do step = 1, most_steps
-            if (abs(excess) <= near*(abs(t(i)) + abs(goal(i) - rho(i)*start))) exit
-            bounds(merge(2, 1, excess > 0.0_wp)) = point(i)
-            point(i) = point(i) - excess/(rho(i) + slope)
-            if (point(i) <= bounds(1) .or. point(i) >= bounds(2)) point(i) = 0.5_wp*sum(bounds)
-            call shear_force(i, point(i), t(i), slope)
-            excess = t(i) + rho(i)*point(i) - goal(i)
-         end do
-      end subroutine find_shear_rest
 
    end function point_of_rest
 
