@@ -22,7 +22,6 @@ module analysis_state
    real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: the largest rounding error of forces that joints balance
 
    integer, parameter, public :: no_stiffness = 1, secant_stiffness = 2, tangent_stiffness = 3, e_u_stiffness = 4 !! k_n used
-
    integer, parameter, public :: kind_on_branch(4) = [tangent_stiffness, e_u_stiffness, no_stiffness, e_u_stiffness] !! by branch
 
    !> Where a shear branch of an interface element began, for the listing only.
@@ -199,22 +198,20 @@ contains
                analysis%next_kind(i) = secant_stiffness
          end associate
       end do
-      call note_turns(analysis%states, analysis%turns)
+      call note_turns(analysis)
       call find_unbalanced(system, analysis)
    end subroutine interface_stiffness
 
-   !> Note in TURNS(2, n) the shear branches that began with the last movement of the elements in these STATES. A branch begins
-   !! at the point before the movement.
-   pure subroutine note_turns(states, turns)
-      type(element_state), intent(in)    :: states(:)
-      type(turning_point), intent(inout) :: turns(:, :)
+   !> Note the shear branches that began with the last movement. A branch begins at the point before the movement.
+   pure subroutine note_turns(analysis)
+      type(analysis_type), intent(inout) :: analysis
       integer :: i, k
 
-      do i = 1, size(states)
+      do i = 1, size(analysis%states)
          do k = 1, 2
-            associate (state => states(i)%shear(k))
-               if (turns(k, i)%branch /= state%branch) &
-                  turns(k, i) = turning_point(branch=state%branch, delta=state%delta_before, tau=state%tau_before)
+            associate (state => analysis%states(i)%shear(k), turn => analysis%turns(k, i))
+               if (turn%branch /= state%branch) &
+                  turn = turning_point(branch=state%branch, delta=state%delta_before, tau=state%tau_before)
             end associate
          end do
       end do

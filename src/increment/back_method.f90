@@ -114,8 +114,7 @@ contains
       real(wp) :: largest
       integer  :: i
 
-      largest = 0.0_wp
-      if (size(model%interface) > 0) largest = maxval(abs(deflections(3, :)))
+      largest = maxval(abs(deflections(3, :)))
       do i = 1, size(model%interface)
          associate (state => analysis%states(i), element => model%interface(i), deflection => deflections(:, i), &
                     law => model%joints(model%interface(i)%joint)%law)

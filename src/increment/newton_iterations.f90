@@ -2,14 +2,14 @@
 !! the tangents of straight_laws: the first one with new tangents, then corrections with these tangents while they pay.
 module newton_iterations
    use analysis_state, only: analysis_type, force_noise, free_norm, iteration_record, precise, record_iteration
-   use equations, only: equation_system, forces_in_bodies
+   use equations, only: equation_system, forces_in_bodies, solve_coupled_again, solve_equations
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: model_type
    use newton_trial, only: attempt_type, commit, evaluate, evaluate_at, most_iterations, search, swap, trial_type
    use normal_curve, only: pressure_floor
    use numbers, only: first_largest
-   use straight_laws, only: find_again, find_direction, first_laws, laws_at, loose_joint, next_laws, residual_of, straight_law
+   use straight_laws, only: direction_digits, find_direction, first_laws, laws_at, loose_joint, next_laws, residual_of, straight_law
    implicit none
    private
 
@@ -149,10 +149,15 @@ contains
       enough = max(half*far_below*analysis%tolerance, attempt%noise)
       if (attempt%searches .or. first > worth_while .or. next%size <= enough .or. any(changes(now, next))) return
       allocate (corrected, source=next)
-      allocate (direction, mold=next%u)
       do i = 1, most_corrections
          attempt%tolerance = max(half*first, 0.1_wp*enough/next%size, least_tolerance)
-         call find_again(model, next%residual, system, attempt, direction)
+         direction = merge(next%residual, 0.0_wp, attempt%coupled)
+         if (attempt%coupled) then
+            call solve_coupled_again(model, attempt%tolerance, system, direction, attempt%trouble)
+         else
+            call solve_equations(model, system, next%residual, direction, attempt%trouble, &
+                                 digits=min(direction_digits, ceiling(-log10(attempt%tolerance))))
+         end if
          if (attempt%trouble%raised) return
          call evaluate_at(model, system, attempt%load, analysis, next%u + direction, corrected)
          if (.not. corrected%size < next%size) exit

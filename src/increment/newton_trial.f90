@@ -214,13 +214,12 @@ contains
       do i = 1, size(model%interface)
          call tally_work(analysis%energy(model%interface(i)%joint), trial%work(:, i))
          associate (state => analysis%states(i))
-            state%shear(1)%k_s = trial%tangent(1, 1, i)
-            state%shear(2)%k_s = trial%tangent(2, 2, i)
+            state%shear%k_s = [trial%tangent(1, 1, i), trial%tangent(2, 2, i)]
             call rest_when_open(state, analysis%movement(:, i))
             analysis%record%kind(i) = kind_on_branch(state%normal%branch)
          end associate
       end do
-      call note_turns(analysis%states, analysis%turns)
+      call note_turns(analysis)
    end subroutine commit
 
 end module newton_trial

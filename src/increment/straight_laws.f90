@@ -11,7 +11,7 @@
 !! used on rigid joints by Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375.
 module straight_laws
    use analysis_state, only: analysis_type
-   use equations, only: equation_system, form_structure_stiffness, solve_coupled, solve_coupled_again, solve_equations
+   use equations, only: equation_system, form_structure_stiffness, solve_coupled, solve_equations
    use interface_operator, only: add_force, joint_movement
    use joint_laws, only: element_state, follow_element, force_of, friction_limit, is_apart, joint_law, stiffness_at_rest
    use kinds, only: wp
@@ -24,7 +24,7 @@ module straight_laws
    implicit none
    private
 
-   public :: first_laws, laws_at, next_laws, residual_of, find_direction, find_again, loose_joint, point_of_rest
+   public :: first_laws, laws_at, next_laws, residual_of, find_direction, loose_joint, point_of_rest
 
    integer, parameter  :: most_steps = 40
    real(wp), parameter :: near  = 1.0e-6_wp !! of the force: a point on the graph
@@ -32,9 +32,9 @@ module straight_laws
    real(wp), parameter :: least_rho = 1.0e-3_wp !! relative to the initial rho
    real(wp), parameter :: farthest = 1.0e30_wp  !! point of rest from the movement: powers of it are finite [length]
    real(wp), parameter :: most  = 3.0_wp    !! times the residual: limit of the force of a movement
-   integer, parameter  :: digits = 6                  ! of a direction: the next iteration corrects it
-   real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: substitute for zero stiffness of an element
-   real(wp), parameter :: far = 1.0e3_wp               ! times the last direction: the body is not held
+   real(wp), parameter :: little = 1.0e-7_wp !! of the elastic stiffness: substitute for zero stiffness of an element
+   real(wp), parameter :: far = 1.0e3_wp    !! times the last direction: the body is not held
+   integer, parameter, public :: direction_digits = 6 !! the next iteration corrects the direction
 
    !> The straight law of an interface element, in its axes: f = force + tangent (m - point).
    type, public :: straight_law
@@ -216,7 +216,8 @@ contains
          else
             rest = 0.0_wp
             call form_structure_stiffness(model, matrix, attempt%where, system, attempt%trouble, one_solution=.true.)
-            call solve_equations(model, system, residual, direction, attempt%trouble, moved=attempt%move, digits=digits)
+            call solve_equations(model, system, residual, direction, attempt%trouble, moved=attempt%move, &
+                                 digits=direction_digits)
          end if
          if (holds .or. .not. is_loose .or. .not. norm2(direction) > far*attempt%length) exit
          attempt%floats = .true.
@@ -227,24 +228,6 @@ contains
       end do
       attempt%length = norm2(direction)
    end subroutine find_direction
-
-   !> The DIRECTION that balances another RESIDUAL with the tangents of the last direction.
-   subroutine find_again(model, residual, system, attempt, direction)
-      type(model_type), intent(in)          :: model
-      real(wp), intent(in)                  :: residual(:, :)
-      class(equation_system), intent(inout) :: system
-      type(attempt_type), intent(inout)     :: attempt
-      real(wp), intent(inout)               :: direction(:, :)
-
-      if (attempt%coupled) then
-         direction = residual
-         call solve_coupled_again(model, attempt%tolerance, system, direction, attempt%trouble)
-      else
-         direction = 0.0_wp
-         call solve_equations(model, system, residual, direction, attempt%trouble, &
-                              digits=min(digits, ceiling(-log10(attempt%tolerance))))
-      end if
-   end subroutine find_again
 
    !> The first joint whose elements are all open or slip in STATES, 0 for none.
    pure integer function loose_joint(model, states) result(joint)

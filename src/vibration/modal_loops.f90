@@ -297,7 +297,6 @@ contains
       top = coordinate(modal, now, loop%alpha)
       call clear(model, loop%alpha, top, loop)
       call follow_path(model, modal, [loop%alpha, -loop%alpha], 2*increments, now, loop, failure)
-      if (failure%raised) return
       u_low = now%u
       low = coordinate(modal, now, -loop%alpha)
       call follow_path(model, modal, [-loop%alpha, loop%alpha], 2*increments, now, loop, failure)
