@@ -3,7 +3,7 @@
 !! to sets of nodes or marked surfaces.
 module vibration_build
    use bulk_data, only: freq1_card
-   use case_entries, only: find_set, limit_type, number_set, numbers_in_set
+   use case_entries, only: limit_type, number_set, numbers_in_set
    use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
@@ -195,7 +195,7 @@ contains
 
    !> The nodes of MODEL that entry KEY of case control names by its LIMITS; missing sets and surfaces are added to ERRORS.
    subroutine find_limited_nodes(sets, model, key, limits, are_named, errors)
-      type(number_set), allocatable, intent(in) :: sets(:) !! of case control; not allocated: none
+      type(number_set), intent(in)         :: sets(:) !! of case control
       type(model_type), intent(in)         :: model
       character(*), intent(in)             :: key
       type(limit_type), intent(in)         :: limits(:)
@@ -210,7 +210,7 @@ contains
                at = findloc(model%surfaces%id, only%id, dim=1)
                if (at > 0) are_named(nodes_of(model%surfaces(at))) = .true.
             else
-               at = find_set(sets, only%id)
+               at = findloc(sets%id, only%id, dim=1, back=.true.)
                if (at > 0) call find_set_nodes(sets(at), model, are_named, errors)
             end if
             if (at == 0) call errors%add(only%line, key//': there is no '//trim(merge('PMARK', 'SET  ', only%is_mark))//' '// &
