@@ -16,13 +16,12 @@ module analysis_state
    implicit none
    private
 
-   public :: start_analysis, all_held, interface_stiffness, reach, find_unbalanced, subtract_joint_forces, &
+   public :: start_analysis, all_held, interface_stiffness, find_movements, find_unbalanced, subtract_joint_forces, &
              element_force, tally_work, record_iteration, note_largest, free_norm, force_noise, note_turns
 
    real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: the largest rounding error of forces that joints balance
 
    integer, parameter, public :: no_stiffness = 1, secant_stiffness = 2, tangent_stiffness = 3, e_u_stiffness = 4 !! k_n used
-
    integer, parameter, public :: kind_on_branch(4) = [tangent_stiffness, e_u_stiffness, no_stiffness, e_u_stiffness] !! by branch
 
    !> Where a shear branch of an interface element began, for the listing only.
@@ -199,42 +198,35 @@ contains
                analysis%next_kind(i) = secant_stiffness
          end associate
       end do
-      call note_turns(analysis%states, analysis%turns)
+      call note_turns(analysis)
       call find_unbalanced(system, analysis)
    end subroutine interface_stiffness
 
-   !> Note in TURNS(2, n) the shear branches that began with the last movement of the elements in these STATES. A branch begins
-   !! at the point before the movement.
-   pure subroutine note_turns(states, turns)
-      type(element_state), intent(in)    :: states(:)
-      type(turning_point), intent(inout) :: turns(:, :)
+   !> Note the shear branches that began with the last movement. A branch begins at the point before the movement.
+   pure subroutine note_turns(analysis)
+      type(analysis_type), intent(inout) :: analysis
       integer :: i, k
 
-      do i = 1, size(states)
+      do i = 1, size(analysis%states)
          do k = 1, 2
-            associate (state => states(i)%shear(k))
-               if (turns(k, i)%branch /= state%branch) &
-                  turns(k, i) = turning_point(branch=state%branch, delta=state%delta_before, tau=state%tau_before)
+            associate (state => analysis%states(i)%shear(k), turn => analysis%turns(k, i))
+               if (turn%branch /= state%branch) &
+                  turn = turning_point(branch=state%branch, delta=state%delta_before, tau=state%tau_before)
             end associate
          end do
       end do
    end subroutine note_turns
 
-   !> Commit the displacements U, under which the bodies carry the forces BODY, and the resulting movements of the interface
-   !! elements. All methods commit here.
-   subroutine reach(system, u, body, analysis)
+   !> The movements of the interface elements under the displacements {u} that have been reached.
+   subroutine find_movements(system, analysis)
       class(equation_system), intent(in) :: system
-      real(wp), intent(in)               :: u(:, :)    !! (dimension, retained) [length]
-      real(wp), intent(in)               :: body(:, :) !! likewise, [k_b] {u} [force]
       type(analysis_type), intent(inout) :: analysis
       integer :: i
 
-      analysis%u = u
-      analysis%body = body
       do i = 1, size(system%interface)
          analysis%movement(:, i) = joint_movement(system%interface(i), analysis%u)
       end do
-   end subroutine reach
+   end subroutine find_movements
 
    !> Force of an interface ELEMENT in this STATE on its end 2 or the base, in global axes [force].
    pure function element_force(element, state) result(force)

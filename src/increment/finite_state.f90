@@ -30,15 +30,25 @@ contains
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(in)    :: analysis
       type(failure_type), intent(inout)  :: failure
+      character(17), parameter :: nouns(6) = [character(17) :: 'deflection lambda', 'pressure', 'normal force', &
+                                              'shear deflection', 'shear stress', 'stiffness']
+      integer, parameter :: last_of(5) = [3, 5, 6, 8, 10] ! among the values of an interface element, the last of a noun
       character(:), allocatable :: place
-      real(wp) :: noise
-      integer  :: i
+      real(wp) :: noise, values(16)
+      integer  :: at, i
 
       place = where_in_plan(plan, analysis%stage, analysis%increment)//': '
       call check_nodes('the load', analysis%now%load, [(i, i = 1, model%n_nodes)])
       call check_nodes('the displacement', analysis%u, system%retained)
       do i = 1, size(model%interface)
-         call check_element(i)
+         associate (normal => analysis%states(i)%normal, shear => analysis%states(i)%shear, k => analysis%k(:, i))
+            values = [normal%lambda, normal%lambda_a, normal%lambda_b, normal%pressure, normal%p_a, normal%sumf, shear%delta, &
+                      shear%tau, normal%k_n, shear%k_s, k]
+            at = findloc(is_measure(values), .false., dim=1)
+            if (at > 0) call check('the '//trim(nouns(count(at > last_of) + 1))//' of interface element '// &
+                                   integer_text(model%interface(i)%id)//' at node '//integer_text(joint_node_id(model, i, 1)), &
+                                   values(at:at))
+         end associate
       end do
       do i = 1, size(model%joints)
          call check('the work done on joint '//integer_text(model%joints(i)%id), [analysis%energy(i)%put_in, &
@@ -66,45 +76,21 @@ contains
          character(*), intent(in) :: noun
          real(wp), intent(in)     :: array(:, :) !! (dimension, nodes)
          integer, intent(in)      :: nodes(:)
-         integer :: d, k
+         integer :: at(2)
 
-         if (all(is_measure(array))) return
-         do k = 1, size(nodes)
-            do d = 1, size(array, 1)
-               if (.not. is_measure(array(d, k))) call check(noun//' of '//unknown_name(model, nodes(k), d), [array(d, k)])
-            end do
-         end do
+         at = findloc(is_measure(array), .false.)
+         if (at(1) > 0) call check(noun//' of '//unknown_name(model, nodes(at(2)), at(1)), [array(at(1), at(2))])
       end subroutine check_nodes
-
-      !> Test interface element I.
-      subroutine check_element(i)
-         integer, intent(in) :: i
-         character(:), allocatable :: words
-
-         associate (normal => analysis%states(i)%normal, shear => analysis%states(i)%shear, k => analysis%k(:, i))
-            if (all(is_measure([normal%lambda, normal%pressure, normal%sumf, normal%k_n, normal%p_a, normal%lambda_a, &
-                                normal%lambda_b, shear%delta, shear%tau, shear%k_s, k]))) return
-            words = ' of interface element '//integer_text(model%interface(i)%id)//' at node '// &
-                    integer_text(joint_node_id(model, i, 1))
-            call check('the deflection lambda'//words, [normal%lambda, normal%lambda_a, normal%lambda_b])
-            call check('the pressure'//words, [normal%pressure, normal%p_a])
-            call check('the normal force'//words, [normal%sumf])
-            call check('the shear deflection'//words, shear%delta)
-            call check('the shear stress'//words, shear%tau)
-            call check('the stiffness'//words, [normal%k_n, shear%k_s, k])
-         end associate
-      end subroutine check_element
 
       !> Test the VALUES of WHAT.
       subroutine check(what, values)
          character(*), intent(in) :: what
          real(wp), intent(in)     :: values(:)
-         integer :: k
+         integer :: at
 
-         do k = 1, size(values)
-            if (.not. is_measure(values(k))) call failure%raise(place//what//' is '//real_text(values(k))// &
-               ', too large; are loads, lengths and stiffnesses in consistent units?')
-         end do
+         at = findloc(is_measure(values), .false., dim=1)
+         if (at > 0) call failure%raise(place//what//' is '//real_text(values(at))// &
+            ', too large; are loads, lengths and stiffnesses in consistent units?')
       end subroutine check
 
    end subroutine check_state

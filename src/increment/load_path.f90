@@ -58,9 +58,8 @@ contains
       end if
       do i = 1, n_sections(model)
          associate (section => model%sections(i))
-            associate (load => analysis%after%load(1, section%node))
-               if (section%stage == stage) load = load + section%preload
-            end associate
+            if (section%stage == stage) &
+               analysis%after%load(1, section%node) = analysis%after%load(1, section%node) + section%preload
             if (analysis%is_locked(i)) analysis%after%moved(1, section%node) = analysis%before%moved(1, section%node)
          end associate
       end do

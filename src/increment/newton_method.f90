@@ -3,13 +3,14 @@
 !! its parts, so that the answer does not depend on the division.
 module newton_method
    use analysis_state, only: all_held, analysis_type, free_norm
-   use equations, only: equation_system
+   use equations, only: equation_system, form_structure_stiffness
    use equation_solver, only: failure_type
+   use joint_laws, only: stiffness_at_rest, stiffness_matrices
    use kinds, only: wp
    use load_path, only: go_back
    use model_data, only: joint_node_id, model_type
-   use newton_direction, only: attempt_type, check_lifted
    use newton_iterations, only: idle, iterate
+   use newton_trial, only: attempt_type
    use node_coupling, only: forces_on_unknowns
    use normal_stiffness, only: at_rest, branch_name, branch_open
    use shear_stiffness, only: shear_state
@@ -19,7 +20,7 @@ module newton_method
    implicit none
    private
 
-   public :: newton_increment, cross_gaps, seat_joints
+   public :: newton_increment, seat_joints, free_idle_joints
 
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
@@ -35,7 +36,9 @@ contains
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(attempt_type) :: attempt
-      integer :: before(size(analysis%states))
+      real(wp) :: k(3, size(analysis%states))
+      integer  :: before(size(analysis%states)), i, j
+      logical  :: lifted
 
       if (analysis%is_loose .and. .not. (analysis%moves .or. any(abs(analysis%now%condensed_load) > 0.0_wp))) then
          call press_apart(model, analysis, system, failure)
@@ -51,27 +54,33 @@ contains
          end associate
       end if
       call find_equilibrium(model, analysis, system, attempt, failure)
-      if (.not. failure%raised) then
-         call check_lifted(model, before, analysis, attempt%where, system, failure)
+      if (failure%raised) then
+         call go_back(plan, attempt%left_over, analysis)
+         if (analysis%record%ends_early) failure%message = failure%message//'; the last state in equilibrium is at '// &
+            real_text(anint(1.0e4_wp*analysis%fraction)*1.0e-4_wp)//' of stage '//integer_text(plan%stages(analysis%stage)%id)
          return
       end if
-      call go_back(plan, attempt%left_over, analysis)
-      if (analysis%record%ends_early) failure%message = failure%message//'; the last state in equilibrium is at '// &
-         real_text(anint(1.0e4_wp*analysis%fraction)*1.0e-4_wp)//' of stage '//integer_text(plan%stages(analysis%stage)%id)
+      if (.not. analysis%moves) return
+
+      ! bodies that moved supports have lifted off, by opening joints entirely, must be held without these joints: the small
+      ! stiffness of open elements in find_direction hides a loose body
+      lifted = .false.
+      do j = 1, size(model%joints)
+         associate (was => before(model%joints(j)%first:model%joints(j)%last), &
+                    now => analysis%states(model%joints(j)%first:model%joints(j)%last)%normal%branch)
+            if (any(was /= branch_open) .and. all(now == branch_open)) lifted = .true.
+         end associate
+      end do
+      if (.not. lifted) return
+      k = 0.0_wp
+      do i = 1, size(before)
+         associate (element => model%interface(i), state => analysis%states(i)%normal)
+            if (state%branch /= branch_open) &
+               k(:, i) = stiffness_at_rest(model%joints(element%joint)%law, element%area, state%p_av)
+         end associate
+      end do
+      call form_structure_stiffness(model, stiffness_matrices(k), attempt%where, system, failure, one_solution=.true.)
    end subroutine newton_increment
-
-   !> An increment of STEP in which gaps leave a body loose, iterated to equilibrium.
-   subroutine cross_gaps(model, plan, analysis, system, failure)
-      type(model_type), intent(in)         :: model
-      type(stage_plan_type), intent(in)    :: plan
-      type(analysis_type), intent(inout)   :: analysis
-      class(equation_system), intent(inout) :: system
-      type(failure_type), intent(inout)    :: failure
-
-      call newton_increment(model, plan, analysis, system, failure)
-      call free_idle_joints(model, analysis)
-      analysis%record%n_iterations = 0 ! these are not re-analyses
-   end subroutine cross_gaps
 
    !> Interference presses before any load: the equilibrium at rest becomes the initial state of STEP and NEWTON. Nothing is
    !! done where no joint has a negative gap. If nothing presses at equilibrium, interference has pushed bodies away from all
@@ -148,14 +157,16 @@ contains
       end associate
    end function is_idle
 
-   !> Go from equilibrium to equilibrium by ATTEMPTs: commit an attempt that converges, divide one that does not.
+   !> Go from equilibrium to equilibrium by ATTEMPTs: commit an attempt that converges, divide one that does not. A divided
+   !! increment is repeated as a whole, from its start and the displacements that its parts have reached: the laws depend on the
+   !! path, and rounding decides on the division. If the whole does not converge, the parts stand.
    subroutine find_equilibrium(model, analysis, system, attempt, failure)
       type(model_type), intent(in)         :: model
       type(analysis_type), intent(inout)   :: analysis
       class(equation_system), intent(inout) :: system
       type(attempt_type), intent(inout)    :: attempt
       type(failure_type), intent(inout)    :: failure
-      type(analysis_type), allocatable :: start
+      type(analysis_type), allocatable :: whole
       real(wp), allocatable :: u_start(:, :)
       real(wp) :: done, part
       integer  :: before_open
@@ -173,7 +184,7 @@ contains
             part = 2.0_wp*part
             analysis%record%n_parts = analysis%record%n_parts + 1
          else if (part > 0.5_wp**most_halvings) then
-            if (.not. allocated(start)) allocate (start, source=analysis) ! nothing is committed yet
+            if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
             part = 0.5_wp*part
          else
             attempt%left_over = 1.0_wp - done
@@ -185,14 +196,24 @@ contains
             return
          end if
       end do
-      if (allocated(start)) call make_whole(model, system, start, analysis, attempt)
+      if (allocated(whole)) then
+         whole%record = analysis%record
+         whole%tolerance = analysis%tolerance
+         call try_part(model, system, whole, 0.0_wp, attempt, analysis%u)
+         if (attempt%converged) then
+            analysis = whole
+         else
+            analysis%record = whole%record
+            analysis%record%is_whole = .false.
+         end if
+      end if
       analysis%du = analysis%u - u_start
       analysis%record%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
    end subroutine find_equilibrium
 
-   !> An ATTEMPT up to the point where LEFT of the increment remains. Straight laws start from the extrapolated last increment
-   !! if this one continues it, otherwise from the committed state. If they cycle, a line search along the tangents follows. If
-   !! a joint has slipped entirely, the attempt is repeated with the joints held.
+   !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
+   !! extrapolated last increment if this one continues it, otherwise from the committed state. If they cycle, a line search along
+   !! the tangents follows. If a joint has slipped entirely, the attempt is repeated with the joints held.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -200,61 +221,32 @@ contains
       real(wp), intent(in)                  :: left
       type(attempt_type), intent(inout)     :: attempt
       real(wp), intent(in), optional        :: from(:, :) !! (dimension, retained) initial displacements, supports moved [length]
+      type(failure_type) :: none
       integer :: i
 
+      attempt%left = left
+      attempt%load = analysis%now%condensed_load - left*analysis%change
+      if (attempt%seats) analysis%states%normal%gap = merge((1.0_wp - left)*model%interface%gap, model%interface%gap, &
+                                                            model%interface%gap < 0.0_wp)
       do i = merge(0, 1, attempt%growth > 0.0_wp), 3
          if (i > 0) attempt%growth = 0.0_wp
-         call start_attempt(model, system, analysis, left, attempt)
+         attempt%moves = analysis%moves
+         attempt%move = merge(analysis%now%moved(:, system%retained) - left*analysis%move - analysis%u, 0.0_wp, &
+                              system%number(:, system%retained) == 0)
          attempt%searches = i > 1
          attempt%settled = i == 2
          attempt%floats = i == 3
+         attempt%iteration = 0
+         attempt%gain = 1.0_wp
+         attempt%circles = 0
+         attempt%flips = spread(0, 1, size(analysis%states))
+         attempt%spoilt = 0.0_wp
+         attempt%converged = .false.
+         attempt%trouble = none
          call iterate(model, system, analysis, attempt, from)
          if (attempt%converged .or. (i == 2 .and. .not. attempt%slides)) exit
       end do
    end subroutine try_part
-
-   !> Repeat a divided increment as a whole, from the START and the displacements that its parts have reached: the laws depend
-   !! on the path, and rounding decides on the division. If the whole does not converge, the parts stand.
-   subroutine make_whole(model, system, start, analysis, attempt)
-      type(model_type), intent(in)          :: model
-      class(equation_system), intent(inout) :: system
-      type(analysis_type), intent(in)       :: start
-      type(analysis_type), intent(inout)    :: analysis
-      type(attempt_type), intent(inout)     :: attempt
-      type(analysis_type), allocatable :: whole
-
-      allocate (whole, source=start)
-      whole%record = analysis%record
-      whole%tolerance = analysis%tolerance
-      call try_part(model, system, whole, 0.0_wp, attempt, analysis%u)
-      if (attempt%converged) then
-         analysis = whole
-      else
-         analysis%record = whole%record
-         analysis%record%is_whole = .false.
-      end if
-   end subroutine make_whole
-
-   !> Prepare the next ATTEMPT, up to the point where LEFT of the increment, or of the interference, remains.
-   subroutine start_attempt(model, system, analysis, left, attempt)
-      type(model_type), intent(in)       :: model
-      class(equation_system), intent(in) :: system
-      type(analysis_type), intent(inout) :: analysis
-      real(wp), intent(in)               :: left
-      type(attempt_type), intent(inout)  :: attempt
-      type(failure_type) :: none
-
-      attempt%left = left
-      if (attempt%seats) analysis%states%normal%gap = merge((1.0_wp - left)*model%interface%gap, model%interface%gap, &
-                                                            model%interface%gap < 0.0_wp)
-      attempt%load = analysis%now%condensed_load - left*analysis%change
-      attempt%move = merge(analysis%now%moved(:, system%retained) - left*analysis%move - analysis%u, 0.0_wp, &
-                           system%number(:, system%retained) == 0)
-      if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states)))
-      attempt%flips = 0
-      attempt%converged = .false.
-      attempt%trouble = none
-   end subroutine start_attempt
 
    !> No part of the increment is small enough: report the cause as far as known, and the element with the most changes of branch.
    subroutine give_up(model, analysis, attempt, failure)
@@ -267,9 +259,11 @@ contains
 
       words = attempt%where//': no equilibrium'
       if (attempt%loose > 0) then
-      words = words//': joint '//integer_text(model%joints(attempt%loose)%id)//' slips or is open at all its nodes, from node '// &
-                 integer_text(joint_node_id(model, model%joints(attempt%loose)%first, 1))// &
-                 ' on, and does not hold the load in the direction of its movement'
+         associate (joint => model%joints(attempt%loose))
+            words = words//': joint '//integer_text(joint%id)//' slips or is open at all its nodes, from node '// &
+                    integer_text(joint_node_id(model, joint%first, 1))// &
+                    ' on, and does not hold the load in the direction of its movement'
+         end associate
       else if (attempt%imprecise) then
          words = words//': '//no_balance
       else if (analysis%record%n_iterations > 0) then

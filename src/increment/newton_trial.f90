@@ -1,7 +1,9 @@
-!> A trial of METHOD = NEWTON: displacements, joint states and residual; the step, the line search and the commit.
+!> An attempt of METHOD = NEWTON at an increment, and its trials: displacements, joint states and residual; the step, the line
+!! search and the commit.
 module newton_trial
-   use analysis_state, only: analysis_type, free_norm, kind_on_branch, note_turns, reach, subtract_joint_forces, tally_work
+   use analysis_state, only: analysis_type, find_movements, free_norm, kind_on_branch, note_turns, subtract_joint_forces, tally_work
    use equations, only: equation_system, forces_in_bodies
+   use equation_solver, only: failure_type
    use interface_operator, only: joint_movement
    use joint_laws, only: element_state, follow_element, rest_when_open
    use kinds, only: wp
@@ -9,10 +11,52 @@ module newton_trial
    implicit none
    private
 
-   public :: start_trial, evaluate, swap, take_step, search, commit
+   public :: evaluate, evaluate_at, swap, search, commit
 
    real(wp), parameter :: longest = 10.0_wp           ! line search: largest extension of a step at once
    real(wp), parameter :: enough = 0.8_wp             ! line search: a step with more of the unbalanced work left is searched
+
+   integer, parameter, public :: most_iterations = 60
+
+   !> One attempt at a part of the increment.
+   type, public :: attempt_type
+      ! the goal
+      character(:), allocatable :: where          !! stage and increment, for messages
+      real(wp) :: left = 0.0_wp                   !! fraction of the increment left at the goal [-]
+      real(wp), allocatable :: load(:, :)         !! (dimension, retained) at the goal [force]
+      real(wp), allocatable :: move(:, :)         !! likewise, movement of held components still to do [length]
+      logical  :: moves = .false.                 !! the next step makes this movement
+      real(wp) :: growth = 0.0_wp                 !! ratio to the last increment of the stage, 0: not its continuation
+      logical  :: seats = .false.                 !! interference at rest without load
+      real(wp) :: seat_force = 0.0_wp             !! then the reference force: p_av on the pressed elements [force]
+      logical  :: searches = .false.              !! line search along the tangents of the laws themselves
+      ! the course of the iterations
+      integer  :: iteration = 0
+      real(wp) :: sizes(0:most_iterations) = 0.0_wp !! residuals [force]
+      real(wp) :: step = 1.0_wp                   !! length of the last step, in directions [-]
+      real(wp) :: gain = 1.0_wp                   !! part of the present residual that the next step should leave [-]
+      real(wp) :: tolerance = 1.0e-4_wp           !! residual that the next direction may leave, relative [-]
+      real(wp) :: length = 0.0_wp                 !! of the last direction [length]
+      logical  :: coupled = .false.               !! the last direction was that of a coupled system
+      logical  :: settled = .false.               !! no element has begun or stopped slipping in the last iteration
+      logical  :: floats = .false.                !! only friction holds a body, which stays held
+      integer  :: circles = 0                     !! iterations that did not halve the residual
+      integer, allocatable :: flips(:)            !! changes of branch of each interface element
+      real(wp) :: load_size = 0.0_wp              !! reference force of the residuals [force]
+      real(wp) :: noise = 0.0_wp                  !! present rounding error of the forces in the bodies [force]
+      real(wp) :: spoilt = 0.0_wp                 !! its largest value since these forces were computed [force]
+      real(wp) :: travel = 0.0_wp                 !! of the supports or anything, at the beginning [length]
+      logical  :: carried = .false.               !! bodies only move with supports, and no force acts
+      ! the outcome
+      logical  :: converged = .false.
+      logical  :: ends = .false.                  !! no further iteration
+      type(failure_type) :: trouble               !! a matrix that could not be factorised
+      real(wp) :: left_over = 1.0_wp              !! fraction of the increment left where no part of it was possible [-]
+      integer  :: loose = 0                       !! a joint that is open or slips entirely at the end, 0: none
+      logical  :: slides = .false.                !! ... and the friction limit is reached somewhere
+      integer  :: worst(2) = 0                    !! node and direction of the largest residual at the end
+      logical  :: imprecise = .false.             !! rounding in the bodies is not small compared with the load
+   end type attempt_type
 
    !> A trial: displacements, the joint states that follow from them, and the residual. Arrays over nodes are those of the
    !! retained ones.
@@ -26,19 +70,6 @@ module newton_trial
    end type trial_type
 
 contains
-
-   !> The committed state as a trial.
-   subroutine start_trial(system, analysis, trial)
-      class(equation_system), intent(in) :: system
-      type(analysis_type), intent(in)    :: analysis
-      type(trial_type), intent(out)      :: trial
-
-      trial%u = analysis%u
-      allocate (trial%body, trial%residual, mold=analysis%u)
-      allocate (trial%tangent(3, 3, size(analysis%states)), trial%work(3, size(analysis%states)))
-      trial%states = analysis%states
-      call forces_in_bodies(system, trial%u, trial%body)
-   end subroutine start_trial
 
    !> Exchange two trials.
    subroutine swap(a, b)
@@ -70,20 +101,24 @@ contains
       trial%size = free_norm(trial%residual, analysis%held)
    end subroutine evaluate
 
-   !> Step from NOW along DIRECTION to NEXT.
-   subroutine take_step(model, system, load, analysis, now, direction, next)
+   !> Put TRIAL at the displacements U.
+   subroutine evaluate_at(model, system, load, analysis, u, trial)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: load(:, :)
       type(analysis_type), intent(in)    :: analysis
-      type(trial_type), intent(in)       :: now
-      real(wp), intent(in)               :: direction(:, :)
-      type(trial_type), intent(inout)    :: next
+      real(wp), intent(in)               :: u(:, :)
+      type(trial_type), intent(inout)    :: trial
 
-      next%u = now%u + direction
-      call forces_in_bodies(system, next%u, next%body)
-      call evaluate(model, system, load, analysis, next)
-   end subroutine take_step
+      if (.not. allocated(trial%states)) then
+         allocate (trial%body, trial%residual, mold=u)
+         allocate (trial%tangent(3, 3, size(analysis%states)), trial%work(3, size(analysis%states)))
+         trial%states = analysis%states
+      end if
+      trial%u = u
+      call forces_in_bodies(system, trial%u, trial%body)
+      call evaluate(model, system, load, analysis, trial)
+   end subroutine evaluate_at
 
    !> Line search: the step along DIRECTION at which the work of the unbalanced forces on it (almost) vanishes. The step is
    !! extended while that work falls slowly: secants of an initial pressure far above the real one are too stiff. If the work
@@ -98,8 +133,8 @@ contains
       type(trial_type), intent(inout)   :: next
       real(wp), intent(out)             :: step
       real(wp), allocatable :: body(:, :)
-      real(wp) :: g_0, g, low, high, g_low, g_high, least
-      integer  :: attempt
+      real(wp) :: g_0, g, bracket(2), g_there(2), least
+      integer  :: attempt, side
       logical  :: lengthens, halves
 
       allocate (body, mold=direction)
@@ -108,40 +143,36 @@ contains
       step = 1.0_wp
       call try(step, g)
       if (next%size <= 0.5_wp*now%size .or. abs(g) <= enough*abs(g_0)) return
-      low = 0.0_wp
-      g_low = g_0
-      high = 1.0_wp
-      g_high = g
+      bracket = [0.0_wp, 1.0_wp]
+      g_there = [g_0, g]
       lengthens = hardly_falls(g)
       do attempt = 1, 12
-         halves = .not. lengthens .and. (g_low > 0.0_wp .eqv. g_high > 0.0_wp)
+         halves = .not. lengthens .and. (g_there(1) > 0.0_wp .eqv. g_there(2) > 0.0_wp)
          least = next%size
          if (lengthens) then
-            low = high
-            g_low = g_high
-            step = min(longest*high, high*g_0/(g_0 - g_high))
+            bracket(1) = bracket(2)
+            g_there(1) = g_there(2)
+            step = min(longest*bracket(2), bracket(2)*g_0/(g_0 - g_there(2)))
          else if (halves) then
             step = 0.5_wp*step
          else
-            step = (low*g_high - high*g_low)/(g_high - g_low)
-            step = min(max(step, low + 0.05_wp*(high - low)), high - 0.05_wp*(high - low))
+            step = (bracket(1)*g_there(2) - bracket(2)*g_there(1))/(g_there(2) - g_there(1))
+            associate (margin => 0.05_wp*(bracket(2) - bracket(1)))
+               step = min(max(step, bracket(1) + margin), bracket(2) - margin)
+            end associate
          end if
          call try(step, g)
          if (lengthens .and. .not. next%size < least) then
-            step = low
+            step = bracket(1)
             call try(step, g)
             return
          end if
          if (abs(g) <= 0.5_wp*abs(g_0) .or. next%size <= 0.5_wp*now%size) return
          if (halves .and. next%size <= (1.0_wp - 0.1_wp*step)*now%size) return
          lengthens = lengthens .and. hardly_falls(g)
-         if (g_low*g > 0.0_wp .and. g_low*g_high <= 0.0_wp) then
-            low = step
-            g_low = g
-         else
-            high = step
-            g_high = g
-         end if
+         side = merge(1, 2, g_there(1)*g > 0.0_wp .and. g_there(1)*g_there(2) <= 0.0_wp)
+         bracket(side) = step
+         g_there(side) = g
       end do
 
    contains
@@ -153,6 +184,7 @@ contains
          hardly_falls = g*sign(1.0_wp, g_0) > 0.0_wp .and. abs(g) < 0.999_wp*abs(g_0)
       end function hardly_falls
 
+      !> The step ALPHA to NEXT, and the work G_ALPHA there.
       subroutine try(alpha, g_alpha)
          real(wp), intent(in)  :: alpha
          real(wp), intent(out) :: g_alpha
@@ -174,19 +206,20 @@ contains
       type(analysis_type), intent(inout) :: analysis
       integer :: i
 
-      call reach(system, trial%u, trial%body, analysis)
+      analysis%u = trial%u
+      analysis%body = trial%body
+      call find_movements(system, analysis)
       analysis%unbalanced = trial%residual
       analysis%states = trial%states
       do i = 1, size(model%interface)
          call tally_work(analysis%energy(model%interface(i)%joint), trial%work(:, i))
          associate (state => analysis%states(i))
-            state%shear(1)%k_s = trial%tangent(1, 1, i)
-            state%shear(2)%k_s = trial%tangent(2, 2, i)
+            state%shear%k_s = [trial%tangent(1, 1, i), trial%tangent(2, 2, i)]
             call rest_when_open(state, analysis%movement(:, i))
             analysis%record%kind(i) = kind_on_branch(state%normal%branch)
          end associate
       end do
-      call note_turns(analysis%states, analysis%turns)
+      call note_turns(analysis)
    end subroutine commit
 
 end module newton_trial

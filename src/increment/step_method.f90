@@ -1,15 +1,17 @@
 !> METHOD = STEP, the step-wise tangent-stiffness method: one routine for each box of the flow chart (Fig. 6a).
 module step_method
-   use analysis_state, only: analysis_type, iteration_record, reach, record_iteration, slip_record, tally_work
+   use analysis_state, only: analysis_type, find_movements, iteration_record, joint_energy, record_iteration, &
+                             slip_record, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
-   use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: element_state, exceeds_limit, flag_margin, friction_excess, friction_limit, is_apart
+   use interface_operator, only: add_force, interface_element, joint_movement
+   use joint_laws, only: element_state, exceeds_limit, flag_margin, friction_excess, friction_limit, is_apart, stiffness_matrices
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
-   use newton_method, only: cross_gaps
+   use newton_method, only: free_idle_joints, newton_increment
    use normal_stiffness, only: pressure_reached
    use numbers, only: first_largest
+   use shear_stiffness, only: shear_state
    use stage_entries, only: output_joint
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
@@ -23,7 +25,8 @@ module step_method
 
 contains
 
-   !> [k_s] = sum [k_b] + sum [k_int], ready to solve.
+   !> [k_s] = sum [k_b] + sum [k_int], ready to solve. A singular matrix is a failure, unless open gaps leave bodies loose: then this
+   !! increment is iterated across the gaps.
    subroutine structure_stiffness(model, plan, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
@@ -31,31 +34,16 @@ contains
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(failure_type) :: trouble
-      real(wp), allocatable :: k_int(:, :, :)
-      integer :: d
 
       if (failure%raised) return
       analysis%crosses_gaps = analysis%is_loose
       if (analysis%crosses_gaps) return
-      allocate (k_int(3, 3, size(model%interface)), source=0.0_wp)
-      do d = 1, 3
-         k_int(d, d, :) = analysis%k(d, :)
-      end do
-      call form_structure_stiffness(model, k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, trouble, &
+      call form_structure_stiffness(model, stiffness_matrices(analysis%k), where_in_plan(plan, analysis%stage, &
+                                    analysis%increment), system, trouble, &
                                     one_solution=.not. any(model%joints%law%has_friction))
-      call decide_on(trouble, analysis, failure)
-   end subroutine structure_stiffness
-
-   !> TROUBLE with the stiffness is a failure, unless open gaps leave bodies loose: then this increment is iterated across the
-   !! gaps.
-   subroutine decide_on(trouble, analysis, failure)
-      type(failure_type), intent(in)     :: trouble
-      type(analysis_type), intent(inout) :: analysis
-      type(failure_type), intent(inout)  :: failure
-
       analysis%crosses_gaps = trouble%raised .and. any(is_apart(analysis%states))
       if (trouble%raised .and. .not. analysis%crosses_gaps) failure = trouble
-   end subroutine decide_on
+   end subroutine structure_stiffness
 
    !> {du} from [k_s] {du} = {dF}; across gaps by NEWTON, to equilibrium, with nothing to accumulate.
    subroutine solve_increment(model, plan, system, analysis, failure)
@@ -69,9 +57,13 @@ contains
       if (failure%raised) return
       if (.not. analysis%crosses_gaps) then
          call solve_equations(model, system, analysis%change, analysis%du, trouble, moved=analysis%move)
-         call decide_on(trouble, analysis, failure)
+         analysis%crosses_gaps = trouble%raised .and. any(is_apart(analysis%states))
+         if (trouble%raised .and. .not. analysis%crosses_gaps) failure = trouble
       end if
-      if (analysis%crosses_gaps) call cross_gaps(model, plan, analysis, system, failure)
+      if (.not. analysis%crosses_gaps) return
+      call newton_increment(model, plan, analysis, system, failure)
+      call free_idle_joints(model, analysis)
+      analysis%record%n_iterations = 0 ! these are not re-analyses
    end subroutine solve_increment
 
    !> Add the increment's displacements, deflections and forces to their sums.
@@ -80,7 +72,7 @@ contains
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(in)     :: failure
-      integer :: i, k
+      integer :: i
 
       if (failure%raised .or. analysis%crosses_gaps) return
       analysis%record%kind = analysis%next_kind
@@ -89,11 +81,9 @@ contains
             state%normal%k_n = analysis%k(3, i)
             state%normal%lambda_before = state%normal%lambda
             state%normal%sigmaf = state%normal%sumf
-            do k = 1, 2
-               state%shear(k)%k_s = analysis%k(k, i)
-               state%shear(k)%delta_before = state%shear(k)%delta
-               state%shear(k)%tau_before = state%shear(k)%tau
-            end do
+            state%shear%k_s = analysis%k(:2, i)
+            state%shear%delta_before = state%shear%delta
+            state%shear%tau_before = state%shear%tau
             state%slips = .false.
          end associate
       end do
@@ -107,32 +97,29 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: f(:, :) !! (dimension, retained) [force]
       type(analysis_type), intent(inout) :: analysis
-      real(wp), allocatable :: u(:, :), body(:, :)
-      real(wp) :: movement(3), work(3), tau
-      integer  :: i, k
+      real(wp) :: movement(3), work(3), tau(2)
+      integer  :: i
 
-      allocate (u, source=analysis%u + analysis%du)
-      allocate (body, source=analysis%body + f)
+      analysis%u = analysis%u + analysis%du
+      analysis%body = analysis%body + f
       do i = 1, size(model%interface)
          movement = joint_movement(system%interface(i), analysis%du)
          associate (state => analysis%states(i), area => model%interface(i)%area)
-            work = 0.0_wp
-            do k = 1, 2
-               tau = state%shear(k)%tau
-               state%shear(k)%delta = state%shear(k)%delta + movement(k)
-               state%shear(k)%tau = tau + analysis%k(k, i)*movement(k)/area
-               work(1) = work(1) + 0.5_wp*area*(tau + state%shear(k)%tau)*movement(k)
-            end do
+            tau = state%shear%tau
+            state%shear%delta = state%shear%delta + movement(:2)
+            state%shear%tau = tau + analysis%k(:2, i)*movement(:2)/area
+            work(1) = sum(0.5_wp*area*(tau + state%shear%tau)*movement(:2))
             work(2) = (state%normal%sumf + 0.5_wp*analysis%k(3, i)*movement(3))*movement(3)
+            work(3) = 0.0_wp
             state%normal%lambda = state%normal%lambda + movement(3)
             state%normal%sumf = state%normal%sumf + analysis%k(3, i)*movement(3)
             state%normal%pressure = pressure_reached(area, analysis%eq10, state%normal)
          end associate
          call tally_work(analysis%energy(model%interface(i)%joint), work)
-         call add_force(system%interface(i), -analysis%k(:, i)*movement, body)
+         call add_force(system%interface(i), -analysis%k(:, i)*movement, analysis%body)
       end do
-      if (size(system%locked) > 0) call forces_in_bodies(system, u, body) ! a locked unknown carries more than F
-      call reach(system, u, body, analysis)
+      if (size(system%locked) > 0) call forces_in_bodies(system, analysis%u, analysis%body) ! a locked unknown carries more than F
+      call find_movements(system, analysis)
    end subroutine add_displacements
 
    !> Coulomb limit (section 4.4): where |tau| > mu p, the element is relieved of the excess. The excess is applied at its two
@@ -147,6 +134,7 @@ contains
       real(wp) :: total, total_after
       integer  :: i, passes(size(model%interface)), reanalysis, worst
       logical  :: is_listed, relieved(size(model%interface))
+      type(slip_record) :: record
 
       if (failure%raised .or. analysis%crosses_gaps .or. .not. any(model%joints%law%has_friction)) return
       allocate (excess(2, size(model%interface)))
@@ -156,10 +144,21 @@ contains
       call find_excess(model, analysis, excess, total)
       do reanalysis = 1, most_reanalyses
          if (total <= 0.0_wp) return
+         ! the listing has the first re-analyses, and the last one in place of those between
          if (is_listed) analysis%record%slips = pack(analysis%record%slips, analysis%record%slips%reanalysis <= reanalyses_shown)
          relieved = any(abs(excess) > 0.0_wp, dim=1) .and. (passes < 0 .or. reanalysis <= passes)
          if (.not. any(relieved)) return
-         call release(model, system, reanalysis, relieved, is_listed, excess, analysis, relief)
+         relief = 0.0_wp
+         do i = 1, size(relieved)
+            if (.not. relieved(i)) cycle
+            if (is_listed) then
+               record = slip_record(reanalysis=reanalysis, element=i)
+               call note_slip(model, analysis%states, 1, record)
+               analysis%record%slips = [analysis%record%slips, record]
+            end if
+            call relieve(system%interface(i), excess(:, i), analysis%k(:2, i), analysis%states(i)%shear, &
+                         analysis%energy(model%interface(i)%joint), relief)
+         end do
          call solve_equations(model, system, relief, analysis%du, failure)
          if (failure%raised) return
          call add_displacements(model, system, relief, analysis)
@@ -197,41 +196,24 @@ contains
       end do
    end subroutine find_excess
 
-   !> Relieve the elements RELIEVED of their EXCESS; RELIEF are the resulting nodal forces. The listing has the first re-analyses,
-   !! and the last one in place of those between.
-   subroutine release(model, system, reanalysis, relieved, is_listed, excess, analysis, relief)
-      type(model_type), intent(in)       :: model
-      class(equation_system), intent(in) :: system
-      integer, intent(in)                :: reanalysis
-      logical, intent(in)                :: relieved(:), is_listed
-      real(wp), intent(in)               :: excess(:, :)
-      type(analysis_type), intent(inout) :: analysis
-      real(wp), intent(out)              :: relief(:, :)
-      type(slip_record) :: record
+   !> Relieve an ELEMENT of its EXCESS: it slides, and RELIEF gets the resulting nodal forces. Part of the work put in by shear
+   !! becomes work on friction.
+   pure subroutine relieve(element, excess, k, shear, energy, relief)
+      type(interface_element), intent(in) :: element
+      real(wp), intent(in)                :: excess(2), k(2) !! [force], [force/length]
+      type(shear_state), intent(inout)    :: shear(2)
+      type(joint_energy), intent(inout)   :: energy
+      real(wp), intent(inout)             :: relief(:, :)    !! (dimension, retained) [force]
       real(wp) :: on_friction, slid(2)
-      integer  :: i
 
-      relief = 0.0_wp
-      do i = 1, size(model%interface)
-         if (.not. relieved(i)) cycle
-         if (is_listed) then
-            record = slip_record(reanalysis=reanalysis, element=i)
-            call note_slip(model, analysis%states, 1, record)
-            analysis%record%slips = [analysis%record%slips, record]
-         end if
-         associate (element => system%interface(i), shear => analysis%states(i)%shear)
-            slid = 0.0_wp
-            where (analysis%k(:2, i) > 0.0_wp) slid = excess(:, i)/analysis%k(:2, i)
-            shear%tau = shear%tau - excess(:, i)/element%area
-            shear%slid = shear%slid + slid
-            on_friction = element%area*sum(shear%tau*slid) ! was put in by shear
-            associate (put_in => analysis%energy(model%interface(i)%joint)%put_in)
-               put_in = put_in + [-on_friction, 0.0_wp, on_friction]
-            end associate
-            call add_force(element, [excess(:, i), 0.0_wp], relief)
-         end associate
-      end do
-   end subroutine release
+      slid = 0.0_wp
+      where (k > 0.0_wp) slid = excess/k
+      shear%tau = shear%tau - excess/element%area
+      shear%slid = shear%slid + slid
+      on_friction = element%area*sum(shear%tau*slid)
+      energy%put_in = energy%put_in + [-on_friction, 0.0_wp, on_friction]
+      call add_force(element, [excess, 0.0_wp], relief)
+   end subroutine relieve
 
    !> Note deflections, stresses and limit of the element of RECORD, WHEN = 1 before a re-analysis, 2 after it.
    pure subroutine note_slip(model, states, when, record)

@@ -1,4 +1,5 @@
-!> The straight laws from which METHOD = NEWTON takes its tangents, one for each interface element.
+!> The straight laws from which METHOD = NEWTON takes its tangents, one for each interface element, and the search direction under
+!! these laws.
 !! An iteration replaces the law of every interface element by a straight line through a point of its graph, and solves the
 !! structure with these lines. The solution gives a movement m. A kink of the graph may lie between the last point and m, and
 !! the force beyond it may be a thousand times that of the straight line. The next point is therefore not the point of the graph
@@ -10,12 +11,12 @@
 !! used on rigid joints by Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375.
 module straight_laws
    use analysis_state, only: analysis_type
-   use equation_solver, only: equation_system
+   use equations, only: equation_system, form_structure_stiffness, solve_coupled, solve_equations
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: element_state, follow_element, friction_limit, is_apart, joint_law, rest_stiffness => stiffness_at_rest
+   use joint_laws, only: element_state, follow_element, force_of, friction_limit, is_apart, joint_law, stiffness_at_rest
    use kinds, only: wp
    use model_data, only: model_type
-   use newton_trial, only: trial_type
+   use newton_trial, only: attempt_type, trial_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_law, normal_tangent, pressure_floor
    use normal_stiffness, only: branch_open, follow_normal, normal_state
    use shear_path, only: follow_shear
@@ -23,7 +24,7 @@ module straight_laws
    implicit none
    private
 
-   public :: first_laws, laws_at, next_laws, residual_of, stiffness_at_rest, point_of_rest
+   public :: first_laws, laws_at, next_laws, residual_of, find_direction, loose_joint, point_of_rest
 
    integer, parameter  :: most_steps = 40
    real(wp), parameter :: near  = 1.0e-6_wp !! of the force: a point on the graph
@@ -31,167 +32,220 @@ module straight_laws
    real(wp), parameter :: least_rho = 1.0e-3_wp !! relative to the initial rho
    real(wp), parameter :: farthest = 1.0e30_wp  !! point of rest from the movement: powers of it are finite [length]
    real(wp), parameter :: most  = 3.0_wp    !! times the residual: limit of the force of a movement
+   real(wp), parameter :: little = 1.0e-7_wp !! of the elastic stiffness: substitute for zero stiffness of an element
+   real(wp), parameter :: far = 1.0e3_wp    !! times the last direction: the body is not held
+   integer, parameter, public :: direction_digits = 6 !! the next iteration corrects the direction
 
-   !> The straight laws of all interface elements, in their axes: f = force + tangent (m - point).
-   type, public :: straight_laws_type
-      real(wp), allocatable :: point(:, :)          !! (3, n) movement of end 1 against end 2 [length]
-      real(wp), allocatable :: force(:, :)          !! (3, n) there [force]
-      real(wp), allocatable :: tangent(:, :, :)     !! (3, 3, n) [force/length]
-      type(element_state), allocatable :: states(:) !! (n) there
-      real(wp), allocatable :: shift(:, :)          !! (3, n) from the last movement to the point [length]
-      real(wp), allocatable :: rho(:)               !! (n) relative to the initial rho
-   end type straight_laws_type
+   !> The straight law of an interface element, in its axes: f = force + tangent (m - point).
+   type, public :: straight_law
+      real(wp) :: point(3) = 0.0_wp       !! movement of end 1 against end 2 [length]
+      real(wp) :: force(3) = 0.0_wp       !! there [force]
+      real(wp) :: tangent(3, 3) = 0.0_wp  !! [force/length]
+      type(element_state) :: state        !! there
+      real(wp) :: shift(3) = 0.0_wp       !! from the last movement to the point [length]
+      real(wp) :: rho = 1.0_wp            !! relative to the initial rho
+      real(wp) :: elastic(3) = 0.0_wp     !! k_sx, k_sy, k_n of the first increment [force/length]
+   end type straight_law
 
 contains
-
-   !> The straight laws for the first iteration from NOW, the committed state. The direction of movement of an element is not
-   !! yet known. An element on its first loading has the secants of Eq. (9). ELASTIC: an element that was pressed before has the
-   !! stiffer side of its kink, that of unloading, like the elastic predictor of plasticity. The elements of a joint without
-   !! pressure and with gaps are taken as closed.
-   subroutine first_laws(model, system, analysis, now, elastic, laws)
-      type(model_type), intent(in)          :: model
-      class(equation_system), intent(in)    :: system
-      type(analysis_type), intent(in)       :: analysis
-      type(trial_type), intent(in)          :: now
-      logical, intent(in)                   :: elastic
-      type(straight_laws_type), intent(out) :: laws
-      real(wp) :: k(3)
-      integer  :: d, i
-      logical  :: is_first, closes
-
-      call laws_at(model, system, now, laws)
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i), state => now%states(i)%normal)
-            k = stiffness_at_rest(model, analysis, i)
-            is_first = abs(state%lambda_a) <= 0.0_wp .and. abs(element%gap) <= 0.0_wp
-            closes = is_apart(now%states(i)) .and. bears_nothing(model, now%states, element%joint)
-            if (is_first .or. closes) then
-               laws%tangent(3, 3, i) = k(3)
-            else if (elastic .and. state%branch /= branch_open) then
-               laws%tangent(3, 3, i) = max(laws%tangent(3, 3, i), model%joints(element%joint)%law%normal%e_u*element%area)
-            end if
-            if (closes) laws%force(3, i) = k(3)*(state%lambda - state%lambda_b)
-            if (.not. (is_first .or. closes .or. (elastic .and. state%branch /= branch_open))) cycle
-            if (elastic) laws%tangent(:2, 3, i) = 0.0_wp
-            do d = 1, 2
-               laws%tangent(d, d, i) = max(laws%tangent(d, d, i), k(d))
-            end do
-         end associate
-      end do
-   end subroutine first_laws
 
    !> The tangents of the laws at the movements of NOW.
    subroutine laws_at(model, system, now, laws)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(in)    :: system
       type(trial_type), intent(in)          :: now
-      type(straight_laws_type), intent(out) :: laws
+      type(straight_law), allocatable, intent(out) :: laws(:)
       integer :: i
 
-      allocate (laws%point(3, size(now%states)), laws%force(3, size(now%states)))
-      allocate (laws%shift(3, size(now%states)), source=0.0_wp)
-      allocate (laws%rho(size(now%states)), source=1.0_wp)
-      laws%tangent = now%tangent
-      laws%states = now%states
-      do i = 1, size(now%states)
-         laws%point(:, i) = joint_movement(system%interface(i), now%u)
-         laws%force(:, i) = force_of(model%interface(i)%area, now%states(i))
+      allocate (laws(size(now%states)))
+      do i = 1, size(laws)
+         associate (element => model%interface(i), state => now%states(i))
+            laws(i)%point = joint_movement(system%interface(i), now%u)
+            laws(i)%force = force_of(element%area, state)
+            laws(i)%tangent = now%tangent(:, :, i)
+            laws(i)%state = state
+            laws(i)%elastic = stiffness_at_rest(model%joints(element%joint)%law, element%area, state%normal%p_av)
+         end associate
       end do
    end subroutine laws_at
 
+   !> Change the LAWS at NOW, the committed state, to those of the first iteration. The direction of movement of an element is not
+   !! yet known. An element on its first loading has the secants of Eq. (9). ELASTIC: an element that was pressed before has the
+   !! stiffer side of its kink, that of unloading, like the elastic predictor of plasticity. The elements of a joint without
+   !! pressure and with gaps are taken as closed.
+   subroutine first_laws(model, now, elastic, laws)
+      type(model_type), intent(in)      :: model
+      type(trial_type), intent(in)      :: now
+      logical, intent(in)               :: elastic
+      type(straight_law), intent(inout) :: laws(:)
+      integer :: d, i
+      logical :: is_first, closes, unloads
+
+      do i = 1, size(model%interface)
+         associate (element => model%interface(i), joint => model%joints(model%interface(i)%joint), &
+                    state => now%states(i)%normal, tangent => laws(i)%tangent, k => laws(i)%elastic)
+            is_first = abs(state%lambda_a) <= 0.0_wp .and. abs(element%gap) <= 0.0_wp
+            closes = is_apart(now%states(i))
+            if (closes) closes = all(now%states(joint%first:joint%last)%normal%pressure <= &
+                                     pressure_floor*now%states(joint%first:joint%last)%normal%p_av)
+            unloads = elastic .and. state%branch /= branch_open
+            if (is_first .or. closes) then
+               tangent(3, 3) = k(3)
+            else if (unloads) then
+               tangent(3, 3) = max(tangent(3, 3), joint%law%normal%e_u*element%area)
+            else
+               cycle
+            end if
+            if (closes) laws(i)%force(3) = k(3)*(state%lambda - state%lambda_b)
+            if (elastic) tangent(:2, 3) = 0.0_wp
+            do d = 1, 2
+               tangent(d, d) = max(tangent(d, d), k(d))
+            end do
+         end associate
+      end do
+   end subroutine first_laws
+
    !> The straight laws for the next iteration, from the result NOW of the last ones with the residual UNBALANCED [force].
-   !! SOFTER: rho relative to the first stiffness of an element; FLIPS: elements that have begun or stopped slipping.
-   subroutine next_laws(model, system, analysis, now, unbalanced, softer, laws, flips)
-      type(model_type), intent(in)            :: model
-      class(equation_system), intent(in)      :: system
-      type(analysis_type), intent(in)         :: analysis
-      type(trial_type), intent(in)            :: now
-      real(wp), intent(in)                    :: unbalanced
-      real(wp), intent(in)                    :: softer
-      type(straight_laws_type), intent(inout) :: laws
-      integer, intent(out)                    :: flips
-      real(wp) :: force(3), movement(3), rho(3), shift(3), true_force(3), work(3)
+   !! Iterations that cycle get another rho.
+   subroutine next_laws(model, system, analysis, now, unbalanced, attempt, laws)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(trial_type), intent(in)       :: now
+      real(wp), intent(in)               :: unbalanced
+      type(attempt_type), intent(inout)  :: attempt
+      type(straight_law), intent(inout)  :: laws(:)
+      real(wp) :: force(3), movement(3), rho(3), shift(3), softer, true_force(3), work(3)
       integer  :: i
       logical  :: slipped
 
-      flips = 0
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i), law => model%joints(model%interface(i)%joint)%law)
+      associate (n => attempt%iteration)
+         if (n > 4) then
+            if (now%size > 0.5_wp*minval(attempt%sizes(n - 2:n))) attempt%circles = attempt%circles + 1
+         end if
+         attempt%settled = n > 1
+      end associate
+      softer = 1.0_wp
+      if (attempt%circles > 0) softer = merge(10.0_wp, 0.1_wp, modulo(attempt%circles, 2) == 1)
+      do i = 1, size(laws)
+         associate (straight => laws(i), area => model%interface(i)%area, law => model%joints(model%interface(i)%joint)%law)
             movement = joint_movement(system%interface(i), now%u)
-            force = laws%force(:, i) + matmul(laws%tangent(:, :, i), movement - laws%point(:, i))
-            true_force = force_of(element%area, now%states(i))
+            force = straight%force + matmul(straight%tangent, movement - straight%point)
+            true_force = force_of(area, now%states(i))
+            shift = 0.0_wp
             if (norm2(true_force - force) > right*norm2(true_force)) then
-               rho = laws%rho(i)*softer*stiffness_at_rest(model, analysis, i)
-               rho = max(min(rho, most*unbalanced/max(abs(movement - laws%point(:, i)), tiny(1.0_wp))), tiny(1.0_wp))
-               shift = point_of_rest(law, element%area, analysis%states(i), movement, force, rho) - movement
+               rho = straight%rho*softer*straight%elastic
+               rho = max(min(rho, most*unbalanced/max(abs(movement - straight%point), tiny(1.0_wp))), tiny(1.0_wp))
+               shift = point_of_rest(law, area, analysis%states(i), movement, force, rho) - movement
                if (.not. norm2(shift) < farthest) shift = 0.0_wp ! no point of rest: the law at the movement serves
-               if (dot_product(shift, laws%shift(:, i)) > 0.0_wp) laws%rho(i) = max(0.25_wp*laws%rho(i), least_rho)
-               if (dot_product(shift, laws%shift(:, i)) < 0.0_wp) laws%rho(i) = min(4.0_wp*laws%rho(i), 1.0_wp)
+               if (dot_product(shift, straight%shift) > 0.0_wp) straight%rho = max(0.25_wp*straight%rho, least_rho)
+               if (dot_product(shift, straight%shift) < 0.0_wp) straight%rho = min(4.0_wp*straight%rho, 1.0_wp)
                movement = movement + shift
-               laws%shift(:, i) = shift
-            else
-               laws%shift(:, i) = 0.0_wp
             end if
-            slipped = laws%states(i)%slips
-            call follow_element(law, element%area, analysis%states(i), movement, laws%states(i), laws%tangent(:, :, i), work)
-            laws%point(:, i) = movement
-            laws%force(:, i) = force_of(element%area, laws%states(i))
-            if (slipped .neqv. laws%states(i)%slips) flips = flips + 1
+            slipped = straight%state%slips
+            call follow_element(law, area, analysis%states(i), movement, straight%state, straight%tangent, work)
+            straight%point = movement
+            straight%shift = shift
+            straight%force = force_of(area, straight%state)
+            if (slipped .neqv. straight%state%slips) attempt%settled = .false.
          end associate
       end do
    end subroutine next_laws
 
    !> The residual at NOW under the LOAD with the straight LAWS in place of the joints' own, on retained nodes [force].
    function residual_of(system, load, now, laws) result(residual)
-      class(equation_system), intent(in)   :: system
-      real(wp), intent(in)                 :: load(:, :)
-      type(trial_type), intent(in)         :: now
-      type(straight_laws_type), intent(in) :: laws
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: load(:, :)
+      type(trial_type), intent(in)       :: now
+      type(straight_law), intent(in)     :: laws(:)
       real(wp), allocatable :: residual(:, :)
       integer :: i
 
       residual = load - now%body
-      do i = 1, size(laws%states)
-         associate (element => system%interface(i))
-            call add_force(element, -laws%force(:, i) - matmul(laws%tangent(:, :, i), joint_movement(element, now%u) - &
-                                                               laws%point(:, i)), residual)
+      do i = 1, size(laws)
+         associate (element => system%interface(i), straight => laws(i))
+            call add_force(element, -straight%force - matmul(straight%tangent, joint_movement(element, now%u) - straight%point), &
+                           residual)
          end associate
       end do
    end function residual_of
 
-   !> Whether JOINT carries no pressure.
-   pure logical function bears_nothing(model, states, joint)
+   !> The DIRECTION that balances the RESIDUAL of the straight LAWS. The factorised matrix has the symmetric part of the tangents.
+   !! This part is shifted where an eigenvalue is negative (a slipping element has one where its two shear laws differ), and has a
+   !! small stiffness where an element has none. solve_coupled adds the remaining part.
+   !! A joint that slips at all nodes first has its elastic stiffness, as if no element slipped: this finds nodes that turn back,
+   !! which no tangent shows. When no node turns back any more, the tangent is used, which gives quadratic convergence, unless
+   !! nothing else holds the body in its direction of movement.
+   subroutine find_direction(model, residual, analysis, system, attempt, laws, direction)
+      type(model_type), intent(in)          :: model
+      real(wp), intent(in)                  :: residual(:, :)
+      type(analysis_type), intent(inout)    :: analysis
+      class(equation_system), intent(inout) :: system
+      type(attempt_type), intent(inout)     :: attempt
+      type(straight_law), intent(inout)     :: laws(:) !! their tangents become those of the solved equations
+      real(wp), intent(inout)               :: direction(:, :)
+      real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
+      real(wp) :: least ! eigenvalue
+      integer  :: i, k
+      logical  :: holds, is_loose
+
+      allocate (matrix(3, 3, size(laws)), rest(3, 3, size(laws)), source=0.0_wp)
+      is_loose = loose_joint(model, laws%state) > 0
+      holds = is_loose .and. (attempt%floats .or. .not. attempt%settled)
+      do
+         do i = 1, size(laws)
+            associate (tangent => laws(i)%tangent, elastic => laws(i)%elastic)
+               analysis%k(:, i) = [tangent(1, 1), tangent(2, 2), tangent(3, 3)]
+               matrix(3, 3, i) = max(tangent(3, 3), little*elastic(3))
+               matrix(:2, :2, i) = 0.5_wp*(tangent(:2, :2) + transpose(tangent(:2, :2)))
+               least = 0.5_wp*(matrix(1, 1, i) + matrix(2, 2, i)) - &
+                       hypot(0.5_wp*(matrix(1, 1, i) - matrix(2, 2, i)), matrix(1, 2, i))
+               do k = 1, 2
+                  matrix(k, k, i) = matrix(k, k, i) - min(0.0_wp, least) + little*elastic(k)
+                  if (holds) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
+               end do
+               rest(:2, :, i) = tangent(:2, :) - matrix(:2, :, i)
+               if (holds) rest(:2, :2, i) = 0.0_wp
+            end associate
+         end do
+         direction = 0.0_wp ! where the equations cannot be solved
+         attempt%coupled = any(abs(rest(:2, 3, :)) > 0.0_wp) .and. all(abs(attempt%move) <= 0.0_wp)
+         if (attempt%coupled) then
+            direction = residual
+            call solve_coupled(model, matrix, rest, attempt%where, attempt%tolerance, system, direction, attempt%trouble)
+         else
+            rest = 0.0_wp
+            call form_structure_stiffness(model, matrix, attempt%where, system, attempt%trouble, one_solution=.true.)
+            call solve_equations(model, system, residual, direction, attempt%trouble, moved=attempt%move, &
+                                 digits=direction_digits)
+         end if
+         if (holds .or. .not. is_loose .or. .not. norm2(direction) > far*attempt%length) exit
+         attempt%floats = .true.
+         holds = .true.
+      end do
+      do i = 1, size(laws)
+         laws(i)%tangent = matrix(:, :, i) + rest(:, :, i)
+      end do
+      attempt%length = norm2(direction)
+   end subroutine find_direction
+
+   !> The first joint whose elements are all open or slip in STATES, 0 for none.
+   pure integer function loose_joint(model, states) result(joint)
       type(model_type), intent(in)    :: model
       type(element_state), intent(in) :: states(:)
-      integer, intent(in)             :: joint
 
-      associate (normal => states(model%joints(joint)%first:model%joints(joint)%last)%normal)
-         bears_nothing = all(normal%pressure <= pressure_floor*normal%p_av)
-      end associate
-   end function bears_nothing
-
-   !> The force of an element in this STATE, in its axes [force].
-   pure function force_of(area, state) result(force)
-      real(wp), intent(in)            :: area
-      type(element_state), intent(in) :: state
-      real(wp) :: force(3)
-
-      force = [state%shear%tau*area, state%normal%sumf]
-   end function force_of
-
-   !> (k_sx, k_sy, k_n) of interface element I in its first increment [force/length].
-   pure function stiffness_at_rest(model, analysis, i) result(k)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: i
-      real(wp) :: k(3)
-
-      k = rest_stiffness(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, analysis%states(i)%normal%p_av)
-   end function stiffness_at_rest
+      do joint = 1, size(model%joints)
+         associate (of_joint => states(model%joints(joint)%first:model%joints(joint)%last))
+            if (size(of_joint) > 0 .and. all(of_joint%slips .or. of_joint%normal%branch == branch_open)) return
+         end associate
+      end do
+      joint = 0
+   end function loose_joint
 
    !> The movement at which an element would come to rest: that of the point of its graph, from the state BEFORE, on the line of
    !! slope -RHO through MOVEMENT and FORCE of its straight law. The normal direction is independent of the others and comes
-   !! first. A slipping element stays at its point if it slips there in the same direction.
+   !! first; then, by Newton's method within bounds, each shear direction, whose force increases with the movement. A slipping
+   !! element stays at its point if it slips there in the same direction.
    function point_of_rest(law, area, before, movement, force, rho) result(point)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area        !! a_i [length^2]
@@ -201,8 +255,8 @@ contains
       real(wp), intent(in)            :: rho(3)      !! > 0 [force/length]
       real(wp) :: point(3)
       type(normal_state) :: normal
-      real(wp) :: goal(3), limit, slope, t(2), there(2), work
-      integer  :: i
+      real(wp) :: bounds(2), excess, goal(3), limit, slope, start, t(2), there(2), work
+      integer  :: i, step
 
       goal = force + rho*movement
       point = movement
@@ -213,7 +267,19 @@ contains
       there = 0.0_wp
       do i = 1, 2
          if (.not. law%shear(i)%given) cycle
-         call find_shear_rest(i)
+         start = before%shear(i)%delta + before%origin(i)
+         point(i) = start
+         call shear_force(i, start, t(i), slope)
+         excess = t(i) + rho(i)*start - goal(i)
+         bounds = [min(start, start - excess/rho(i)), max(start, start - excess/rho(i))]
+         do step = 1, most_steps
+            if (abs(excess) <= near*(abs(t(i)) + abs(goal(i) - rho(i)*start))) exit
+            bounds(merge(2, 1, excess > 0.0_wp)) = point(i)
+            point(i) = point(i) - excess/(rho(i) + slope)
+            if (point(i) <= bounds(1) .or. point(i) >= bounds(2)) point(i) = 0.5_wp*sum(bounds)
+            call shear_force(i, point(i), t(i), slope)
+            excess = t(i) + rho(i)*point(i) - goal(i)
+         end do
          call shear_force(i, movement(i), there(i), slope)
       end do
       limit = area*friction_limit(law, normal%pressure)
@@ -236,27 +302,6 @@ contains
          t = area*state%tau
          slope = max(0.0_wp, area*slope)
       end subroutine shear_force
-
-      !> POINT and T in direction I by Newton's method within bounds, from the state before; t increases with the movement.
-      subroutine find_shear_rest(i)
-         integer, intent(in) :: i
-         real(wp) :: bounds(2), excess, slope, start
-         integer  :: step
-
-         start = before%shear(i)%delta + before%origin(i)
-         point(i) = start
-         call shear_force(i, start, t(i), slope)
-         excess = t(i) + rho(i)*start - goal(i)
-         bounds = [min(start, start - excess/rho(i)), max(start, start - excess/rho(i))]
-         do step = 1, most_steps
-            if (abs(excess) <= near*(abs(t(i)) + abs(goal(i) - rho(i)*start))) exit
-            bounds(merge(2, 1, excess > 0.0_wp)) = point(i)
-            point(i) = point(i) - excess/(rho(i) + slope)
-            if (point(i) <= bounds(1) .or. point(i) >= bounds(2)) point(i) = 0.5_wp*sum(bounds)
-            call shear_force(i, point(i), t(i), slope)
-            excess = t(i) + rho(i)*point(i) - goal(i)
-         end do
-      end subroutine find_shear_rest
 
    end function point_of_rest
 

@@ -7,7 +7,7 @@ module branch_cubic
    private
 
    public :: cubic_value, cubic_slope, cubic_slope_derivatives, cubic_secant, cubic_work, cubic_loop
-   public :: cubic_by_pressure, value_on_way, slope_on_way, deflection_at
+   public :: value_on_way, slope_on_way, deflection_at
 
    !> P(d) = a_1 d + a_2 d**2 + a_3 d**3, a_k = a_k1 + a_k2 p.
    type, public :: cubic
@@ -52,14 +52,6 @@ contains
       if (farthest*(1.0_wp + farthest*(q(2) + farthest*q(3))) <= 1.0_wp) return
       d = unit*enclosed_zero([-1.0_wp, q], [0.0_wp, farthest])
    end function deflection_at
-
-   !> dP/dp at D [-]; it does not depend on the pressure.
-   elemental real(wp) function cubic_by_pressure(curve, d) result(slope)
-      type(cubic), intent(in) :: curve
-      real(wp), intent(in)    :: d
-
-      slope = d*(curve%coefficients(2, 1) + d*(curve%coefficients(2, 2) + d*curve%coefficients(2, 3)))
-   end function cubic_by_pressure
 
    !> P as a polynomial in the fraction f of a path on which d = D(1) + f D(2), p = P(1) + f P(2): sum of c_k f**k [pressure].
    pure function value_on_way(curve, d, p) result(c)

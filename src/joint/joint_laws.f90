@@ -10,7 +10,7 @@ module joint_laws
    implicit none
    private
 
-   public :: norm_and_shear, stiffness_at_rest, follow_element, work_along, rest_when_open, is_apart
+   public :: norm_and_shear, stiffness_at_rest, stiffness_matrices, follow_element, force_of, work_along, rest_when_open, is_apart
    public :: friction_limit, friction_excess, exceeds_limit
    public :: back_stiffness, loading_work
 
@@ -54,7 +54,7 @@ contains
       call rest_when_open(state, movement)
       if (state%normal%branch == branch_open) return
       if (was_apart) then
-         call begin_at_closing(movement, state)
+         state%origin = movement(:2) - closed_share(state%normal)*(movement(:2) - state%origin)
          state%shear%delta = movement(:2) - state%origin
       end if
       p = max(0.0_wp, state%normal%pressure)
@@ -62,6 +62,18 @@ contains
       if (is_virgin(area, state%normal)) p = state%normal%p_av
       call shear(law%shear, area, p, state%shear, k(:2))
    end subroutine norm_and_shear
+
+   !> The matrices (3, 3, n) of elements with the stiffnesses K(3, n) in their axes.
+   pure function stiffness_matrices(k) result(matrices)
+      real(wp), intent(in)  :: k(:, :)
+      real(wp), allocatable :: matrices(:, :, :)
+      integer :: d
+
+      allocate (matrices(3, 3, size(k, 2)), source=0.0_wp)
+      do d = 1, 3
+         matrices(d, d, :) = k(d, :)
+      end do
+   end function stiffness_matrices
 
    !> The stiffness (k_sx, k_sy, k_n) of an element that has never been pressed [force/length].
    pure function stiffness_at_rest(law, area, p_av) result(k)
@@ -74,6 +86,15 @@ contains
       state%normal%p_av = p_av
       call norm_and_shear(law, area, .false., [0.0_wp, 0.0_wp, 0.0_wp], state, k)
    end function stiffness_at_rest
+
+   !> The force of an element in this STATE, in its axes [force].
+   pure function force_of(area, state) result(force)
+      real(wp), intent(in)            :: area
+      type(element_state), intent(in) :: state
+      real(wp) :: force(3)
+
+      force = [state%shear%tau*area, state%normal%sumf]
+   end function force_of
 
    !> An open element transmits no shear. When it closes, its shear law begins anew at the present movement.
    pure subroutine rest_when_open(state, movement)
@@ -92,14 +113,6 @@ contains
 
       is_apart = state%normal%branch == branch_open .and. state%normal%gap > 0.0_wp
    end function is_apart
-
-   !> The last movement has closed an element: set its origin to the point of closing on that straight path.
-   pure subroutine begin_at_closing(movement, state)
-      real(wp), intent(in)               :: movement(3)
-      type(element_state), intent(inout) :: state    !! on entry the origin is where the element was last open
-
-      state%origin = movement(:2) - closed_share(state%normal)*(movement(:2) - state%origin)
-   end subroutine begin_at_closing
 
    !> The Coulomb limit tau_f = mu p (section 4.4) of the resultant of tau [pressure].
    pure real(wp) function friction_limit(law, pressure) result(limit)
@@ -158,8 +171,8 @@ contains
       share = 1.0_wp
       share_by_lambda = 0.0_wp
       if (is_apart(before)) then
-         call begin_at_closing(movement, after)
          share = closed_share(after%normal)
+         after%origin = movement(:2) - share*(movement(:2) - before%origin)
          share_by_lambda = (1.0_wp - share)/max(after%normal%lambda - before%normal%lambda, tiny(1.0_wp))
       end if
       do i = 1, 2

@@ -153,12 +153,10 @@ contains
          k(3) = law%normal%e_u*area
          if (on_loading) k(3) = normal_tangent(law%normal, area, p, state%normal%p_av)
          do i = 1, 2
-            if (.not. law%shear(i)%given) cycle
-            if (on_loading) then
-               k(i) = area*cubic_slope(law%shear(i)%load, abs(curve_deflection(state%shear(i))), p)
-            else
-               k(i) = area*cubic_slope(law%shear(i)%unload, curve_deflection(state%shear(i)), p)
-            end if
+            associate (d => curve_deflection(state%shear(i)), shear => law%shear(i))
+               if (shear%given) &
+                  k(i) = area*merge(cubic_slope(shear%load, abs(d), p), cubic_slope(shear%unload, d, p), on_loading)
+            end associate
          end do
       end associate
    end function oscillation_stiffness

@@ -4,7 +4,7 @@
 !! path every curve is a polynomial in the fraction f of the path. Hence a piece ends exactly where a branch meets a loading
 !! curve.
 module shear_path
-   use branch_cubic, only: cubic, cubic_by_pressure, cubic_slope, cubic_slope_derivatives, cubic_value, slope_on_way, value_on_way
+   use branch_cubic, only: cubic, cubic_slope, cubic_slope_derivatives, cubic_value, slope_on_way, value_on_way
    use kinds, only: wp
    use normal_stiffness, only: branch_load
    use numbers, only: derivative, enclosed_zero, find_zeros, polynomial, zero_list
@@ -171,7 +171,7 @@ contains
       real(wp), intent(in)             :: way(2, 2)
       type(shear_state), intent(inout) :: state
       real(wp), intent(inout)          :: by_delta, by_p
-      real(wp) :: place(2), goal, d, slopes(2), curve, curve_slope, curve_by_p, rate, jump
+      real(wp) :: place(2), goal, d, slopes(2), b(3), curve, curve_slope, curve_by_p, rate, jump
 
       goal = goal_sense(state)
       place = way(:, 1) + piece%to*way(:, 2)
@@ -188,7 +188,8 @@ contains
          return
       end if
       curve_slope = polynomial(slope_on_way(law%load, goal*way(1, :), way(2, :)), piece%to)
-      curve_by_p = cubic_by_pressure(law%load, d)
+      b = law%load%coefficients(2, :)
+      curve_by_p = d*(b(1) + d*(b(2) + d*b(3))) ! dP/dp; it does not depend on the pressure
       rate = goal*way(1, 2)*(slopes(1) - curve_slope) - curve_by_p*way(2, 2)
       jump = way(1, 2)*(slopes(1) - slopes(2))
       if (abs(rate) > rounding*(abs(way(1, 2))*sum(slopes) + abs(curve_by_p*way(2, 2)))) then

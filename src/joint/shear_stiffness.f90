@@ -26,7 +26,7 @@ module shear_stiffness
    implicit none
    private
 
-   public :: shear, shear_slope, least_movement, least_stress, turn, goal_sense, is_past_a, join_loading, leave_offset
+   public :: shear, shear_slope, least_movement, least_stress, turn, goal_sense, join_loading, leave_offset
    public :: cubic_of, curve_deflection, slid_from, stand_at_limit, branch_shift
 
    real(wp), parameter :: rounding = 1.0e-10_wp ! of the present stresses: a smaller change is rounding

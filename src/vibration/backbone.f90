@@ -213,21 +213,21 @@ contains
          n = merge(steps, 1, i > 1)
          do k = 1, n
             w = real(k, wp)/n
-            call answer(found%loops(max(1, i - 1)), found%loops(i), w, row, excess)
+            call answer(w)
             if (i > 1 .and. before*excess < 0.0_wp) then
                low = w - 1.0_wp/n
                high = w
                do while (high - low > same)
                   w = 0.5_wp*(low + high)
-                  call answer(found%loops(i - 1), found%loops(i), w, row, excess)
+                  call answer(w)
                   if (excess*before > 0.0_wp) low = w
                   if (excess*before <= 0.0_wp) high = w
                end do
-               call answer(found%loops(i - 1), found%loops(i), merge(low, high, before > 0.0_wp), row, excess)
+               call answer(merge(low, high, before > 0.0_wp))
                row([3, 5]) = -90.0_wp
                row(4) = row(2)
                found%answers = reshape([found%answers, row], [5, size(found%answers, 2) + 1])
-               call answer(found%loops(i - 1), found%loops(i), real(k, wp)/n, row, excess)
+               call answer(real(k, wp)/n)
             end if
             if (excess > 0.0_wp) found%answers = reshape([found%answers, row], [5, size(found%answers, 2) + 1])
             before = excess
@@ -236,16 +236,16 @@ contains
 
    contains
 
-      !> The ROW of the amplitude at fraction W from loop A to B; EXCESS: F/q less the damping force at resonance.
-      pure subroutine answer(a, b, w, row, excess)
-         type(loop_type), intent(in) :: a, b
-         real(wp), intent(in)        :: w
-         real(wp), intent(out)       :: row(5), excess
+      !> The row of the amplitude at fraction W from the loop before to loop I; EXCESS: F/q less the damping force at resonance.
+      subroutine answer(w)
+         real(wp), intent(in) :: w
          real(wp) :: q, omega_squared, lost, beside
 
-         q = a%q**(1.0_wp - w)*b%q**w
-         omega_squared = (1.0_wp - w)*a%omega_squared + w*b%omega_squared
-         lost = ((1.0_wp - w)*a%loss + w*b%loss + loss)*omega_squared
+         associate (a => found%loops(max(1, i - 1)), b => found%loops(i))
+            q = a%q**(1.0_wp - w)*b%q**w
+            omega_squared = (1.0_wp - w)*a%omega_squared + w*b%omega_squared
+            lost = ((1.0_wp - w)*a%loss + w*b%loss + loss)*omega_squared
+         end associate
          excess = force/q - lost
          beside = sqrt(max(0.0_wp, excess*(force/q + lost)))
          row(1) = q*found%peak

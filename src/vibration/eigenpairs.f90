@@ -72,35 +72,24 @@ contains
       real(wp), allocatable, intent(out) :: lambda(:) !! [1/time^2]
       real(wp), allocatable, intent(out) :: x(:, :)   !! (equations, n)
       type(failure_type), intent(inout)  :: failure
-      integer :: i, k
+      real(wp), allocatable :: m(:, :), k(:, :), nu(:), work(:)
+      integer :: first, i, info, status
 
-      if (n >= system%n) then
-         call solve_whole(model, mass, system, lambda, x, failure)
-      else
+      if (n < system%n) then
          call iterate(model, mass, system, n, lambda, x, failure)
-      end if
-      if (failure%raised) return
-      do i = 2, size(lambda) ! few, and almost sorted
-         do k = i, 2, -1
-            if (lambda(k) >= lambda(k - 1)) exit
-            lambda([k - 1, k]) = lambda([k, k - 1])
-            x(:, [k - 1, k]) = x(:, [k, k - 1])
+         if (failure%raised) return
+         do first = 2, size(lambda) ! few, and almost sorted
+            do i = first, 2, -1
+               if (lambda(i) >= lambda(i - 1)) exit
+               lambda([i - 1, i]) = lambda([i, i - 1])
+               x(:, [i - 1, i]) = x(:, [i, i - 1])
+            end do
          end do
-      end do
-   end subroutine find_eigenpairs
+         return
+      end if
 
-   !> All finite eigenvalues: of [m] {x} = nu ([k] - sigma [m]) {x}, whose matrix on the right is positive definite.
-   subroutine solve_whole(model, mass, system, lambda, x, failure)
-      type(model_type), intent(in)       :: model
-      type(mass_matrix_type), intent(in) :: mass
-      class(equation_system), intent(in) :: system
-      real(wp), allocatable, intent(out) :: lambda(:), x(:, :)
-      type(failure_type), intent(inout)  :: failure
-      real(wp), allocatable :: m(:, :), k(:, :)
-      real(wp) :: nu(system%n), work(34*system%n)
-      integer  :: first, i, info, status
-
-      allocate (m(system%n, system%n), k(system%n, system%n), source=0.0_wp, stat=status)
+      ! all finite eigenvalues: of [m] {x} = nu ([k] - sigma [m]) {x}, whose matrix on the right is positive definite
+      allocate (m(system%n, system%n), k(system%n, system%n), nu(system%n), work(34*system%n), source=0.0_wp, stat=status)
       if (status /= 0) then
          call failure%raise('MODES: no memory for all modes of '//integer_text(system%n)//' unknowns')
          return
@@ -121,7 +110,7 @@ contains
       if (first == 0) first = system%n + 1
       lambda = [(system%shift + 1.0_wp/nu(i), i = system%n, first, -1)]
       x = m(:, system%n:first:-1)/spread(sqrt(nu(system%n:first:-1)), 1, system%n) ! x^T ([k] - sigma [m]) x was 1
-   end subroutine solve_whole
+   end subroutine find_eigenpairs
 
    !> The N next above the shift by ARPACK. Where fewer vectors have mass, ARPACK reports it and has found a basis of all of them.
    subroutine iterate(model, mass, system, n, lambda, x, failure)
@@ -236,28 +225,16 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: f(:, :) !! (dimension, n_nodes) [force]
       real(wp) :: x(system%n)
+      real(wp), allocatable :: felt(:, :)
+      integer :: i
 
-      if (allocated(model%coupling%of_node)) then
-         x = picked(forces_on_unknowns(model, f))
-      else
-         x = picked(f)
-      end if
+      allocate (felt, source=forces_on_unknowns(model, f))
+      !$omp parallel do default(shared) if(system%n > worth_threads)
+      do i = 1, system%n
+         x(i) = felt(system%direction(i), system%node(i))
+      end do
+      !$omp end parallel do
       x(system%locked) = 0.0_wp
-
-   contains
-
-      function picked(felt)
-         real(wp), intent(in) :: felt(:, :)
-         real(wp) :: picked(system%n)
-         integer  :: i
-
-         !$omp parallel do default(shared) if(system%n > worth_threads)
-         do i = 1, system%n
-            picked(i) = felt(system%direction(i), system%node(i))
-         end do
-         !$omp end parallel do
-      end function picked
-
    end function on_equations
 
    !> Displacements of all nodes under X(equation), zero where held.

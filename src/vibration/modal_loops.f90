@@ -17,7 +17,7 @@ module modal_loops
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system, failure_type
    use equations, only: condense_load, recover_displacements
-   use joint_laws, only: element_state, work_along
+   use joint_laws, only: element_state, force_of, work_along
    use kinds, only: wp
    use load_path, only: hold_load, start_increment
    use mass_matrix, only: form_mass, mass_matrix_type, mass_times
@@ -107,9 +107,7 @@ contains
       modal%plan%stages(modal%rest%stage)%fractions = [1.0_wp]
       call load_increment(model, modal, [0.0_wp, 0.0_wp], modal%rest, work, failure)
       do e = 1, size(model%interface)
-         associate (state => modal%rest%states(e))
-            modal%rest_forces(:, e) = [state%shear%tau*model%interface(e)%area, state%normal%sumf]
-         end associate
+         modal%rest_forces(:, e) = force_of(model%interface(e)%area, modal%rest%states(e))
       end do
    end subroutine start_modal_load
 
@@ -299,7 +297,6 @@ contains
       top = coordinate(modal, now, loop%alpha)
       call clear(model, loop%alpha, top, loop)
       call follow_path(model, modal, [loop%alpha, -loop%alpha], 2*increments, now, loop, failure)
-      if (failure%raised) return
       u_low = now%u
       low = coordinate(modal, now, -loop%alpha)
       call follow_path(model, modal, [-loop%alpha, loop%alpha], 2*increments, now, loop, failure)

@@ -140,10 +140,31 @@ contains
       real(wp), allocatable :: at_rest(:, :), x(:)
       complex(wp) :: u(model%dimension*size(plan%nodes))
       real(wp) :: large(size(u))
-      integer  :: f
+      integer  :: d, f, m, n
       logical  :: ok
 
-      call put_together(model, plan, modes, superposed)
+      d = model%dimension
+      n = size(plan%nodes)
+      allocate (superposed%shape(d*n, size(modes%modes)), superposed%force(size(modes%modes)), &
+                superposed%viscous(size(modes%modes)), source=0.0_wp)
+      superposed%lambda = modes%modes%lambda
+      superposed%mass = modes%modes%mass
+      superposed%loss = modes%modes%loss
+      superposed%rest = spread(0.0_wp, 1, d*n)
+      do m = 1, size(modes%modes)
+         associate (mode => modes%modes(m))
+            superposed%shape(:, m) = pack(mode%u(:, plan%nodes), .true.)
+            superposed%force(m) = sum(mode%u*plan%force(:d, :))
+            if (.not. allocated(plan%damping)) cycle
+            superposed%loss(m) = mode%material_loss
+            if (plan%is_structural) then
+               superposed%loss(m) = superposed%loss(m) + loss_at(plan%damping, mode%frequency)
+            else
+               superposed%viscous(m) = loss_at(plan%damping, mode%frequency)
+            end if
+         end associate
+      end do
+
       if (allocated(spectrum%at_rest)) then
          x = spectrum%at_rest
       else if (system%shift >= 0.0_wp) then   ! static load on a supported structure
@@ -162,21 +183,19 @@ contains
       end if
       response%node = model%node_id(plan%nodes)
       response%frequency = asked_frequencies(plan, modes%modes%frequency)
-      associate (d => model%dimension, n => size(plan%nodes), frequencies => response%frequency)
-         allocate (response%amplitude(d, n, size(frequencies)), response%phase(d, n, size(frequencies)))
-         do f = 1, size(frequencies)
-            call response_at(superposed, frequencies(f), u, ok)
-            if (.not. ok) then
-               call failure%raise('FREQUENCY: at '//real_text(frequencies(f))//' the response is unbounded: no damping, or an '// &
-                  'unsupported structure')
-               return
-            end if
-            large = abs(u)
-            where (large <= nothing*maxval(large)) u = 0.0_wp
-            response%amplitude(:, :, f) = reshape(abs(u), [d, n])
-            response%phase(:, :, f) = reshape(phase_of(u), [d, n])
-         end do
-      end associate
+      allocate (response%amplitude(d, n, size(response%frequency)), response%phase(d, n, size(response%frequency)))
+      do f = 1, size(response%frequency)
+         call response_at(superposed, response%frequency(f), u, ok)
+         if (.not. ok) then
+            call failure%raise('FREQUENCY: at '//real_text(response%frequency(f))// &
+                               ' the response is unbounded: no damping, or an unsupported structure')
+            return
+         end if
+         large = abs(u)
+         where (large <= nothing*maxval(large)) u = 0.0_wp
+         response%amplitude(:, :, f) = reshape(abs(u), [d, n])
+         response%phase(:, :, f) = reshape(phase_of(u), [d, n])
+      end do
       call find_missed_peaks(plan, modes, superposed, response)
    end subroutine find_response
 
@@ -224,35 +243,5 @@ contains
          response%missed = [response%missed, peak]
       end do
    end subroutine find_missed_peaks
-
-   !> Extract the data of MODES for the superposition.
-   pure subroutine put_together(model, plan, modes, superposed)
-      type(model_type), intent(in)    :: model
-      type(response_plan), intent(in) :: plan
-      type(modes_type), intent(in)    :: modes
-      type(modal_system), intent(out) :: superposed
-      integer :: d, m, n
-
-      d = model%dimension
-      n = size(modes%modes)
-      allocate (superposed%shape(d*size(plan%nodes), n), superposed%force(n), superposed%viscous(n), source=0.0_wp)
-      superposed%lambda = modes%modes%lambda
-      superposed%mass = modes%modes%mass
-      superposed%loss = modes%modes%loss
-      superposed%rest = [(0.0_wp, m = 1, size(superposed%shape, 1))]
-      do m = 1, n
-         associate (mode => modes%modes(m))
-            superposed%shape(:, m) = pack(mode%u(:, plan%nodes), .true.)
-            superposed%force(m) = sum(mode%u*plan%force(:d, :))
-            if (.not. allocated(plan%damping)) cycle
-            superposed%loss(m) = mode%material_loss
-            if (plan%is_structural) then
-               superposed%loss(m) = superposed%loss(m) + loss_at(plan%damping, mode%frequency)
-            else
-               superposed%viscous(m) = loss_at(plan%damping, mode%frequency)
-            end if
-         end associate
-      end do
-   end subroutine put_together
 
 end module modal_response

@@ -14,6 +14,7 @@ module natural_modes
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system, failure_type
    use equations, only: add_bar, form_body_stiffness, form_structure_stiffness, lock_unknown, start_equations
+   use joint_laws, only: stiffness_matrices
    use kinds, only: wp
    use mass_matrix, only: form_mass, mass_matrix_type
    use model_data, only: a_point, model_type, n_bars, n_points, n_sections, node_kind, supported
@@ -100,8 +101,7 @@ contains
       real(wp), intent(in)               :: shift !! sigma [1/time^2]
       class(equation_system), allocatable, intent(out) :: system
       type(failure_type), intent(inout)  :: failure
-      real(wp) :: k(3, 3, size(structure%k, 2))
-      integer  :: c, i
+      integer :: i
 
       if (failure%raised) return
       allocate (system, source=structure%started)
@@ -112,11 +112,7 @@ contains
          if (model%bars(i)%bolt > 0 .and. structure%is_elastic(i)) call add_bar(model, i, system)
       end do
       call hold_bolts(model, structure, system)
-      k = 0.0_wp
-      do c = 1, 3
-         k(c, c, :) = structure%k(c, :)
-      end do
-      call form_structure_stiffness(model, k, 'natural modes', system, failure)
+      call form_structure_stiffness(model, stiffness_matrices(structure%k), 'natural modes', system, failure)
    end subroutine factorise_at
 
    !> Hold the overlap of tightened solid bolts.
