@@ -2,7 +2,6 @@
 !! Requests are the range of EIGRL, the frequencies of FREQ1 and FREQ4, load, damping and nodes. OUTPUT may limit the tables of a stage
 !! to sets of nodes or marked surfaces.
 module vibration_build
-   use bulk_data, only: freq1_card
    use case_entries, only: limit_type, number_set, numbers_in_set
    use deck_check, only: checked_deck
    use kinds, only: wp
