@@ -10,7 +10,8 @@ module joint_laws
    implicit none
    private
 
-   public :: norm_and_shear, stiffness_at_rest, stiffness_matrices, follow_element, force_of, work_along, rest_when_open, is_apart
+   public :: norm_and_shear, start_shear, stiffness_at_rest, stiffness_matrices, follow_element, force_of, work_along
+   public :: rest_when_open, is_apart
    public :: friction_limit, friction_excess, exceeds_limit
    public :: back_stiffness, loading_work
 
@@ -36,8 +37,7 @@ module joint_laws
 
 contains
 
-   !> NORM, and SHEAR for x and y: the branches of an element after the last increment, and its stiffness for the next one. Where
-   !! the element has closed, its shear law begins at the point of closing; a slipping element stands at the limits.
+   !> NORM, and SHEAR for x and y: the branches of an element after the last increment, and its stiffness for the next one.
    pure subroutine norm_and_shear(law, area, eq10, movement, state, k)
       type(joint_law), intent(in)        :: law
       real(wp), intent(in)               :: area        !! a_i [length^2]
@@ -51,17 +51,30 @@ contains
       was_apart = is_apart(state)
       k(:2) = 0.0_wp
       call norm(law%normal, area, eq10, state%normal, k(3))
+      call start_shear(law, area, was_apart, movement, state, p)
+      if (state%normal%branch /= branch_open) call shear(law%shear, area, p, state%shear, k(:2))
+   end subroutine norm_and_shear
+
+   !> Prepare SHEAR after NORM: where the element has opened or closed, its shear law begins anew; a slipping element stands at the
+   !! limits. P is the pressure for SHEAR [pressure].
+   pure subroutine start_shear(law, area, was_apart, movement, state, p)
+      type(joint_law), intent(in)        :: law
+      real(wp), intent(in)               :: area        !! a_i [length^2]
+      logical, intent(in)                :: was_apart   !! before NORM
+      real(wp), intent(in)               :: movement(3) !! as in norm_and_shear
+      type(element_state), intent(inout) :: state
+      real(wp), intent(out)              :: p
+
+      p = max(0.0_wp, state%normal%pressure)
       call rest_when_open(state, movement)
       if (state%normal%branch == branch_open) return
       if (was_apart) then
          state%origin = movement(:2) - closed_share(state%normal)*(movement(:2) - state%origin)
          state%shear%delta = movement(:2) - state%origin
       end if
-      p = max(0.0_wp, state%normal%pressure)
       if (state%slips) call stand_at_limit(law%shear, p, state%shear)
       if (is_virgin(area, state%normal)) p = state%normal%p_av
-      call shear(law%shear, area, p, state%shear, k(:2))
-   end subroutine norm_and_shear
+   end subroutine start_shear
 
    !> The matrices (3, 3, n) of elements with the stiffnesses K(3, n) in their axes.
    pure function stiffness_matrices(k) result(matrices)
