@@ -194,7 +194,6 @@ contains
       integer, intent(inout) :: branch(:)
       type(cubic) :: law
       integer, allocatable  :: own(:)
-      logical, allocatable  :: no_curves(:, :)
       real(wp), allocatable :: starts(:)
       real(wp) :: d(size(forward)), d_most, least, off(size(forward)), scatter, side
       logical  :: is_on(size(forward)), ok
@@ -202,10 +201,9 @@ contains
 
       own = pack([(i, i = 1, first - 1)], branch(:first - 1) == fit_load)
       if (size(own) < few) return
-      allocate (no_curves(size(own), 0))
       d = goal*forward
       associate (d_own => sense(own)*forward(own), tau_own => sense(own)*stress(own))
-         call fit_cubic(d_own, tau_own, no_curves, law%coefficients(1, :), starts, ok)
+         call fit_cubic(d_own, tau_own, reshape([logical ::], [size(own), 0]), law%coefficients(1, :), starts, ok)
          if (.not. ok) return
          scatter = norm2(tau_own - cubic_value(law, d_own, 0.0_wp))/sqrt(real(max(1, size(own) - 3), wp))
          least = exact*maxval(abs(tau_own)) ! smallest difference between readings
