@@ -99,8 +99,8 @@ contains
       call complete_data(header, reading, data, errors)
    end subroutine read_test_data
 
-   !> Complete DATA after the last HEADER: branches, runs and units. Without --units, warn of two units of stress in the headings, and of
-   !! units without a consistent unit of force.
+   !> Complete DATA after the last HEADER: branches, runs and units. Without --units, warn of two units of stress in the headings,
+   !! and of units without a consistent unit of force.
    subroutine complete_data(header, reading, data, errors)
       type(header_type), intent(in)        :: header
       type(reading_type), intent(in)       :: reading

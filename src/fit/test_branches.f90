@@ -98,8 +98,8 @@ contains
       end do
    end subroutine separate_tests
 
-   !> Assign branches to the ROWS of one test, in order, from its path, which is straight between the turning points of a record or from
-   !! run to run, and count its RUNS. In shear, readings of the opposite sense of loading are reversed.
+   !> Assign branches to the ROWS of one test, in order, from its path, which is straight between the turning points of a record or
+   !! from run to run, and count its RUNS. In shear, readings of the opposite sense of loading are reversed.
    subroutine take_branches(data, rows, runs)
       type(test_data_type), intent(inout) :: data
       integer, intent(in)                 :: rows(:)
@@ -183,9 +183,10 @@ contains
       end do
    end subroutine follow
 
-   !> Where a return path from point FIRST on meets the loading curve tau = a1 d + a2 d^2 + a3 d^3 through the points of loading before:
-   !! after the last point up to A that is off the curve on the side of the path. Where that is the last point before A, JOINS keeps the
-   !! value from A. Points beyond A that are still off the curve, within its known range, then belong to no branch of the law.
+   !> Where a return path from point FIRST on meets the loading curve tau = a1 d + a2 d^2 + a3 d^3 through the points of loading
+   !! before: after the last point up to A that is off the curve on the side of the path. Where that is the last point before A,
+   !! JOINS keeps the value from A. Points beyond A that are still off the curve, within its known range, then belong to no branch
+   !! of the law.
    subroutine find_meeting(forward, stress, sense, goal, first, joins, branch)
       real(wp), intent(in)   :: forward(:), stress(:)
       integer, intent(in)    :: sense(:), goal      !! of loading, 1 or -1: at the points; of the curve that the path may meet
@@ -315,8 +316,8 @@ contains
       end do
    end subroutine take_off_offset
 
-   !> Report readings below zero by more than the band of noise: p, and d of rows given as loading. The p of a shear test is prescribed,
-   !! without noise.
+   !> Report readings below zero by more than the band of noise: p, and d of rows given as loading. The p of a shear test is
+   !! prescribed, without noise.
    subroutine check_signs(data, errors)
       type(test_data_type), intent(in)     :: data
       type(deck_error_list), intent(inout) :: errors
