@@ -45,8 +45,8 @@ contains
       if (length > 0) call get_command_argument(i, text)
    end function argument_text
 
-   !> The next OPTION of the command, '' at its end. For an option among VALUED, VALUE is the argument behind it; IS_MISSING is true where
-   !! the command ends there. An argument without a dash, `-` for the standard input, and any argument behind `--` are files.
+   !> The next OPTION of the command, '' at its end. For an option among VALUED, VALUE is the argument behind it; IS_MISSING is true
+   !! where the command ends there. An argument without a dash, `-` for the standard input, and any argument behind `--` are files.
    subroutine next_option(command, valued, option, value, is_missing)
       type(command_reader), intent(inout)    :: command
       character(*), intent(in)               :: valued(:)

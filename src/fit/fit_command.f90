@@ -92,8 +92,8 @@ module fit_command
 
 contains
 
-   !> Read the command. STATUS is the exit status where nothing is left to do, after --help and --version, and after a wrong command,
-   !! which has a message on the standard error; otherwise it is -1.
+   !> Read the command. STATUS is the exit status where nothing is left to do, after --help and --version, and after a wrong
+   !! command, which has a message on the standard error; otherwise it is -1.
    subroutine read_fit_command(command, status)
       type(fit_command_type), intent(out) :: command
       integer, intent(out)                :: status
@@ -175,8 +175,8 @@ contains
       if (ok) status = -1
    end subroutine read_fit_command
 
-   !> Complete the command: check that the options go together, and that no output would replace a data file under any name; OK is false,
-   !! with a message, where they do not.
+   !> Complete the command: check that the options go together, and that no output would replace a data file under any name; OK is
+   !! false, with a message, where they do not.
    subroutine complete_command(command, ok)
       type(fit_command_type), intent(inout) :: command
       logical, intent(out)                  :: ok

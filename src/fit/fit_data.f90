@@ -51,7 +51,7 @@ contains
       type(header_type) :: header
       type(unit_system) :: system                ! of the line UNITS =
       character(:), allocatable :: line
-      integer :: i, k
+      integer :: i, k, rows
       logical :: ok, above                       ! the line above is a header
 
       call read_deck_text(path, data%text, errors, readable)
@@ -62,13 +62,12 @@ contains
          errors%items(errors%n)%message = 'the file is empty or not text: expected test data as plain text'
          return
       end if
-      associate (rows => data%text%n)
-         allocate (data%value(n_columns, rows), source=0.0_wp)
-         allocate (data%branch(rows), data%run(rows), data%part(rows), data%line(rows), data%place(2, n_columns, rows), source=0)
-         allocate (data%joined(rows), source=.false.)
-      end associate
+      rows = data%text%n
+      allocate (data%value(n_columns, rows), source=0.0_wp)
+      allocate (data%branch(rows), data%run(rows), data%part(rows), data%line(rows), data%place(2, n_columns, rows), source=0)
+      allocate (data%joined(rows), source=.false.)
       above = reading%columns /= ''
-      do i = 1, data%text%n
+      do i = 1, rows
          line = data_part(data%text%line(i))
          call split_entries(line, entries, header%decimal_comma .or. reading%decimal_comma)
          if (size(entries) == 0) cycle
@@ -100,8 +99,8 @@ contains
       call complete_data(header, reading, data, errors)
    end subroutine read_test_data
 
-   !> Complete DATA after the last HEADER: branches, runs and units. Without --units, warn of two units of stress in the headings, and of
-   !! units without a consistent unit of force.
+   !> Complete DATA after the last HEADER: branches, runs and units. Without --units, warn of two units of stress in the headings,
+   !! and of units without a consistent unit of force.
    subroutine complete_data(header, reading, data, errors)
       type(header_type), intent(in)        :: header
       type(reading_type), intent(in)       :: reading

@@ -51,8 +51,8 @@ contains
       call out%put('plot '//plots(3:))
    end subroutine write_plot
 
-   !> Put the points and the fit: loading with the power law, each line of unloading or reloading with its slope E_u; each run of shear
-   !! with the law of the card and its best constant; the coefficients of published cubics with their lines.
+   !> Put the points and the fit: loading with the power law, each line of unloading or reloading with its slope E_u; each run of
+   !! shear with the law of the card and its best constant; the coefficients of published cubics with their lines.
    subroutine put_fit(data, fit, plots, out)
       type(test_data_type), intent(in)       :: data
       type(surface_fit_type), intent(in)     :: fit

@@ -126,8 +126,8 @@ contains
       if (fit%has_loading .and. fit%d_max <= 0.0_wp) call comment(out, 'DMAX', 'left blank: the data do not show it')
    end subroutine describe_shear
 
-   !> Write branch B of the card: the cubic of each pressure (the points of Fig. 2), the constant of each run, the lines through the cubics
-   !! and, for test points, the one-step fit.
+   !> Write branch B of the card: the cubic of each pressure (the points of Fig. 2), the constant of each run, the lines through the
+   !! cubics and, for test points, the one-step fit.
    subroutine describe_branch(data, fit, b, joint_fit, out)
       type(test_data_type), intent(in)      :: data
       type(surface_fit_type), intent(in)    :: fit

@@ -98,8 +98,8 @@ contains
       end do
    end subroutine separate_tests
 
-   !> Assign branches to the ROWS of one test, in order, from its path, which is straight between the turning points of a record or from
-   !! run to run, and count its RUNS. In shear, readings of the opposite sense of loading are reversed.
+   !> Assign branches to the ROWS of one test, in order, from its path, which is straight between the turning points of a record or
+   !! from run to run, and count its RUNS. In shear, readings of the opposite sense of loading are reversed.
    subroutine take_branches(data, rows, runs)
       type(test_data_type), intent(inout) :: data
       integer, intent(in)                 :: rows(:)
@@ -183,9 +183,10 @@ contains
       end do
    end subroutine follow
 
-   !> Where a return path from point FIRST on meets the loading curve tau = a1 d + a2 d^2 + a3 d^3 through the points of loading before:
-   !! after the last point up to A that is off the curve on the side of the path. Where that is the last point before A, JOINS keeps the
-   !! value from A. Points beyond A that are still off the curve, within its known range, then belong to no branch of the law.
+   !> Where a return path from point FIRST on meets the loading curve tau = a1 d + a2 d^2 + a3 d^3 through the points of loading
+   !! before: after the last point up to A that is off the curve on the side of the path. Where that is the last point before A,
+   !! JOINS keeps the value from A. Points beyond A that are still off the curve, within its known range, then belong to no branch
+   !! of the law.
    subroutine find_meeting(forward, stress, sense, goal, first, joins, branch)
       real(wp), intent(in)   :: forward(:), stress(:)
       integer, intent(in)    :: sense(:), goal      !! of loading, 1 or -1: at the points; of the curve that the path may meet
@@ -194,7 +195,6 @@ contains
       integer, intent(inout) :: branch(:)
       type(cubic) :: law
       integer, allocatable  :: own(:)
-      logical, allocatable  :: no_curves(:, :)
       real(wp), allocatable :: starts(:)
       real(wp) :: d(size(forward)), d_most, least, off(size(forward)), scatter, side
       logical  :: is_on(size(forward)), ok
@@ -202,10 +202,9 @@ contains
 
       own = pack([(i, i = 1, first - 1)], branch(:first - 1) == fit_load)
       if (size(own) < few) return
-      allocate (no_curves(size(own), 0))
       d = goal*forward
       associate (d_own => sense(own)*forward(own), tau_own => sense(own)*stress(own))
-         call fit_cubic(d_own, tau_own, no_curves, law%coefficients(1, :), starts, ok)
+         call fit_cubic(d_own, tau_own, reshape([logical ::], [size(own), 0]), law%coefficients(1, :), starts, ok)
          if (.not. ok) return
          scatter = norm2(tau_own - cubic_value(law, d_own, 0.0_wp))/sqrt(real(max(1, size(own) - 3), wp))
          least = exact*maxval(abs(tau_own)) ! smallest difference between readings
@@ -317,8 +316,8 @@ contains
       end do
    end subroutine take_off_offset
 
-   !> Report readings below zero by more than the band of noise: p, and d of rows given as loading. The p of a shear test is prescribed,
-   !! without noise.
+   !> Report readings below zero by more than the band of noise: p, and d of rows given as loading. The p of a shear test is
+   !! prescribed, without noise.
    subroutine check_signs(data, errors)
       type(test_data_type), intent(in)     :: data
       type(deck_error_list), intent(inout) :: errors

@@ -79,8 +79,8 @@ module command_line
 
 contains
 
-   !> Read the command. STATUS is the exit status where nothing is left to do, after --help and --version, and after a wrong command,
-   !! which has a message on the standard error; otherwise it is -1.
+   !> Read the command. STATUS is the exit status where nothing is left to do, after --help and --version, and after a wrong
+   !! command, which has a message on the standard error; otherwise it is -1.
    subroutine read_command_line(command, status)
       type(command_type), intent(out) :: command
       integer, intent(out)            :: status
@@ -174,8 +174,8 @@ contains
                                          [0, pack([(k, k = 1, len(values))], [(values(k:k) == ',', k = 1, len(values))])])]
    end subroutine read_setting
 
-   !> The runs of COMMAND: each of FILES with every combination of values of SETTINGS. beam.bdf gives beam.out and beam.joint.csv. No
-   !! two runs may write the same file, and no result may replace a deck.
+   !> The runs of COMMAND: each of FILES with every combination of values of SETTINGS. beam.bdf gives beam.out and beam.joint.csv.
+   !! No two runs may write the same file, and no result may replace a deck.
    subroutine plan_runs(files, settings, command, ok)
       type(input_argument), intent(in)  :: files(:)
       type(setting_type), intent(in)    :: settings(:)

@@ -91,8 +91,8 @@ contains
       call tell(run, 'resumed from '//name//words)
    end subroutine take_up
 
-   !> WRITE THE RESTART FILE at the end of a stage, and after every n increments where RESTART gives n; otherwise do nothing. A new file
-   !! is written beside the older one, which it replaces when it is complete. If it cannot be written, the run continues.
+   !> WRITE THE RESTART FILE at the end of a stage, and after every n increments where RESTART gives n; otherwise do nothing. A new
+   !! file is written beside the older one, which it replaces when it is complete. If it cannot be written, the run continues.
    subroutine write_restart(run, deck, plan, system, analysis)
       type(run_type), intent(inout)         :: run
       type(deck_type), intent(in)           :: deck

@@ -270,8 +270,8 @@ contains
       if (another_increment) another_increment = analysis%increment < size(plan%stages(analysis%stage)%fractions)
    end function another_increment
 
-   !> Print the completed increment, with the state of the bodies where OUTPUT asks for it, and the stage that it completes, or the part
-   !! of the stage before an early end.
+   !> Print the completed increment, with the state of the bodies where OUTPUT asks for it, and the stage that it completes, or the
+   !! part of the stage before an early end.
    subroutine print_increment(run, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(model_type), intent(in)       :: model

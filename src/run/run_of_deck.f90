@@ -1,7 +1,7 @@
-!> Holds the run of one deck, which its boxes share: its state, its progress on the terminal, its end. Ends the program with a summary.
-!! The progress line has the phase, the increment and the time left; it appears only where standard error is a terminal. With --times
-!! the run ends with a table: the seconds of each phase, operations, memory. The summary has a row for each run of the command. The
-!! exit status is the highest of all runs.
+!> Holds the run of one deck, which its boxes share: state, progress on the terminal, end. Ends the program with a summary.
+!! The progress line has the phase, the increment and the time left; it appears only where standard error is a terminal. With
+!! --times the run ends with a table: the seconds of each phase, operations, memory. The summary has a row for each run of the
+!! command. The exit status is the highest of all runs.
 module run_of_deck
    use c_library, only: end_run, write_bytes
    use command_line, only: command_type, deck_argument, is_result_of
