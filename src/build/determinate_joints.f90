@@ -176,7 +176,7 @@ contains
       type(model_type), intent(inout)      :: model
       type(deck_error_list), intent(inout) :: errors
       type(stage_load_type) :: loads ! of the first stage, with the preloads of the bolts that this stage tightens
-      real(wp) :: resultant, total
+      real(wp) :: area, first, last, resultant, total
       integer  :: i, j
 
       loads = model%stage_loads(1)
@@ -208,8 +208,15 @@ contains
             else if (resultant <= nothing*first_share*total) then
                call errors%add(joint%line, 'the first increment does not press joint '//integer_text(joint%id)// &
                   ' (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')
-            else
-               joint%p_av = resultant/closed_area(model, joint)
+            else ! over A_int; with gaps, over the area that is closed at first; where none is, over the area that closes first
+               associate (elements => model%interface(joint%first:joint%last))
+                  area = joint%area
+                  first = minval(elements%gap)
+                  last = maxval(elements%gap)
+                  if (last > max(0.0_wp, first)) &
+                     area = sum(elements%area, mask=elements%gap <= max(0.0_wp, first) + alike*(last - first))
+               end associate
+               joint%p_av = resultant/area
             end if
          end associate
       end do
@@ -269,20 +276,5 @@ contains
       if (p <= 0.0_wp) p = 1.0e-6_wp*maxval(model%properties%e)
       if (p <= 0.0_wp) p = 1.0_wp ! nothing indicates the units
    end function guessed_pressure
-
-   !> The area of JOINT that carries the first increment: A_int; with gaps, the area that is closed at first; where none is, the area
-   !! that closes first [length^2].
-   pure real(wp) function closed_area(model, joint) result(area)
-      type(model_type), intent(in) :: model
-      type(joint_type), intent(in) :: joint
-
-      associate (elements => model%interface(joint%first:joint%last))
-         associate (first => minval(elements%gap), last => maxval(elements%gap))
-            area = joint%area
-            if (last > max(0.0_wp, first)) &
-               area = sum(elements%area, mask=elements%gap <= max(0.0_wp, first) + alike*(last - first))
-         end associate
-      end associate
-   end function closed_area
 
 end module determinate_joints

@@ -143,22 +143,20 @@ contains
    pure subroutine measure(model, side)
       type(model_type), intent(in)    :: model
       type(outer_side), intent(inout) :: side
-      real(wp) :: x(3, 4), vector(3)
-      integer  :: k
+      real(wp) :: vector(3)
 
-      do k = 1, side%n
-         x(:, k) = model%x(:, side%corners(k))
-      end do
-      side%centre = sum(x(:, :side%n), dim=2)/side%n
-      side%size = maxval(edge_lengths(x(:, :side%n)))
-      select case (side%n)
-      case (2) ! body on the left of the edge
-         vector = [x(2, 2) - x(2, 1), x(1, 1) - x(1, 2), 0.0_wp]
-      case (3)
-         vector = 0.5_wp*cross(x(:, 2) - x(:, 1), x(:, 3) - x(:, 1))
-      case default
-         vector = 0.5_wp*cross(x(:, 3) - x(:, 1), x(:, 4) - x(:, 2))
-      end select
+      associate (x => model%x(:, side%corners(:side%n)))
+         side%centre = sum(x, dim=2)/side%n
+         side%size = maxval(edge_lengths(x))
+         select case (side%n)
+         case (2) ! body on the left of the edge
+            vector = [x(2, 2) - x(2, 1), x(1, 1) - x(1, 2), 0.0_wp]
+         case (3)
+            vector = 0.5_wp*cross(x(:, 2) - x(:, 1), x(:, 3) - x(:, 1))
+         case default
+            vector = 0.5_wp*cross(x(:, 3) - x(:, 1), x(:, 4) - x(:, 2))
+         end select
+      end associate
       side%area = norm2(vector)
       side%normal = vector/max(side%area, tiny(1.0_wp))
       if (side%side <= 0) then

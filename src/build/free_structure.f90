@@ -25,6 +25,7 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       integer  :: body(model%n_elements), body_of(model%n_nodes), a, b, c, e, i, k, n
+      integer, allocatable :: dependent(:)
       logical  :: may_be(model%n_nodes)
       real(wp) :: along(3), off(model%n_nodes), turn(3)
 
@@ -42,11 +43,11 @@ contains
       end do
       may_be = body_of == maxloc([(count(body_of == i), i = 1, n)], dim=1)
       if (allocated(model%node_system)) may_be = may_be .and. model%node_system(:size(may_be)) == 0
-      do i = 1, size(deck%rigid)
-         call skip([deck%rigid(i)%nodes, deck%rigid(i)%node])
-      end do
-      do i = 1, size(deck%bulk%equation)
-         call skip(deck%bulk%equation(i)%node)
+      dependent = [([deck%rigid(i)%nodes, deck%rigid(i)%node], i = 1, size(deck%rigid)), &
+                   (deck%bulk%equation(i)%node, i = 1, size(deck%bulk%equation))]
+      do i = 1, size(dependent) ! these nodes depend on each other
+         k = model%node_table%find(dependent(i))
+         if (k > 0) may_be(k) = .false.
       end do
       do i = 1, size(may_be)
          may_be(i) = may_be(i) .and. .not. is_face_node(model, i) .and. model%duplicate(i) == 0
@@ -79,20 +80,6 @@ contains
       c = first_largest(off, may_be)
       turn = cross(along, model%x(:, c) - model%x(:, a))
       call hold(model, c, first_largest(abs(turn)))
-
-   contains
-
-      !> Skip the nodes with these numbers, because they depend on each other.
-      subroutine skip(id)
-         integer, intent(in) :: id(:)
-         integer :: k, node
-
-         do k = 1, size(id)
-            node = model%node_table%find(id(k))
-            if (node > 0) may_be(node) = .false.
-         end do
-      end subroutine skip
-
    end subroutine hold_free_structure
 
    !> Error: a load of a stage that is not self-equilibrated, in a structure without supports.

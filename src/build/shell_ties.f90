@@ -97,8 +97,7 @@ contains
                if (of_node(node) == 0) then
                   n = n + 1
                   of_node(node) = n
-                  own(n)%line = line
-                  own(n)%node = node
+                  own(n) = tie_type(line=line, node=node)
                end if
                farthest = 0.0_wp
                do p = 1, 3

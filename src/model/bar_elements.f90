@@ -69,14 +69,11 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i
       real(wp) :: k(2*model%dimension, 2*model%dimension), between(2*model%dimension)
-      integer  :: row
 
       associate (bar => model%bars(i), d => model%dimension)
          between = [-bar%direction(:d, 1), bar%direction(:d, 2)]
          if (bar%nodes(2) == 0) between(d + 1:) = 0.0_wp
-         do row = 1, 2*d
-            k(row, :) = bar%stiffness*between(row)*between
-         end do
+         k = spread(bar%stiffness*between, 2, 2*d)*spread(between, 1, 2*d)
       end associate
    end function bar_stiffness
 

@@ -46,9 +46,7 @@ contains
       integer :: e, i
 
       allocate (place(0:model%n_nodes), source=0)
-      do i = 1, size(nodes)
-         place(nodes(i)) = i
-      end do
+      place(nodes) = [(i, i = 1, size(nodes))]
       part%dimension = model%dimension
       part%properties = model%properties
       part%n_elements = size(elements)

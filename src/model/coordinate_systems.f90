@@ -41,10 +41,7 @@ contains
       ok = norm2(x) > straight
       if (.not. ok) return
       x = x/norm2(x)
-      system%id = id
-      system%kind = kind
-      system%origin = a
-      system%axes = reshape([x, cross(z, x), z], [3, 3])
+      system = coordinate_system(id, kind, a, reshape([x, cross(z, x), z], [3, 3]))
    end subroutine make_system
 
    !> Position of the point with these COORDINATES in SYSTEM, in global axes [length].

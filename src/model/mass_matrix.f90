@@ -335,16 +335,14 @@ contains
       if (.not. total > 0.0_wp) return
       centre = matmul(x, f(1, :))/total
       if (model%axisymmetric) return
+      second = 0.0_wp
       do c = 1, model%dimension
          a = 0.0_wp
          a(1, :n_points(model)) = x(c, :n_points(model)) - centre(c)
          call mass_times(model, mass, a, f)
          second(:, c) = matmul(x, f(1, :)) - centre*sum(f(1, :))
       end do
-      if (model%dimension == 2) then
-         second(3, :) = 0.0_wp
-         second(:, 3) = 0.0_wp
-      end if
+      if (model%dimension == 2) second(3, :) = 0.0_wp
       inertia = [second(2, 2) + second(3, 3), second(3, 3) + second(1, 1), second(1, 1) + second(2, 2), &
                  second(1, 2), second(2, 3), second(3, 1)]
       do i = 1, n_masses(model)
