@@ -34,7 +34,7 @@ contains
       real(wp), intent(in)                   :: d(:) !! [length], > 0
       type(beam_section), intent(out)        :: section
       character(:), allocatable, intent(out) :: expected
-      real(wp) :: r(4, 3)
+      real(wp) :: r(4, 3) ! rectangles: height (negative where one is subtracted), width along z, y and z of the centre
       integer  :: n
 
       expected = ''
@@ -46,15 +46,15 @@ contains
          return
       case ('BAR') ! width along z, height along y
          n = 1
-         r(:, 1) = rectangle(d(2), d(1), 0.0_wp, 0.0_wp)
+         r(:, 1) = [d(2), d(1), 0.0_wp, 0.0_wp]
          section%torsion = of_rectangle(maxval(d), minval(d))
          section%shear = 5.0_wp/6.0_wp
       case ('BOX') ! width, height, thickness of the walls along z, of those along y
          if (.not. (2.0_wp*d(3) < d(2) .and. 2.0_wp*d(4) < d(1))) &
             expected = 'walls thinner than half the box: 2 DIM3 below DIM2, 2 DIM4 below DIM1'
          n = 2
-         r(:, 1) = rectangle(d(2), d(1), 0.0_wp, 0.0_wp)
-         r(:, 2) = rectangle(2.0_wp*d(3) - d(2), d(1) - 2.0_wp*d(4), 0.0_wp, 0.0_wp)
+         r(:, 1) = [d(2), d(1), 0.0_wp, 0.0_wp]
+         r(:, 2) = [2.0_wp*d(3) - d(2), d(1) - 2.0_wp*d(4), 0.0_wp, 0.0_wp]
          associate (b => d(1) - d(4), h => d(2) - d(3))
             section%torsion = 2.0_wp*(b*h)**2/(b/d(3) + h/d(4))
          end associate
@@ -63,50 +63,39 @@ contains
          if (d(5) + d(6) >= d(1)) expected = 'flanges thinner than the section is high: DIM5 + DIM6 below DIM1'
          if (d(4) > min(d(2), d(3))) expected = 'a web, DIM4, no wider than the flanges'
          n = 3
-         r(:, 1) = rectangle(d(5), d(2), 0.5_wp*d(5), 0.0_wp)
-         r(:, 2) = rectangle(d(1) - d(5) - d(6), d(4), 0.5_wp*(d(1) + d(5) - d(6)), 0.0_wp)
-         r(:, 3) = rectangle(d(6), d(3), d(1) - 0.5_wp*d(6), 0.0_wp)
+         r(:, 1) = [d(5), d(2), 0.5_wp*d(5), 0.0_wp]
+         r(:, 2) = [d(1) - d(5) - d(6), d(4), 0.5_wp*(d(1) + d(5) - d(6)), 0.0_wp]
+         r(:, 3) = [d(6), d(3), d(1) - 0.5_wp*d(6), 0.0_wp]
          section%torsion = (d(2)*d(5)**3 + d(3)*d(6)**3 + (d(1) - d(5) - d(6))*d(4)**3)/3.0_wp
          section%shear = [d(4)*d(1), 5.0_wp/6.0_wp*(d(2)*d(5) + d(3)*d(6))]
       case ('CHAN') ! width, height, web, flanges
          if (2.0_wp*d(4) >= d(2)) expected = 'flanges thinner than half the height: 2 DIM4 below DIM2'
          if (d(3) >= d(1)) expected = 'a web, DIM3, thinner than the section is wide, DIM1'
          n = 3
-         r(:, 1) = rectangle(d(4), d(1), 0.5_wp*d(4), 0.5_wp*d(1))
-         r(:, 2) = rectangle(d(2) - 2.0_wp*d(4), d(3), 0.5_wp*d(2), 0.5_wp*d(3))
-         r(:, 3) = rectangle(d(4), d(1), d(2) - 0.5_wp*d(4), 0.5_wp*d(1))
+         r(:, 1) = [d(4), d(1), 0.5_wp*d(4), 0.5_wp*d(1)]
+         r(:, 2) = [d(2) - 2.0_wp*d(4), d(3), 0.5_wp*d(2), 0.5_wp*d(3)]
+         r(:, 3) = [d(4), d(1), d(2) - 0.5_wp*d(4), 0.5_wp*d(1)]
          section%torsion = (2.0_wp*d(1)*d(4)**3 + (d(2) - 2.0_wp*d(4))*d(3)**3)/3.0_wp
          section%shear = [d(3)*d(2), 5.0_wp/6.0_wp*2.0_wp*d(1)*d(4)]
       case ('T') ! width of the flange, height, thickness of the flange, of the stem
          if (d(3) >= d(2)) expected = 'a flange thinner than the section is high: DIM3 below DIM2'
          if (d(4) > d(1)) expected = 'a stem, DIM4, no wider than the flange, DIM1'
          n = 2
-         r(:, 1) = rectangle(d(3), d(1), d(2) - 0.5_wp*d(3), 0.0_wp)
-         r(:, 2) = rectangle(d(2) - d(3), d(4), 0.5_wp*(d(2) - d(3)), 0.0_wp)
+         r(:, 1) = [d(3), d(1), d(2) - 0.5_wp*d(3), 0.0_wp]
+         r(:, 2) = [d(2) - d(3), d(4), 0.5_wp*(d(2) - d(3)), 0.0_wp]
          section%torsion = (d(1)*d(3)**3 + (d(2) - d(3))*d(4)**3)/3.0_wp
          section%shear = [d(4)*d(2), 5.0_wp/6.0_wp*d(1)*d(3)]
       case ('L') ! width of the lower leg, height of the upright one, thickness of the lower, of the upright leg
          if (d(3) >= d(2) .or. d(4) >= d(1)) expected = 'legs thinner than they are long: DIM3 below DIM2, DIM4 below DIM1'
          n = 2
-         r(:, 1) = rectangle(d(3), d(1), 0.5_wp*d(3), 0.5_wp*d(1))
-         r(:, 2) = rectangle(d(2) - d(3), d(4), 0.5_wp*(d(2) + d(3)), 0.5_wp*d(4))
+         r(:, 1) = [d(3), d(1), 0.5_wp*d(3), 0.5_wp*d(1)]
+         r(:, 2) = [d(2) - d(3), d(4), 0.5_wp*(d(2) + d(3)), 0.5_wp*d(4)]
          section%torsion = (d(1)*d(3)**3 + (d(2) - d(3))*d(4)**3)/3.0_wp
          section%shear = [d(4)*d(2), d(3)*d(1)]*5.0_wp/6.0_wp
       end select
       if (expected /= '') return
       call add_up(r(:, :n), section)
       if (name /= 'BAR') section%shear = section%shear/section%area
-
-   contains
-
-      !> A rectangle: height (negative where it is subtracted), width along z, position of its centre.
-      pure function rectangle(height, width, y, z) result(r)
-         real(wp), intent(in) :: height, width, y, z
-         real(wp) :: r(4)
-
-         r = [height, width, y, z]
-      end function rectangle
-
    end subroutine section_of
 
    !> SECTION of a round bar or tube, likewise.

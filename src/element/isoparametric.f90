@@ -9,7 +9,7 @@
 !! elements too: Hinton, Rock, Zienkiewicz, Earthquake Engng Struct. Dyn. 4 (1976) 245-249.
 module isoparametric
    use elasticity, only: axisymmetric, solid
-   use element_kinds, only: max_nodes, max_side_nodes, side_kind
+   use element_kinds, only: element_table, max_nodes, max_side_nodes, side_kind
    use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes, two_pi
    use kinds, only: wp
    use numbers, only: cross
@@ -310,19 +310,14 @@ contains
       real(wp), intent(in)    :: x(:, :)      !! nodes (dimension, nodes) [length]
       real(wp), intent(in)    :: rise(:)      !! (nodes) T - TREF [temperature]
       real(wp), intent(inout) :: f(:, :)      !! (dimension, nodes) [force], set here
-      type(element_map) :: map
       real(wp) :: full(max_unknowns, max_unknowns), unknown(max_unknowns)
       integer  :: d, n, n_all
 
-      call map_element(law, x, map)
-      if (map%n_modes > 0) then
-         call condensed_stiffness(law, x, full, n, n_all)
-         call condensed_thermal_forces(law, x, rise, full, unknown)
-      else
-         call integrate(law, map, rise, unknown)
-      end if
+      if (law%incompatible) call condensed_stiffness(law, x, full, n, n_all)
+      call condensed_thermal_forces(law, x, rise, full, unknown)
       d = merge(3, 2, law%state == solid)
-      f(:d, :map%n) = reshape(unknown(:d*map%n), [d, map%n])
+      n = element_table(law%kind)%n_nodes
+      f(:d, :n) = reshape(unknown(:d*n), [d, n])
    end subroutine nodal_thermal_forces
 
    !> The thermal forces on the unknowns of nodes and modes. The force on mode p has the modes behind p condensed, as in the
@@ -330,29 +325,14 @@ contains
    pure subroutine condensed_thermal_forces(law, x, rise, full, f)
       type(element_law), intent(in) :: law
       real(wp), intent(in)  :: x(:, :), rise(:)                         !! as above
-      real(wp), intent(in)  :: full(max_unknowns, max_unknowns)         !! from condensed_stiffness
+      real(wp), intent(in)  :: full(max_unknowns, max_unknowns)         !! from condensed_stiffness; not used without modes
       real(wp), intent(out) :: f(max_unknowns)                          !! [force]
-      type(element_map) :: map
-      integer :: d, p
-
-      call map_element(law, x, map)
-      call integrate(law, map, rise, f)
-      d = merge(3, 2, law%state == solid)
-      do p = d*(map%n + map%n_modes), d*map%n + 1, -1
-         f(:p - 1) = f(:p - 1) - full(:p - 1, p)*(f(p)/full(p, p))
-      end do
-   end subroutine condensed_thermal_forces
-
-   !> The thermal forces on the unknowns of nodes and modes before condensation.
-   pure subroutine integrate(law, map, rise, f)
-      type(element_law), intent(in) :: law
-      type(element_map), intent(in) :: map
-      real(wp), intent(in)  :: rise(:)
-      real(wp), intent(out) :: f(max_unknowns)
+      type(element_map)      :: map
       type(integration_rule) :: rule
       real(wp) :: g(3, max_shapes), n(max_nodes), stress(3), volume, warmth
-      integer  :: d, i, k
+      integer  :: d, i, k, p
 
+      call map_element(law, x, map)
       d = merge(3, 2, law%state == solid)
       stress = matmul(law%d(:3, :3), law%expansion)
       f = 0.0_wp
@@ -366,6 +346,9 @@ contains
             if (law%state == axisymmetric) f(2*i - 1) = f(2*i - 1) + g(3, i)*(stress(3)*warmth) ! the hoop
          end do
       end do
-   end subroutine integrate
+      do p = d*(map%n + map%n_modes), d*map%n + 1, -1
+         f(:p - 1) = f(:p - 1) - full(:p - 1, p)*(f(p)/full(p, p))
+      end do
+   end subroutine condensed_thermal_forces
 
 end module isoparametric

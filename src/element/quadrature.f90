@@ -5,7 +5,7 @@
 !! Dunavant, High degree efficient symmetrical Gaussian quadrature rules for the triangle, Int. J. Numer. Meth. Engng 21 (1985)
 !! 1129-1148, p = 6, its numbers to 20 digits from the equations of the moments.
 module quadrature
-   use element_kinds, only: kind_penta15, kind_tetra10, kind_tria3, kind_tria6, n_kinds, n_linear_kinds, n_shapes
+   use element_kinds, only: kind_tria3, kind_tria6, n_kinds, n_linear_kinds, n_shapes
    use kinds, only: wp
    implicit none
    private
@@ -96,6 +96,8 @@ module quadrature
    type(integration_rule), parameter :: of_body(0:n_kinds) = &
       [none, triangle_1, quadrilateral_4, tetrahedron_1, wedge_6, hexahedron_8, &
        triangle_3, quadrilateral_9, tetrahedron_4, wedge_9, hexahedron_27]
+   type(integration_rule), parameter :: of_volume(n_linear_kinds + 1:n_kinds) = &
+      [triangle_7, quadrilateral_9, tetrahedron_15, wedge_21, hexahedron_27]
    type(integration_rule), parameter :: of_stress(n_kinds) = &
       [of_body(1:5), triangle_3, quadrilateral_4, tetrahedron_4, wedge_6, hexahedron_8]
    type(integration_rule), parameter :: of_side(0:n_shapes) = &
@@ -137,16 +139,8 @@ contains
       logical, intent(in) :: axisymmetric
       type(integration_rule), intent(out) :: rule
 
-      select case (kind)
-      case (kind_tria6)
-         call take(triangle_7, rule)
-      case (kind_tetra10)
-         call take(tetrahedron_15, rule)
-      case (kind_penta15)
-         call take(wedge_21, rule)
-      case default
-         call body_rule(kind, axisymmetric, rule)
-      end select
+      if (kind <= n_linear_kinds) call body_rule(kind, axisymmetric, rule)
+      if (kind > n_linear_kinds) call take(of_volume(kind), rule)
    end subroutine volume_rule
 
    !> The rule for products of two shape functions over the body of an element: that of the second-order kind with the same

@@ -18,28 +18,6 @@ module shape_functions
 
 contains
 
-   !> Derivatives of the shape functions of the triangle and the tetrahedron.
-   pure subroutine simplex_derivatives(kind, point, dn)
-      integer, intent(in)     :: kind
-      real(wp), intent(in)    :: point(3)
-      real(wp), intent(inout) :: dn(3, max_nodes)
-      real(wp) :: l(4)
-      integer  :: d, i
-
-      associate (corners => element_table(kind)%n_corners)
-         d = corners - 1
-         l = barycentric(corners, point)
-         do i = 1, corners
-            dn(:d, i) = (4.0_wp*l(i) - 1.0_wp)*gradient(:d, i)
-         end do
-         do i = corners + 1, element_table(kind)%n_nodes
-            associate (b => element_table(kind)%edges(1, i - corners), e => element_table(kind)%edges(2, i - corners))
-               dn(:d, i) = 4.0_wp*(l(b)*gradient(:d, e) + l(e)*gradient(:d, b))
-            end associate
-         end do
-      end associate
-   end subroutine simplex_derivatives
-
    !> Derivatives of the shape functions of the wedge: products of functions of L(r, s) and of t.
    pure subroutine wedge_derivatives(point, dn)
       real(wp), intent(in)    :: point(3)
@@ -199,8 +177,8 @@ contains
       integer, intent(in)     :: kind                 !! kind_tria3 ... kind_edge3
       real(wp), intent(in)    :: point(3)             !! local coordinates
       real(wp), intent(inout) :: dn(3, max_nodes)     !! dN_i/d(local j) in dn(j, i) [-]
-      real(wp) :: a, b, c
-      integer  :: i
+      real(wp) :: a, b, c, l(4)
+      integer  :: corners, d, i
 
       associate (r => point(1), s => point(2), t => point(3))
          select case (kind)
@@ -236,7 +214,17 @@ contains
          case (kind_edge3)
             dn(1, :3) = [r - 0.5_wp, r + 0.5_wp, -2.0_wp*r]
          case (kind_tria6, kind_tetra10)
-            call simplex_derivatives(kind, point, dn)
+            corners = element_table(kind)%n_corners
+            d = corners - 1
+            l = barycentric(corners, point)
+            do i = 1, corners
+               dn(:d, i) = (4.0_wp*l(i) - 1.0_wp)*gradient(:d, i)
+            end do
+            do i = corners + 1, element_table(kind)%n_nodes
+               associate (m => element_table(kind)%edges(1, i - corners), e => element_table(kind)%edges(2, i - corners))
+                  dn(:d, i) = 4.0_wp*(l(m)*gradient(:d, e) + l(e)*gradient(:d, m))
+               end associate
+            end do
          case (kind_quad8, kind_hexa20)
             call serendipity_derivatives(kind, point, dn)
          case (kind_penta15)

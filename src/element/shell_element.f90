@@ -27,15 +27,31 @@ contains
       type(shell_law), intent(in) :: law
       real(wp), intent(in)        :: x(:, :)  !! (3, corners) [length]
       real(wp), intent(inout)     :: k(:, :)  !! (6 corners, 6 corners), set here [force/length], [force], [force length]
-      type(shell_frame) :: frame
-      real(wp) :: own(24, 24)
+      type(shell_frame)      :: frame
+      type(integration_rule) :: rule
+      real(wp) :: curvature(3, 12), gamma(2, 12), own(24, 24), plate(12, 12), t, volume
+      integer  :: a, at(12), b, m, p
 
       frame = shell_frame_of(x, law%offset)
+      m = 3*frame%n
       own = 0.0_wp
       call add_membrane(law, frame, own)
-      call add_plate(law, frame, own)
-      associate (m => 6*frame%n, t => from_nodes(frame))
-         k(:m, :m) = matmul(transpose(t), matmul(own(:m, :m), t))
+      ! bending and transverse shear
+      plate = 0.0_wp
+      call body_rule(merge(kind_quad4, kind_tria6, frame%n == 4), .false., rule)
+      do p = 1, rule%n
+         call plate_strains(law, frame, rule%point(:, p), curvature, gamma, volume)
+         t = thickness_at(law, frame, rule%point(:, p))
+         plate(:m, :m) = plate(:m, :m) + rule%weight(p)*volume*( &
+            t**3/12.0_wp*matmul(transpose(curvature(:, :m)), matmul(law%bending, curvature(:, :m))) + &
+            t*law%shear*matmul(transpose(gamma(:, :m)), gamma(:, :m)))
+      end do
+      at(:m) = [([6*a - 3, 6*a - 2, 6*a - 1], a = 1, frame%n)]
+      do b = 1, m
+         own(at(:m), at(b)) = own(at(:m), at(b)) + plate(:m, b)
+      end do
+      associate (n => 2*m, t => from_nodes(frame))
+         k(:n, :n) = matmul(transpose(t), matmul(own(:n, :n), t))
       end associate
    end subroutine shell_stiffness
 
@@ -56,31 +72,6 @@ contains
          end associate
       end do
    end function from_nodes
-
-   !> Add bending and transverse shear to OWN.
-   pure subroutine add_plate(law, frame, own)
-      type(shell_law), intent(in)   :: law
-      type(shell_frame), intent(in) :: frame
-      real(wp), intent(inout)       :: own(24, 24)
-      type(integration_rule) :: rule
-      real(wp) :: curvature(3, 12), gamma(2, 12), k(12, 12), t, volume
-      integer  :: a, b, at(12), m, p
-
-      m = frame%n
-      k = 0.0_wp
-      call body_rule(merge(kind_quad4, kind_tria6, m == 4), .false., rule)
-      do p = 1, rule%n
-         call plate_strains(law, frame, rule%point(:, p), curvature, gamma, volume)
-         t = thickness_at(law, frame, rule%point(:, p))
-         k(:3*m, :3*m) = k(:3*m, :3*m) + rule%weight(p)*volume*( &
-            t**3/12.0_wp*matmul(transpose(curvature(:, :3*m)), matmul(law%bending, curvature(:, :3*m))) + &
-            t*law%shear*matmul(transpose(gamma(:, :3*m)), gamma(:, :3*m)))
-      end do
-      at(:3*m) = [([6*a - 3, 6*a - 2, 6*a - 1], a = 1, m)]
-      do b = 1, 3*m
-         own(at(:3*m), at(b)) = own(at(:3*m), at(b)) + k(:3*m, b)
-      end do
-   end subroutine add_plate
 
    !> Curvatures xx, yy, xy and transverse shear strains xz, yz at a POINT from w, theta_x, theta_y of corner 1 first. VOLUME is the
    !! volume per unit of weight.
@@ -158,25 +149,28 @@ contains
       end do
    end subroutine find_edges
 
-   !> Strains in the axes of the element, at the corners and then at the centre, under the nodal values U: MEMBRANE xx, yy, xy of the
-   !! mean plane, CURVATURE likewise, transverse shear strains xz, yz.
-   pure subroutine find_strains(law, frame, u, rise, membrane, curvature, shear)
+   !> Strains without thermal expansion in the axes of the element, at the corners and then at the centre, under the nodal values U:
+   !! MEMBRANE xx, yy, xy of the mean plane, CURVATURE likewise, transverse shear strains xz, yz.
+   pure subroutine find_strains(law, frame, u, rise, slope, membrane, curvature, shear)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
       real(wp), intent(in)          :: u(:, :)          !! (3, 2 corners) [length], [rad]
-      real(wp), intent(in)          :: rise(:)          !! (corners) [temperature]
+      real(wp), intent(in)          :: rise(:), slope   !! (corners) [temperature], [temperature/length]
       real(wp), intent(out)         :: membrane(3, 5), curvature(3, 5), shear(2, 5) !! [-], [1/length], [-]
-      real(wp) :: b(3, 12), gamma(2, 12), own(6, 4), plate(12), volume
+      real(wp) :: b(3, 12), gamma(2, 12), own(6, 4), plate(12), volume, warm(5)
       integer  :: i, m
 
       m = frame%n
       own(:, :m) = reshape(matmul(from_nodes(frame), reshape(u, [6*m])), [6, m])
       plate(:3*m) = reshape(own(3:5, :m), [3*m])
       call find_membrane(law, frame, rise, own, membrane)
+      warm(:m) = rise
+      warm(m + 1) = sum(rise)/m
       do i = 1, m + 1
          if (i <= m) call plate_strains(law, frame, node_point(:, i, corner_kind(m)), b, gamma, volume)
          if (i > m) call plate_strains(law, frame, centre_point(:, corner_kind(m)), b, gamma, volume)
-         curvature(:, i) = matmul(b(:, :3*m), plate(:3*m))
+         membrane(:, i) = membrane(:, i) - law%expansion*warm(i)*[1.0_wp, 1.0_wp, 0.0_wp]
+         curvature(:, i) = matmul(b(:, :3*m), plate(:3*m)) - law%expansion*slope*[1.0_wp, 1.0_wp, 0.0_wp]
          shear(:, i) = matmul(gamma(:, :3*m), plate(:3*m))
       end do
    end subroutine find_strains
@@ -191,18 +185,15 @@ contains
       real(wp), intent(in)        :: z(:)            !! [length]
       real(wp), intent(out)       :: stress(:, :, :) !! (6, corners + 1, heights) [pressure]
       type(shell_frame) :: frame
-      real(wp) :: membrane(3, 5), curvature(3, 5), shear(2, 5), s(3), full(3, 3), warm(5)
+      real(wp) :: membrane(3, 5), curvature(3, 5), shear(2, 5), s(3), full(3, 3)
       integer  :: i, k, m
 
       frame = shell_frame_of(x, law%offset)
       m = frame%n
-      call find_strains(law, frame, u, rise, membrane, curvature, shear)
-      warm(:m) = rise
-      warm(m + 1) = sum(rise)/m
+      call find_strains(law, frame, u, rise, slope, membrane, curvature, shear)
       do k = 1, size(z)
          do i = 1, m + 1
-            s = matmul(law%d, membrane(:, i) - law%expansion*warm(i)*[1.0_wp, 1.0_wp, 0.0_wp]) + &
-                z(k)*matmul(law%bending, curvature(:, i) - law%expansion*slope*[1.0_wp, 1.0_wp, 0.0_wp])
+            s = matmul(law%d, membrane(:, i)) + z(k)*matmul(law%bending, curvature(:, i))
             full = matmul(frame%axes(:, :2), matmul(reshape([s(1), s(3), s(3), s(2)], [2, 2]), transpose(frame%axes(:, :2))))
             stress(:, i, k) = [full(1, 1), full(2, 2), full(3, 3), full(1, 2), full(2, 3), full(3, 1)]
          end do
@@ -222,24 +213,21 @@ contains
       real(wp), parameter :: rigid = 1.0e12_wp
       type(shell_frame) :: frame
       type(shell_law)   :: own
-      real(wp) :: membrane(3, 5), curvature(3, 5), shear(2, 5), t, turn(2, 2), warm
+      real(wp) :: membrane(3, 5), curvature(3, 5), shear(2, 5), t, turn(2, 2)
       integer  :: i, m
 
       own = law
       if (law%shear <= 0.0_wp) own%shear = rigid*law%bending(1, 1) ! the shear force is that of a plate nearly rigid in shear
       frame = shell_frame_of(x, law%offset)
       m = frame%n
-      call find_strains(own, frame, u, rise, membrane, curvature, shear)
+      call find_strains(own, frame, u, rise, slope, membrane, curvature, shear)
       turn(1, :) = matmul(along, frame%axes(:, :2))
       turn(2, :) = [-turn(1, 2), turn(1, 1)]
       do i = 1, m + 1
          t = sum(law%thickness(:m))/m
-         warm = sum(rise)/m
          if (i <= m) t = law%thickness(i)
-         if (i <= m) warm = rise(i)
-         force(:3, i) = turned(t*matmul(law%d, membrane(:, i) - law%expansion*warm*[1.0_wp, 1.0_wp, 0.0_wp]))
-         force(4:6, i) = turned(t**3/12.0_wp*matmul(law%bending, curvature(:, i) - &
-                                                    law%expansion*slope*[1.0_wp, 1.0_wp, 0.0_wp]))
+         force(:3, i) = turned(t*matmul(law%d, membrane(:, i)))
+         force(4:6, i) = turned(t**3/12.0_wp*matmul(law%bending, curvature(:, i)))
          force(7:, i) = t*own%shear*matmul(turn, shear(:, i))
       end do
 

@@ -111,45 +111,28 @@ contains
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
       real(wp), intent(inout)       :: own(24, 24)
+      real(wp) :: at_corner(3, 9, 3), basic(3, 9), d(3, 3), e(3, 9), k(16, 16), f(16), area
+      integer  :: at(12), b, m
 
-      if (frame%n == 3) call add_triangle(law, frame, own)
-      if (frame%n == 4) call add_quadrilateral(law, frame, own)
+      m = 3*frame%n
+      if (frame%n == 3) then
+         call membrane_strains(law%nu, frame%x(:, :3), area, basic, at_corner)
+         d = area*sum(law%thickness(:3))/3.0_wp*law%d
+         k(:m, :m) = matmul(transpose(basic), matmul(d, basic))
+         do b = 1, 3                          ! the mid-edge points, each with a third of the area
+            e = 0.5_wp*(at_corner(:, :, b) + at_corner(:, :, modulo(b, 3) + 1))
+            k(:m, :m) = k(:m, :m) + matmul(transpose(e), matmul(d, e))/3.0_wp
+         end do
+      else
+         call mode_stiffness(law, frame, k)
+         f = 0.0_wp
+         call condense(k, f)
+      end if
+      at(:m) = [([6*b - 5, 6*b - 4, 6*b], b = 1, frame%n)]
+      do b = 1, m
+         own(at(:m), at(b)) = k(:m, b)
+      end do
    end subroutine add_membrane
-
-   !> Add the membrane of a triangle to OWN.
-   pure subroutine add_triangle(law, frame, own)
-      type(shell_law), intent(in)   :: law
-      type(shell_frame), intent(in) :: frame
-      real(wp), intent(inout)       :: own(24, 24)
-      real(wp) :: at_corner(3, 9, 3), basic(3, 9), d(3, 3), e(3, 9), k(9, 9), area
-      integer  :: a
-
-      call membrane_strains(law%nu, frame%x(:, :3), area, basic, at_corner)
-      d = area*sum(law%thickness(:3))/3.0_wp*law%d
-      k = matmul(transpose(basic), matmul(d, basic))
-      do a = 1, 3                             ! the mid-edge points, each with a third of the area
-         e = 0.5_wp*(at_corner(:, :, a) + at_corner(:, :, modulo(a, 3) + 1))
-         k = k + matmul(transpose(e), matmul(d, e))/3.0_wp
-      end do
-      own([1, 2, 6, 7, 8, 12, 13, 14, 18], [1, 2, 6, 7, 8, 12, 13, 14, 18]) = k
-   end subroutine add_triangle
-
-   !> Add the membrane of a quadrilateral to OWN.
-   pure subroutine add_quadrilateral(law, frame, own)
-      type(shell_law), intent(in)   :: law
-      type(shell_frame), intent(in) :: frame
-      real(wp), intent(inout)       :: own(24, 24)
-      real(wp) :: k(16, 16), f(16)
-      integer  :: at(12), b
-
-      call mode_stiffness(law, frame, k)
-      f = 0.0_wp
-      call condense(k, f)
-      at = [(6*b - 5, 6*b - 4, 6*b, b = 1, 4)]
-      do b = 1, 12
-         own(at, at(b)) = k(:12, b)
-      end do
-   end subroutine add_quadrilateral
 
    !> Condense the modes out of [K] and the forces F. The first twelve rows become the condensed ones; the rows of the modes keep what
    !! gives their parameters.

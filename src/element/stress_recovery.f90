@@ -24,17 +24,12 @@ contains
       real(wp), intent(inout) :: stress(:)       !! (n_stresses(state)) [pressure], set here; components as in elasticity
       real(wp), intent(in), optional :: rise(:)  !! (nodes) T - TREF, 0 [temperature]
       type(element_map) :: map
-      real(wp) :: g(3, max_shapes), q(3, max_shapes), strain(max_stresses), volume
-      integer  :: n
+      real(wp) :: q(3, max_shapes)
 
       call map_element(law, x, map)
       q = 0.0_wp ! parameters of the modes, and the third component in the plane
       q(:size(u, 1), :map%n) = u(:, :map%n)
-      call map_point(law, map, centre_point(:, law%kind), g, volume)
-      call strain_at(law, map%n, g, q, strain)
-      if (present(rise)) call take_expansion(law, centre_point(:, law%kind), rise, strain)
-      n = n_stresses(law%state)
-      stress(:n) = matmul(law%d(:n, :n), strain(:n))
+      call stress_at(law, map, centre_point(:, law%kind), map%n, q, stress, rise)
    end subroutine centre_stress
 
    !> Stresses at the nodes, extrapolated from the points of stress_rule; the parameters of the incompatible modes are included. The
@@ -48,8 +43,8 @@ contains
       real(wp), intent(in), optional :: rise(:)  !! (nodes) T - TREF, 0 [temperature]
       type(element_map)      :: map
       type(integration_rule) :: rule
-      real(wp) :: g(3, max_shapes), q(3, max_shapes), strain(max_stresses), at_point(max_stresses, max_nodes), n(max_nodes)
-      real(wp) :: full(max_unknowns, max_unknowns), thermal(max_unknowns), values(max_unknowns), scaled(3), volume
+      real(wp) :: q(3, max_shapes), at_point(max_stresses, max_nodes), n(max_nodes), scaled(3)
+      real(wp) :: full(max_unknowns, max_unknowns), thermal(max_unknowns), values(max_unknowns)
       integer  :: d, i, k, linear, m, n_all, n_nodal
 
       m = n_stresses(law%state)
@@ -69,10 +64,7 @@ contains
       end if
       call stress_rule(law%kind, law%state == axisymmetric, rule)
       do k = 1, rule%n
-         call map_point(law, map, rule%point(:, k), g, volume)
-         call strain_at(law, map%n + map%n_modes, g, q, strain)
-         if (present(rise)) call take_expansion(law, rule%point(:, k), rise, strain)
-         at_point(:m, k) = matmul(law%d(:m, :m), strain(:m))
+         call stress_at(law, map, rule%point(:, k), map%n + map%n_modes, q, at_point(:, k), rise)
       end do
       linear = element_table(law%kind)%linear
       do i = 1, map%n
@@ -90,28 +82,19 @@ contains
       end do
    end subroutine nodal_stress
 
-   !> Subtract the free thermal expansion from the STRAIN at a point.
-   pure subroutine take_expansion(law, point, rise, strain)
+   !> Stress at a local POINT from the displacements and parameters Q of the first N shape functions.
+   pure subroutine stress_at(law, map, point, n, q, stress, rise)
       type(element_law), intent(in) :: law
-      real(wp), intent(in)    :: point(3), rise(:)
-      real(wp), intent(inout) :: strain(max_stresses)
-      real(wp) :: n(max_nodes)
-      integer  :: direct
+      type(element_map), intent(in) :: map
+      real(wp), intent(in)    :: point(3)
+      integer, intent(in)     :: n
+      real(wp), intent(in)    :: q(3, max_shapes)  !! displacements, parameters of modes [length]
+      real(wp), intent(inout) :: stress(:)         !! (at least n_stresses(state)) [pressure], set here
+      real(wp), intent(in), optional :: rise(:)    !! (nodes) T - TREF, 0 [temperature]
+      real(wp) :: g(3, max_shapes), shape(max_nodes), strain(max_stresses), volume
+      integer  :: direct, i, m
 
-      call shape_values(law%kind, point, n)
-      direct = merge(3, 2, law%state == solid .or. law%state == axisymmetric)
-      strain(:direct) = strain(:direct) - law%expansion(:direct)*dot_product(n(:size(rise)), rise)
-   end subroutine take_expansion
-
-   !> Strain at a point from the gradients of N shape functions there.
-   pure subroutine strain_at(law, n, g, q, strain)
-      type(element_law), intent(in) :: law
-      integer, intent(in)   :: n
-      real(wp), intent(in)  :: g(3, max_shapes)         !! as from map_point [1/length]
-      real(wp), intent(in)  :: q(3, max_shapes)         !! displacements, parameters of modes [length]
-      real(wp), intent(out) :: strain(max_stresses)     !! [-]
-      integer :: i
-
+      call map_point(law, map, point, g, volume)
       strain = 0.0_wp
       do i = 1, n
          strain(1) = strain(1) + g(1, i)*q(1, i)
@@ -128,6 +111,13 @@ contains
             strain(3) = strain(3) + g(2, i)*q(1, i) + g(1, i)*q(2, i)
          end if
       end do
-   end subroutine strain_at
+      if (present(rise)) then ! the free thermal expansion has no stress
+         call shape_values(law%kind, point, shape)
+         direct = merge(3, 2, law%state == solid .or. law%state == axisymmetric)
+         strain(:direct) = strain(:direct) - law%expansion(:direct)*dot_product(shape(:size(rise)), rise)
+      end if
+      m = n_stresses(law%state)
+      stress(:m) = matmul(law%d(:m, :m), strain(:m))
+   end subroutine stress_at
 
 end module stress_recovery
