@@ -219,11 +219,11 @@ contains
       character(:), allocatable :: words
       integer :: k
 
+      words = ''
+      if (present(why)) words = why
       do k = first, min(last, self%n)
-         if (self%fields(k)%length == 0) cycle
-         words = ''''//self%text_at(k)//''' where the field must be blank'
-         if (present(why)) words = words//why
-         call self%error_at(k, words)
+         if (self%fields(k)%length > 0) &
+            call self%error_at(k, ''''//self%text_at(k)//''' where the field must be blank'//words)
       end do
    end subroutine must_be_blank
 
