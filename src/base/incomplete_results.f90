@@ -17,7 +17,7 @@ module incomplete_results
              say_at_interrupts
 
    character(*), parameter, public :: suffix = '.part' !! of an incomplete file
-   integer, parameter :: replaceable(2) = [no_file, regular_file] ! kinds of file that a result may replace; a link counts as its goal
+   integer, parameter :: replaceable(2) = [no_file, regular_file] ! a result may take the place of these; links are followed
 
    character(:), allocatable :: names     ! each ends with a null character
    character(:), allocatable :: in_the_way ! what blocks the name of the first file that could not be created

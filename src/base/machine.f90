@@ -202,59 +202,50 @@ contains
       close (unit)
    end function kernel_figure
 
-   !> The least rest of the limits of all control groups of this program, from its own group up to the root [bytes]; huge where no
-   !! group has a limit. ROOT is the prefix of /proc and /sys, empty except in tests.
+   !> The least rest, the limit less the memory of the members, of all control groups of this program, from its own group up to the root
+   !! [bytes]; huge where no group has a limit. ROOT is the prefix of /proc and /sys, empty except in tests. A line of the group file is
+   !! `number:controllers:path`: version 2 has number 0 and no controllers, version 1 names its controllers.
    function memory_left_by_groups(root) result(bytes)
       character(*), intent(in) :: root
-      integer(long)   :: bytes
+      integer(long)   :: bytes, limit, reclaimable, used
       character(4096) :: line
-      integer :: unit, status
+      character(:), allocatable :: folder, path
+      character(24) :: names(3) ! the files of limit and memory of a group, and the reclaimable part of the memory
+      integer :: first, second, status, unit
 
       bytes = no_figure
+      folder = ''
       open (newunit=unit, file=root//'/proc/self/cgroup', action='read', status='old', iostat=status)
       if (status /= 0) return
       do
          read (unit, '(a)', iostat=status) line
          if (status /= 0) exit
-         bytes = min(bytes, left_by_line(root, trim(line)))
+         first = index(line, ':')
+         second = first + index(line(first + 1:), ':')
+         if (first == 0 .or. second == first) cycle
+         if (second == first + 1) then
+            folder = root//'/sys/fs/cgroup'
+            names = [character(24) :: '/memory.max', '/memory.current', 'inactive_file']
+         else if (index(','//line(first + 1:second - 1)//',', ',memory,') > 0) then
+            folder = root//'/sys/fs/cgroup/memory'
+            names = [character(24) :: '/memory.limit_in_bytes', '/memory.usage_in_bytes', 'total_inactive_file']
+         else
+            cycle
+         end if
+         path = trim(line(second + 1:))
+         do ! in a container these groups may be absent, or the path is that of the host: they give no limit
+            limit = kernel_figure(folder//path//trim(names(1)), '', 1)
+            used = kernel_figure(folder//path//trim(names(2)), '', 1)
+            if (limit /= no_figure .and. used /= no_figure) then ! unused file pages do not count, the kernel reclaims them
+               reclaimable = kernel_figure(folder//path//'/memory.stat', trim(names(3))//' ', 1)
+               if (reclaimable /= no_figure) used = max(0_long, used - reclaimable)
+               bytes = min(bytes, max(0_long, limit - used))
+            end if
+            if (path == '') exit
+            path = path(:index(path, '/', back=.true.) - 1)
+         end do
       end do
       close (unit)
    end function memory_left_by_groups
-
-   !> The least rest, the limit less the memory of the members, of the group of one LINE and of the groups above it. The line is
-   !! `number:controllers:path`: version 2 has number 0 and no controllers, version 1 names its controllers.
-   function left_by_line(root, line) result(bytes)
-      character(*), intent(in) :: root, line
-      integer(long) :: bytes, limit, reclaimable, used
-      character(:), allocatable :: folder, path
-      character(24) :: names(3) ! the files of limit and memory of a group, and the reclaimable part of the memory
-      integer :: first, second
-
-      bytes = no_figure
-      first = index(line, ':')
-      second = first + index(line(first + 1:), ':')
-      if (first == 0 .or. second == first) return
-      if (second == first + 1) then
-         folder = root//'/sys/fs/cgroup'
-         names = [character(24) :: '/memory.max', '/memory.current', 'inactive_file']
-      else if (index(','//line(first + 1:second - 1)//',', ',memory,') > 0) then
-         folder = root//'/sys/fs/cgroup/memory'
-         names = [character(24) :: '/memory.limit_in_bytes', '/memory.usage_in_bytes', 'total_inactive_file']
-      else
-         return
-      end if
-      path = line(second + 1:)
-      do ! in a container these groups may be absent, or the path is that of the host: they give no limit
-         limit = kernel_figure(folder//path//trim(names(1)), '', 1)
-         used = kernel_figure(folder//path//trim(names(2)), '', 1)
-         if (limit /= no_figure .and. used /= no_figure) then ! unused file pages do not count, the kernel reclaims them on demand
-            reclaimable = kernel_figure(folder//path//'/memory.stat', trim(names(3))//' ', 1)
-            if (reclaimable /= no_figure) used = max(0_long, used - reclaimable)
-            bytes = min(bytes, max(0_long, limit - used))
-         end if
-         if (path == '') exit
-         path = path(:index(path, '/', back=.true.) - 1)
-      end do
-   end function left_by_line
 
 end module machine

@@ -219,10 +219,11 @@ contains
       character(:), allocatable :: words
       integer :: k
 
-      words = ' where the field must be blank'
-      if (present(why)) words = words//why
+      words = ''
+      if (present(why)) words = why
       do k = first, min(last, self%n)
-         if (self%fields(k)%length > 0) call self%error_at(k, ''''//self%text_at(k)//''''//words)
+         if (self%fields(k)%length > 0) &
+            call self%error_at(k, ''''//self%text_at(k)//''' where the field must be blank'//words)
       end do
    end subroutine must_be_blank
 
@@ -296,7 +297,7 @@ contains
 
       value = 0
       is_integer = .false.
-      if (k <= self%n) call parse_integer(self%fields(k)%text, value, is_integer)
+      if (k <= self%n) call parse_integer(self%fields(k)%text(:self%fields(k)%length), value, is_integer)
       ok = is_integer
       if (present(least)) ok = ok .and. value >= least
       if (present(most)) ok = ok .and. value <= most

@@ -67,8 +67,8 @@ contains
       any_error = self%n > 0
    end function any_error
 
-   !> The kinds of ERRORS, and the kind of each error in this ORDER: errors of a kind have the same message without numbers, blanks and
-   !! quoted text. Unknown cards are of one kind where the whole message is the same.
+   !> The kinds of ERRORS, and the kind of each error in this ORDER: errors of a kind have the same message without numbers, blanks
+   !! and quoted text. Unknown cards are of one kind where the whole message is the same.
    subroutine sort_into_kinds(errors, order, kinds, kind_of)
       type(deck_error_list), intent(in)         :: errors
       integer, intent(in)                       :: order(:)

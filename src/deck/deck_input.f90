@@ -16,8 +16,8 @@ module deck_input
    use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark, read_grid_defaults, &
                          read_system, system_names
    use nastran_compatibility, only: is_idle_card
-   use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_parameter, read_paxis, read_pshell, read_psolid, &
-                             read_rod
+   use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
+                             read_pshell, read_rod
    use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
    use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, read_support
    use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_jampl, read_tabdmp1
@@ -70,8 +70,8 @@ contains
       call add(['BLOCK2', 'BLOCK3'], read_block)
       call add(['PMARK'], read_pmark)
       call add(['PSHELL'], read_pshell)
-      call add(['PAXIS'], read_paxis)
-      call add(['PSOLID'], read_psolid)
+      call add(['PAXIS'], read_body_property)
+      call add(['PSOLID'], read_body_property)
       call add(['PROD'], read_rod)
       call add(['PBAR  ', 'PBARL ', 'PBEAM ', 'PBEAML'], read_beam_property)
       call add(['CONROD'], read_rod)
@@ -288,10 +288,11 @@ contains
          integer :: behind, kind
 
          name = card_name(line, comma)
-         kind = 0
          call check_first_field(line, comma, at, faults)
-         if (.not. faults%any()) kind = findloc(cards%name, name, dim=1)
-         if (kind > 0) then
+         do kind = 1, size(cards) ! findloc would copy the names
+            if (cards(kind)%name == name) exit
+         end do
+         if (kind <= size(cards) .and. .not. faults%any()) then
             kind_at(at) = int(kind, int8)
             cards(kind)%n = cards(kind)%n + 1
          else if (.not. faults%any() .and. is_idle_card(name)) then
@@ -310,9 +311,9 @@ contains
 
    end subroutine find_cards
 
-   !> Fill the arrays of BULK with the noted cards, in the order of the deck TEXT; errors go to ERRORS. The first routine, that of the
-   !! nodes, reads about half of a long deck: one thread runs it, a second thread runs the others. The errors have the order of a
-   !! serial run.
+   !> Fill the arrays of BULK with the noted cards, in the order of the deck TEXT; errors go to ERRORS. The first routine, that of
+   !! the nodes, reads about half of a long deck: one thread runs it, a second thread runs the others. The errors have the order of
+   !! a serial run.
    subroutine read_all(text, kind_at, cards, bulk, errors)
       type(deck_text_type), intent(in)             :: text
       integer(int8), intent(in)                    :: kind_at(:)

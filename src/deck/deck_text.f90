@@ -189,10 +189,10 @@ contains
       class(deck_text_type), intent(in) :: self
       integer, intent(in)               :: i
 
-      associate (first => self%parts(:self%n_parts)%first)
-         part = first_not_below(first, i)
-         if (first(part) > i) part = part - 1
-      end associate
+      part = 1
+      if (self%n_parts == 1) return ! the usual case
+      part = first_not_below(self%parts(:self%n_parts)%first, i)
+      if (self%parts(part)%first > i) part = part - 1
    end function part_of
 
    !> Read one file and add its lines.
@@ -363,7 +363,7 @@ contains
       is_include = .false.
       first = verify(line, ' ')
       if (first == 0) return
-      if (scan(line(first:first), 'Ii') == 0) return ! the usual case
+      if (line(first:first) /= 'I' .and. line(first:first) /= 'i') return ! the usual case
       is_include = upper(line(first:min(first + 6, len(line)))) == 'INCLUDE'
       if (is_include .and. len(line) > first + 6) is_include = scan(line(first + 7:first + 7), ' ''"=') == 1
    end function is_include

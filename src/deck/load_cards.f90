@@ -204,8 +204,8 @@ contains
       end associate
    end subroutine read_surface_load
 
-   !> GRAV: acceleration A (N1, N2, N3) on all bodies, with RHO of MAT1; ACCEL1: on the masses of some nodes. RFORCE: angular velocity
-   !! 2 pi A R and acceleration 2 pi RACC R about an axis through node G.
+   !> GRAV: acceleration A (N1, N2, N3) on all bodies, with RHO of MAT1; ACCEL1: on the masses of some nodes. RFORCE: angular
+   !! velocity 2 pi A R and acceleration 2 pi RACC R about an axis through node G.
    subroutine read_gravity(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -261,21 +261,19 @@ contains
          load%sets = [set]
          load%at = [4]
          do k = 5, card%n, 2
+            if (card%text_at(k)//card%text_at(k + 1) == '') cycle
             if (k + 1 > card%n) then
                call card%error_at(k, 'S: a factor without its load set')
-               exit
-            end if
-            if (card%text_at(k) == '' .and. card%text_at(k + 1) == '') cycle
-            if (card%text_at(k) == '' .or. card%text_at(k + 1) == '') then
+            else if (card%text_at(k) == '' .or. card%text_at(k + 1) == '') then
                call card%error_at(k, 'S: a factor S and its load set L go together, one of them is blank')
-               cycle
+            else
+               call card%real_at(k, 'S', factor, factor_ok)
+               call card%integer_at(k + 1, 'L', set, set_ok, least=1, expected='a load set number of 1 or more')
+               if (.not. (factor_ok .and. set_ok)) cycle
+               load%factors = [load%factors, factor]
+               load%sets = [load%sets, set]
+               load%at = [load%at, k + 1]
             end if
-            call card%real_at(k, 'S', factor, factor_ok)
-            call card%integer_at(k + 1, 'L', set, set_ok, least=1, expected='a load set number of 1 or more')
-            if (.not. (factor_ok .and. set_ok)) cycle
-            load%factors = [load%factors, factor]
-            load%sets = [load%sets, set]
-            load%at = [load%at, k + 1]
          end do
       end associate
    end subroutine read_load

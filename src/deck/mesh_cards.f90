@@ -232,7 +232,7 @@ contains
                call card%error('X2', 'corners 2 and 4 must both be given (X2, Y2, X4, Y4), or all four left blank for a rectangle')
             end if
          end if
-         associate (divisions => block%divisions(:block%dimension)) ! one element instead, so that the rest of the deck can be checked
+         associate (divisions => block%divisions(:block%dimension)) ! one element instead: the rest of the deck can be checked
             if (product(real(divisions, wp)) > most_elements) then
                call card%error('NX', 'more than 2E7 elements in one block')
                divisions = 1

@@ -3,7 +3,7 @@
 !! along the beam, and the line load PLOAD1. The module mesh_cards reads CBAR and CBEAM.
 module property_cards
    use beam_sections, only: section_dimensions, section_names, section_of
-   use bulk_data, only: beam_property_card, bulk_data_type, conrod_card
+   use bulk_data, only: beam_property_card, bulk_data_type, conrod_card, property_card
    use card_fields, only: card_fields_type
    use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
    use field_rules, only: not_negative, parse_real, positive, real_range
@@ -13,7 +13,7 @@ module property_cards
    implicit none
    private
 
-   public :: read_pshell, read_paxis, read_psolid, read_rod, read_mat1, read_parameter, read_beam_property, read_beam_load
+   public :: read_pshell, read_body_property, read_rod, read_mat1, read_parameter, read_beam_property, read_beam_load
 
    character(2), parameter :: point_names(8) = ['C1', 'C2', 'D1', 'D2', 'E1', 'E2', 'F1', 'F2']
    character(4), parameter :: dimension_names(6) = ['DIM1', 'DIM2', 'DIM3', 'DIM4', 'DIM5', 'DIM6']
@@ -63,30 +63,23 @@ contains
       end associate
    end subroutine read_pshell
 
-   !> PAXIS: a body of revolution about y; its mesh lies in x >= 0.
-   subroutine read_paxis(card, bulk)
+   !> PAXIS: a body of revolution about y; its mesh lies in x >= 0. PSOLID: solids. CHEXA of 8 and CPENTA of 6 nodes have
+   !! incompatible modes, as NASTRAN's have bubble functions, unless ISOP selects full integration. NASTRAN's reduced shear
+   !! integration without bubble functions is not available; the incompatible modes also remove parasitic shear in bending. Output
+   !! requests and the system of an isotropic material have no effect.
+   subroutine read_body_property(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-
-      associate (property => bulk%paxis(card%i))
-         call card%field('PID', property%id)
-         call card%field('MID', property%material)
-         call card%finish(property%line)
-         property%state = axisymmetric
-      end associate
-   end subroutine read_paxis
-
-   !> PSOLID: solids. CHEXA of 8 and CPENTA of 6 nodes have incompatible modes, as NASTRAN's have bubble functions, unless ISOP selects
-   !! full integration. NASTRAN's reduced shear integration without bubble functions is not available; the incompatible modes also
-   !! remove parasitic shear in bending. Output requests and the system of an isotropic material have no effect.
-   subroutine read_psolid(card, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(bulk_data_type), intent(inout)   :: bulk
+      type(property_card) :: property
       character(8) :: isop, other
 
-      associate (property => bulk%psolid(card%i))
-         call card%field('PID', property%id)
-         call card%field('MID', property%material)
+      call card%field('PID', property%id)
+      call card%field('MID', property%material)
+      if (card%name == 'PAXIS') then
+         call card%finish(property%line)
+         property%state = axisymmetric
+         bulk%paxis(card%i) = property
+      else
          call card%skip(['CORDM'])
          call card%word('IN', '|BUBBLE|GAUSS|TWO|THREE|0|1|2|3|', other)
          call card%skip(['STRESS'])
@@ -95,10 +88,12 @@ contains
          call card%finish(property%line)
          property%state = solid
          property%incompatible = index('|PLAIN|FULL|1|2|3|', '|'//trim(isop)//'|') == 0
-      end associate
-   end subroutine read_psolid
+         bulk%psolid(card%i) = property
+      end if
+   end subroutine read_body_property
 
-   !> PROD: a bar of cross-section A. J and C are for torsion, which this bar does not have. CONROD: a CROD and its PROD on one card.
+   !> PROD: a bar of cross-section A. J and C are for torsion, which this bar does not have. CONROD: a CROD and its PROD on one
+   !! card.
    subroutine read_rod(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -178,8 +173,8 @@ contains
       if (expected /= '') call card%error('V1', ''''//card%text_at(2)//''' for '//card%text_at(1)//', expected '//expected)
    end subroutine read_parameter
 
-   !> PBAR and PBEAM give a section by its properties, PBARL and PBEAML by its dimensions. With K1 and K2 of a PBAR blank a beam is rigid
-   !! in transverse shear, as in NASTRAN; those of a PBEAM are then 1.
+   !> PBAR and PBEAM give a section by its properties, PBARL and PBEAML by its dimensions. With K1 and K2 of a PBAR blank a beam is
+   !! rigid in transverse shear, as in NASTRAN; those of a PBEAM are then 1.
    subroutine read_beam_property(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -220,8 +215,8 @@ contains
       end associate
    end subroutine read_beam_property
 
-   !> The rest of a PBEAM: other stations must have the section of end A. The shear centre is the centroid: warping (CW), shear relief
-   !! (S1, S2), NSI and the offsets M and N of mass and neutral axis must be blank.
+   !> The rest of a PBEAM: other stations must have the section of end A. The shear centre is the centroid: warping (CW), shear
+   !! relief (S1, S2), NSI and the offsets M and N of mass and neutral axis must be blank.
    subroutine read_stations(card, property)
       type(card_fields_type), intent(inout)   :: card
       type(beam_property_card), intent(inout) :: property

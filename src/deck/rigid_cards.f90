@@ -16,8 +16,8 @@ module rigid_cards
 contains
 
    !> RBE2: the components CM of the nodes GM move with node GN as a rigid body. RBE3: the components REFC of node REFGRID are the
-   !! weighted mean of the components C of the nodes G, group by group, each with its weight. RBE2M, RBE3M: the same with the nodes of
-   !! surface PID; without GN or REFGRID the reference node is a new node.
+   !! weighted mean of the components C of the nodes G, group by group, each with its weight. RBE2M, RBE3M: the same with the nodes
+   !! of surface PID; without GN or REFGRID the reference node is a new node.
    subroutine read_rigid(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -138,8 +138,9 @@ contains
       if (k < last) call card%real_at(k + 1, 'TREF', reference, ok)
    end subroutine read_expansion
 
-   !> The groups of an RBE3 from data field 5 on. WEIGHT, DIRECTIONS and nodes of the first group are decoded so far; after its nodes a
-   !! real begins the next group. After the groups: UM with pairs of a node and its components, ALPHA and its value, and TREF or nothing.
+   !> The groups of an RBE3 from data field 5 on. WEIGHT, DIRECTIONS and nodes of the first group are decoded so far; after its
+   !! nodes a real begins the next group. After the groups: UM with pairs of a node and its components, ALPHA and its value, and
+   !! TREF or nothing.
    subroutine read_groups(card, weight, directions, rigid)
       type(card_fields_type), intent(inout) :: card
       real(wp), intent(in)                  :: weight

@@ -182,8 +182,8 @@ contains
    end subroutine check_ends
 
    !> PELAS: the stiffnesses K of one or two springs. PBUSH: K1, K2, K3 of a CBUSH along its axes, K4, K5, K6 about them; lines of
-   !! damping (B, GE), stress recovery (RCV) and mass (M, which counts) may follow. Stress factors have no effect. Damping of a CBUSH is
-   !! not supported and is an error in a stage with FREQUENCY.
+   !! damping (B, GE), stress recovery (RCV) and mass (M, which counts) may follow. Stress factors have no effect. Damping of a
+   !! CBUSH is not supported and is an error in a stage with FREQUENCY.
    subroutine read_spring_property(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk

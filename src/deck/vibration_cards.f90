@@ -106,9 +106,9 @@ contains
       end associate
    end subroutine read_freq4
 
-   !> TABDMP1: pairs of frequency and damping, ended by ENDT. TYPE is the kind of damping. A pair with SKIP or with two blank fields
-   !! does not count. There must be at least two points, in ascending or descending order; descending points are reversed. At a jump a
-   !! frequency may appear twice, but not at the ends.
+   !> TABDMP1: pairs of frequency and damping, ended by ENDT. TYPE is the kind of damping. A pair with SKIP or with two blank
+   !! fields does not count. There must be at least two points, in ascending or descending order; descending points are reversed.
+   !! At a jump a frequency may appear twice, but not at the ends.
    subroutine read_tabdmp1(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
