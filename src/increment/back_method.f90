@@ -96,8 +96,7 @@ contains
          worst = first_largest(change)
          call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not converged after '// &
             integer_text(analysis%record%n_iterations)//' iterations; that of node '// &
-            integer_text(joint_node_id(model, worst, 1))// &
-            ' still changes by '//real_text(change(worst))//'; use METHOD = NEWTON')
+            integer_text(joint_node_id(model, worst, 1))//' still changes by '//real_text(change(worst))//'; use METHOD = NEWTON')
          return
       end if
       call store(model, k, deflection, analysis)

@@ -53,8 +53,7 @@ contains
       condensed%node = system%node(joints)
       condensed%direction = system%direction(joints)
       order = [joints, gone]
-      allocate (k(n + m, n + m), load(n + m, 2))
-      allocate (x(system%n), y(system%n), source=0.0_wp)
+      allocate (k(n + m, n + m), load(n + m, 2), x(system%n), y(system%n), source=0.0_wp)
       do i = 1, n + m
          associate (d => system%direction(order(i)), node => system%retained_index(system%node(order(i))))
             load(i, :) = [load_before(d, node), load_after(d, node)]

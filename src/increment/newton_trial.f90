@@ -15,7 +15,6 @@ module newton_trial
 
    real(wp), parameter :: longest = 10.0_wp           ! line search: largest extension of a step at once
    real(wp), parameter :: enough = 0.8_wp             ! line search: a step with more of the unbalanced work left is searched
-
    integer, parameter, public :: most_iterations = 60
 
    !> One attempt at a part of the increment.

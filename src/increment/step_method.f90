@@ -175,8 +175,7 @@ contains
       call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': after '//integer_text(most_reanalyses)// &
          ' re-analyses the friction of joint '//integer_text(model%joints(model%interface(worst)%joint)%id)// &
          ' is still exceeded, by '//real_text(total)//' in all, most at node '// &
-         integer_text(joint_node_id(model, worst, 1))// &
-         ' in its tangential direction: the joint slips as a whole')
+         integer_text(joint_node_id(model, worst, 1))//' in its tangential direction: the joint slips as a whole')
    end subroutine limit_friction
 
    !> EXCESS(2, n) of all elements and the TOTAL of their sizes [force]; those that slip are marked.
