@@ -13,24 +13,27 @@ program jointfem
    use progress, only: run_type
    use run_boxes, only: another_increment, another_stage, build_structure, form_bodies, go_on, print_increment, read_data, &
                         start_joints, start_program
-   use run_end, only: batch_type, end_program, end_run_of_batch, finish_run, start_run_of_batch
+   use run_end, only: end_program, finish_run, summary_row
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
    type(command_type) :: command
-   type(batch_type)   :: runs
+   type(summary_row), allocatable :: rows(:)
    integer :: i
 
    call start_program(command)
+   allocate (rows(size(command%decks)))
    do i = 1, size(command%decks)
-      call analyse(command%decks(i))
+      call analyse(command%decks(i), rows(i))
    end do
-   call end_program(command=command, runs=runs)
+   call end_program(command, rows)
 
 contains
 
-   subroutine analyse(argument)
+   !> Solve the deck of ARGUMENT; ROW becomes its row of the summary.
+   subroutine analyse(argument, row)
       type(deck_argument), intent(in) :: argument
+      type(summary_row), intent(out)  :: row
       type(run_type)        :: run
       type(deck_type)       :: deck
       type(model_type)      :: model
@@ -39,7 +42,6 @@ contains
       class(equation_system), allocatable :: system
 
       ! ------------------------------------------------------------------ READ THE DATA
-      call start_run_of_batch(command, runs)
       call read_data(command, argument, run, deck)
 
       ! ------------------------------------------------------------------ BODIES, JOINTS, LOADS
@@ -92,8 +94,7 @@ contains
             call go_on(run, deck, model, plan, system, analysis)
          end do
       end do
-      call finish_run(run, deck, model, plan)
-      call end_run_of_batch(run, model, runs)
+      call finish_run(run, deck, model, plan, row)
    end subroutine analyse
 
 end program jointfem

@@ -8,8 +8,8 @@ module c_library
 
    public :: keep_on_disk, open_standard_outputs
    public :: read_all_bytes, create_unique, open_to_write, write_bytes, close_file, rename_file, remove_file, &
-             remove_terminated, true_path, kind_of_file, is_regular_file, is_same_file, is_terminal, tell_failed_writes, &
-             at_signals, by_default, end_by_signal, lock_folder, end_run
+             true_path, kind_of_file, is_regular_file, is_same_file, tell_failed_writes, at_signals, lock_folder, end_run
+   public :: c_isatty, c_raise, c_unlink
 
    !> Kinds of file that a path may lead to.
    integer, parameter, public :: no_file = 0, pipe_file = 1, device_file = 2, folder_file = 4, block_file = 6, regular_file = 8, &
@@ -74,6 +74,7 @@ module c_library
          character(kind=c_char), intent(in) :: old(*), new(*)
       end function c_rename
 
+      !> Removes the file PATH, which ends with a null character; needs no memory.
       integer(c_int) function c_unlink(path) bind(c, name='unlink')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
@@ -115,6 +116,7 @@ module c_library
          integer(c_int), value :: microseconds
       end function c_usleep
 
+      !> 1 where DESCRIPTOR (1 standard output, 2 standard error) is a terminal, otherwise 0.
       integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
          import :: c_int
          integer(c_int), value :: descriptor
@@ -262,18 +264,11 @@ contains
    !> Remove the file PATH if it exists.
    subroutine remove_file(path)
       character(*), intent(in) :: path
-
-      call remove_terminated(path//c_null_char)
-   end subroutine remove_file
-
-   !> Remove the file PATH, which ends with a null character; needs no memory.
-   subroutine remove_terminated(path)
-      character(*), intent(in) :: path
       integer(c_int) :: status
 
-      status = c_unlink(path)
+      status = c_unlink(path//c_null_char)
       if (status /= 0) return   ! there was no such file
-   end subroutine remove_terminated
+   end subroutine remove_file
 
    !> The absolute path of PATH with all links resolved; PATH itself where there is no such file.
    function true_path(path) result(resolved)
@@ -337,23 +332,6 @@ contains
       end do
    end subroutine at_signals
 
-   !> Restore the default action of SIGNAL.
-   subroutine by_default(signal)
-      integer(c_int), intent(in) :: signal
-
-      call at_signals([signal], c_null_funptr) ! SIG_DFL
-   end subroutine by_default
-
-   !> End the program by the default action of SIGNAL.
-   subroutine end_by_signal(signal)
-      integer(c_int), intent(in) :: signal
-      integer(c_int) :: status
-
-      call by_default(signal)
-      status = c_raise(signal)
-      if (status /= 0) return ! the signal was not delivered
-   end subroutine end_by_signal
-
    !> Wait a limited time until no other run holds the FOLDER, and hold it until DESCRIPTOR is closed.
    subroutine lock_folder(folder, descriptor)
       character(*), intent(in) :: folder
@@ -371,13 +349,6 @@ contains
          if (status /= 0) cycle ! a signal interrupted the wait: try again at once
       end do
    end subroutine lock_folder
-
-   !> Whether the stream DESCRIPTOR (1 standard output, 2 standard error) is a terminal.
-   logical function is_terminal(descriptor)
-      integer, intent(in) :: descriptor
-
-      is_terminal = c_isatty(int(descriptor, c_int)) /= 0
-   end function is_terminal
 
    !> End the program with exit status STATUS and without further output on the terminal.
    subroutine end_run(status)

@@ -6,9 +6,10 @@
 !! A file is written as NAME.abcdef.part with letters of its own, so that two runs in one folder do not collide. The complete file
 !! gets its final name and replaces any file or link of that name.
 module incomplete_results
-   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_funloc, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
-   use c_library, only: at_signals, by_default, create_unique, device_file, block_file, end_by_signal, folder_file, has_ended, &
-                        kind_of_file, no_file, pipe_file, regular_file, remove_file, remove_terminated, rename_file, write_bytes
+   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_funloc, c_funptr, c_int, c_null_char, c_null_funptr, &
+                                          c_null_ptr, c_ptr
+   use c_library, only: at_signals, block_file, c_raise, c_unlink, create_unique, device_file, folder_file, has_ended, &
+                        kind_of_file, no_file, pipe_file, regular_file, remove_file, rename_file, write_bytes
    implicit none
    private
 
@@ -67,6 +68,7 @@ contains
       descriptor = -1
       if (.not. is_free(path)) then
          if (allocated(in_the_way)) return
+         in_the_way = path//' is something else and no file'
          select case (kind_of_file(path))
          case (folder_file)
             in_the_way = path//' is a folder and no file'
@@ -74,8 +76,6 @@ contains
             in_the_way = path//' is a pipe and no file'
          case (device_file, block_file)
             in_the_way = path//' is a device and no file'
-         case default
-            in_the_way = path//' is something else and no file'
          end select
          return
       end if
@@ -157,12 +157,14 @@ contains
    !> Remove the noted files that exist. Needs no memory.
    subroutine remove_incomplete()
       integer :: first, length
+      integer(c_int) :: status
 
       if (.not. allocated(names)) return
       first = 1
       do while (first <= len(names))
          length = index(names(first:), c_null_char)
-         call remove_terminated(names(first:first + length - 1))
+         status = c_unlink(names(first:first + length - 1))
+         if (status /= 0) continue ! there is no such file
          first = first + length
       end do
    end subroutine remove_incomplete
@@ -180,6 +182,7 @@ contains
    !! of files changes the end has to wait.
    subroutine end_by_interrupt(signal) bind(c)
       integer(c_int), value :: signal
+      integer(c_int) :: status
       logical :: ok
 
       interrupt = signal
@@ -188,7 +191,9 @@ contains
       if (allocated(last_words)) then
          if (len(last_words) > 1) call write_bytes(2, new_line('a')//last_words, ok)
       end if
-      call end_by_signal(signal)
+      call at_signals([signal], c_null_funptr) ! SIG_DFL
+      status = c_raise(signal)
+      if (status /= 0) return ! the signal was not delivered
    end subroutine end_by_interrupt
 
    !> Called by the kernel at an access to an invalid address. The cause is a failed allocation where that is the last error that the C
@@ -199,7 +204,7 @@ contains
 
       call c_f_pointer(c_errno_place(), error)
       if (error == enomem) call end_without_memory(status_of_library, c_null_ptr)
-      call by_default(signal)
+      call at_signals([signal], c_null_funptr)
    end subroutine end_at_no_address
 
    !> Called by the C library when the program ends with STATUS.

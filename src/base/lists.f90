@@ -117,10 +117,7 @@ contains
       integer :: byte, digit, first(0:256), i, n
 
       n = size(keys)
-      allocate (order(n), before(n))
-      do i = 1, n
-         order(i) = i
-      end do
+      order = [(i, i = 1, n)]
       if (n < 2) return
       if (all(keys(2:) >= keys(:n - 1))) return
       least = minval(keys)
@@ -189,10 +186,7 @@ contains
             first(i) = first(i) + 1               ! where the next owner of i goes; in the end where those of i + 1 begin
          end do
       end do
-      do i = n, 2, -1
-         first(i) = first(i - 1)
-      end do
-      if (n > 0) first(1) = 1
+      first = [1, first(:n)]
    end subroutine list_owners
 
    !> Unite the sets of A and B (union-find with path halving); zero is ignored.

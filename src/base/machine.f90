@@ -159,32 +159,24 @@ contains
 
    !> Use at most N threads, 0: OMP_NUM_THREADS, and never more than there are cores. BLAS has one thread in each: one order of
    !! additions gives the same digits everywhere. All threads share one heap, so that one reuses what another has deallocated; this
-   !! must be set before the threads exist.
+   !! must be set before the threads exist. Their stacks have the user's limit (ulimit -s), but at least the usual size.
    subroutine use_threads(n)
       integer, intent(in) :: n
-      integer(c_int) :: status
+      integer(c_size_t), parameter :: usual = 8388608_c_size_t ! bytes of a stack, ulimit -s 8192
+      integer(c_long)   :: attributes(64)                      ! a pthread_attr_t of glibc has 56 bytes
+      integer(c_size_t) :: stack
+      integer(c_int)    :: status
 
       status = mallopt(arena_max, 1_c_int)
-      call widen_stacks()
+      attributes = 0
+      stack = usual
+      if (pthread_getattr_default_np(attributes) == 0) status = pthread_attr_getstacksize(attributes, stack)
+      if (stack < usual) then ! a small limit of the user is not enough for the element kernels
+         if (pthread_attr_setstacksize(attributes, usual) == 0) status = pthread_setattr_default_np(attributes)
+      end if
       call openblas_set_num_threads(1_c_int)
       call omp_set_num_threads(min(merge(n, omp_get_max_threads(), n > 0), omp_get_num_procs()))
    end subroutine use_threads
-
-   !> Threads get stacks of the user's limit (ulimit -s). A small limit is not enough for the element kernels: the threads then get
-   !! the usual size.
-   subroutine widen_stacks()
-      integer(c_size_t), parameter :: usual = 8388608_c_size_t ! bytes, ulimit -s 8192
-      integer(c_long)   :: attributes(64)                      ! a pthread_attr_t of glibc has 56 bytes
-      integer(c_size_t) :: bytes
-      integer(c_int)    :: status
-
-      attributes = 0
-      if (pthread_getattr_default_np(attributes) /= 0) return
-      if (pthread_attr_getstacksize(attributes, bytes) /= 0) return
-      if (bytes >= usual) return
-      status = pthread_attr_setstacksize(attributes, usual)
-      if (status == 0) status = pthread_setattr_default_np(attributes)
-   end subroutine widen_stacks
 
    !> The figure after NAME in the file PATH [bytes], where it stands in the given units; an empty NAME: the figure alone in the first
    !! line. Huge where there is none.
@@ -229,11 +221,11 @@ contains
       close (unit)
    end function memory_left_by_groups
 
-   !> The least rest of the group of one LINE and of the groups above it. The line is `number:controllers:path`: version 2 has
-   !! number 0 and no controllers, version 1 names its controllers.
+   !> The least rest, the limit less the memory of the members, of the group of one LINE and of the groups above it. The line is
+   !! `number:controllers:path`: version 2 has number 0 and no controllers, version 1 names its controllers.
    function left_by_line(root, line) result(bytes)
       character(*), intent(in) :: root, line
-      integer(long) :: bytes
+      integer(long) :: bytes, limit, reclaimable, used
       character(:), allocatable :: folder, path
       character(24) :: names(3) ! the files of limit and memory of a group, and the reclaimable part of the memory
       integer :: first, second
@@ -253,27 +245,16 @@ contains
       end if
       path = line(second + 1:)
       do ! in a container these groups may be absent, or the path is that of the host: they give no limit
-         bytes = min(bytes, left_in_group(folder//path, names))
+         limit = kernel_figure(folder//path//trim(names(1)), '', 1)
+         used = kernel_figure(folder//path//trim(names(2)), '', 1)
+         if (limit /= no_figure .and. used /= no_figure) then ! unused file pages do not count, the kernel reclaims them on demand
+            reclaimable = kernel_figure(folder//path//'/memory.stat', trim(names(3))//' ', 1)
+            if (reclaimable /= no_figure) used = max(0_long, used - reclaimable)
+            bytes = min(bytes, max(0_long, limit - used))
+         end if
          if (path == '') exit
          path = path(:index(path, '/', back=.true.) - 1)
       end do
    end function left_by_line
-
-   !> The rest of one group: its limit less the memory of its members. Unused file pages do not count, the kernel reclaims them on
-   !! demand.
-   function left_in_group(group, names) result(bytes)
-      character(*), intent(in) :: group, names(3)
-      integer(long) :: bytes, used, reclaimable
-
-      bytes = kernel_figure(group//trim(names(1)), '', 1)
-      used = kernel_figure(group//trim(names(2)), '', 1)
-      if (bytes == no_figure .or. used == no_figure) then
-         bytes = no_figure
-         return
-      end if
-      reclaimable = kernel_figure(group//'/memory.stat', trim(names(3))//' ', 1)
-      if (reclaimable == no_figure) reclaimable = 0
-      bytes = max(0_long, bytes - max(0_long, used - reclaimable))
-   end function left_in_group
 
 end module machine

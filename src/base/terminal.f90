@@ -2,12 +2,13 @@
 !! The progress line overwrites itself at most five times a second. It appears only where standard error is a terminal.
 module terminal
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use c_library, only: is_terminal, write_bytes
+   use, intrinsic :: iso_c_binding, only: c_int
+   use c_library, only: c_isatty, folder_file, kind_of_file, no_file, write_bytes
    use kinds, only: long
    implicit none
    private
 
-   public :: argument_text, is_option, set_input, say, complain, complain_of_input, open_line, show_line, clear_line, say_line
+   public :: argument_text, next_option, say, complain, complain_of_input, open_line, show_line, clear_line, say_line
 
    character(*), parameter, public :: version = '0.1.0'
    character(*), parameter, public :: standard_input = '/dev/stdin' !! the path of the file that `-` means
@@ -17,6 +18,13 @@ module terminal
       character(:), allocatable :: path !! to read; /dev/stdin for `-`
       character(:), allocatable :: name !! as the user wrote it
    end type input_argument
+
+   !> The arguments of the command that have been read.
+   type, public :: command_reader
+      type(input_argument), allocatable :: files(:)
+      integer, private :: n_read = 0
+      logical, private :: has_options = .true. ! false behind `--`
+   end type command_reader
 
    integer, parameter :: width = 80 ! columns of the words in the progress line
    logical :: shown = .false.
@@ -37,26 +45,43 @@ contains
       if (length > 0) call get_command_argument(i, text)
    end function argument_text
 
-   !> Whether ARGUMENT is an option: it begins with a dash, is not the `-` of the standard input, and stands before the `--` that
-   !! ends the options.
-   pure logical function is_option(argument, before_dashes)
-      character(*), intent(in) :: argument
-      logical, intent(in)      :: before_dashes
+   !> The next OPTION of the command, '' at its end. For an option among VALUED, VALUE is the argument behind it; IS_MISSING is true where
+   !! the command ends there. An argument without a dash, `-` for the standard input, and any argument behind `--` are files.
+   subroutine next_option(command, valued, option, value, is_missing)
+      type(command_reader), intent(inout)    :: command
+      character(*), intent(in)               :: valued(:)
+      character(:), allocatable, intent(out) :: option, value
+      logical, intent(out)                   :: is_missing
+      type(input_argument), allocatable :: more(:)
+      integer :: n
 
-      is_option = before_dashes .and. argument /= '-' .and. index(argument, '-') == 1
-   end function is_option
-
-   !> Set INPUT to the file that ARGUMENT names.
-   pure subroutine set_input(input, argument)
-      class(input_argument), intent(inout) :: input
-      character(*), intent(in)             :: argument
-
-      input%path = argument
-      input%name = argument
-      if (argument /= '-') return
-      input%path = standard_input
-      input%name = 'standard input'
-   end subroutine set_input
+      if (.not. allocated(command%files)) allocate (command%files(0))
+      value = ''
+      is_missing = .false.
+      do while (command%n_read < command_argument_count())
+         command%n_read = command%n_read + 1
+         option = argument_text(command%n_read)
+         if (command%has_options .and. option == '--') then
+            command%has_options = .false.
+         else if (command%has_options .and. option /= '-' .and. index(option, '-') == 1) then
+            if (all(option /= valued)) return
+            is_missing = command%n_read == command_argument_count()
+            command%n_read = command%n_read + 1
+            value = argument_text(command%n_read)
+            return
+         else
+            n = size(command%files)
+            allocate (more(n + 1)) ! (an array constructor would leak its names in gfortran 12)
+            more(:n) = command%files
+            more(n + 1)%path = option
+            more(n + 1)%name = option
+            if (option == '-') more(n + 1)%path = standard_input
+            if (option == '-') more(n + 1)%name = 'standard input'
+            call move_alloc(more, command%files)
+         end if
+      end do
+      option = ''
+   end subroutine next_option
 
    !> Write TEXT and a line end on the standard output. STATUS is 0, or 4 with a message where the output cannot be written.
    subroutine say(text, status)
@@ -81,18 +106,15 @@ contains
       class(input_argument), intent(in) :: input
       character(*), intent(in)          :: expected
       character(:), allocatable :: words
-      logical :: there, is_folder
 
-      is_folder = .false.
-      inquire (file=input%path, exist=there)
-      if (input%path /= '') inquire (file=input%path//'/.', exist=is_folder)
-      if (is_folder) then
-         words = 'a directory, expected '//expected
-      else if (there .and. input%path /= '') then
-         words = 'cannot be read'
-      else
+      select case (kind_of_file(input%path))
+      case (no_file)
          words = 'no such file'
-      end if
+      case (folder_file)
+         words = 'a directory, expected '//expected
+      case default
+         words = 'cannot be read'
+      end select
       write (error_unit, '(3a)') input%name, ': ', words
    end subroutine complain_of_input
 
@@ -102,7 +124,7 @@ contains
       logical, intent(in)      :: quiet
 
       shown = .false.
-      if (.not. quiet) shown = is_terminal(2)
+      if (.not. quiet) shown = c_isatty(2_c_int) == 1
       name = deck
       last = 0
    end subroutine open_line

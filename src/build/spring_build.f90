@@ -63,8 +63,7 @@ contains
             n = n + 1
             model%bars(n)%id = rod%id
             call find_nodes(deck, rod%line, rod%nodes, model, model%bars(n)%nodes, first=2)
-            call build_bar(deck, rod%line, prod_card(line=rod%line, material=rod%material, area=rod%area, &
-                           extra_mass=rod%extra_mass), model, model%bars(n))
+            call build_bar(deck, rod%line, rod%prod_card, model, model%bars(n))
          end associate
       end do
       model%bars = model%bars(:n)

@@ -2,7 +2,7 @@
 !! Requests are the range of EIGRL, the frequencies of FREQ1 and FREQ4, load, damping and nodes. OUTPUT may limit the tables of a stage
 !! to sets of nodes or marked surfaces.
 module vibration_build
-   use case_entries, only: find_set, limit_type, number_set, numbers_in_set
+   use case_entries, only: limit_type, number_set, numbers_in_set
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: model_type, stage_load_type
@@ -187,7 +187,7 @@ contains
                at = findloc(model%surfaces%id, only%id, dim=1)
                if (at > 0) are_named(nodes_of(model%surfaces(at))) = .true.
             else
-               at = find_set(deck%control%sets, only%id)
+               at = findloc(deck%control%sets%id, only%id, dim=1, back=.true.)
                if (at > 0) call add_set(deck%control%sets(at))
             end if
             if (at == 0) call deck%errors%add(only%line, key//': there is no '//trim(merge('PMARK', 'SET  ', only%is_mark))// &

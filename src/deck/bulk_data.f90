@@ -89,10 +89,9 @@ module bulk_data
       real(wp) :: area = 0.0_wp, extra_mass = 0.0_wp    ! the second is NSM, per length
    end type prod_card
 
-   !> CONROD: a bar with its own cross-section.
-   type, public :: conrod_card
-      integer  :: line = 0, id = 0, nodes(2) = 0, material = 0
-      real(wp) :: area = 0.0_wp, extra_mass = 0.0_wp    ! the second is NSM, per length
+   !> CONROD: a bar with its own cross-section; its id is that of the element.
+   type, extends(prod_card), public :: conrod_card
+      integer :: nodes(2) = 0
    end type conrod_card
 
    !> CELAS1, CELAS2 (between component COMPONENTS(1) of node 1 and COMPONENTS(2) of node 2) and CBUSH (along three axes).

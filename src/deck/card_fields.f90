@@ -4,8 +4,8 @@
 module card_fields
    use deck_cards, only: card_type
    use deck_errors, only: deck_error_list
-   use field_rules, only: any_real, component_words, in_range, integer_words, is_component_list, largest_size, list_of, &
-                          parse_integer, parse_real, real_range, real_words, smallest_size
+   use field_rules, only: any_real, blank_words, component_words, in_range, integer_words, is_component_list, largest_size, &
+                          list_of, parse_integer, parse_real, real_range, real_words, smallest_size
    use kinds, only: wp
    use text_tools, only: integer_text, real_text
    implicit none
@@ -18,12 +18,9 @@ module card_fields
       integer, allocatable :: first(:), last(:), at(:) !! AT(k): data field of FIRST(k)
    end type id_ranges
 
-   type, public :: card_fields_type
-      character(8) :: name = ''
-      integer :: line = 0                            !! first line of the card
-      integer :: n = 0                               !! last filled data field
+   !> A card of which one field after another is taken.
+   type, extends(card_type), public :: card_fields_type
       integer :: i = 0                               !! index of the array entry to fill; a routine that fills several increases it
-      type(card_type) :: card                        !! the fields as they stand
       character(8), allocatable :: names(:)          !! names of the fields, as far as cards of this kind have been read
       type(deck_error_list), pointer :: errors => null()
       integer, private :: k = 0                      ! field taken last
@@ -32,8 +29,8 @@ module card_fields
       procedure :: begin
       procedure, private :: integer_field, integer_fields, real_field, real_fields
       generic   :: field => integer_field, integer_fields, real_field, real_fields
-      procedure :: components, word, blank, skip, finish
-      procedure :: text_at, given, is_faulty, error, error_at, wrong_entry, integer_at, real_at, components_at
+      procedure :: components, word, blank, skip, finish, must_be_blank
+      procedure :: text_at, given, is_faulty, error, error_at, wrong_entry, integer_at, real_at
       procedure :: check_direction, list_ranges
    end type card_fields_type
 
@@ -53,9 +50,6 @@ contains
       class(card_fields_type), intent(inout) :: self
 
       if (.not. allocated(self%names)) allocate (self%names(0))
-      self%name = self%card%name
-      self%line = self%card%line
-      self%n = self%card%n
       self%i = self%i + 1
       self%k = 0
       self%errors_before = self%errors%n
@@ -69,7 +63,7 @@ contains
 
       self%k = self%k + 1
       is_given = self%k <= self%n
-      if (is_given) is_given = self%card%fields(self%k)%length > 0
+      if (is_given) is_given = self%fields(self%k)%length > 0
       if (self%k > size(self%names)) self%names = [character(8) :: self%names, name]
    end subroutine go_on
 
@@ -85,19 +79,11 @@ contains
       call go_on(self, name, is_given)
       lowest = 1
       if (present(least)) lowest = least
-      ok = .false.
-      value = 0
-      if (is_given) then
-         associate (field => self%card%fields(self%k))
-            call parse_integer(field%text(:field%length), value, ok)
-         end associate
-         if (present(most)) ok = ok .and. value <= most
-         ok = ok .and. value >= lowest
-      else if (present(default)) then
+      if (present(default) .and. .not. is_given) then
          value = default
-         return
+      else
+         call self%integer_at(self%k, name, value, ok, lowest, most, or_blank=present(default))
       end if
-      if (.not. ok) call self%integer_at(self%k, name, integer_words(lowest, most, present(default)), value, ok, lowest, most)
    end subroutine integer_field
 
    !> Take the next fields by the same rule.
@@ -127,7 +113,7 @@ contains
       call go_on(self, name, is_given)
       ok = .false.
       if (is_given .and. present(whole)) then
-         associate (field => self%card%fields(self%k))
+         associate (field => self%fields(self%k))
             call parse_integer(field%text(:field%length), number, ok)
          end associate
          value = real(number, wp)
@@ -158,13 +144,13 @@ contains
       character(*), intent(in)               :: name
       integer, intent(out)                   :: value
       integer, intent(in), optional          :: default
-      logical :: is_given
+      logical :: is_given, ok
 
       call go_on(self, name, is_given)
       if (present(default) .and. .not. is_given) then
          value = default
       else
-         call self%components_at(self%k, name, present(default), value)
+         call self%integer_at(self%k, name, value, ok, or_blank=present(default), expected=component_words)
       end if
    end subroutine components
 
@@ -220,13 +206,25 @@ contains
    subroutine finish(self, line)
       class(card_fields_type), intent(inout) :: self
       integer, intent(out)                   :: line
-      integer :: k
 
       line = self%line
-      do k = self%k + 1, self%n
-         if (self%card%fields(k)%length > 0) call self%error_at(k, ''''//self%text_at(k)//''' where the field must be blank')
-      end do
+      call self%must_be_blank(self%k + 1, self%n)
    end subroutine finish
+
+   !> The data fields FIRST to LAST must be blank; WHY ends the message.
+   subroutine must_be_blank(self, first, last, why)
+      class(card_fields_type), intent(inout) :: self
+      integer, intent(in)                    :: first, last
+      character(*), intent(in), optional     :: why
+      character(:), allocatable :: words
+      integer :: k
+
+      words = ' where the field must be blank'
+      if (present(why)) words = words//why
+      do k = first, min(last, self%n)
+         if (self%fields(k)%length > 0) call self%error_at(k, ''''//self%text_at(k)//''''//words)
+      end do
+   end subroutine must_be_blank
 
    !> The entry of data field K, empty where there is none.
    pure function text_at(self, k) result(text)
@@ -235,7 +233,7 @@ contains
       character(:), allocatable           :: text
 
       text = ''
-      if (k <= self%n) text = trim(self%card%fields(k)%text)
+      if (k <= self%n) text = trim(self%fields(k)%text)
    end function text_at
 
    !> Whether the field with this NAME is filled.
@@ -246,7 +244,7 @@ contains
 
       k = number_of(self%names, name)
       given = k <= self%n
-      if (given) given = self%card%fields(k)%length > 0
+      if (given) given = self%fields(k)%length > 0
    end function given
 
    !> Whether an entry of the card so far was wrong.
@@ -270,7 +268,7 @@ contains
       integer, intent(in)                    :: k
       character(*), intent(in)               :: message
 
-      call self%card%field_error(k, message, self%errors)
+      call self%field_error(k, message, self%errors)
    end subroutine error_at
 
    !> Add an error about data field K, NAME: its entry, followed by WORDS.
@@ -279,37 +277,50 @@ contains
       integer, intent(in)                    :: k
       character(*), intent(in)               :: name, words
 
-      call self%error_at(k, trim(name)//': '''//trim(self%card%fields(k)%text)//''' '//words)
+      call self%error_at(k, trim(name)//': '''//trim(self%fields(k)%text)//''' '//words)
    end subroutine wrong_entry
 
    !> The integer in data field K, NAME, from LEAST to MOST. If there is none, VALUE is 0, OK is false, and an error says what was
-   !! EXPECTED.
-   subroutine integer_at(self, k, name, expected, value, ok, least, most)
+   !! EXPECTED, COMPONENT_WORDS: a list of components.
+   subroutine integer_at(self, k, name, value, ok, least, most, or_blank, expected)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: k
-      character(*), intent(in)               :: name, expected
+      character(*), intent(in)               :: name
       integer, intent(out)                   :: value
       logical, intent(out)                   :: ok
       integer, intent(in), optional          :: least, most !! default: any
-      character(:), allocatable :: text
+      logical, intent(in), optional          :: or_blank    !! ends the words for what is expected; default: false
+      character(*), intent(in), optional     :: expected    !! default: LEAST and MOST in words
+      character(:), allocatable :: text, words
       logical :: is_integer
 
-      text = self%text_at(k)
-      call parse_integer(text, value, is_integer)
+      value = 0
+      is_integer = .false.
+      if (k <= self%n) call parse_integer(self%fields(k)%text, value, is_integer)
       ok = is_integer
       if (present(least)) ok = ok .and. value >= least
       if (present(most)) ok = ok .and. value <= most
+      if (present(expected) .and. ok) then
+         if (expected == component_words) ok = is_component_list(value)
+      end if
       if (ok) return
       value = 0
+      text = self%text_at(k)
       if (text == '') then
-         call self%error_at(k, trim(name)//': blank, expected '//expected)
+         words = 'blank'
       else if (is_integer) then
-         call self%wrong_entry(k, name, 'is out of range, expected '//expected)
+         words = ''''//text//''' is out of range'
       else if (is_number_shape(text, '0123456789+-') .and. scan(text(2:), '+-') == 0) then
-         call self%wrong_entry(k, name, 'is too large for an integer, expected '//expected)
+         words = ''''//text//''' is too large for an integer'
       else
-         call self%wrong_entry(k, name, 'is not an integer, expected '//expected)
+         words = ''''//text//''' is not an integer'
       end if
+      if (present(expected)) then
+         words = words//', expected '//expected
+      else
+         words = words//', expected '//integer_words(least, most)
+      end if
+      call self%error_at(k, trim(name)//': '//words//blank_words(or_blank))
    end subroutine integer_at
 
    !> The real in data field K, NAME, in RANGE. It must not be so large that a stiffness, area or volume overflows, nor, where it must be
@@ -324,63 +335,41 @@ contains
       logical, intent(in), optional          :: or_blank !! ends the words for what is expected; default: false
       character(*), intent(in), optional     :: expected !! default: RANGE in words
       type(real_range) :: within
-      character(:), allocatable :: words
+      character(:), allocatable :: text, words
       integer :: whole
-      logical :: is_integer
+      logical :: is_integer, is_real
 
       within = any_real
       if (present(range)) within = range
       value = 0.0_wp
-      ok = .false.
-      if (k <= self%n) call parse_real(self%card%fields(k)%text, value, ok)
-      if (ok) ok = in_range(within, value) .and. abs(value) <= largest_size
-      if (ok .and. within%above .and. within%least >= 0.0_wp) ok = value >= smallest_size
+      is_real = .false.
+      if (k <= self%n) call parse_real(self%fields(k)%text, value, is_real)
+      ok = is_real .and. in_range(within, value) .and. abs(value) <= largest_size
+      if (within%above .and. within%least >= 0.0_wp) ok = ok .and. value >= smallest_size
       if (ok) return
-      words = real_words(within, .false.)
+      words = real_words(within)
       if (present(expected)) words = expected
-      if (present(or_blank)) words = words//trim(merge(', or blank', repeat(' ', 10), or_blank))
-      if (self%text_at(k) == '') then
-         call self%error_at(k, trim(name)//': blank, expected '//words)
-         return
+      words = words//blank_words(or_blank)
+      text = self%text_at(k)
+      call parse_integer(text, whole, is_integer)
+      if (text == '') then
+         words = 'blank, expected '//words
+      else if (is_real .and. .not. in_range(within, value)) then
+         words = ''''//text//''' is out of range, expected '//words
+      else if (is_real .and. abs(value) > largest_size) then
+         words = ''''//text//''' is too large to compute with, expected no more than '//real_text(largest_size)
+      else if (is_real) then
+         words = ''''//text//''' is too small to compute with, expected at least '//real_text(smallest_size)
+      else if (is_number_shape(text, '0123456789.+-ED') .and. scan(text, '.ED') > 0) then
+         words = ''''//text//''' is too large or too small for a real number, or not one, expected '//words
+      else if (is_integer) then
+         words = ''''//text//''' is an integer, expected '//words//': write it with a decimal point'
+      else
+         words = ''''//text//''' is not a real number, expected '//words
       end if
-      associate (text => self%card%fields(k)%text)
-         call parse_real(text, value, ok)
-         call parse_integer(text, whole, is_integer)
-         if (ok .and. .not. in_range(within, value)) then
-            words = 'is out of range, expected '//words
-         else if (ok .and. abs(value) > largest_size) then
-            words = 'is too large to compute with, expected no more than '//real_text(largest_size)
-         else if (ok) then
-            words = 'is too small to compute with, expected at least '//real_text(smallest_size)
-         else if (is_number_shape(text, '0123456789.+-ED') .and. scan(text, '.ED') > 0) then
-            words = 'is too large or too small for a real number, or not one, expected '//words
-         else if (is_integer) then
-            words = 'is an integer, expected '//words//': write it with a decimal point'
-         else
-            words = 'is not a real number, expected '//words
-         end if
-      end associate
-      call self%wrong_entry(k, name, words)
+      call self%error_at(k, trim(name)//': '//words)
       value = 0.0_wp
-      ok = .false.
    end subroutine real_at
-
-   !> The components in data field K, NAME; OR_BLANK ends the words for what is expected. Zero, with an error, where they are wrong.
-   subroutine components_at(self, k, name, or_blank, value)
-      class(card_fields_type), intent(inout) :: self
-      integer, intent(in)                    :: k
-      character(*), intent(in)               :: name
-      logical, intent(in)                    :: or_blank
-      integer, intent(out)                   :: value
-      character(:), allocatable :: expected
-      logical :: ok
-
-      expected = component_words//trim(merge(', or blank', repeat(' ', 10), or_blank))
-      call self%integer_at(k, name, expected, value, ok)
-      if (.not. ok .or. is_component_list(value)) return
-      call self%wrong_entry(k, name, 'is out of range, expected '//expected)
-      value = 0
-   end subroutine components_at
 
    !> The numbers in the data fields from FROM on, with ranges G1 THRU G2. NAME is the name of the field in the manual, WHAT describes
    !! it: 'a node number'.
@@ -402,7 +391,7 @@ contains
             through = .true.
             cycle
          end if
-         call self%integer_at(k, name, what//' or THRU', value, ok)
+         call self%integer_at(k, name, value, ok, expected=what//' or THRU')
          if (.not. ok) cycle
          if (value < 1) call self%error_at(k, name//': '''//integer_text(value)//''' is no '//what(index(what, ' ') + 1:))
          if (through) then

@@ -1,6 +1,6 @@
 !> Reads case control, the lines before BEGIN BULK, which say stage by stage what the program does.
 module case_control
-   use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, limit_type, number_set, read_number, &
+   use case_entries, only: choose, cut_entry, entry_type, global_keys, limit_type, number_set, read_number, &
                            read_set, set_reference, stage_keys, value_error
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
@@ -65,7 +65,7 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(stage_type) :: common           ! keys above the first SUBCASE hold for every stage
       type(entry_type) :: entry
-      character(:), allocatable :: keys_seen
+      character(:), allocatable :: keys_seen ! in this place: above the stages, or in one stage
       character(:), allocatable :: line
       logical :: goes_on, in_plots
 
@@ -73,7 +73,7 @@ contains
       in_plots = .false.
       control%title = ''
       control%tolerance = 0.0_wp
-      allocate (control%stages(0))
+      allocate (control%stages(0), control%sets(0))
       common%label = ''
       keys_seen = '|'
       found_bulk = .false.
@@ -108,7 +108,10 @@ contains
          else if (entry%key == 'SET') then
             call read_set(text, entry, cursor, control%sets, errors)
          else if (entry%key == 'SUBCASE' .or. any(global_keys == entry%key) .or. any(stage_keys == entry%key)) then
-            call check_repeated(entry, keys_seen, errors)
+            if (entry%key == 'SUBCASE') keys_seen = '|'
+            if (index(keys_seen, '|'//entry%key//'('//entry%describers//')|') > 0) &
+               call errors%add(entry%line, entry%key//': given twice in the same place')
+            keys_seen = keys_seen//entry%key//'('//entry%describers//')|'
             call read_entry(entry, control, common, errors)
          else
             call read_habit(entry, control%parameters, control%ignored, errors)
@@ -140,27 +143,23 @@ contains
    pure subroutine note_idle_sets(control)
       type(case_control_type), intent(inout) :: control
       integer :: i, s
-      logical :: used
 
-      if (.not. allocated(control%sets)) return
       do i = 1, size(control%sets)
-         used = .false.
-         do s = 1, size(control%stages)
-            associate (stage => control%stages(s))
-               used = used .or. names(stage%only) .or. names(stage%watch) .or. names(stage%vibration%response)
-            end associate
-         end do
-         if (.not. used) call control%ignored%add('SET')
+         associate (stages => control%stages, id => control%sets(i)%id)
+            if (.not. any([(names(stages(s)%only, id) .or. names(stages(s)%watch, id) .or. &
+                            names(stages(s)%vibration%response, id), s = 1, size(stages))])) call control%ignored%add('SET')
+         end associate
       end do
 
    contains
 
-      !> Whether LIMITS name set I.
-      pure logical function names(limits)
-         type(limit_type), allocatable, intent(in) :: limits(:)
+      !> Whether LIMITS name the set ID.
+      pure logical function names(limits, id)
+         type(limit_type), intent(in), optional :: limits(:)
+         integer, intent(in)                    :: id
 
          names = .false.
-         if (allocated(limits)) names = any(limits%id == control%sets(i)%id .and. .not. limits%is_mark)
+         if (present(limits)) names = any(limits%id == id .and. .not. limits%is_mark)
       end function names
 
    end subroutine note_idle_sets
@@ -266,23 +265,19 @@ contains
       type(case_control_type), intent(inout) :: control
       type(stage_type), intent(in)           :: common
       type(deck_error_list), intent(inout)   :: errors
-      type(stage_type), allocatable :: longer(:)
       type(set_reference) :: number
       integer :: n
 
       n = size(control%stages)
       call read_number(entry, number, errors)
-      allocate (longer(n + 1))
-      longer(:n) = control%stages
-      longer(n + 1) = common
-      longer(n + 1)%id = number%id
-      longer(n + 1)%line = entry%line
       if (n > 0 .and. number%id > 0) then
-         if (number%id <= longer(n)%id) call errors%add(entry%line, 'SUBCASE: '//integer_text(number%id)// &
-            ' after '//integer_text(longer(n)%id)//', expected ascending numbers: stages run in the order of the deck', &
+         if (number%id <= control%stages(n)%id) call errors%add(entry%line, 'SUBCASE: '//integer_text(number%id)// &
+            ' after '//integer_text(control%stages(n)%id)//', expected ascending numbers: stages run in the order of the deck', &
             entry%first, entry%last)
       end if
-      call move_alloc(longer, control%stages)
+      control%stages = [control%stages, common]
+      control%stages(n + 1)%id = number%id
+      control%stages(n + 1)%line = entry%line
    end subroutine start_stage
 
    !> Without SUBCASE there is one stage. All stages have the same supports: [k_b] is formed once.

@@ -10,7 +10,7 @@ module case_entries
    implicit none
    private
 
-   public :: cut_entry, check_repeated, choose, read_number, value_error, read_set, find_set, numbers_in_set, read_limit
+   public :: cut_entry, choose, read_number, value_error, read_set, numbers_in_set, read_limit
 
    !> Keys for all stages, and keys of a stage.
    character(8), parameter, public :: global_keys(13) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
@@ -88,21 +88,6 @@ contains
       entry%first = min(entry%first, entry%last)
    end subroutine cut_entry
 
-   !> No key may appear twice in the same place (above the stages, or in one stage).
-   subroutine check_repeated(entry, keys_seen, errors)
-      type(entry_type), intent(in)             :: entry
-      character(:), allocatable, intent(inout) :: keys_seen
-      type(deck_error_list), intent(inout)     :: errors
-
-      if (entry%key == 'SUBCASE') then
-         keys_seen = '|'
-      else if (index(keys_seen, '|'//entry%key//'('//entry%describers//')|') > 0) then
-         call errors%add(entry%line, entry%key//': given twice in the same place')
-      else
-         keys_seen = keys_seen//entry%key//'('//entry%describers//')|'
-      end if
-   end subroutine check_repeated
-
    !> CHOICE is the position of the value among WORDS, '|A|B|'. Any other value is an error, and CHOICE keeps its value.
    subroutine choose(entry, words, choice, errors)
       type(entry_type), intent(in)         :: entry
@@ -154,7 +139,7 @@ contains
       type(deck_text_type), intent(in)       :: text
       type(entry_type), intent(in)           :: entry  !! with a value such as '5 = 1, 2,'
       integer, intent(inout)                 :: cursor
-      type(number_set), allocatable, intent(inout) :: sets(:)
+      type(number_set), allocatable, intent(inout) :: sets(:) !! at first of size 0
       type(deck_error_list), intent(inout)   :: errors
       type(number_set) :: set
       integer :: equals
@@ -174,18 +159,8 @@ contains
          set%text = set%text//' '//upper(trim(text%card_part(cursor)))
          cursor = cursor + 1
       end do
-      if (.not. allocated(sets)) allocate (sets(0))
       sets = [sets, set]
    end subroutine read_set
-
-   !> Position of the last set with this ID; 0: none.
-   pure integer function find_set(sets, id) result(at)
-      type(number_set), allocatable, intent(in) :: sets(:)
-      integer, intent(in) :: id
-
-      at = 0
-      if (allocated(sets)) at = findloc(sets%id, id, dim=1, back=.true.)
-   end function find_set
 
    !> Which of NUMBERS are in SET, and its marked surfaces.
    subroutine numbers_in_set(set, numbers, are_in, marks, errors)
@@ -195,65 +170,51 @@ contains
       integer, allocatable, intent(out)    :: marks(:) !! PMARK of its marked surfaces
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: word
-      integer :: at, first, last, mark
+      integer :: at, first, last, number
       logical :: ok, excepts
 
       allocate (marks(0))
       are_in = .false.
       excepts = .false.
-      first = 0
+      first = 0 ! of the number or range before, 0: none
       last = 0
       at = 1
       call next_word(set%text, at, word)
       if (word == '') call errors%add(set%line, 'SET '//integer_text(set%id)//': no number'//expected)
       do while (word /= '')
-         if (word == 'ALL') then
+         ok = .true.
+         select case (word)
+         case ('ALL')
             are_in = .true.
-         else if (word == 'PMARK') then
+         case ('PMARK')
             call next_word(set%text, at, word)
-            call parse_integer(word, mark, ok)
-            if (.not. ok .or. mark < 1) exit
-            marks = [marks, mark]
+            call parse_integer(word, number, ok)
+            ok = ok .and. number > 0
+            if (ok) marks = [marks, number]
             first = 0
             last = 0
-         else if (word == 'EXCEPT' .and. last > first) then
+         case ('EXCEPT')
+            ok = last > first
             excepts = .true.
-         else if (word == 'THRU' .and. first > 0 .and. last == first) then
-            call next_word(set%text, at, word)
-            call parse_integer(word, last, ok)
-            if (.not. ok .or. last <= first) exit
+         case ('THRU')
+            ok = first > 0 .and. last == first
+            if (ok) call next_word(set%text, at, word)
+            if (ok) call parse_integer(word, last, ok)
+            ok = ok .and. last > first
             are_in = are_in .or. (numbers >= first .and. numbers <= last)
             excepts = .false.
-         else
-            excepts = excepts .and. first > 0
-            call take_number(word, ok)
-            if (.not. ok) exit
-         end if
+         case default
+            call parse_integer(word, number, ok)
+            ok = ok .and. number > 0
+            excepts = excepts .and. number >= first .and. number <= last ! else a number of its own
+            where (numbers == number) are_in = .not. excepts
+            if (.not. excepts) first = number
+            if (.not. excepts) last = number
+         end select
+         if (.not. ok) exit
          call next_word(set%text, at, word)
       end do
       if (word /= '') call errors%add(set%line, 'SET '//integer_text(set%id)//': '''//word(:min(20, len(word)))//''''//expected)
-
-   contains
-
-      !> Note a number or, after EXCEPT, exclude it from the range before.
-      subroutine take_number(word, ok)
-         character(*), intent(in) :: word
-         logical, intent(out)     :: ok
-         integer :: number
-
-         call parse_integer(word, number, ok)
-         if (ok) ok = number > 0
-         if (.not. ok) return
-         if (excepts .and. number >= first .and. number <= last) then
-            where (numbers == number) are_in = .false.
-            return
-         end if
-         excepts = .false.
-         first = number
-         last = number
-         where (numbers == number) are_in = .true.
-      end subroutine take_number
-
    end subroutine numbers_in_set
 
    !> The next WORD of TEXT from AT on, empty at the end; blanks and commas separate words.

@@ -44,6 +44,7 @@ contains
       type(deck_error_list), intent(inout) :: errors
       integer(long) :: first, last
       integer :: comma, errors_before, file
+      character(8) :: given
 
       card%line = cursor
       card%n = 0
@@ -65,7 +66,17 @@ contains
          end do
          if (cursor > text%n) exit
          if (.not. is_continuation(text%files(file)%bytes(first:last), comma)) exit
-         call check_marker(text%files(file)%bytes(first:last), comma, cursor, card%marker, errors)
+         associate (line => text%files(file)%bytes(first:last), marker => card%marker(2:))
+            given = line(:min(8, end_of_first_field(line, comma))) ! a name, `+AB`, must be that in field 10 of the line before
+            if (given(2:) == '' .or. upper(given(2:)) == upper(marker)) cycle
+            if (marker == '') then
+               call errors%add(cursor, 'continuation '''//trim(given)//''': the line before it has no such mark in its last '// &
+                               'field; expected '//given(1:1)//' alone, or the same mark there', 1, len_trim(given))
+            else
+               call errors%add(cursor, 'continuation '''//trim(given)//''' does not follow its card: the line before it ends '// &
+                               'in '''//trim(card%marker)//'''', 1, len_trim(given))
+            end if
+         end associate
       end do
       do while (card%n > 0)
          if (card%fields(card%n)%length > 0) exit
@@ -152,26 +163,6 @@ contains
       end associate
    end subroutine check_first_field
 
-   !> The user's name of a continuation (`+AB`) must be that in field 10 of the line before, MARKER.
-   subroutine check_marker(line, comma, at, marker, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: comma, at
-      character(8), intent(in)             :: marker
-      type(deck_error_list), intent(inout) :: errors
-      character(8) :: given
-
-      given = line(:min(8, end_of_first_field(line, comma)))
-      if (given(2:) == '') return
-      if (upper(given(2:)) == upper(marker(2:))) return
-      if (marker(2:) == '') then
-         call errors%add(at, 'continuation '''//trim(given)//''': the line before it has no such mark in its last field; '// &
-                         'expected '//given(1:1)//' alone, or the same mark there', 1, len_trim(given))
-      else
-         call errors%add(at, 'continuation '''//trim(given)//''' does not follow its card: the line before it ends in '''// &
-                         trim(marker)//'''', 1, len_trim(given))
-      end if
-   end subroutine check_marker
-
    !> Cut one line into fields and append them to CARD. Fixed fields: eight of 8 columns, or four of 16, after the name; columns 73-80
    !! are the continuation mark. Free field: eight or four entries between commas, and one more for the mark.
    recursive subroutine cut_line(line, comma, at, has_tabs, card, errors)
@@ -189,7 +180,11 @@ contains
          tab = index(line, achar(9))
          if (tab > 0) then
             call errors%add(at, 'a tab in column '//integer_text(tab)//': expected blanks, fields are columns of eight', tab, tab)
-            plain = without_tabs(line)
+            plain = line(:min(len(line), 1000))
+            do while (tab > 0) ! blanks up to the next field, so that one tab makes one error
+               plain = plain(:tab - 1)//repeat(' ', 8 - modulo(tab - 1, 8))//plain(tab + 1:)
+               tab = index(plain, achar(9))
+            end do
             call cut_line(plain, index(plain, ','), at, .false., card, errors)
             return
          end if
@@ -230,23 +225,6 @@ contains
                          '+ or *, or blanks', first, last)
       end if
    end subroutine cut_line
-
-   !> TEXT with each tab replaced by blanks up to the next field, so that one tab makes one error.
-   pure function without_tabs(text) result(plain)
-      character(*), intent(in)  :: text
-      character(:), allocatable :: plain
-      integer :: i
-
-      plain = ''
-      do i = 1, len(text)
-         if (text(i:i) == achar(9)) then
-            plain = plain//repeat(' ', 8 - modulo(len(plain), 8))
-         else
-            plain = plain//text(i:i)
-         end if
-         if (len(plain) > 1000) return
-      end do
-   end function without_tabs
 
    !> Append a field: ENTRY without surrounding blanks, in capitals.
    subroutine push(card, entry, at, first, last, errors)

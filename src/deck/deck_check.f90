@@ -2,11 +2,10 @@
 module deck_check
    use bulk_data, only: bulk_data_type, rigid_card
    use card_fields, only: number_of
-   use card_reader, only: card_kind
+   use deck_input, only: card_kind, deck_type
    use case_control, only: case_control_type
    use deck_cards, only: add_field_error, card_name
    use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
    use deck_text, only: deck_text_type
    use lists, only: id_table_type, sorted_order
    use text_tools, only: integer_text
@@ -91,7 +90,7 @@ contains
    !> Find repeated ids of the kinds with few cards. Properties and PMARK share their ids, as properties do in NASTRAN.
    subroutine check_ids(self)
       class(checked_deck), intent(in) :: self
-      integer :: direction, i
+      integer :: before, i
 
       associate (bulk => self%bulk)
          call self%report_repeated('property', [bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%pmark%id], &
@@ -114,36 +113,33 @@ contains
          call self%report_repeated('JAMPL', bulk%jampl%id, bulk%jampl%line)
          call self%report_repeated('TABDMP1', bulk%tabdmp1%id, bulk%tabdmp1%line)
          do i = 1, size(bulk%joint)
-            call check_law(bulk%joint(i)%line, bulk%joint(i)%law)
+            call check_reference(bulk%joint(i)%line, 'PJID', bulk%joint(i)%law, 'PJOINT', bulk%pjoint%id)
          end do
+         before = 0 ! once for neighbours with one law
          do i = 1, size(bulk%cjoint)
-            if (i > 1) then
-               if (bulk%cjoint(i)%law == bulk%cjoint(i - 1)%law) cycle
-            end if
-            call check_law(bulk%cjoint(i)%line, bulk%cjoint(i)%law)
+            if (bulk%cjoint(i)%law /= before) &
+               call check_reference(bulk%cjoint(i)%line, 'PJID', bulk%cjoint(i)%law, 'PJOINT', bulk%pjoint%id)
+            before = bulk%cjoint(i)%law
          end do
          do i = 1, size(bulk%pjoint)
             associate (card => bulk%pjoint(i))
-               do direction = 1, 2
-                  if (card%shear_laws(direction) == 0 .or. any(bulk%jshear%id == card%shear_laws(direction))) cycle
-                  call self%field_error(card%line, merge('SIDX', 'SIDY', direction == 1), 'there is no JSHEAR '// &
-                                        integer_text(card%shear_laws(direction)))
-               end do
-               if (card%normal_law == 0 .or. any(bulk%jnorm%id == card%normal_law)) cycle
-               call self%field_error(card%line, 'NID', 'there is no JNORM '//integer_text(card%normal_law))
+               call check_reference(card%line, 'SIDX', card%shear_laws(1), 'JSHEAR', bulk%jshear%id)
+               call check_reference(card%line, 'SIDY', card%shear_laws(2), 'JSHEAR', bulk%jshear%id)
+               call check_reference(card%line, 'NID', card%normal_law, 'JNORM', bulk%jnorm%id)
             end associate
          end do
       end associate
 
    contains
 
-      !> Report a PJOINT ID that is not in the deck; ID is 0 where it could not be read.
-      subroutine check_law(line, id)
-         integer, intent(in) :: line, id
+      !> Report that FIELD of the card on LINE names a card that is not among those with the numbers IDS; ID is 0 where the field is
+      !! blank or could not be read.
+      subroutine check_reference(line, field, id, card, ids)
+         integer, intent(in)      :: line, id, ids(:)
+         character(*), intent(in) :: field, card
 
-         if (id > 0 .and. all(self%bulk%pjoint%id /= id)) &
-            call self%field_error(line, 'PJID', 'there is no PJOINT '//integer_text(id))
-      end subroutine check_law
+         if (id > 0 .and. all(ids /= id)) call self%field_error(line, field, 'there is no '//card//' '//integer_text(id))
+      end subroutine check_reference
 
    end subroutine check_ids
 
@@ -170,39 +166,34 @@ contains
       class(checked_deck), intent(in) :: self
       character(*), intent(in)       :: noun    !! what the numbers identify
       integer, intent(in)            :: id(:), line(:)
-      integer, intent(in), optional  :: n_cards !! number of cards with their number in data field 1; the
-                                                      !! others are blocks, with nodes from N1 and elements from E1; default: all
+      integer, intent(in), optional  :: n_cards !! cards with their number in data field 1; the others are blocks, with
+                                                !! nodes from N1 and elements from E1; default: all
       type(id_table_type)  :: table
       integer, allocatable :: again(:), order(:)
-      integer :: k, last
-      logical :: by_block
+      integer :: k, last_card
+      logical :: has_more
       character(:), allocatable :: words
 
       words = ''
+      last_card = size(id)
+      if (present(n_cards)) last_card = n_cards
       call table%build(id)
       call table%list_repeated(again)
       call sorted_order(line(again), order)
-      last = 0
-      do while (last < size(again))
-         k = last + 1
-         last = k
-         do while (last < size(again))
-            if (line(again(order(last + 1))) /= line(again(order(k)))) exit
-            last = last + 1
-         end do
-         associate (this => again(order(k)))
-            if (id(this) == 0) cycle ! a field that could not be read
-            words = noun//' '//integer_text(id(this))//trim(merge(', and more of this card,', repeat(' ', 24), last > k))// &
-                    ' is given twice, first in '//self%text%place(line(table%find(id(this))))
-            by_block = .false.
-            if (present(n_cards)) by_block = this > n_cards
-            if (by_block) then
-               call self%field_error(line(this), merge('N1', 'E1', noun == 'node'), words)
+      again = again(order)
+      associate (lines => line(again))
+         do k = 1, size(again)
+            if (id(again(k)) == 0 .or. any(lines(max(1, k - 1):k - 1) == lines(k))) cycle ! unreadable, or reported
+            has_more = any(lines(k + 1:min(k + 1, size(lines))) == lines(k))
+            words = noun//' '//integer_text(id(again(k)))//trim(merge(', and more of this card,', repeat(' ', 24), has_more))// &
+                    ' is given twice, first in '//self%text%place(line(table%find(id(again(k)))))
+            if (again(k) > last_card) then
+               call self%field_error(lines(k), merge('N1', 'E1', noun == 'node'), words)
             else
-               call self%field_error(line(this), 1, words)
+               call self%field_error(lines(k), 1, words)
             end if
-         end associate
-      end do
+         end do
+      end associate
    end subroutine report_repeated
 
 end module deck_check

@@ -1,19 +1,20 @@
 !> Reads a deck, its text, case control and bulk data, in one pass and collects all errors.
 module deck_input
    use bulk_data, only: bulk_data_type
-   use card_reader, only: card_kind, card_reader_type
+   use card_fields, only: card_fields_type
    use case_control, only: case_control_type, read_case_control, watch_also
    use deck_cards, only: card_name, card_type, check_first_field, is_continuation, read_card
    use deck_errors, only: deck_error_list
    use deck_parameters, only: parameter_type
    use deck_text, only: deck_text_of_bytes, deck_text_type, is_include, read_deck_text
+   use, intrinsic :: iso_fortran_env, only: int8
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
    use lists, only: id_table_type
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
                          read_temperature
-   use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark, fill_grid_defaults, &
-                         read_grid_defaults, read_system, system_names
+   use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark, read_grid_defaults, &
+                         read_system, system_names
    use nastran_compatibility, only: is_idle_card
    use property_cards, only: read_beam_load, read_beam_property, read_conrod, read_mat1, read_parameter, read_paxis, &
                              read_prod, read_pshell, read_psolid
@@ -25,6 +26,15 @@ module deck_input
 
    public :: read_deck, read_deck_of_text
 
+   !> One kind of card, and the routine that reads it. The kinds of one array share a routine.
+   type, public :: card_kind
+      character(8) :: name = ''
+      character(8), allocatable :: fields(:)         !! names of the data fields, as far as cards of this kind have been read
+      integer, private :: routine = 0                ! the same for kinds that share a routine
+      integer, private :: n = 0                      ! number of cards of this kind
+      procedure(read_one), pointer, nopass, private :: read => null()
+   end type card_kind
+
    type, public :: deck_type
       type(deck_text_type)    :: text
       type(case_control_type) :: control
@@ -33,6 +43,16 @@ module deck_input
       type(card_kind), allocatable :: kinds(:) !! of card, with their field tables
    end type deck_type
 
+   abstract interface
+      !> Stores the fields of CARD in entry CARD%I of its array of BULK.
+      subroutine read_one(card, bulk)
+         import :: bulk_data_type, card_fields_type
+         type(card_fields_type), intent(inout) :: card
+         type(bulk_data_type), intent(inout)   :: bulk
+      end subroutine read_one
+   end interface
+
+   integer, parameter      :: many_lines = 5000 ! length of a deck from which two threads pay
    character(*), parameter :: end_of_data = 'ENDDATA', behind_end = 'text behind ENDDATA' ! BEHIND_END as an entry without effect
 
 contains
@@ -40,79 +60,106 @@ contains
    !> All cards and the routines that read them. A new card is a line here, or a name in the line of the cards in the same array. GRID
    !! stands first, see read_all. No routine depends on what another has read.
    subroutine list_cards(cards)
-      type(card_reader_type), intent(inout) :: cards
+      type(card_kind), allocatable, intent(out) :: cards(:)
 
-      call cards%add_kinds(['GRID'], read_grid)
-      call cards%add_kinds(['GRDSET'], read_grid_defaults)
-      call cards%add_kinds(system_names, read_system)
-      call cards%add_kinds(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA '], read_element)
-      call cards%add_kinds(['CBAR ', 'CBEAM', 'CROD '], read_edge)
-      call cards%add_kinds(['BLOCK2', 'BLOCK3'], read_block)
-      call cards%add_kinds(['PMARK'], read_pmark)
-      call cards%add_kinds(['PSHELL'], read_pshell)
-      call cards%add_kinds(['PAXIS'], read_paxis)
-      call cards%add_kinds(['PSOLID'], read_psolid)
-      call cards%add_kinds(['PROD'], read_prod)
-      call cards%add_kinds(['PBAR  ', 'PBARL ', 'PBEAM ', 'PBEAML'], read_beam_property)
-      call cards%add_kinds(['CONROD'], read_conrod)
-      call cards%add_kinds(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
-      call cards%add_kinds(['PELAS', 'PBUSH'], read_spring_property)
-      call cards%add_kinds(['CONM2 ', 'CMASS2'], read_mass)
-      call cards%add_kinds(['MAT1'], read_mat1)
-      call cards%add_kinds(['SPC ', 'SPC1', 'SPCM'], read_support)
-      call cards%add_kinds(['SPCADD'], read_sum)
-      call cards%add_kinds(['RBE2 ', 'RBE3 ', 'RBAR ', 'RBE2M', 'RBE3M'], read_rigid)
-      call cards%add_kinds(['NODEAT'], read_place)
-      call cards%add_kinds(['SHELLTO'], read_tie)
-      call cards%add_kinds(['MPC'], read_equation)
-      call cards%add_kinds(['MPCADD'], read_sum)
-      call cards%add_kinds(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)
-      call cards%add_kinds(['PLOAD4', 'PLOADE', 'PLOAD ', 'PLOAD2'], read_pressure)
-      call cards%add_kinds(['PLOADM', 'FORCEM'], read_surface_load)
-      call cards%add_kinds(['GRAV  ', 'RFORCE', 'ACCEL1'], read_gravity)
-      call cards%add_kinds(['PLOAD1'], read_beam_load)
-      call cards%add_kinds(['SPCD'], read_displacement)
-      call cards%add_kinds(['TEMP ', 'TEMPD'], read_temperature)
-      call cards%add_kinds(['TEMPP1'], read_plate_temperature)
-      call cards%add_kinds(['LOAD'], read_load)
-      call cards%add_kinds(['BOLT'], read_bolt)
-      call cards%add_kinds(['JOINT'], read_joint)
-      call cards%add_kinds(['CJOINT'], read_cjoint)
-      call cards%add_kinds(['PJOINT'], read_pjoint)
-      call cards%add_kinds(['JNORM'], read_jnorm)
-      call cards%add_kinds(['JSHEAR'], read_jshear)
-      call cards%add_kinds(['JGAP'], read_jgap)
-      call cards%add_kinds(['JINCR'], read_jincr)
-      call cards%add_kinds(['EIGRL'], read_eigrl)
-      call cards%add_kinds(['JAMPL'], read_jampl)
-      call cards%add_kinds(['FREQ1', 'FREQ2'], read_freq1)
-      call cards%add_kinds(['FREQ4'], read_freq4)
-      call cards%add_kinds(['TABDMP1'], read_tabdmp1)
-      call cards%add_kinds(['PARAM'], read_parameter)
+      allocate (cards(0))
+      call add(['GRID'], read_grid)
+      call add(['GRDSET'], read_grid_defaults)
+      call add(system_names, read_system)
+      call add(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA '], read_element)
+      call add(['CBAR ', 'CBEAM', 'CROD '], read_edge)
+      call add(['BLOCK2', 'BLOCK3'], read_block)
+      call add(['PMARK'], read_pmark)
+      call add(['PSHELL'], read_pshell)
+      call add(['PAXIS'], read_paxis)
+      call add(['PSOLID'], read_psolid)
+      call add(['PROD'], read_prod)
+      call add(['PBAR  ', 'PBARL ', 'PBEAM ', 'PBEAML'], read_beam_property)
+      call add(['CONROD'], read_conrod)
+      call add(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
+      call add(['PELAS', 'PBUSH'], read_spring_property)
+      call add(['CONM2 ', 'CMASS2'], read_mass)
+      call add(['MAT1'], read_mat1)
+      call add(['SPC ', 'SPC1', 'SPCM'], read_support)
+      call add(['SPCADD'], read_sum)
+      call add(['RBE2 ', 'RBE3 ', 'RBAR ', 'RBE2M', 'RBE3M'], read_rigid)
+      call add(['NODEAT'], read_place)
+      call add(['SHELLTO'], read_tie)
+      call add(['MPC'], read_equation)
+      call add(['MPCADD'], read_sum)
+      call add(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)
+      call add(['PLOAD4', 'PLOADE', 'PLOAD ', 'PLOAD2'], read_pressure)
+      call add(['PLOADM', 'FORCEM'], read_surface_load)
+      call add(['GRAV  ', 'RFORCE', 'ACCEL1'], read_gravity)
+      call add(['PLOAD1'], read_beam_load)
+      call add(['SPCD'], read_displacement)
+      call add(['TEMP ', 'TEMPD'], read_temperature)
+      call add(['TEMPP1'], read_plate_temperature)
+      call add(['LOAD'], read_load)
+      call add(['BOLT'], read_bolt)
+      call add(['JOINT'], read_joint)
+      call add(['CJOINT'], read_cjoint)
+      call add(['PJOINT'], read_pjoint)
+      call add(['JNORM'], read_jnorm)
+      call add(['JSHEAR'], read_jshear)
+      call add(['JGAP'], read_jgap)
+      call add(['JINCR'], read_jincr)
+      call add(['EIGRL'], read_eigrl)
+      call add(['JAMPL'], read_jampl)
+      call add(['FREQ1', 'FREQ2'], read_freq1)
+      call add(['FREQ4'], read_freq4)
+      call add(['TABDMP1'], read_tabdmp1)
+      call add(['PARAM'], read_parameter)
+
+   contains
+
+      !> Add the kinds NAMES, which READ reads.
+      subroutine add(names, read)
+         character(*), intent(in) :: names(:)
+         procedure(read_one)      :: read
+         type(card_kind) :: kind
+         integer :: k
+
+         kind%routine = size(cards) + 1
+         kind%read => read
+         do k = 1, size(names)
+            kind%name = names(k)
+            cards = [cards, kind]
+         end do
+      end subroutine add
+
    end subroutine list_cards
 
    !> Allocate every array of BULK for the largest number of entries that its cards can give.
    subroutine make_room(cards, bulk)
-      type(card_reader_type), intent(in)  :: cards
+      type(card_kind), intent(in)         :: cards(:)
       type(bulk_data_type), intent(inout) :: bulk
 
-      allocate (bulk%grid(cards%n_of('GRID')), bulk%system(2*cards%n_of('CORD1R')), bulk%element(cards%n_of('CHEXA')), &
-         bulk%edge(cards%n_of('CROD')), bulk%plate(0), bulk%beam_property(cards%n_of('PBAR')), &
-         bulk%beam_load(cards%n_of('PLOAD1')), bulk%block(cards%n_of('BLOCK2')), bulk%pmark(cards%n_of('PMARK')), &
-         bulk%pshell(cards%n_of('PSHELL')), bulk%paxis(cards%n_of('PAXIS')), bulk%psolid(cards%n_of('PSOLID')), &
-         bulk%prod(cards%n_of('PROD')), bulk%conrod(cards%n_of('CONROD')), bulk%spring(cards%n_of('CBUSH')), &
-         bulk%spring_property(2*cards%n_of('PBUSH')), bulk%mass(cards%n_of('CONM2')), bulk%mat1(cards%n_of('MAT1')), &
-         bulk%support(2*cards%n_of('SPC')), bulk%support_sum(cards%n_of('SPCADD')), bulk%rigid(cards%n_of('RBE2')), &
-         bulk%place(cards%n_of('NODEAT')), bulk%tie(cards%n_of('SHELLTO')), &
-         bulk%equation(cards%n_of('MPC')), bulk%equation_sum(cards%n_of('MPCADD')), bulk%force(cards%n_of('FORCE')), &
-         bulk%pressure(cards%n_of('PLOAD')), bulk%surface_load(cards%n_of('PLOADM')), bulk%gravity(cards%n_of('GRAV')), &
-         bulk%displacement(2*cards%n_of('SPCD')), bulk%temperature(4*cards%n_of('TEMP')), bulk%load(cards%n_of('LOAD')), &
-         bulk%plate_temperature(cards%n_of('TEMPP1')), &
-         bulk%bolt(cards%n_of('BOLT')), bulk%joint(cards%n_of('JOINT')), bulk%cjoint(cards%n_of('CJOINT')), &
-         bulk%pjoint(cards%n_of('PJOINT')), bulk%jnorm(cards%n_of('JNORM')), bulk%jshear(cards%n_of('JSHEAR')), &
-         bulk%jgap(cards%n_of('JGAP')), bulk%jincr(cards%n_of('JINCR')), bulk%eigrl(cards%n_of('EIGRL')), &
-         bulk%jampl(cards%n_of('JAMPL')), &
-         bulk%freq1(cards%n_of('FREQ1')), bulk%freq4(cards%n_of('FREQ4')), bulk%tabdmp1(cards%n_of('TABDMP1')))
+      allocate (bulk%grid(n('GRID')), bulk%system(2*n('CORD1R')), bulk%element(n('CHEXA')), bulk%edge(n('CROD')), &
+         bulk%plate(0), bulk%beam_property(n('PBAR')), bulk%beam_load(n('PLOAD1')), bulk%block(n('BLOCK2')), &
+         bulk%pmark(n('PMARK')), bulk%pshell(n('PSHELL')), bulk%paxis(n('PAXIS')), bulk%psolid(n('PSOLID')), &
+         bulk%prod(n('PROD')), bulk%conrod(n('CONROD')), bulk%spring(n('CBUSH')), bulk%spring_property(2*n('PBUSH')), &
+         bulk%mass(n('CONM2')), bulk%mat1(n('MAT1')), bulk%support(2*n('SPC')), bulk%support_sum(n('SPCADD')), &
+         bulk%rigid(n('RBE2')), bulk%place(n('NODEAT')), bulk%tie(n('SHELLTO')), bulk%equation(n('MPC')), &
+         bulk%equation_sum(n('MPCADD')), bulk%force(n('FORCE')), bulk%pressure(n('PLOAD')), bulk%surface_load(n('PLOADM')), &
+         bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
+         bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
+         bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
+         bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), bulk%freq1(n('FREQ1')), &
+         bulk%freq4(n('FREQ4')), bulk%tabdmp1(n('TABDMP1')))
+
+   contains
+
+      !> Number of cards of the kind NAME and of the kinds in the same array.
+      pure integer function n(name)
+         character(*), intent(in) :: name
+         integer :: k
+
+         k = findloc(cards%name, name, dim=1)
+         if (k == 0) error stop 'there is no card '//name
+         n = sum(cards%n, mask=cards%routine == cards(k)%routine)
+      end function n
+
    end subroutine make_room
 
    !> Read the deck PATH. READABLE is false where the file cannot be read; errors in the deck go to ERRORS.
@@ -146,7 +193,7 @@ contains
    subroutine read_lines(deck, errors)
       type(deck_type), intent(inout), target       :: deck
       type(deck_error_list), intent(inout), target :: errors
-      type(card_reader_type) :: cards
+      integer(int8), allocatable :: kind_at(:) ! (lines) kind of the card that begins there, 0: none or unknown
       integer :: cursor
       logical :: found_bulk, is_whole
 
@@ -158,13 +205,13 @@ contains
          call errors%add(0, 'no BEGIN BULK: expected it between case control and the cards')
          return
       end if
-      call cards%start(deck%text%n)
-      call list_cards(cards)
+      call list_cards(deck%kinds)
+      allocate (kind_at(deck%text%n), source=0_int8)
       deck%bulk%ignored = deck%control%ignored
       deck%bulk%parameters = deck%control%parameters
-      call find_cards(deck%text, cursor, cards, deck%bulk, errors)
-      call make_room(cards, deck%bulk)
-      call cards%read_all(deck%text, deck%bulk, errors)
+      call find_cards(deck%text, cursor, deck%kinds, kind_at, deck%bulk, errors)
+      call make_room(deck%kinds, deck%bulk)
+      call read_all(deck%text, kind_at, deck%kinds, deck%bulk, errors)
       associate (bulk => deck%bulk) ! the arrays whose cards may fill one entry or several are cut to the filled entries
          bulk%system = bulk%system(:count(bulk%system%line > 0))
          bulk%spring_property = bulk%spring_property(:count(bulk%spring_property%line > 0))
@@ -172,82 +219,93 @@ contains
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
       end associate
-      call fill_grid_defaults(deck%bulk)
+      associate (defaults => deck%bulk%grid_defaults, grid => deck%bulk%grid) ! those of GRDSET fill the blank fields of GRID
+         where (grid%cp < 0) grid%cp = defaults%cp
+         where (grid%cd < 0) grid%cd = defaults%cd
+         where (grid%ps == 0) grid%ps = defaults%ps
+      end associate
       call count_unused(deck%bulk)
       associate (asked => deck%control%stages%vibration)
          call deck%bulk%ignored%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), errors)
       end associate
-      call move_alloc(cards%kinds, deck%kinds)
       deck%is_whole = is_whole
    end subroutine read_lines
 
    !> Note where the cards from line CURSOR to ENDDATA begin. BULK counts all cards, also unknown ones and those without effect. Text
    !! behind ENDDATA has no effect.
-   subroutine find_cards(text, cursor, cards, bulk, errors)
-      type(deck_text_type), intent(in)      :: text
-      integer, intent(inout)                :: cursor
-      type(card_reader_type), intent(inout) :: cards
-      type(bulk_data_type), intent(inout)   :: bulk
-      type(deck_error_list), intent(inout)  :: errors
+   subroutine find_cards(text, cursor, cards, kind_at, bulk, errors)
+      type(deck_text_type), intent(in)     :: text
+      integer, intent(inout)               :: cursor
+      type(card_kind), intent(inout)       :: cards(:)   !! the number of each kind
+      integer(int8), intent(inout)         :: kind_at(:) !! (lines) kind of the card that begins there
+      type(bulk_data_type), intent(inout)  :: bulk
+      type(deck_error_list), intent(inout) :: errors
       integer(long) :: first, last
-      integer :: comma, file
+      integer :: at, comma, file
       integer :: ended_file ! file whose ENDDATA was read last, 1: the deck itself
       logical :: is_open    ! a card may be continued
 
       ended_file = 0
       is_open = .false.
       do while (cursor <= text%n)
-         call text%find(cursor, file, first, last, comma)
-         if (last < first) then
-            cursor = cursor + 1
-         else if (ended_file == 1 .or. file == ended_file) then
+         at = cursor
+         cursor = cursor + 1
+         call text%find(at, file, first, last, comma)
+         if (last < first) cycle
+         if (ended_file == 1 .or. file == ended_file) then
             call bulk%ignored%add(behind_end)
             do while (cursor <= text%n) ! once for each file
                if (ended_file /= 1 .and. text%file_number(cursor) /= ended_file) exit
                cursor = cursor + 1
             end do
-         else if (is_continuation(text%files(file)%bytes(first:last), comma)) then
-            if (.not. is_open) call errors%add(cursor, 'a continuation line without a card before it')
-            cursor = cursor + 1
-         else if (is_include(text%files(file)%bytes(first:last))) then
-            is_open = .false.
-            cursor = cursor + 1     ! the lines of the file follow in the deck text
-         else if (card_name(text%files(file)%bytes(first:last), comma) == end_of_data) then
-            is_open = .false.
-            ended_file = file
-            cursor = cursor + 1
-         else
-            is_open = .true.
-            bulk%n_cards = bulk%n_cards + 1
-            call find_card(text%files(file)%bytes(first:last), comma, text, cursor, cards, bulk, errors)
+            cycle
          end if
+         associate (line => text%files(file)%bytes(first:last))
+            if (is_continuation(line, comma)) then
+               if (.not. is_open) call errors%add(at, 'a continuation line without a card before it')
+               cycle
+            end if
+            is_open = .false.
+            if (is_include(line)) cycle ! the lines of the file follow in the deck text
+            if (card_name(line, comma) == end_of_data) then
+               ended_file = file
+            else
+               is_open = .true.
+               bulk%n_cards = bulk%n_cards + 1
+               call find_card(line, comma, text, at, cards, kind_at, bulk, errors)
+            end if
+         end associate
       end do
       if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck may be truncated; expected ENDDATA after the last card')
    end subroutine find_cards
 
-   !> Note the card that begins with LINE, line CURSOR of TEXT. CURSOR then is a later line.
-   subroutine find_card(line, comma, text, cursor, cards, bulk, errors)
-      character(*), intent(in)              :: line
-      integer, intent(in)                   :: comma !! column of the first comma, 0: none
-      type(deck_text_type), intent(in)      :: text
-      integer, intent(inout)                :: cursor
-      type(card_reader_type), intent(inout) :: cards
-      type(bulk_data_type), intent(inout)   :: bulk
-      type(deck_error_list), intent(inout)  :: errors
+   !> Note the card that begins with LINE, line AT of TEXT.
+   subroutine find_card(line, comma, text, at, cards, kind_at, bulk, errors)
+      character(*), intent(in)             :: line
+      integer, intent(in)                  :: comma !! column of the first comma, 0: none
+      type(deck_text_type), intent(in)     :: text
+      integer, intent(in)                  :: at
+      type(card_kind), intent(inout)       :: cards(:)
+      integer(int8), intent(inout)         :: kind_at(:)
+      type(bulk_data_type), intent(inout)  :: bulk
+      type(deck_error_list), intent(inout) :: errors
       type(card_type)       :: card
       type(deck_error_list) :: faults
-      logical :: is_known
+      character(8) :: name
+      integer :: behind, kind
 
-      is_known = .false.
-      call check_first_field(line, comma, cursor, faults)
-      if (.not. faults%any()) call cards%note_card(card_name(line, comma), cursor, is_known)
-      if (is_known) then
-         cursor = cursor + 1
-      else if (.not. faults%any() .and. is_idle_card(card_name(line, comma))) then
-         call bulk%ignored%add(trim(card_name(line, comma)))
-         cursor = cursor + 1
+      name = card_name(line, comma)
+      kind = 0
+      call check_first_field(line, comma, at, faults)
+      if (.not. faults%any()) kind = findloc(cards%name, name, dim=1)
+      if (kind > 0) then
+         kind_at(at) = int(kind, int8)
+         cards(kind)%n = cards(kind)%n + 1
+      else if (.not. faults%any() .and. is_idle_card(name)) then
+         call bulk%ignored%add(trim(name))
       else
-         call read_card(text, cursor, card, errors) ! finds the other errors of the card
+         behind = at
+         call read_card(text, behind, card, errors) ! finds the other errors of the card
          if (card%name == 'CQUAD9') then
             call errors%add(card%line, 'CQUAD9 is a complete element of nine nodes; expected a CQUAD8, no node inside'// &
                             complete_remedy, 1, 8)
@@ -257,12 +315,64 @@ contains
       end if
    end subroutine find_card
 
+   !> Fill the arrays of BULK with the noted cards, in the order of the deck TEXT; errors go to ERRORS. The first routine, that of the
+   !! nodes, reads about half of a long deck: one thread runs it, a second thread runs the others. The errors have the order of a
+   !! serial run.
+   subroutine read_all(text, kind_at, cards, bulk, errors)
+      type(deck_text_type), intent(in)             :: text
+      integer(int8), intent(in)                    :: kind_at(:)
+      type(card_kind), intent(inout)               :: cards(:)
+      type(bulk_data_type), intent(inout)          :: bulk
+      type(deck_error_list), intent(inout), target :: errors
+      type(deck_error_list), target :: others
+      integer :: k
+
+      !$omp parallel sections default(shared) if(text%n > many_lines)
+      call read_by(cards, 1, kind_at, text, bulk, errors)
+      !$omp section
+      do k = 2, size(cards)
+         call read_by(cards, k, kind_at, text, bulk, others)
+      end do
+      !$omp end parallel sections
+      call errors%add_all(others)
+   end subroutine read_all
+
+   !> Read all cards of routine number ROUTINE.
+   subroutine read_by(cards, routine, kind_at, text, bulk, errors)
+      type(card_kind), intent(inout)               :: cards(:)
+      integer, intent(in)                          :: routine
+      integer(int8), intent(in)                    :: kind_at(:)
+      type(deck_text_type), intent(in)             :: text
+      type(bulk_data_type), intent(inout)          :: bulk
+      type(deck_error_list), intent(inout), target :: errors
+      type(card_fields_type) :: card
+      integer :: behind, left, line
+
+      if (cards(routine)%routine /= routine) return
+      left = sum(cards%n, mask=cards%routine == routine)
+      card%errors => errors
+      line = 0
+      do while (left > 0)
+         line = line + 1
+         if (kind_at(line) == 0) cycle
+         associate (kind => cards(kind_at(line)))
+            if (kind%routine /= routine) cycle
+            behind = line
+            call read_card(text, behind, card%card_type, errors)
+            call move_alloc(kind%fields, card%names)
+            call card%begin()
+            call kind%read(card, bulk)
+            call move_alloc(card%names, kind%fields)
+         end associate
+         left = left - 1
+      end do
+   end subroutine read_by
+
    !> Add the unused properties and coordinate systems of BULK to its entries without effect.
    subroutine count_unused(bulk)
       type(bulk_data_type), intent(inout) :: bulk
 
-      associate (properties => [without_repeats(bulk%block%property), without_repeats(bulk%element%property), &
-                                without_repeats(bulk%edge%property)], &
+      associate (properties => [bulk%block%property, bulk%element%property, bulk%edge%property], &
                  springs => bulk%spring_property, is_bush => bulk%spring%is_bush, system => bulk%system)
          call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%beam_property%id], properties, &
             [spread('PSHELL', 1, size(bulk%pshell)), spread('PAXIS ', 1, size(bulk%paxis)), &
@@ -274,7 +384,7 @@ contains
                             spread('PBUSH ', 1, count(springs%is_bush)))
          if (size(system) == 0) return
          call count_unnamed(system%id, [system%reference, bulk%force%system, bulk%pressure%system, bulk%gravity%system, &
-            bulk%spring%system, bulk%mass%system, without_repeats(bulk%grid%cp), without_repeats(bulk%grid%cd)], &
+            bulk%spring%system, bulk%mass%system, bulk%grid%cp, bulk%grid%cd], &
             system_names(system%kind + merge(0, 3, system%nodes(1) > 0)))
       end associate
 
@@ -284,29 +394,15 @@ contains
       subroutine count_unnamed(id, names, called)
          integer, intent(in)      :: id(:), names(:)
          character(6), intent(in) :: called(:)
-         type(id_table_type) :: table
-         logical :: named(0:size(id))
+         type(id_table_type) :: named
          integer :: i
 
-         call table%build(id)
-         named = .false.
-         do i = 1, size(names)
-            named(table%find(names(i))) = .true.
-         end do
+         call named%build(names)
          do i = 1, size(id)
-            if (id(i) > 0 .and. .not. named(i)) call bulk%ignored%add(trim(called(i)))
+            if (id(i) > 0 .and. named%find(id(i)) == 0) call bulk%ignored%add(trim(called(i)))
          end do
       end subroutine count_unnamed
 
    end subroutine count_unused
-
-   !> LIST without consecutive repetitions: a mesh has long runs of one property.
-   pure function without_repeats(list) result(shorter)
-      integer, intent(in)  :: list(:)
-      integer, allocatable :: shorter(:)
-      integer :: i
-
-      shorter = pack(list, [(i == 1 .or. list(max(1, i - 1)) /= list(i), i = 1, size(list))])
-   end function without_repeats
 
 end module deck_input

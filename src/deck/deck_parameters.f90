@@ -62,6 +62,8 @@ contains
       logical :: is_fixed
 
       is_fixed = index(line, ',') == 0
+      rest = ''
+      value = ''
       do
          at = index(line, '$')
          if (at == 0 .or. at /= index(line, '${')) return ! a comment
@@ -77,9 +79,8 @@ contains
             return
          end if
          parameters(k)%is_used = .true.
-         if (allocated(value)) deallocate (value, rest)
-         allocate (value, source=parameters(k)%value)
-         allocate (rest, source=line(at + closing:))
+         value = parameters(k)%value
+         rest = line(at + closing:)
          width = max(closing, len(value))
          if (len(value) > closing .and. verify(rest, ' '//achar(13)//achar(10)) > 0) then
             blanks = verify(rest, ' ') - 1

@@ -7,6 +7,7 @@ module deck_text
    use deck_parameters, only: fill_parameters, parameter_type
    use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: long
+   use lists, only: first_not_below
    use text_tools, only: integer_text, upper
    implicit none
    private
@@ -187,18 +188,11 @@ contains
    pure integer function part_of(self, i) result(part)
       class(deck_text_type), intent(in) :: self
       integer, intent(in)               :: i
-      integer :: behind, middle
 
-      part = 1
-      behind = self%n_parts + 1
-      do while (behind - part > 1)
-         middle = (part + behind)/2
-         if (self%parts(middle)%first <= i) then
-            part = middle
-         else
-            behind = middle
-         end if
-      end do
+      associate (first => self%parts(:self%n_parts)%first)
+         part = first_not_below(first, i)
+         if (first(part) > i) part = part - 1
+      end associate
    end function part_of
 
    !> Read one file and add its lines.
@@ -279,14 +273,19 @@ contains
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: line, path, resolved
       integer(long) :: first, last
-      integer :: here, ancestor, file, comma
+      integer :: here, ancestor, closing, file, comma
 
       here = text%n
       followed = .false.
       call text%find(here, file, first, last, comma)
       if (.not. is_include(text%files(file)%bytes(first:last))) return
       line = adjustl(text%card_part(here))
-      path = included_path(line(8:))
+      path = trim(adjustl(line(8:)))
+      if (index(path, '=') == 1) path = trim(adjustl(path(2:)))
+      if (scan(path, '''"') == 1) then ! in quotes, the last character of the line is the closing one
+         closing = index(path(2:), path(1:1))
+         path = path(2:merge(closing, 0, len(path) == closing + 1))
+      end if
       if (path == '') then
          call errors%add(here, 'INCLUDE: expected a file name, INCLUDE ''mesh.bdf''')
          return
@@ -370,27 +369,5 @@ contains
       is_include = .true.
       if (len(line) > first + 6) is_include = scan(line(first + 7:first + 7), ' ''"=') == 1
    end function is_include
-
-   !> The file name in the text after INCLUDE: in single or double quotes, or bare.
-   pure function included_path(words) result(path)
-      character(*), intent(in)  :: words
-      character(:), allocatable :: path
-      integer :: closing
-
-      path = trim(adjustl(words))
-      if (path == '') return
-      if (path(1:1) == '=') path = trim(adjustl(path(2:)))
-      if (path == '') return
-      if (path(1:1) == '''' .or. path(1:1) == '"') then
-         closing = index(path(2:), path(1:1))
-         if (closing == 0) then
-            path = ''
-         else if (len_trim(path) > closing + 1) then
-            path = ''
-         else
-            path = path(2:closing)
-         end if
-      end if
-   end function included_path
 
 end module deck_text

@@ -66,19 +66,29 @@ contains
       write (unit, '(5a)') text%place(0), ': ', plural(errors%n, 'error'), ', ', outcome
    end subroutine print_errors
 
-   !> The kinds of ERRORS, and the kind of each error in this ORDER.
+   !> The kinds of ERRORS, and the kind of each error in this ORDER: errors of a kind have the same message without numbers, blanks and
+   !! quoted text. Unknown cards are of one kind where the whole message is the same.
    subroutine sort_into_kinds(errors, order, kinds, kind_of)
       type(deck_error_list), intent(in)         :: errors
       integer, intent(in)                       :: order(:)
       type(kind_type), allocatable, intent(out) :: kinds(:)
       integer, allocatable, intent(out)         :: kind_of(:)
       character(:), allocatable :: words
+      logical :: is_card, quoted
       integer :: i, k, n
 
       allocate (kinds(size(order)), kind_of(size(order)))
       n = 0
       do k = 1, size(order)
-         words = kind_words(errors%items(order(k))%message)
+         associate (message => errors%items(order(k))%message)
+            is_card = index(message, no_card) > 0
+            quoted = .false.
+            words = ''
+            do i = 1, len(message)
+               if (message(i:i) == '''') quoted = .not. quoted
+               if (is_card .or. .not. (quoted .or. scan(message(i:i), ' 0123456789.+-') == 1)) words = words//message(i:i)
+            end do
+         end associate
          do i = 1, n
             if (kinds(i)%words == words) exit
          end do
@@ -86,30 +96,10 @@ contains
          if (i <= n) cycle
          n = n + 1
          kinds(n)%words = words
-         if (index(words, no_card) > 0) kinds(n)%most = 1
+         if (is_card) kinds(n)%most = 1
       end do
       kinds = kinds(:n)
    end subroutine sort_into_kinds
-
-   !> MESSAGE without numbers, blanks and quoted text; the whole message for an unknown card.
-   pure function kind_words(message) result(words)
-      character(*), intent(in)  :: message
-      character(:), allocatable :: words
-      logical :: quoted
-      integer :: i, n
-
-      words = message
-      if (index(message, no_card) > 0) return
-      n = 0
-      quoted = .false.
-      do i = 1, len(message)
-         if (message(i:i) == '''') quoted = .not. quoted
-         if (quoted .or. verify(message(i:i), ' 0123456789.+-') == 0) cycle
-         n = n + 1
-         words(n:n) = message(i:i)
-      end do
-      words = words(:n)
-   end function kind_words
 
    !> LINE for print: a long line is cut, control characters become '?'.
    pure function shown(line) result(words)

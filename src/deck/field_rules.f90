@@ -9,7 +9,7 @@ module field_rules
    implicit none
    private
 
-   public :: parse_integer, parse_real, integer_words, real_words, in_range, is_component_list, list_of
+   public :: parse_integer, parse_real, integer_words, real_words, blank_words, in_range, is_component_list, list_of
 
    integer, parameter :: most_digits = 15, max_exact = 22 ! numbers of so many digits, and 10**22, are exact in real(wp)
    integer :: k
@@ -137,25 +137,19 @@ contains
       ok = ok .and. abs(exponent) < 10000
    end subroutine parse_exponent
 
-   !> The words for an integer from LEAST to MOST; OR_BLANK: the field may be empty.
-   pure function integer_words(least, most, or_blank) result(words)
+   !> The words for an integer from LEAST to MOST.
+   pure function integer_words(least, most) result(words)
       integer, intent(in)           :: least
       integer, intent(in), optional :: most !! default: no limit
-      logical, intent(in)           :: or_blank
       character(:), allocatable     :: words
 
-      if (present(most)) then
-         words = 'an integer from '//integer_text(least)//' to '//integer_text(most)
-      else
-         words = 'an integer of '//integer_text(least)//' or more'
-      end if
-      if (or_blank) words = words//', or blank'
+      words = 'an integer of '//integer_text(least)//' or more'
+      if (present(most)) words = 'an integer from '//integer_text(least)//' to '//integer_text(most)
    end function integer_words
 
-   !> The words for a real in RANGE; OR_BLANK: the field may be empty.
-   pure function real_words(range, or_blank) result(words)
+   !> The words for a real in RANGE.
+   pure function real_words(range) result(words)
       type(real_range), intent(in) :: range
-      logical, intent(in)          :: or_blank
       character(:), allocatable    :: words
 
       words = 'a real number'
@@ -164,8 +158,16 @@ contains
          if (has_least .and. has_most) words = words//' and'
          if (has_most) words = words//trim(merge(' below  ', ' at most', range%below))//' '//real_text(range%most)
       end associate
-      if (or_blank) words = words//', or blank'
    end function real_words
+
+   !> The end of the words for what is expected where the field may be empty.
+   pure function blank_words(or_blank) result(words)
+      logical, intent(in), optional :: or_blank !! default: false
+      character(:), allocatable     :: words
+
+      words = ''
+      if (present(or_blank)) words = trim(merge(', or blank', repeat(' ', 10), or_blank))
+   end function blank_words
 
    !> Whether VALUE is in RANGE.
    pure logical function in_range(range, value)
@@ -196,21 +198,11 @@ contains
    !> Whether COMPONENTS is a list of NASTRAN's degrees of freedom: different digits of 1 to 6.
    pure logical function is_component_list(components)
       integer, intent(in) :: components
-      integer :: rest, digit
-      logical :: seen(6)
+      character(:), allocatable :: digits
+      integer :: i
 
-      seen = .false.
-      is_component_list = .false.
-      rest = components
-      if (rest <= 0) return
-      do while (rest > 0)
-         digit = modulo(rest, 10)
-         if (digit < 1 .or. digit > 6) return
-         if (seen(digit)) return
-         seen(digit) = .true.
-         rest = rest/10
-      end do
-      is_component_list = .true.
+      digits = integer_text(components)
+      is_component_list = verify(digits, '123456') == 0 .and. all([(index(digits, digits(i:i)) == i, i = 1, len(digits))])
    end function is_component_list
 
 end module field_rules

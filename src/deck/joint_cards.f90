@@ -26,6 +26,7 @@ contains
    subroutine read_jgap(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
+      character(:), allocatable :: no_such_field
 
       associate (jgap => bulk%jgap(card%i))
          jgap%line = card%line
@@ -38,41 +39,39 @@ contains
          allocate (jgap%node(0), jgap%gap(0), jgap%at(0), jgap%x(3, 0))
          if (.not. card%given('KIND')) call card%error('KIND', 'blank, expected one of CONST, PLANE, TABLE, NODES, TRUE')
          if (card%is_faulty()) return
+         no_such_field = ': '//card%text_at(2)//' has no such field'
          select case (jgap%kind)
          case ('CONST', 'PLANE')
             if (.not. card%given('G0')) call card%error('G0', 'blank, expected a real number')
-            call check_blank(card, merge(4, list_from, jgap%kind == 'CONST'), card%n)
+            call card%must_be_blank(merge(4, list_from, jgap%kind == 'CONST'), card%n, no_such_field)
          case ('TRUE')
-            call check_blank(card, 3, card%n)
+            call card%must_be_blank(3, card%n, no_such_field)
          case default
-            call check_blank(card, 3, min(7, card%n))
+            call card%must_be_blank(3, 7, no_such_field)
             call read_gaps(card, jgap)
          end select
       end associate
    end subroutine read_jgap
 
-   !> The data fields FIRST to LAST must be blank.
-   subroutine check_blank(card, first, last)
-      type(card_fields_type), intent(inout) :: card
-      integer, intent(in)                   :: first, last
-      integer :: k
-
-      do k = first, last
-         if (card%text_at(k) /= '') call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank: '// &
-                                                       card%text_at(2)//' has no such field')
-      end do
-   end subroutine check_blank
-
    !> The points of TABLE: X, Y, Z, G in groups of four; a blank coordinate is zero, four blank fields are no point. The nodes of NODES:
-   !! G1 and its gap in pairs; two blank fields are no node.
+   !! G1 and its gap in pairs; two blank fields are no node. At least one group must be there.
    subroutine read_gaps(card, jgap)
       type(card_fields_type), intent(inout) :: card
       type(jgap_card), intent(inout)        :: jgap
-      integer :: d, i
+      integer :: d, i, k, length, n
       logical :: ok
 
-      call list_groups(card, merge(4, 2, jgap%kind == 'TABLE'), jgap)
-      do i = 1, size(jgap%at)
+      length = merge(4, 2, jgap%kind == 'TABLE')
+      associate (filled => card%fields%length > 0)
+         jgap%at = pack([(k, k = list_from, card%n, length)], &
+                        [(any(filled(k:min(k + length - 1, card%n))), k = list_from, card%n, length)])
+      end associate
+      n = size(jgap%at)
+      if (n == 0) call card%error('KIND', card%text_at(2)//', but no list follows in continuation lines')
+      jgap%node = spread(0, 1, n)
+      jgap%gap = spread(0.0_wp, 1, n)
+      jgap%x = spread(spread(0.0_wp, 1, 3), 2, n)
+      do i = 1, n
          associate (first => jgap%at(i))
             if (jgap%kind == 'TABLE') then
                do d = 1, 3
@@ -81,30 +80,12 @@ contains
                end do
                call card%real_at(first + 3, 'G', jgap%gap(i), ok, expected='the gap at the point, a real number')
             else
-               call card%integer_at(first, 'G', 'the number of a node', jgap%node(i), ok)
+               call card%integer_at(first, 'G', jgap%node(i), ok, expected='the number of a node')
                call card%real_at(first + 1, 'GAP', jgap%gap(i), ok, expected='the gap at the node, a real number')
             end if
          end associate
       end do
    end subroutine read_gaps
-
-   !> Find the nonblank groups of LENGTH fields in the list of the card, and allocate their data. At least one group must be there.
-   subroutine list_groups(card, length, jgap)
-      type(card_fields_type), intent(inout) :: card
-      integer, intent(in)                   :: length
-      type(jgap_card), intent(inout)        :: jgap
-      integer :: k, n
-
-      associate (filled => card%card%fields%length > 0)
-         jgap%at = pack([(k, k = list_from, card%n, length)], &
-                        [(any(filled(k:min(k + length - 1, card%n))), k = list_from, card%n, length)])
-      end associate
-      n = size(jgap%at)
-      deallocate (jgap%node, jgap%gap, jgap%x)
-      allocate (jgap%node(n), source=0)
-      allocate (jgap%gap(n), jgap%x(3, n), source=0.0_wp)
-      if (n == 0) call card%error('KIND', card%text_at(2)//', but no list follows in continuation lines')
-   end subroutine list_groups
 
    !> JOINT: interface elements between two marked surfaces, or between a marked surface and a rigid base.
    subroutine read_joint(card, bulk)
@@ -189,11 +170,11 @@ contains
       integer  :: k, n
       logical  :: lacks(2:3)
 
-      as_given = card%card
+      as_given = card%card_type
       do k = 8, 24, 8 ! a continuation that begins in field 2 stands under A11, in field 3
          n = merge(6, 2, k < 24)
          if (k + 1 + n > card%n) cycle
-         associate (fields => card%card%fields(k + 1:k + 1 + n))
+         associate (fields => card%fields(k + 1:k + 1 + n))
             if (fields(1)%length == 0 .and. fields(1 + n)%length > 0) fields = cshift(fields, 1)
          end associate
       end do
@@ -214,7 +195,7 @@ contains
          call card%field('PMAX', law%p_max, positive, default=huge(1.0_wp))
          call card%field('DMAX', law%d_max, positive, default=huge(1.0_wp))
          call card%finish(jshear%line)
-         card%card = as_given
+         card%card_type = as_given
          do k = 2, 3
             if (lacks(k)) call card%error(achar(iachar('A') + k - 1)//'11', &
                                           'blank, expected a real number: the first coefficient of a branch that is given')
@@ -227,8 +208,9 @@ contains
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       character(8) :: progression
-      real(wp) :: first
-      integer  :: n
+      real(wp), allocatable :: list(:)
+      real(wp) :: first, share
+      integer  :: k, n
       logical  :: ok
 
       associate (jincr => bulk%jincr(card%i))
@@ -236,9 +218,24 @@ contains
          call card%field('SID', jincr%id)
          call card%field('N', n, default=0, most=most_increments)
          call card%word('PROG', '|ARITH|GEOM|LIST|', progression)
-         if (card%text_at(3) == 'LIST') then ! the fractions follow
+         if (card%text_at(3) == 'LIST') then ! the fractions follow; their sum must be 1 within 1E-4 and is scaled to 1
             jincr%line = card%line
-            if (.not. card%is_faulty()) call read_list(card, n, jincr%fractions)
+            if (card%is_faulty()) return
+            allocate (list(0))
+            do k = 4, card%n
+               if (card%text_at(k) == '') cycle
+               call card%real_at(k, 'SHARE', share, ok, expected='a share of the load change')
+               if (ok .and. share <= 0.0_wp) call card%error_at(k, 'SHARE: '//real_text(share)//', expected above 0')
+               list = [list, share]
+            end do
+            if (card%is_faulty()) return
+            if (card%given('N') .and. n /= size(list)) then
+               call card%error('N', integer_text(n)//', but '//integer_text(size(list))//' shares follow')
+            else if (abs(sum(list) - 1.0_wp) > 1.0e-4_wp) then
+               call card%error_at(4, 'SHARE: the shares add up to '//real_text(sum(list))//', expected 1')
+            else
+               jincr%fractions = list/sum(list)
+            end if
             return
          end if
          call card%field('FIRST', first, real_range(0.0_wp, 1.0_wp, above=.true.), default=0.05_wp)
@@ -257,32 +254,5 @@ contains
          end if
       end associate
    end subroutine read_jincr
-
-   !> The SHARES of PROG = LIST, N of them where N is given. Their sum must be 1 within 1E-4 and is scaled to 1.
-   subroutine read_list(card, n, fractions)
-      type(card_fields_type), intent(inout) :: card
-      integer, intent(in)                   :: n
-      real(wp), allocatable, intent(inout)  :: fractions(:)
-      real(wp) :: share
-      real(wp), allocatable :: list(:)
-      integer :: k
-      logical :: ok
-
-      allocate (list(0))
-      do k = 4, card%n
-         if (card%text_at(k) == '') cycle
-         call card%real_at(k, 'SHARE', share, ok, expected='a share of the load change')
-         if (ok .and. share <= 0.0_wp) call card%error_at(k, 'SHARE: '//real_text(share)//', expected above 0')
-         list = [list, share]
-      end do
-      if (card%is_faulty()) return
-      if (card%given('N') .and. n /= size(list)) then
-         call card%error('N', integer_text(n)//', but '//integer_text(size(list))//' shares follow')
-      else if (abs(sum(list) - 1.0_wp) > 1.0e-4_wp) then
-         call card%error_at(4, 'SHARE: the shares add up to '//real_text(sum(list))//', expected 1')
-      else
-         fractions = list/sum(list)
-      end if
-   end subroutine read_list
 
 end module joint_cards

@@ -2,7 +2,7 @@
 !! Each array of the bulk data has a routine, each kind of card a table. The increment fractions of a stage's load change
 !! (section 5: arithmetic or geometric progression) are here too.
 module load_cards
-   use bulk_data, only: bulk_data_type, gravity_card, of_edge, of_face, of_marks, of_nodes, pressure_card, temperature_card
+   use bulk_data, only: bulk_data_type, of_edge, of_face, of_marks, of_nodes, temperature_card
    use card_fields, only: card_fields_type, id_ranges
    use field_rules, only: positive
    use kinds, only: wp
@@ -125,6 +125,8 @@ contains
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       character(8) :: word
+      integer :: k
+      logical :: ok
 
       associate (pressure => bulk%pressure(card%i), p => bulk%pressure(card%i)%pressure)
          call card%field('SID', pressure%set)
@@ -140,7 +142,21 @@ contains
             call card%word('SORL', '|SURF|', word)
             call card%word('LDIR', '|NORM|', word)
             call card%finish(pressure%line)
-            call read_face(card, pressure)
+            pressure%last = pressure%first
+            if (card%text_at(7) /= 'THRU') then ! two corners of a face
+               do k = 7, 8
+                  if (card%text_at(k) == '') cycle
+                  call card%integer_at(k, trim(merge('G1 ', 'G34', k == 7)), pressure%corners(k - 6), ok, least=1, &
+                                       expected='a node number or THRU')
+               end do
+            else if (card%n < 8) then ! the last element of the range that marks faces
+               call card%error_at(8, 'EID2: blank, expected the number of an element after THRU')
+            else
+               call card%integer_at(8, 'EID2', pressure%last, ok, expected='the number of an element')
+               if (ok .and. pressure%last < pressure%first) call card%error_at(8, 'EID2: '//integer_text(pressure%last)// &
+                  ' is less than EID, expected '//integer_text(pressure%first)//' or more')
+               pressure%last = max(pressure%last, pressure%first)
+            end if
          case ('PLOADE')
             pressure%kind = of_edge
             call card%field('EID', pressure%first)
@@ -165,29 +181,6 @@ contains
       end associate
    end subroutine read_pressure
 
-   !> Data fields 7 and 8 of a PLOAD4: two corners of a face, or THRU and the last element of the range that marks faces.
-   subroutine read_face(card, pressure)
-      type(card_fields_type), intent(inout) :: card
-      type(pressure_card), intent(inout)    :: pressure
-      integer :: k
-      logical :: ok
-
-      pressure%last = pressure%first
-      if (card%text_at(7) /= 'THRU') then
-         do k = 7, 8
-            if (card%text_at(k) /= '') call card%integer_at(k, trim(merge('G1 ', 'G34', k == 7)), 'a node number or THRU', &
-                                                            pressure%corners(k - 6), ok, least=1)
-         end do
-      else if (card%n < 8) then
-         call card%error_at(8, 'EID2: blank, expected the number of an element after THRU')
-      else
-         call card%integer_at(8, 'EID2', 'the number of an element', pressure%last, ok)
-         if (ok .and. pressure%last < pressure%first) call card%error_at(8, 'EID2: '//integer_text(pressure%last)// &
-            ' is less than EID, expected '//integer_text(pressure%first)//' or more')
-         pressure%last = max(pressure%last, pressure%first)
-      end if
-   end subroutine read_face
-
    !> PLOADM: pressure on a marked surface, positive into the body. FORCEM: a total force F (N1, N2, N3), evenly distributed over it.
    subroutine read_surface_load(card, bulk)
       type(card_fields_type), intent(inout) :: card
@@ -211,56 +204,44 @@ contains
       end associate
    end subroutine read_surface_load
 
-   !> GRAV: acceleration A (N1, N2, N3) on all bodies, with RHO of MAT1.
+   !> GRAV: acceleration A (N1, N2, N3) on all bodies, with RHO of MAT1; ACCEL1: on the masses of some nodes. RFORCE: angular velocity
+   !! 2 pi A R and acceleration 2 pi RACC R about an axis through node G.
    subroutine read_gravity(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      real(wp) :: a, direction(3)
-      integer  :: body
+      real(wp), parameter :: two_pi = 6.283185307179586_wp
+      real(wp) :: a, rate, direction(3)
+      integer  :: method, body
 
-      if (card%name == 'RFORCE') then
-         call read_spin(card, bulk%gravity(card%i))
-         return
-      end if
       associate (gravity => bulk%gravity(card%i))
+         gravity%line = card%line
+         gravity%is_spin = card%name == 'RFORCE'
          call card%field('SID', gravity%set)
-         call card%field('CID', gravity%system, default=0, least=0)
-         call card%field('A', a)
-         call card%field(['N1', 'N2', 'N3'], direction, default=0.0_wp)
+         if (gravity%is_spin) then
+            call card%field('G', gravity%node, default=0, least=0)
+            call card%field('CID', gravity%system, default=0, least=0)
+            call card%field('A', a, default=0.0_wp)
+            call card%field(['R1', 'R2', 'R3'], direction, default=0.0_wp)
+            call card%field('METHOD', method, default=1, most=2) ! both methods follow the distribution of the mass
+            call card%field('RACC', rate, default=0.0_wp)
+            gravity%spin = two_pi*a*direction
+            gravity%spin_rate = two_pi*rate*direction
+         else
+            call card%field('CID', gravity%system, default=0, least=0)
+            call card%field('A', a)
+            call card%field(['N1', 'N2', 'N3'], direction, default=0.0_wp)
+            gravity%acceleration = a*direction
+         end if
          if (card%name == 'ACCEL1') then
-            gravity%line = card%line
             call card%list_ranges(9, 'GRID', 'a node number', gravity%nodes)
          else
             call card%field('MB', body, default=0, least=-1, most=0) ! no superelements
             call card%finish(gravity%line)
          end if
-         call card%check_direction('N1', 'the acceleration', direction)
-         gravity%acceleration = a*direction
+         call card%check_direction(merge('R1', 'N1', gravity%is_spin), &
+                                   trim(merge('the rotation    ', 'the acceleration', gravity%is_spin)), direction)
       end associate
    end subroutine read_gravity
-
-   !> RFORCE: angular velocity 2 pi A R and acceleration 2 pi RACC R about an axis through node G.
-   subroutine read_spin(card, gravity)
-      type(card_fields_type), intent(inout) :: card
-      type(gravity_card), intent(inout)     :: gravity
-      real(wp), parameter :: two_pi = 6.283185307179586_wp
-      real(wp) :: a, rate, direction(3)
-      integer  :: method, body
-
-      gravity%is_spin = .true.
-      call card%field('SID', gravity%set)
-      call card%field('G', gravity%node, default=0, least=0)
-      call card%field('CID', gravity%system, default=0, least=0)
-      call card%field('A', a, default=0.0_wp)
-      call card%field(['R1', 'R2', 'R3'], direction, default=0.0_wp)
-      call card%field('METHOD', method, default=1, most=2) ! both methods follow the distribution of the mass
-      call card%field('RACC', rate, default=0.0_wp)
-      call card%field('MB', body, default=0, least=-1, most=0)
-      call card%finish(gravity%line)
-      call card%check_direction('R1', 'the rotation', direction)
-      gravity%spin = two_pi*a*direction
-      gravity%spin_rate = two_pi*rate*direction
-   end subroutine read_spin
 
    !> LOAD: S (S1 L1 + S2 L2 + ...). The sets L hold load cards other than LOAD.
    subroutine read_load(card, bulk)
@@ -290,7 +271,7 @@ contains
                cycle
             end if
             call card%real_at(k, 'S', factor, factor_ok)
-            call card%integer_at(k + 1, 'L', 'a load set number of 1 or more', set, set_ok, least=1)
+            call card%integer_at(k + 1, 'L', set, set_ok, least=1, expected='a load set number of 1 or more')
             if (.not. (factor_ok .and. set_ok)) cycle
             load%factors = [load%factors, factor]
             load%sets = [load%sets, set]

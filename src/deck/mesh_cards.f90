@@ -2,7 +2,7 @@
 !! Nodes: GRID and its defaults GRDSET. Coordinate systems: by three nodes (CORD1R, CORD1C, CORD1S) or by three points (CORD2R,
 !! CORD2C, CORD2S). Edges: CBAR and CROD. Marked surfaces: PMARK. Blocks: BLOCK2 and BLOCK3.
 module mesh_cards
-   use bulk_data, only: block_card, bulk_data_type, edge_cbar, edge_cbeam, edge_crod, plate_card, system_card
+   use bulk_data, only: bulk_data_type, edge_cbar, edge_cbeam, edge_crod, plate_card, system_card
    use card_fields, only: card_fields_type
    use element_kinds, only: element_table, kind_hexa20, kind_penta15, kind_quad4, kind_quad8, kind_tria3, kind_tria6, max_nodes
    use field_rules, only: parse_integer, positive
@@ -11,7 +11,7 @@ module mesh_cards
    implicit none
    private
 
-   public :: read_system, read_grid_defaults, fill_grid_defaults, read_grid, read_element, read_edge, read_pmark, read_block
+   public :: read_system, read_grid_defaults, read_grid, read_element, read_edge, read_pmark, read_block
 
    character(6), parameter, public :: system_names(6) = ['CORD1R', 'CORD1C', 'CORD1S', 'CORD2R', 'CORD2C', 'CORD2S']
    character(3), parameter :: node_names(max_nodes) = ['G1 ', 'G2 ', 'G3 ', 'G4 ', 'G5 ', 'G6 ', 'G7 ', 'G8 ', 'G9 ', 'G10', &
@@ -76,17 +76,6 @@ contains
       if (card%i > 1) call card%errors%add(card%line, 'GRDSET: given twice; expected at most one in a deck')
    end subroutine read_grid_defaults
 
-   !> Fill the blank fields CP, CD and PS of all GRID cards from GRDSET.
-   pure subroutine fill_grid_defaults(bulk)
-      type(bulk_data_type), intent(inout) :: bulk
-
-      associate (defaults => bulk%grid_defaults, grid => bulk%grid)
-         where (grid%cp < 0) grid%cp = defaults%cp
-         where (grid%cd < 0) grid%cd = defaults%cd
-         where (grid%ps == 0) grid%ps = defaults%ps
-      end associate
-   end subroutine fill_grid_defaults
-
    !> GRID: a node. In large field Gmsh writes whole coordinates without a decimal point, so that integers are accepted here.
    subroutine read_grid(card, bulk)
       type(card_fields_type), intent(inout) :: card
@@ -110,10 +99,9 @@ contains
    subroutine read_element(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      integer :: kind
-
       type(plate_card) :: plate
       character(:), allocatable :: flag
+      integer :: complete, k, kind
 
       kind = findloc(element_table%card, card%name, dim=1, back=.true.) ! the second-order kind where there is one
       associate (element => bulk%element(card%i), n => element_table(kind)%n_nodes, corners => element_table(kind)%n_corners)
@@ -143,38 +131,22 @@ contains
             call card%blank(['ZOFFS'])
          end if
          element%line = card%line
-         if (kind == kind_hexa20) then ! complete second order, with face and centre nodes, as Gmsh writes it
-            call check_end(card, n, 27, element%nodes(corners + 1:))
-         else if (kind == kind_penta15) then
-            call check_end(card, n, 18, element%nodes(corners + 1:))
-         else
+         complete = 0 ! nodes of complete second order, on faces and in the centre too, as Gmsh writes it
+         if (kind == kind_hexa20) complete = 27
+         if (kind == kind_penta15) complete = 18
+         if (complete == 0) then
             call card%finish(element%line)
+         else if (card%n == 2 + complete) then
+            call card%error_at(3 + n, 'a complete element of '//integer_text(complete)//' nodes; expected at most '// &
+                               integer_text(n)//', no nodes inside faces'//complete_remedy)
+            element%nodes(corners + 1:) = 0 ! the mid-side nodes have another order
+         else if (card%n > 2 + n) then
+            k = findloc(card%fields(3 + n:card%n)%length > 0, .true., dim=1) + 2 + n
+            call card%error_at(k, ''''//card%text_at(k)//''' after the last node, G'//integer_text(n)//', expected nothing')
          end if
          element%kind = merge(kind, element_table(kind)%linear, any(element%nodes(corners + 1:n) > 0))
       end associate
    end subroutine read_element
-
-   !> The fields after the last of the N nodes of a solid must be blank. An element of COMPLETE nodes gets a message of its own, and its
-   !! MID_SIDE nodes, which have another order, are dropped.
-   subroutine check_end(card, n, complete, mid_side)
-      type(card_fields_type), intent(inout) :: card
-      integer, intent(in)                   :: n, complete
-      integer, intent(inout)                :: mid_side(:)
-      integer :: first
-
-      first = 3 + n
-      if (card%n < first) return
-      if (card%n == 2 + complete) then
-         call card%error_at(first, 'a complete element of '//integer_text(complete)//' nodes; expected at most '// &
-                            integer_text(n)//', no nodes inside faces'//complete_remedy)
-         mid_side = 0
-      else
-         do while (card%text_at(first) == '')
-            first = first + 1
-         end do
-         call card%error_at(first, ''''//card%text_at(first)//''' after the last node, G'//integer_text(n)//', expected nothing')
-      end if
-   end subroutine check_end
 
    !> CBAR, CBEAM: a beam, or with the PID of a PMARK an edge of a marked surface. The orientation vector of such an edge (Gmsh writes
    !! one) has no meaning; in a second-order edge Gmsh writes the mid-side node in its place. CROD: such an edge, or with a PROD a bar
@@ -224,7 +196,7 @@ contains
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       character(2), parameter :: others(4) = ['X2', 'Y2', 'X4', 'Y4'] ! corners 2 and 4
-      integer :: n_sides
+      integer :: instead, n_sides
       logical :: ok
 
       associate (block => bulk%block(card%i), corner => bulk%block(card%i)%corner)
@@ -260,32 +232,22 @@ contains
                call card%error('X2', 'corners 2 and 4 must both be given (X2, Y2, X4, Y4), or all four left blank for a rectangle')
             end if
          end if
-         call check_block(card, block)
+         associate (divisions => block%divisions(:block%dimension)) ! one element instead, so that the rest of the deck can be checked
+            if (product(real(divisions, wp)) > most_elements) then
+               call card%error('NX', 'more than 2E7 elements in one block')
+               divisions = 1
+            end if
+            divisions = max(1, divisions)
+         end associate
+         if (block%first_node > most_first) call card%error('N1', 'the last node number would exceed 2147483647')
+         if (block%first_element > most_first) call card%error('E1', 'the last element number would exceed 2147483647')
+         instead = merge(most_first, 1, block%dimension == 2) ! a deck of solids is mostly one block, numbered from 1
+         if (block%first_node > most_first) block%first_node = instead ! no number overflows an integer
+         if (block%first_element > most_first) block%first_element = instead
          if (block%dimension == 3 .and. ok .and. any(corner(:, 2) <= corner(:, 1))) &
             call card%error('X2', 'the second corner must lie beyond the first in x, y and z')
          block%doubtful = card%is_faulty()
       end associate
    end subroutine read_block
-
-   !> Size and numbers of a block. A block with too many elements is reduced to one element, so that the rest of the deck can be
-   !! checked; no number overflows an integer.
-   subroutine check_block(card, block)
-      type(card_fields_type), intent(inout) :: card
-      type(block_card), intent(inout)       :: block
-      integer :: instead
-
-      associate (divisions => block%divisions(:block%dimension))
-         if (product(real(divisions, wp)) > most_elements) then
-            call card%error('NX', 'more than 2E7 elements in one block')
-            divisions = 1
-         end if
-         divisions = max(1, divisions)
-      end associate
-      if (block%first_node > most_first) call card%error('N1', 'the last node number would exceed 2147483647')
-      if (block%first_element > most_first) call card%error('E1', 'the last element number would exceed 2147483647')
-      instead = merge(most_first, 1, block%dimension == 2) ! a deck of solids is mostly one block, numbered from 1
-      if (block%first_node > most_first) block%first_node = instead
-      if (block%first_element > most_first) block%first_element = instead
-   end subroutine check_block
 
 end module mesh_cards

@@ -191,28 +191,33 @@ contains
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
 
-      bulk%beam_property(card%i)%name = card%name(:6)
-      select case (card%name)
-      case ('PBAR');  call read_pbar(card, bulk%beam_property(card%i))
-      case ('PBEAM'); call read_pbeam(card, bulk%beam_property(card%i))
-      case default;   call read_dimensions(card, bulk%beam_property(card%i))
-      end select
+      associate (property => bulk%beam_property(card%i))
+         property%name = card%name(:6)
+         property%line = card%line
+         call card%field('PID', property%id)
+         call card%field('MID', property%material)
+         select case (card%name)
+         case ('PBAR');  call read_pbar(card, property)
+         case ('PBEAM'); call read_pbeam(card, property)
+         case default;   call read_dimensions(card, property)
+         end select
+      end associate
    end subroutine read_beam_property
 
    !> PBAR: with K1 and K2 blank a beam is rigid in transverse shear, as in NASTRAN.
    subroutine read_pbar(card, property)
-      type(card_fields_type), intent(inout)    :: card
+      type(card_fields_type), intent(inout)   :: card
       type(beam_property_card), intent(inout) :: property
+      real(wp) :: points(8)
 
       associate (section => property%section)
-         call card%field('PID', property%id)
-         call card%field('MID', property%material)
          call card%field('A', section%area, positive, default=0.0_wp)
          call card%field(['I1', 'I2'], section%inertia(:2), not_negative, default=0.0_wp)
          call card%field('J', section%torsion, not_negative, default=0.0_wp)
          call card%field('NSM', property%extra_mass, not_negative, default=0.0_wp)
          call card%skip(['-'])
-         call read_points(card, section)
+         call card%field(point_names, points, default=0.0_wp)
+         section%point = reshape(points, [2, 4])
          call card%field(['K1', 'K2'], section%shear, not_negative, default=0.0_wp)
          call card%field('I12', section%inertia(3), default=0.0_wp)
          call card%finish(property%line)
@@ -223,21 +228,21 @@ contains
    !> PBEAM: the section at end A; other stations must have the same section. Blank K1 and K2 are 1. The shear centre is the centroid:
    !! warping (CW), shear relief (S1, S2), NSI and the offsets M and N of mass and neutral axis must be blank.
    subroutine read_pbeam(card, property)
-      type(card_fields_type), intent(inout)    :: card
+      type(card_fields_type), intent(inout)   :: card
       type(beam_property_card), intent(inout) :: property
-      real(wp) :: value
+      real(wp) :: at_end_a(3:8) ! fields 3 to 8 of a station
+      real(wp) :: points(8), value
       integer  :: first, k
       logical  :: ok
 
       associate (section => property%section)
-         call card%field('PID', property%id)
-         call card%field('MID', property%material)
          call card%field('A', section%area, positive)
          call card%field(['I1 ', 'I2 ', 'I12'], section%inertia, default=0.0_wp)
          call card%field('J', section%torsion, not_negative, default=0.0_wp)
          call card%field('NSM', property%extra_mass, not_negative, default=0.0_wp)
-         call read_points(card, section)
-         property%line = card%line
+         call card%field(point_names, points, default=0.0_wp)
+         section%point = reshape(points, [2, 4])
+         at_end_a = [section%area, section%inertia, section%torsion, property%extra_mass]
          section%shear = 1.0_wp
          first = first_of_station
          do while (any(card%text_at(first) == ['YES ', 'YESA', 'NO  ']))
@@ -262,33 +267,7 @@ contains
          end do
          call check_inertia(card, section)
       end associate
-
-   contains
-
-      !> Value of station field K at end A.
-      pure real(wp) function at_end_a(k)
-         integer, intent(in) :: k
-
-         associate (section => property%section)
-            select case (k)
-            case (3);     at_end_a = section%area
-            case (4:6);   at_end_a = section%inertia(k - 3)
-            case (7);     at_end_a = section%torsion
-            case default; at_end_a = property%extra_mass
-            end select
-         end associate
-      end function at_end_a
-
    end subroutine read_pbeam
-
-   subroutine read_points(card, section)
-      type(card_fields_type), intent(inout) :: card
-      type(beam_section), intent(inout)     :: section
-      real(wp) :: points(8)
-
-      call card%field(point_names, points, default=0.0_wp)
-      section%point = reshape(points, [2, 4])
-   end subroutine read_points
 
    !> I12 squared must be below I1 I2 for a possible section.
    subroutine check_inertia(card, section)
@@ -303,17 +282,14 @@ contains
 
    !> PBARL, PBEAML: TYPE and its dimensions, then NSM.
    subroutine read_dimensions(card, property)
-      type(card_fields_type), intent(inout)    :: card
+      type(card_fields_type), intent(inout)   :: card
       type(beam_property_card), intent(inout) :: property
       character(:), allocatable :: expected, words
       real(wp) :: d(6)
       integer  :: i, n
       logical  :: ok
 
-      call card%field('PID', property%id)
-      call card%field('MID', property%material)
       call card%skip(['GROUP', 'TYPE ', '-    ', '-    ', '-    ', '-    '])
-      property%line = card%line
       i = 0
       if (card%text_at(4) /= '') i = findloc(section_names, card%text_at(4), dim=1)
       if (i == 0) then

@@ -4,7 +4,7 @@
 module rigid_cards
    use bulk_data, only: bulk_data_type, has_component, rigid_card
    use card_fields, only: card_fields_type
-   use field_rules, only: integer_words, parse_integer, positive
+   use field_rules, only: component_words, parse_integer, positive
    use kinds, only: wp
    implicit none
    private
@@ -178,7 +178,7 @@ contains
             return
          end if
          call card%real_at(last, 'WT', this_weight, ok, positive, expected='a weight, a real number above 0')
-         call card%components_at(last + 1, 'C', .false., these)
+         call card%integer_at(last + 1, 'C', these, ok, expected=component_words)
          first = last + 2
          if (first > card%n) call card%error_at(first, 'G: blank, expected '//a_node)
       end do
@@ -190,46 +190,35 @@ contains
       type(card_fields_type), intent(inout) :: card
       integer, intent(in)                   :: k
       type(rigid_card), intent(inout)       :: rigid
-      integer :: at
+      integer :: at, components, node
+      logical :: is_node, ok
 
       at = k
-      do while (at <= card%n)
-         if (card%text_at(at) == 'UM' .and. .not. allocated(rigid%um_nodes)) then
-            call read_dependent(card, at, rigid)
-         else if (card%text_at(at) == 'ALPHA' .and. at < card%n .and. rigid%alpha_at == 0) then
-            call read_expansion(card, at + 1, card%n, rigid)
-            return
-         else
-            call card%error_at(at, ''''//card%text_at(at)//''', expected '//a_node//', a weight, UM or ALPHA')
-            return
-         end if
-      end do
-   end subroutine read_tail
-
-   !> The pairs after UM in data field AT. AT then is the next word, or beyond the card.
-   subroutine read_dependent(card, at, rigid)
-      type(card_fields_type), intent(inout) :: card
-      integer, intent(inout)                :: at
-      type(rigid_card), intent(inout)       :: rigid
-      integer :: components, node
-      logical :: ok
-
-      allocate (rigid%um_nodes(0), rigid%um_components(0), rigid%um_at(0))
-      at = at + 1
-      do while (at <= card%n .and. .not. is_word(card%text_at(at)))
-         if (card%text_at(at) /= '') then
-            call card%integer_at(at, 'G', a_node, node, ok)
-            call card%components_at(at + 1, 'C', .false., components)
-            if (ok) then
+      if (card%text_at(at) == 'UM') then
+         allocate (rigid%um_nodes(0), rigid%um_components(0), rigid%um_at(0))
+         at = at + 1
+         do while (at <= card%n .and. .not. is_word(card%text_at(at)))
+            if (card%text_at(at) == '') then
+               at = at + 1
+               cycle
+            end if
+            call card%integer_at(at, 'G', node, is_node, expected=a_node)
+            call card%integer_at(at + 1, 'C', components, ok, expected=component_words)
+            if (is_node) then
                rigid%um_nodes = [rigid%um_nodes, node]
                rigid%um_components = [rigid%um_components, components]
                rigid%um_at = [rigid%um_at, at]
             end if
-            at = at + 1
-         end if
-         at = at + 1
-      end do
-   end subroutine read_dependent
+            at = at + 2
+         end do
+      end if
+      if (at > card%n) return
+      if (card%text_at(at) == 'ALPHA' .and. at < card%n) then
+         call read_expansion(card, at + 1, card%n, rigid)
+      else
+         call card%error_at(at, ''''//card%text_at(at)//''', expected '//a_node//', a weight, UM or ALPHA')
+      end if
+   end subroutine read_tail
 
    !> Whether TEXT begins with a letter.
    pure logical function is_word(text)
@@ -260,7 +249,7 @@ contains
       at = 0
       do k = first, last
          if (card%text_at(k) == '') cycle
-         call card%integer_at(k, 'G', a_node, node(k), ok, least=1)
+         call card%integer_at(k, 'G', node(k), ok, least=1, expected=a_node)
          if (ok) at(k) = k
       end do
       rigid%nodes = [rigid%nodes, pack(node, at > 0)]
@@ -291,16 +280,15 @@ contains
          if (.not. card%is_faulty() .and. abs(equation%factor(1)) <= 0.0_wp) &
             call card%error('A1', 'zero, expected a coefficient that is not zero: the first term is the dependent one')
          do k = 8, card%n
-            if (modulo(k, 8) <= 1 .and. card%text_at(k) /= '') &
-               call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank')
+            if (modulo(k, 8) <= 1) call card%must_be_blank(k, k)
             if (modulo(k, 8) /= 2 .and. modulo(k, 8) /= 5) cycle ! no term begins here
             if (card%text_at(k)//card%text_at(k + 1)//card%text_at(k + 2) == '') cycle
             if (card%text_at(k) == '') then
                call card%error_at(k, 'G: blank, expected '//a_node)
                cycle
             end if
-            call card%integer_at(k, 'G', a_node, node, ok)
-            call card%integer_at(k + 1, 'C', integer_words(1, 6, .false.), component, ok, least=1, most=6)
+            call card%integer_at(k, 'G', node, ok, expected=a_node)
+            call card%integer_at(k + 1, 'C', component, ok, least=1, most=6)
             call card%real_at(k + 2, 'A', factor, ok)
             equation%node = [equation%node, node]
             equation%component = [equation%component, component]

@@ -51,22 +51,12 @@ contains
    subroutine read_sum(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-
-      if (card%name == 'SPCADD') then
-         call add_up(card, 'a support set', bulk%support_sum(card%i))
-      else
-         call add_up(card, 'a set of equations', bulk%equation_sum(card%i))
-      end if
-   end subroutine read_sum
-
-   !> The sets S1, S2, ... of a card, each the number of A_SET.
-   subroutine add_up(card, a_set, total)
-      type(card_fields_type), intent(inout) :: card
-      character(*), intent(in)              :: a_set
-      type(set_sum_card), intent(inout)     :: total
+      type(set_sum_card) :: total
+      character(:), allocatable :: a_set
       integer :: k, set
       logical :: ok
 
+      a_set = trim(merge('a support set     ', 'a set of equations', card%name == 'SPCADD'))
       total%line = card%line
       call card%field('SID', total%set)
       call card%field('S1', set)
@@ -74,11 +64,16 @@ contains
       total%at = [2]
       do k = 3, card%n
          if (card%text_at(k) == '') cycle
-         call card%integer_at(k, 'S', 'the number of '//a_set//', 1 or more', set, ok, least=1)
+         call card%integer_at(k, 'S', set, ok, least=1, expected='the number of '//a_set//', 1 or more')
          total%sets = [total%sets, set]
          total%at = [total%at, k]
       end do
-   end subroutine add_up
+      if (card%name == 'SPCADD') then
+         bulk%support_sum(card%i) = total
+      else
+         bulk%equation_sum(card%i) = total
+      end if
+   end subroutine read_sum
 
    !> SPCD: displacements of held components in a load set; as for forces, the total at the end of the stage.
    subroutine read_displacement(card, bulk)
@@ -186,13 +181,15 @@ contains
       end do
    end subroutine check_ends
 
-   !> PELAS: the stiffnesses K of one or two springs. PBUSH: K1, K2, K3 of a CBUSH along its axes, K4, K5, K6 about them. Stress factors
-   !! have no effect.
+   !> PELAS: the stiffnesses K of one or two springs. PBUSH: K1, K2, K3 of a CBUSH along its axes, K4, K5, K6 about them; lines of
+   !! damping (B, GE), stress recovery (RCV) and mass (M, which counts) may follow. Stress factors have no effect. Damping of a CBUSH is
+   !! not supported and is an error in a stage with FREQUENCY.
    subroutine read_spring_property(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       type(spring_property_card) :: second
       character(8) :: flag
+      integer :: k
 
       associate (first => bulk%spring_property(card%i))
          first%is_bush = card%name == 'PBUSH'
@@ -201,7 +198,16 @@ contains
             call card%field('PID', first%id)
             call card%word('FLAG', '|K|', flag)
             call card%field(['K1', 'K2', 'K3', 'K4', 'K5', 'K6'], first%stiffness, not_negative, default=0.0_wp)
-            call check_rest(card, bulk)
+            do k = 10, card%n, 8
+               select case (card%text_at(k))
+               case ('B', 'GE')
+                  call bulk%ignored%wait(card%text_at(k)//' of PBUSH', card%line, needs_response=.true., &
+                                         refusal='expected none: damping of springs is GE of CELAS2 and PELAS')
+               case ('RCV', '')
+               case default
+                  call card%error_at(k, 'FLAG: '''//card%text_at(k)//''', expected B, GE or RCV after the line of K')
+               end select
+            end do
             return
          end if
          call card%field('PID1', first%id)
@@ -225,25 +231,6 @@ contains
          end if
       end associate
    end subroutine read_spring_property
-
-   !> After the stiffnesses a PBUSH may have lines of damping (B, GE), stress recovery (RCV) and mass (M, which counts). Damping of a
-   !! CBUSH is not supported and is an error in a stage with FREQUENCY.
-   subroutine check_rest(card, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(bulk_data_type), intent(inout)   :: bulk
-      character(:), allocatable :: flag
-      integer :: k
-
-      do k = 10, card%n, 8
-         flag = card%text_at(k)
-         if (flag == 'B' .or. flag == 'GE') then
-            call bulk%ignored%wait(flag//' of PBUSH', card%line, needs_response=.true., &
-                                refusal='expected none: damping of springs is GE of CELAS2 and PELAS')
-         else if (flag /= 'RCV' .and. flag /= '') then
-            call card%error_at(k, 'FLAG: '''//flag//''', expected B, GE or RCV after the line of K')
-         end if
-      end do
-   end subroutine check_rest
 
    !> CONM2: mass M at node G, beside it by X1 to X3, with moments of inertia about its centre. CMASS2: mass M that resists the component
    !! C1 of node G1 alone, of a rotation a moment of inertia.

@@ -118,17 +118,17 @@ contains
          call card%blank(['blank', 'blank', 'blank', 'blank', 'blank', 'blank'])
          allocate (table%frequency(0), table%value(0))
          if (.not. card%is_faulty()) call read_pairs(card, table)
-         if (.not. card%is_faulty()) call check_order(card, table)
       end associate
    end subroutine read_tabdmp1
 
-   !> Read the pairs up to ENDT. A pair with SKIP or with two blank fields does not count.
+   !> Read the pairs up to ENDT. A pair with SKIP or with two blank fields does not count. There must be at least two points, in ascending
+   !! or descending order; descending points are reversed. At a jump a frequency may appear twice, but not at the ends.
    subroutine read_pairs(card, table)
       type(card_fields_type), intent(inout) :: card
       type(tabdmp1_card), intent(inout)     :: table
       character(:), allocatable :: first, second
       real(wp) :: frequency, value
-      integer  :: k, last
+      integer  :: k, last, n
       logical  :: ok
 
       last = list_from
@@ -156,15 +156,7 @@ contains
          table%frequency = [table%frequency, frequency]
          table%value = [table%value, value]
       end do
-   end subroutine read_pairs
-
-   !> At least two points, in ascending or descending order; descending points are reversed. At a jump a frequency may appear twice, but
-   !! not at the ends.
-   subroutine check_order(card, table)
-      type(card_fields_type), intent(inout) :: card
-      type(tabdmp1_card), intent(inout)     :: table
-      integer :: n
-
+      if (card%is_faulty()) return
       n = size(table%frequency)
       if (n < 2) then
          call card%error_at(card%n, integer_text(n)//' points, expected two or more')
@@ -181,6 +173,6 @@ contains
             call card%error_at(list_from, 'F: a frequency occurs twice at an end of the table, or three times')
          end if
       end associate
-   end subroutine check_order
+   end subroutine read_pairs
 
 end module vibration_cards

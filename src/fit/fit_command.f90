@@ -2,7 +2,7 @@
 module fit_command
    use branch_fit, only: fit_choice
    use c_library, only: is_same_file
-   use terminal, only: argument_text, complain, input_argument, is_option, say, set_input, version
+   use terminal, only: command_reader, complain, input_argument, next_option, say, version
    use data_columns, only: branch_number, reading_type, read_number, read_system
    use field_rules, only: parse_integer
    use kinds, only: wp
@@ -10,11 +10,70 @@ module fit_command
    implicit none
    private
 
-   public :: help_text, read_fit_command
+   public :: read_fit_command
 
-   character(*), parameter :: program = 'jointfit'
+   character(*), parameter :: program = 'jointfit', nl = new_line('a')
    character(*), parameter :: standard_output = '/dev/stdout'
+   character(13), parameter :: options_with_value(9) = [character(13) :: '--id', '--branch', '--as', '--p-tolerance', '--dmax', &
+                                                        '--noise', '--units', '--columns', '--plot']
    integer, parameter :: largest_in_small_field = 99999999
+
+   character(*), parameter :: help = &
+      'usage: jointfit [options] DATA...'//nl// &
+      ''//nl// &
+      'Fits the laws of a joint to test data. The cards for a deck of jointfem go to standard output, with the'//nl// &
+      'residuals as comments. Each file holds the data of one surface; `-` is standard input. One line of a file'//nl// &
+      'names its columns, in any order:'//nl// &
+      ''//nl// &
+      '   d tau p             points of shear tests: a JSHEAR card'//nl// &
+      '   lambda p            points of normal tests: a JNORM card'//nl// &
+      '   c1 c2 c3 p branch   cubics tau = c1 d + c2 d^2 + c3 d^3 published for several p: a JSHEAR card'//nl// &
+      ''//nl// &
+      'Points may have two further columns:'//nl// &
+      ''//nl// &
+      '   branch   LOAD, UNLOAD or RELOAD: consecutive rows of one branch and pressure are a run; rows in no order'//nl// &
+      '            share one run'//nl// &
+      '   run      number of the run from one reversal to the next: every run of unloading or reloading starts at'//nl// &
+      '            its own point (b0, c0); without a column branch the direction of the run gives its branch'//nl// &
+      ''//nl// &
+      'Without both columns the rows are a record in the order of time, which is cut where the test reverses by more'//nl// &
+      'than the noise of the readings. After a reversal the test reloads up to the end of the previous loading (p'//nl// &
+      'of a normal test, d of a shear test) and loads beyond it. Unloading and reloading of a normal test do not'//nl// &
+      'enter c and m; straight lines through them give EU. A second line of headings, another pressure of a shear'//nl// &
+      'test, or a reading equal to the first one begins a new test.'//nl// &
+      ''//nl// &
+      'Blanks, tabs, commas or semicolons separate entries (with semicolons 1,5 is 1.5); # and $ begin a comment.'//nl// &
+      'Headings may give units, as `lambda [um]; p [MPa]`; `UNITS = ...` is copied to the comments. The cards are in'//nl// &
+      'the units of the data, or of --units.'//nl// &
+      ''//nl// &
+      'the data:'//nl// &
+      '   --units L,F       units of length and force of the cards, such as mm,n or mm,kgf or m,n'//nl// &
+      '   --decimal-comma   1,5 is 1.5 without semicolons too'//nl// &
+      '   --columns NAMES   names of the columns, in place of headings; - omits a column: -,p [MPa],lambda [um]'//nl// &
+      '   --noise X         noise band, relative to the range of the readings: smaller reversals do not count, and a'//nl// &
+      '                     first reading less below zero is an offset (default: from the record, at least 0.01)'//nl// &
+      '   --zero            subtract the first reading of each test from all its readings'//nl// &
+      '   --unordered       rows without a branch are in no order: all are loading'//nl// &
+      ''//nl// &
+      'shear:'//nl// &
+      '   --joint-fit       fit the coefficients to all points of a branch at once, instead of straight lines'//nl// &
+      '                     through the coefficients of the cubics of each pressure'//nl// &
+      '   --one-pressure    accept data at one pressure; the card then does not depend on the pressure'//nl// &
+      '   --p-tolerance X   pressures that differ by less than this share count as one (default 0.001)'//nl// &
+      '   --branch BRANCH   use only this branch of the data'//nl// &
+      '   --as BRANCH       with --branch: use the data for this branch of the card'//nl// &
+      '   --dmax X          DMAX of the card, in its units (default: the largest d of the loading data)'//nl// &
+      ''//nl// &
+      'output:'//nl// &
+      '   --id N            number of the first card (default 1); the cards of further files have the next numbers'//nl// &
+      '   --plot FILE       write data and fit as a script for gnuplot, which draws an SVG picture in the same folder'//nl// &
+      '   --large           numbers in fields of 16 columns (default)'//nl// &
+      '   --small           numbers in fields of 8 columns'//nl// &
+      '   --version         print the version'//nl// &
+      '   --help            print this text'//nl// &
+      ''//nl// &
+      'exit status: 0 all cards written, 1 wrong usage or unreadable file, 2 errors in the data, 4 output could not be'//nl// &
+      'written; of several files the highest.'
 
    type, public :: fit_command_type
       integer  :: id        = 1          !! --id: of the card of the first file
@@ -33,101 +92,27 @@ module fit_command
 
 contains
 
-   pure function help_text() result(text)
-      character(:), allocatable :: text
-      character(*), parameter   :: nl = new_line('a')
-
-      text = &
-         'usage: jointfit [options] DATA...'//nl// &
-         ''//nl// &
-         'Fits the laws of a joint to test data. The cards for a deck of jointfem go to standard output, with the'//nl// &
-         'residuals as comments. Each file holds the data of one surface; `-` is standard input. One line of a file'//nl// &
-         'names its columns, in any order:'//nl// &
-         ''//nl// &
-         '   d tau p             points of shear tests: a JSHEAR card'//nl// &
-         '   lambda p            points of normal tests: a JNORM card'//nl// &
-         '   c1 c2 c3 p branch   cubics tau = c1 d + c2 d^2 + c3 d^3 published for several p: a JSHEAR card'//nl// &
-         ''//nl// &
-         'Points may have two further columns:'//nl// &
-         ''//nl// &
-         '   branch   LOAD, UNLOAD or RELOAD: consecutive rows of one branch and pressure are a run; rows in no order'//nl// &
-         '            share one run'//nl// &
-         '   run      number of the run from one reversal to the next: every run of unloading or reloading starts at'//nl// &
-         '            its own point (b0, c0); without a column branch the direction of the run gives its branch'//nl// &
-         ''//nl// &
-         'Without both columns the rows are a record in the order of time, which is cut where the test reverses by more'//nl// &
-         'than the noise of the readings. After a reversal the test reloads up to the end of the previous loading (p'//nl// &
-         'of a normal test, d of a shear test) and loads beyond it. Unloading and reloading of a normal test do not'//nl// &
-         'enter c and m; straight lines through them give EU. A second line of headings, another pressure of a shear'//nl// &
-         'test, or a reading equal to the first one begins a new test.'//nl// &
-         ''//nl// &
-         'Blanks, tabs, commas or semicolons separate entries (with semicolons 1,5 is 1.5); # and $ begin a comment.'//nl// &
-         'Headings may give units, as `lambda [um]; p [MPa]`; `UNITS = ...` is copied to the comments. The cards are in'//nl// &
-         'the units of the data, or of --units.'//nl// &
-         ''//nl// &
-         'the data:'//nl// &
-         '   --units L,F       units of length and force of the cards, such as mm,n or mm,kgf or m,n'//nl// &
-         '   --decimal-comma   1,5 is 1.5 without semicolons too'//nl// &
-         '   --columns NAMES   names of the columns, in place of headings; - omits a column: -,p [MPa],lambda [um]'//nl// &
-         '   --noise X         noise band, relative to the range of the readings: smaller reversals do not count, and a'//nl// &
-         '                     first reading less below zero is an offset (default: from the record, at least 0.01)'//nl// &
-         '   --zero            subtract the first reading of each test from all its readings'//nl// &
-         '   --unordered       rows without a branch are in no order: all are loading'//nl// &
-         ''//nl// &
-         'shear:'//nl// &
-         '   --joint-fit       fit the coefficients to all points of a branch at once, instead of straight lines'//nl// &
-         '                     through the coefficients of the cubics of each pressure'//nl// &
-         '   --one-pressure    accept data at one pressure; the card then does not depend on the pressure'//nl// &
-         '   --p-tolerance X   pressures that differ by less than this share count as one (default 0.001)'//nl// &
-         '   --branch BRANCH   use only this branch of the data'//nl// &
-         '   --as BRANCH       with --branch: use the data for this branch of the card'//nl// &
-         '   --dmax X          DMAX of the card, in its units (default: the largest d of the loading data)'//nl// &
-         ''//nl// &
-         'output:'//nl// &
-         '   --id N            number of the first card (default 1); the cards of further files have the next numbers'//nl// &
-         '   --plot FILE       write data and fit as a script for gnuplot, which draws an SVG picture in the same folder'//nl// &
-         '   --large           numbers in fields of 16 columns (default)'//nl// &
-         '   --small           numbers in fields of 8 columns'//nl// &
-         '   --version         print the version'//nl// &
-         '   --help            print this text'//nl// &
-         ''//nl// &
-         'exit status: 0 all cards written, 1 wrong usage or unreadable file, 2 errors in the data, 4 output could not be'//nl// &
-         'written; of several files the highest.'
-   end function help_text
-
-   !> Read the command. FINISHED is true where nothing is left to do: after --help and --version (STATUS 0), and after
-   !! a wrong command (STATUS 1, with a message on the standard error).
-   subroutine read_fit_command(command, finished, status)
+   !> Read the command. STATUS is the exit status where nothing is left to do, after --help and --version, and after a wrong command,
+   !! which has a message on the standard error; otherwise it is -1.
+   subroutine read_fit_command(command, status)
       type(fit_command_type), intent(out) :: command
-      logical, intent(out)                :: finished
       integer, intent(out)                :: status
-      type(input_argument), allocatable :: more(:)
-      character(:), allocatable :: argument
-      integer :: i
-      logical :: ok, options
+      type(command_reader) :: reader
+      character(:), allocatable :: expected, option, value
+      logical :: is_missing, ok
 
-      allocate (command%files(0))
       command%plot = ''
       command%reading%columns = ''
-      finished = .true.
+      expected = ''
       status = 1
-      options = .true.
-      i = 0
-      do while (i < command_argument_count())
-         i = i + 1
-         argument = argument_text(i)
-         if (.not. is_option(argument, options)) then
-            allocate (more(size(command%files) + 1)) ! (an array constructor would leak its names in gfortran 12)
-            more(:size(command%files)) = command%files
-            call set_input(more(size(more)), argument)
-            call move_alloc(more, command%files)
-            cycle
-         end if
-         select case (argument)
-         case ('--')
-            options = .false.
+      ok = .true.
+      do
+         call next_option(reader, options_with_value, option, value, is_missing) ! VALUE is empty where it is missing
+         select case (option)
+         case ('')
+            exit
          case ('--help', '-h')
-            call say(help_text(), status)
+            call say(help, status)
             return
          case ('--version')
             call say(program//' '//version, status)
@@ -143,97 +128,84 @@ contains
          case ('--decimal-comma')
             command%reading%decimal_comma = .true.
          case ('--small', '--large')
-            command%small = argument == '--small'
-         case ('--id', '--branch', '--as', '--p-tolerance', '--dmax', '--noise', '--units', '--columns', '--plot')
-            i = i + 1
-            call read_value(argument, argument_text(i), command, ok)
-            if (.not. ok) return
+            command%small = option == '--small'
+         case ('--id')
+            call parse_integer(value, command%id, ok)
+            ok = ok .and. command%id > 0
+            expected = 'a number of 1 or more'
+         case ('--branch', '--as')
+            ok = branch_number(upper(value)) > 0
+            if (option == '--branch') command%only = branch_number(upper(value))
+            if (option == '--as') command%as = branch_number(upper(value))
+            expected = 'LOAD, UNLOAD or RELOAD'
+         case ('--p-tolerance')
+            call read_number(value, command%fit%p_tolerance, ok)
+            ok = ok .and. command%fit%p_tolerance >= 0.0_wp .and. command%fit%p_tolerance < 1.0_wp
+            expected = 'a number from 0 to below 1, as 0.01'
+         case ('--noise')
+            call read_number(value, command%noise, ok)
+            ok = ok .and. command%noise > 0.0_wp .and. command%noise < 0.5_wp
+            expected = 'a share of the range of the readings, above 0 and below 0.5, as 0.02'
+         case ('--dmax')
+            call read_number(value, command%d_max, ok)
+            ok = ok .and. command%d_max > 0.0_wp
+            expected = 'a number above 0'
+         case ('--units')
+            call read_system(value, command%reading%deck, ok)
+            expected = 'the units of length and force of the deck, as mm,n or mm,kgf or m,n'
+         case ('--columns')
+            command%reading%columns = value
+            ok = value /= ''
+            expected = 'the names of the columns, as ''p [MPa], lambda [um]'''
+         case ('--plot')
+            command%plot = value
+            ok = value /= ''
+            expected = 'the name of a file for gnuplot'
          case default
-            call complain(program, 'unknown option '//argument)
+            call complain(program, 'unknown option '//option)
             return
          end select
+         if (.not. ok) call complain(program, option//' '//value//': expected '//expected)
+         if (.not. ok) return
       end do
-      if (size(command%files) == 0) then
-         call complain(program, 'no data file given')
-      else if (command%as > 0 .and. command%only == 0) then
-         call complain(program, '--as needs --branch, the branch of the data')
-      else if (command%id > huge(1) - (size(command%files) - 1)) then
-         call complain(program, '--id '//integer_text(command%id)//': the laws of '//plural(size(command%files), 'file')// &
-                       ' would have numbers beyond '//integer_text(huge(1)))
-      else if (command%small .and. command%id > largest_in_small_field - (size(command%files) - 1)) then
-         call complain(program, '--id '//integer_text(command%id)//': --small has eight columns for the numbers of '// &
-                       plural(size(command%files), 'file')//', they end at '//integer_text(largest_in_small_field))
-      else if (.not. overwrites_data(command)) then
-         if (command%as == 0) command%as = command%only
-         finished = .false.
-         status = 0
-      end if
+      call move_alloc(reader%files, command%files)
+      call check_command(command, ok)
+      if (command%as == 0) command%as = command%only
+      if (ok) status = -1
    end subroutine read_fit_command
 
-   !> Whether an output of the command is one of its data files under any name, with a message.
-   logical function overwrites_data(command) result(overwrites)
+   !> Check that the options go together, and that no output would replace a data file under any name; OK is false, with a message, where
+   !! they do not.
+   subroutine check_command(command, ok)
       type(fit_command_type), intent(in) :: command
+      logical, intent(out)               :: ok
+      character(:), allocatable :: fault
       integer :: i
 
-      overwrites = .false.
+      fault = ''
+      associate (n => size(command%files))
+         if (n == 0) then
+            fault = 'no data file given'
+         else if (command%as > 0 .and. command%only == 0) then
+            fault = '--as needs --branch, the branch of the data'
+         else if (command%id > huge(1) - (n - 1)) then
+            fault = '--id '//integer_text(command%id)//': the laws of '//plural(n, 'file')//' would have numbers beyond '// &
+                    integer_text(huge(1))
+         else if (command%small .and. command%id > largest_in_small_field - (n - 1)) then
+            fault = '--id '//integer_text(command%id)//': --small has eight columns for the numbers of '//plural(n, 'file')// &
+                    ', they end at '//integer_text(largest_in_small_field)
+         end if
+      end associate
       do i = 1, size(command%files)
+         if (fault /= '') exit
          associate (file => command%files(i))
-            if (command%plot /= '') overwrites = is_same_file(command%plot, file%path)
-            if (overwrites) then
-               call complain(program, '--plot '//command%plot//' would overwrite the data file '//file%name)
-            else if (is_same_file(standard_output, file%path)) then
-               overwrites = .true.
-               call complain(program, 'the cards would be written to the data file '//file%name)
-            end if
+            if (is_same_file(standard_output, file%path)) fault = 'the cards would be written to the data file '//file%name
+            if (command%plot == '') cycle
+            if (is_same_file(command%plot, file%path)) fault = '--plot '//command%plot//' would overwrite the data file '//file%name
          end associate
-         if (overwrites) return
       end do
-   end function overwrites_data
-
-   !> The VALUE after an OPTION; empty at the end of the command.
-   subroutine read_value(option, value, command, ok)
-      character(*), intent(in)              :: option, value
-      type(fit_command_type), intent(inout) :: command
-      logical, intent(out)                  :: ok
-      character(:), allocatable :: expected
-      integer :: branch
-
-      select case (option)
-      case ('--id')
-         call parse_integer(value, command%id, ok)
-         ok = ok .and. command%id > 0
-         expected = 'a number of 1 or more'
-      case ('--branch', '--as')
-         branch = branch_number(upper(value))
-         if (option == '--as') command%as = branch
-         if (option /= '--as') command%only = branch
-         ok = branch > 0
-         expected = 'LOAD, UNLOAD or RELOAD'
-      case ('--p-tolerance')
-         call read_number(value, command%fit%p_tolerance, ok)
-         ok = ok .and. command%fit%p_tolerance >= 0.0_wp .and. command%fit%p_tolerance < 1.0_wp
-         expected = 'a number from 0 to below 1, as 0.01'
-      case ('--noise')
-         call read_number(value, command%noise, ok)
-         ok = ok .and. command%noise > 0.0_wp .and. command%noise < 0.5_wp
-         expected = 'a share of the range of the readings, above 0 and below 0.5, as 0.02'
-      case ('--units')
-         call read_system(value, command%reading%deck, ok)
-         expected = 'the units of length and force of the deck, as mm,n or mm,kgf or m,n'
-      case ('--columns')
-         command%reading%columns = value
-         ok = value /= ''
-         expected = 'the names of the columns, as ''p [MPa], lambda [um]'''
-      case ('--plot')
-         command%plot = value
-         ok = value /= ''
-         expected = 'the name of a file for gnuplot'
-      case default                                   ! --dmax
-         call read_number(value, command%d_max, ok)
-         ok = ok .and. command%d_max > 0.0_wp
-         expected = 'a number above 0'
-      end select
-      if (.not. ok) call complain(program, option//' '//value//': expected '//expected)
-   end subroutine read_value
+      ok = fault == ''
+      if (.not. ok) call complain(program, fault)
+   end subroutine check_command
 
 end module fit_command

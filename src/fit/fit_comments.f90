@@ -131,15 +131,19 @@ contains
       if (fit%has_loading .and. fit%d_max <= 0.0_wp) call comment(out, 'DMAX', 'left blank: the data do not show it')
    end subroutine describe_shear
 
-   !> Write branch B of the card: the cubic of each pressure, the lines through them and, for test points, the one-step fit.
+   !> Write branch B of the card: the cubic of each pressure, which are the points of Fig. 2, the lines through them and, for test points,
+   !! the one-step fit.
    subroutine describe_branch(data, fit, b, joint_fit, out)
       type(test_data_type), intent(in)      :: data
       type(surface_fit_type), intent(in)    :: fit
       integer, intent(in)                   :: b
       logical, intent(in)                   :: joint_fit
       type(output_file_type), intent(inout) :: out
+      character(14) :: cells(6)
+      integer :: first, i, last
 
-      associate (branch => fit%branch(b), points => fit%branch(b)%from_points, rows => fit%branch(b)%row)
+      associate (branch => fit%branch(b), points => fit%branch(b)%from_points, letter => branch_letters(b), &
+                 rows => fit%branch(b)%row)
          if (points) then
             call comment(out, branch_words(b), plural(branch%n_points, 'point')//' at '// &
                          plural(size(branch%group_p), 'pressure')//', p '//range_text(branch%p_low, branch%p_high)//', d '// &
@@ -149,9 +153,18 @@ contains
                          range_text(branch%p_low, branch%p_high))
          end if
          if (branch%two_step) then
-            call table_of_cubics(branch, b, out)
+            first = merge(2, 3, branch%constant .and. size(branch%start) == size(branch%group_p)) ! one constant at a pressure
+            last = merge(6, 5, points)
+            cells = [character(14) :: 'p', letter//'0', letter//'1', letter//'2', letter//'3', 'points']
+            call comment_row(out, [cells(1), cells(first:last)])
+            do i = 1, size(branch%group_p)
+               cells = [character(14) :: real_text(branch%group_p(i)), '', real_text(branch%cubic(1, i)), &
+                        real_text(branch%cubic(2, i)), real_text(branch%cubic(3, i)), integer_text(count(branch%group == i))]
+               if (first == 2) cells(2) = real_text(branch%start(branch%curve(findloc(branch%group, i, 1))))
+               call comment_row(out, [cells(1), cells(first:last)])
+            end do
             if (size(branch%start) > size(branch%group_p) .and. branch%constant) &
-               call table_of_runs(branch, b, data%run(rows), data%value(column_d, rows), out)
+               call table_of_runs(branch, letter, data%run(rows), data%value(column_d, rows), out)
             if (points) call comment(out, '', 'residual of these cubics: '//residual_words(branch%of_cubics))
             call comment(out, '', 'lines through their coefficients (Fig. 2)'//on_card(.not. (points .and. joint_fit))//':')
             call lines_of_coefficients(branch, b, branch%lines, .true., out)
@@ -176,38 +189,17 @@ contains
 
    end subroutine describe_branch
 
-   !> Write the cubic of each pressure, the points of Fig. 2, with its constant where all points of a pressure share one.
-   subroutine table_of_cubics(branch, b, out)
-      type(branch_fit_type), intent(in)     :: branch
-      integer, intent(in)                   :: b
-      type(output_file_type), intent(inout) :: out
-      character(14) :: cells(6)
-      integer :: i, first, last
-
-      first = merge(2, 3, branch%constant .and. size(branch%start) == size(branch%group_p))
-      last = merge(6, 5, branch%from_points)
-      associate (letter => branch_letters(b), c => branch%cubic)
-         cells = [character(14) :: 'p', letter//'0', letter//'1', letter//'2', letter//'3', 'points']
-         call comment_row(out, [cells(1), cells(first:last)])
-         do i = 1, size(branch%group_p)
-            cells = [character(14) :: real_text(branch%group_p(i)), '', real_text(c(1, i)), real_text(c(2, i)), &
-                     real_text(c(3, i)), integer_text(count(branch%group == i))]
-            if (first == 2) cells(2) = real_text(branch%start(branch%curve(findloc(branch%group, i, 1))))
-            call comment_row(out, [cells(1), cells(first:last)])
-         end do
-      end associate
-   end subroutine table_of_cubics
-
    !> Write the constant of each run; RUN and D belong to the points.
-   subroutine table_of_runs(branch, b, run, d, out)
+   subroutine table_of_runs(branch, letter, run, d, out)
       type(branch_fit_type), intent(in)     :: branch
-      integer, intent(in)                   :: b, run(:)
+      character(*), intent(in)              :: letter
+      integer, intent(in)                   :: run(:)
       real(wp), intent(in)                  :: d(:)
       type(output_file_type), intent(inout) :: out
       character(14) :: cells(6)
       integer :: i
 
-      call comment_row(out, [character(14) :: 'run', 'p', branch_letters(b)//'0', 'd from', 'to', 'points'])
+      call comment_row(out, [character(14) :: 'run', 'p', letter//'0', 'd from', 'to', 'points'])
       do i = 1, size(branch%start)
          associate (at => branch%curve_at(i), own => branch%curve == i)
             cells = [character(14) :: integer_text(run(at)), real_text(branch%group_p(branch%group(at))), &
@@ -224,20 +216,17 @@ contains
       real(wp), intent(in)                  :: lines(2, 3)
       logical, intent(in)                   :: with_scatter
       type(output_file_type), intent(inout) :: out
-      character(40) :: words
+      character(120) :: words
       integer :: k
 
       do k = 1, 3
          words = '   '//branch_letters(b)//integer_text(k)//' = '//real_text(lines(1, k))// &
                  merge(' - ', ' + ', lines(2, k) < 0.0_wp)//real_text(abs(lines(2, k)))//' p'
          associate (off => branch%of_coefficients(k))
-            if (with_scatter) then
-               call comment(out, '', words//'scatter rms '//real_text(off%rms)//', largest '//real_text(off%largest)// &
-                            ' at p = '//real_text(branch%group_p(off%at)))
-            else
-               call comment(out, '', words)
-            end if
+            if (with_scatter) words(41:) = 'scatter rms '//real_text(off%rms)//', largest '//real_text(off%largest)// &
+                                           ' at p = '//real_text(branch%group_p(off%at))
          end associate
+         call comment(out, '', words)
       end do
    end subroutine lines_of_coefficients
 

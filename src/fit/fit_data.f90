@@ -26,6 +26,10 @@ module fit_data
       integer, allocatable  :: part(:)           !! (row) number of its header
       integer, allocatable  :: line(:)           !! (row) in TEXT
       integer, allocatable  :: place(:, :, :)    !! (2, column, row) first and last place in the line
+      integer  :: columns(2) = 0                 !! of the readings: d and tau, or lambda and p
+      real(wp) :: range(2) = 1.0_wp              !! from the smallest reading to the largest one, in each of these columns
+      real(wp) :: scatter = 0.0_wp               !! largest random deviation of a reading, as a share of RANGE
+      real(wp) :: band = 0.0_wp                  !! noise: a smaller difference of two readings does not count, as a share of RANGE
       character(16) :: unit(n_columns) = ''      !! of the values, empty: unknown
       character(16) :: unit_read(n_columns) = '' !! of the file
       character(:), allocatable :: units         !! text after UNITS =, empty: no such line

@@ -1,6 +1,7 @@
 !> Assigns each row of a test to a branch and a run, and corrects readings below zero.
 !! The loading path of the test decides the branch. A reading below zero is an offset of the first reading, noise, or an error.
 module test_branches
+   use branch_cubic, only: cubic, cubic_value
    use branch_fit, only: find_turns, fit_cubic, group_by_pressure, scatter_of
    use data_columns, only: column_d, column_lambda, column_p, column_symbols, column_tau, data_cubics, data_normal, data_shear, &
                            fit_load, fit_reload, fit_unload
@@ -27,7 +28,7 @@ module test_branches
    type :: curve_type
       logical  :: is_known = .false.
       integer  :: n = 0                        ! number of points
-      real(wp) :: a(3) = 0.0_wp                ! coefficients of the cubic
+      type(cubic) :: law                       ! at no pressure
       real(wp) :: d = 0.0_wp                   ! d of the last point [length]
       real(wp) :: scatter = 0.0_wp             ! scatter of the points [stress]
       real(wp) :: least = 0.0_wp               ! smallest difference between readings [stress]
@@ -42,76 +43,60 @@ contains
       type(test_data_type), intent(inout)  :: data
       type(fit_command_type), intent(in)   :: command
       type(deck_error_list), intent(inout) :: errors
-      integer, allocatable  :: rows(:), test(:), starts(:)
-      real(wp), allocatable :: u(:)
-      integer  :: columns(2), i, runs, t
-      real(wp) :: band, range(2), scatter
-      logical  :: faulty
+      integer, allocatable :: rows(:)
+      integer :: i, runs, t, test(data%n)
+      logical :: faulty
 
       if (data%kind == data_cubics .or. data%n == 0) return
       faulty = errors%any()
-      columns = merge([column_d, column_tau], [column_lambda, column_p], data%kind == data_shear)
       data%in_order = .not. (data%has_branch .or. command%unordered)
       data%is_record = data%in_order .and. .not. data%has_run
-      associate (x => data%value(columns(1), :data%n), y => data%value(columns(2), :data%n))
-         range = [maxval(x) - minval(x), maxval(y) - minval(y)]
-         where (range <= 0.0_wp) range = 1.0_wp
-         scatter = 0.0_wp
-         if (data%is_record) scatter = scatter_of(x, y)
+      data%columns = merge([column_d, column_tau], [column_lambda, column_p], data%kind == data_shear)
+      associate (x => data%value(data%columns(1), :data%n), y => data%value(data%columns(2), :data%n))
+         data%range = [maxval(x) - minval(x), maxval(y) - minval(y)]
+         where (data%range <= 0.0_wp) data%range = 1.0_wp
+         if (data%is_record) data%scatter = scatter_of(x, y)
       end associate
-      band = min(most_band, max(least_band, 2.0_wp*scatter))
-      if (command%noise > 0.0_wp) band = command%noise
+      data%band = min(most_band, max(least_band, 2.0_wp*data%scatter))
+      if (command%noise > 0.0_wp) data%band = command%noise
       if (command%unordered .and. .not. data%has_branch) data%branch = fit_load
       if (data%has_branch .and. .not. data%has_run) call number_stretches(data, command%fit%p_tolerance, command%noise)
-      call separate_tests(data, command%fit%p_tolerance, columns, range, band, test)
+      call separate_tests(data, command%fit%p_tolerance, test)
       runs = 0
       do t = 1, maxval(test)
          rows = pack([(i, i = 1, data%n)], test == t)
-         call take_off_offset(data, rows, columns, scatter*range, band*range, command%zero)
-         if (.not. data%in_order) cycle
-         u = data%value(columns(2), rows)/range(2)
-         if (data%kind == data_shear) u = u + data%value(columns(1), rows)/range(1)
-         if (data%is_record) then
-            call find_turns(u, band*merge(sqrt(2.0_wp), 1.0_wp, data%kind == data_shear), starts)
-            starts = [1, starts + 1]
-         else
-            starts = pack([(i, i = 1, size(rows))], [.true., data%run(rows(2:)) /= data%run(rows(:size(rows) - 1))])
-         end if
-         call take_branches(data, rows, u, starts)
-         runs = runs + size(starts)
+         call take_off_offset(data, rows, command%zero)
+         if (data%in_order) call take_branches(data, rows, runs)
       end do
-      call check_signs(data, band, band*range, errors)
-      if (.not. faulty .and. data%is_record) call report_record(data, command%fit%p_tolerance, columns, band, &
-         band*range, [runs, maxval(test)], errors)
+      call check_signs(data, errors)
+      if (.not. faulty .and. data%is_record) call report_record(data, command%fit%p_tolerance, runs, maxval(test), errors)
    end subroutine find_branches
 
    !> The TEST of each row. A header begins a test, and so does another pressure in shear. A row back at the first reading, after a row
    !! away from it, begins the test of a new specimen. Rows with branches may be in any order, and numbered runs may return to
    !! their pressure.
-   subroutine separate_tests(data, p_tolerance, columns, range, band, test)
+   subroutine separate_tests(data, p_tolerance, test)
       type(test_data_type), intent(in)  :: data
-      real(wp), intent(in)              :: p_tolerance, range(2), band
-      integer, intent(in)               :: columns(2)
-      integer, allocatable, intent(out) :: test(:)
+      real(wp), intent(in)              :: p_tolerance
+      integer, intent(out)              :: test(:) !! (row)
       integer, allocatable  :: group(:)
       real(wp), allocatable :: group_p(:)
-      integer  :: first(data%n), last(data%n), i, k, n, t
-      real(wp) :: away(2)
-      logical  :: fresh
+      integer :: first(data%n), last(data%n), i, k, n, t
+      logical :: fresh
 
       allocate (group(data%n), source=1)
       if (data%kind == data_shear .and. .not. data%has_branch) &
          call group_by_pressure(data%value(column_p, :data%n), p_tolerance, group, group_p)
-      allocate (test(data%n))
       n = 0
       do i = 1, data%n
          t = findloc([(data%part(first(k)) == data%part(i) .and. group(first(k)) == group(i), k = 1, n)], .true., 1, back=.true.)
          if (data%is_record .and. t < n) t = 0
          fresh = t == 0
-         if (data%in_order .and. .not. fresh) then ! distances of the row before and of this row from the first: shares of range
-            away = [maxval(abs(data%value(columns, last(t)) - data%value(columns, first(t)))/range), &
-                    maxval(abs(data%value(columns, i) - data%value(columns, first(t)))/range)]
-            fresh = away(1) > far .and. away(2) <= band
+         if (data%in_order .and. .not. fresh) then ! the row before is away from the first row, this row is back at it
+            associate (value => data%value(data%columns, [first(t), last(t), i]))
+               fresh = any(abs(value(:, 2) - value(:, 1))/data%range > far) .and. &
+                       all(abs(value(:, 3) - value(:, 1))/data%range <= data%band)
+            end associate
          end if
          if (fresh) then
             n = n + 1
@@ -123,21 +108,30 @@ contains
       end do
    end subroutine separate_tests
 
-   !> Assign branches to the ROWS of one test, in order, from the path U, which is straight from START to START. In shear, readings of the
-   !! opposite sense of loading are reversed.
-   subroutine take_branches(data, rows, u, starts)
+   !> Assign branches to the ROWS of one test, in order, from its path, which is straight between the turning points of a record or from
+   !! run to run, and count its RUNS. In shear, readings of the opposite sense of loading are reversed.
+   subroutine take_branches(data, rows, runs)
       type(test_data_type), intent(inout) :: data
-      integer, intent(in)  :: rows(:), starts(:)
-      real(wp), intent(in) :: u(:)
+      integer, intent(in)                 :: rows(:)
+      integer, intent(inout)              :: runs
+      integer, allocatable  :: starts(:)
+      real(wp), allocatable :: tau(:), u(:)       ! U increases where the test loads; TAU of shear
       integer :: branch(size(rows)), i, run, sense(size(rows))
+      logical :: is_shear
 
-      if (data%kind == data_shear) then
-         call follow(data%value(column_d, rows), u, starts, .true., data%is_record, branch, sense, data%value(column_tau, rows))
-         data%value(column_d, rows) = sense*data%value(column_d, rows)
-         data%value(column_tau, rows) = sense*data%value(column_tau, rows)
+      is_shear = data%kind == data_shear
+      u = data%value(data%columns(2), rows)/data%range(2)
+      if (is_shear) u = u + data%value(data%columns(1), rows)/data%range(1)
+      if (data%is_record) then
+         call find_turns(u, data%band*merge(sqrt(2.0_wp), 1.0_wp, is_shear), starts)
+         starts = [1, starts + 1]
       else
-         call follow(data%value(column_p, rows), u, starts, .false., data%is_record, branch, sense)
+         starts = pack([(i, i = 1, size(rows))], [.true., data%run(rows(2:)) /= data%run(rows(:size(rows) - 1))])
       end if
+      runs = runs + size(starts)
+      if (is_shear) tau = data%value(column_tau, rows)
+      call follow(data%value(merge(column_d, column_p, is_shear), rows), u, starts, is_shear, data%is_record, branch, sense, tau)
+      data%value(data%columns, rows) = spread(sense, 1, 2)*data%value(data%columns, rows)
       data%branch(rows) = branch
       if (any(branch == no_branch)) call data%notes%add(0, plural(count(branch == no_branch), 'row')// &
          ' left out: past point A and off the loading curve, p = '//real_text(data%value(column_p, rows(1))))
@@ -216,22 +210,15 @@ contains
          points(:curve%n) = pack([(i, i = 1, n)], branch(:n) == fit_load)
          associate (own => points(:curve%n))
             associate (d => sense(own)*forward(own), stress => sense(own)*tau(own))
-               call fit_cubic(d, stress, belongs(:curve%n, :), curve%a, starts, curve%is_known)
+               call fit_cubic(d, stress, belongs(:curve%n, :), curve%law%coefficients(1, :), starts, curve%is_known)
                curve%d = maxval(d)
-               curve%scatter = norm2(stress - cubic_at(curve, d))/sqrt(real(max(1, curve%n - 3), wp))
+               curve%scatter = norm2(stress - cubic_value(curve%law, d, 0.0_wp))/sqrt(real(max(1, curve%n - 3), wp))
                curve%least = exact*maxval(abs(stress))
             end associate
          end associate
       end function loading_curve
 
    end subroutine follow
-
-   elemental real(wp) function cubic_at(curve, d) result(tau)
-      type(curve_type), intent(in) :: curve
-      real(wp), intent(in)         :: d
-
-      tau = d*(curve%a(1) + d*(curve%a(2) + d*curve%a(3)))
-   end function cubic_at
 
    !> Where a return path from point FIRST on meets its loading CURVE: after the last point up to A that is off the curve on the side
    !! of the path. Where that is the last point before A, JOINS keeps the value from A. Points beyond A that are still off the curve,
@@ -242,31 +229,31 @@ contains
       integer, intent(in)          :: first
       integer, intent(inout)       :: joins        !! first point of loading
       integer, intent(inout)       :: branch(:)
+      real(wp) :: off(size(d)), side
+      logical  :: is_on(size(d))
       integer  :: i, last_off
-      real(wp) :: off, side
 
       if (.not. curve%is_known) return
+      off = tau - cubic_value(curve%law, d, 0.0_wp)
+      ! on the curve: within three times the scatter of its points, more beyond the last point
+      is_on = abs(off) <= curve%least + 3.0_wp*curve%scatter*max(1.0_wp, d/curve%d)**6
       side = 0.0_wp
       last_off = 0
       do i = first, joins - 1
-         if (d(i) < 0.0_wp) cycle
-         off = tau(i) - cubic_at(curve, d(i))
-         if (abs(off) <= doubt(curve, d(i))) cycle
-         if (.not. abs(side) > 0.0_wp) side = sign(1.0_wp, off)
-         if (side*off > 0.0_wp) last_off = i
+         if (d(i) < 0.0_wp .or. is_on(i)) cycle
+         if (.not. abs(side) > 0.0_wp) side = sign(1.0_wp, off(i))
+         if (side*off(i) > 0.0_wp) last_off = i
       end do
       if (last_off == 0) return
       if (last_off < joins - 1) then
          joins = behind(last_off, joins)
-         return
-      else if (curve%n <= 2*few) then
-         return
+      else if (curve%n > 2*few) then
+         do i = joins, size(d)
+            if (is_on(i) .or. d(i) > known*curve%d) exit
+            branch(i) = no_branch
+            joins = i + 1
+         end do
       end if
-      do i = joins, size(d)
-         if (abs(tau(i) - cubic_at(curve, d(i))) <= doubt(curve, d(i)) .or. d(i) > known*curve%d) exit
-         branch(i) = no_branch
-         joins = i + 1
-      end do
 
    contains
 
@@ -274,31 +261,21 @@ contains
       !! with the parabola through the points before that are off the curve.
       integer function behind(last, end)
          integer, intent(in) :: last, end
-         integer  :: points(last - first + 1), k
+         integer, allocatable :: points(:)
          real(wp) :: parabola(3)
          logical  :: ok
 
-         k = count(d(first:last) >= 0.0_wp)
-         points(:k) = pack([(i, i = first, last)], d(first:last) >= 0.0_wp)
-         associate (x => d(points(:k)), y => tau(points(:k)) - cubic_at(curve, d(points(:k))))
-            call solve_least_squares(reshape([(1.0_wp, i = 1, k), x, x**2], [k, 3]), y, parabola, ok)
+         points = pack([(i, i = first, last)], d(first:last) >= 0.0_wp)
+         associate (x => d(points), k => size(points))
+            call solve_least_squares(reshape([(1.0_wp, i = 1, k), x, x**2], [k, 3]), off(points), parabola, ok)
          end associate
          do behind = last + 1, end - 1
-            if (.not. ok .or. abs(tau(behind) - cubic_at(curve, d(behind))) <= curve%least) return
+            if (.not. ok .or. abs(off(behind)) <= curve%least) return
             if (side*(parabola(1) + d(behind)*(parabola(2) + d(behind)*parabola(3))) <= 0.0_wp) return
          end do
       end function behind
 
    end subroutine find_meeting
-
-   !> Largest distance from the CURVE at D of a point that counts as on it: three times the scatter of its points, more
-   !! beyond the last point.
-   elemental real(wp) function doubt(curve, d)
-      type(curve_type), intent(in) :: curve
-      real(wp), intent(in)         :: d
-
-      doubt = curve%least + 3.0_wp*curve%scatter*max(1.0_wp, d/curve%d)**6
-   end function doubt
 
    !> Assign runs to rows that have branches but no runs. Each stretch of one branch at one pressure is a run, up to where d, or p of a
    !! normal test, turns back. Very short stretches in shear mean rows without an order: those of one branch and pressure form one run.
@@ -306,51 +283,45 @@ contains
       type(test_data_type), intent(inout) :: data
       real(wp), intent(in)                :: p_tolerance
       real(wp), intent(in)                :: noise !! share of the range, 0: estimated
-      real(wp) :: band, scatter
-      integer  :: column, first, i, last, n, parted(data%n), stretch(data%n)
+      logical  :: begins(data%n + 1)               ! a run, at each row; and one behind the last row
+      real(wp) :: band
+      integer  :: first, i, last, run
       integer, allocatable :: turns(:)
-      logical  :: new
 
-      stretch = 1
-      do i = 2, data%n
-         new = data%branch(i) /= data%branch(i - 1)
-         associate (p => data%value(column_p, i - 1:i))
-            if (data%kind == data_shear) new = new .or. abs(p(2) - p(1)) > p_tolerance*p(1)
-         end associate
-         stretch(i) = stretch(i - 1) + merge(1, 0, new)
-      end do
-      column = merge(column_d, column_p, data%kind == data_shear)
-      associate (x => data%value(column, :data%n), y => data%value(merge(column_tau, column_lambda, column == column_d), :data%n))
-         scatter = scatter_of(x, y)
-         band = max(least_band, 2.0_wp*scatter)
-         if (noise > 0.0_wp) band = noise
-         first = 1
-         if (band > most_band .and. noise <= 0.0_wp) first = data%n + 1
-         n = 0
-         do while (first <= data%n)       ! split where x turns back, and renumbered
-            last = first
-            do while (last < data%n)
-               if (stretch(last + 1) /= stretch(first)) exit
-               last = last + 1
+      associate (n => data%n, is_shear => data%kind == data_shear, branch => data%branch, p => data%value(column_p, :))
+         begins = .true.
+         begins(2:n) = branch(2:n) /= branch(:n - 1) .or. (is_shear .and. abs(p(2:n) - p(:n - 1)) > p_tolerance*p(:n - 1))
+         associate (x => data%value(merge(column_d, column_p, is_shear), :n), &
+                    y => data%value(merge(column_tau, column_lambda, is_shear), :n))
+            band = max(least_band, 2.0_wp*scatter_of(x, y))
+            if (noise > 0.0_wp) band = noise
+            first = 1
+            do last = 1, n
+               if (.not. begins(last + 1) .or. (band > most_band .and. noise <= 0.0_wp)) cycle
+               do                           ! split the stretch that is complete where x turns back
+                  call find_turns(x(first:last), band*(maxval(x) - minval(x)), turns)
+                  if (size(turns) == 0) exit
+                  first = first + turns(1)
+                  begins(first) = .true.
+               end do
+               first = last + 1
             end do
-            call find_turns(x(first:last), band*(maxval(x) - minval(x)), turns)
-            if (size(turns) > 0) last = first + turns(1) - 1
-            n = n + 1
-            parted(first:last) = n
-            first = last + 1
+         end associate
+         if (is_shear .and. n < few*count(begins(:n))) return
+         run = 0
+         do i = 1, n
+            if (begins(i)) run = run + 1
+            data%run(i) = run
          end do
-         if (n > 0) stretch = parted
       end associate
-      if (data%kind == data_normal .or. data%n >= few*stretch(data%n)) data%run(:data%n) = stretch
    end subroutine number_stretches
 
-   !> Where the first reading of a test is negative, by more than the SCATTER of readings and at most the BAND of noise, or ALWAYS,
-   !! subtract it from all ROWS of the test, separately in COLUMNS(1) and (2). Rows with branches begin with the first loading row.
-   subroutine take_off_offset(data, rows, columns, scatter, band, always)
+   !> Where the first reading of a test is negative, by more than the scatter of readings and at most the band of noise, or ALWAYS,
+   !! subtract it from all ROWS of the test, separately in both columns. Rows with branches begin with the first loading row.
+   subroutine take_off_offset(data, rows, always)
       type(test_data_type), intent(inout) :: data
-      integer, intent(in)  :: rows(:), columns(2)
-      real(wp), intent(in) :: scatter(2), band(2) !! of each column
-      logical, intent(in)  :: always
+      integer, intent(in)                 :: rows(:)
+      logical, intent(in)                 :: always
       real(wp) :: first
       integer  :: k, start
 
@@ -358,36 +329,39 @@ contains
       if (data%has_branch) start = rows(max(1, findloc(data%branch(rows), fit_load, 1)))
       if (data%has_branch .and. data%branch(start) /= fit_load) return
       do k = 1, 2
-         first = data%value(columns(k), start)
-         if (.not. (always .or. (first < -scatter(k) .and. first >= -band(k))) .or. abs(first) <= 0.0_wp) cycle
-         data%value(columns(k), rows) = data%value(columns(k), rows) - first
-         call data%notes%add(data%line(start), 'the first reading of '//trim(column_symbols(columns(k)))//', '// &
-                             real_text(first)//', subtracted from '//plural(size(rows), 'row'))
+         associate (value => data%value(data%columns(k), :), range => data%range(k))
+            first = value(start)
+            if (.not. (always .or. (first < -data%scatter*range .and. first >= -data%band*range)) &
+                .or. abs(first) <= 0.0_wp) cycle
+            value(rows) = value(rows) - first
+            call data%notes%add(data%line(start), 'the first reading of '//trim(column_symbols(data%columns(k)))//', '// &
+                                real_text(first)//', subtracted from '//plural(size(rows), 'row'))
+         end associate
       end do
    end subroutine take_off_offset
 
-   !> Report readings below zero by more than the BAND of noise, SHARE of the range: p, and d of rows given as loading.
-   subroutine check_signs(data, share, band, errors)
+   !> Report readings below zero by more than the band of noise: p, and d of rows given as loading. The p of a shear test is prescribed, without noise.
+   subroutine check_signs(data, errors)
       type(test_data_type), intent(in)     :: data
-      real(wp), intent(in)                 :: share, band(2) !! of d and tau, or of lambda and p
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: help, word
-      integer :: i
+      character(:), allocatable :: fault, help, word
+      real(wp) :: lowest(2)
+      integer  :: i
 
+      lowest = -data%band*data%range
+      if (data%kind == data_shear) lowest(2) = 0.0_wp
       help = '; --zero subtracts the first reading of a test from all its readings, --noise allows more noise than '// &
-             real_text(0.01_wp*anint(1.0e4_wp*share))//' % of the range'
+             real_text(0.01_wp*anint(1.0e4_wp*data%band))//' % of the range'
       do i = 1, data%n
          associate (p => data%place(:, column_p, i), d => data%place(:, column_d, i))
-            word = data%text%line(data%line(i))
-            word = word(p(1):min(p(2), len(word)))
-            if (data%kind == data_normal .and. data%value(column_p, i) < -band(2)) then
-               call errors%add(data%line(i), 'P: '''//word//''' is negative, expected 0 or more (compression is '// &
-                               'positive)'//help, p(1), p(2))
-            else if (data%kind == data_shear .and. data%value(column_p, i) < 0.0_wp) then
-               call errors%add(data%line(i), 'P: '''//word//''' is negative, expected 0 or more (compression is '// &
-                               'positive)', p(1), p(2))
+            if (data%value(column_p, i) < lowest(2)) then
+               word = data%text%line(data%line(i))
+               word = word(p(1):min(p(2), len(word)))
+               fault = 'P: '''//word//''' is negative, expected 0 or more (compression is positive)'
+               if (data%kind == data_normal) fault = fault//help
+               call errors%add(data%line(i), fault, p(1), p(2))
             else if (data%kind == data_shear .and. data%has_branch .and. data%branch(i) == fit_load .and. &
-                     data%value(column_d, i) < -band(1)) then
+                     data%value(column_d, i) < lowest(1)) then
                call errors%add(data%line(i), 'd of the LOAD branch is negative: expected d and tau counted in the sense of '// &
                                'loading'//help, d(1), d(2))
             end if
@@ -395,29 +369,30 @@ contains
       end do
    end subroutine check_signs
 
-   !> Note how the record was split, and warn where it hardly is a record.
-   subroutine report_record(data, p_tolerance, columns, share, band, counts, errors)
+   !> Note how the record was split into TESTS and RUNS, and warn where it hardly is a record.
+   subroutine report_record(data, p_tolerance, runs, tests, errors)
       type(test_data_type), intent(inout)  :: data
-      real(wp), intent(in)                 :: p_tolerance, share, band(2) !! SHARE of the range is the BAND of each column
-      integer, intent(in)                  :: columns(2), counts(2)       !! runs and tests
+      real(wp), intent(in)                 :: p_tolerance
+      integer, intent(in)                  :: runs, tests
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: rows
       logical :: noisy
 
       rows = plural(data%n, 'row')
-      call data%notes%add(0, rows//' in the order of time, '//plural(counts(2), 'test')//', '// &
-                          plural(counts(1) - counts(2), 'turn')//'; noise band '//real_text(0.01_wp*anint(1.0e4_wp*share))// &
-                          ' % of the range (--noise): '//real_text(band(1))//' of '//trim(column_symbols(columns(1)))//', '// &
-                          real_text(band(2))//' of '//trim(column_symbols(columns(2))))
+      associate (names => column_symbols(data%columns), band => data%band*data%range)
+         call data%notes%add(0, rows//' in the order of time, '//plural(tests, 'test')//', '//plural(runs - tests, 'turn')// &
+                             '; noise band '//real_text(0.01_wp*anint(1.0e4_wp*data%band))//' % of the range (--noise): '// &
+                             real_text(band(1))//' of '//trim(names(1))//', '//real_text(band(2))//' of '//trim(names(2)))
+      end associate
       associate (p => data%value(column_p, :data%n - 1), p_next => data%value(column_p, 2:data%n))
-         noisy = data%kind == data_shear .and. counts(2) > 1 .and. &
-                 (data%n < few*counts(2) .or. any(abs(p_next - p) > p_tolerance*p .and. abs(p_next - p) < 0.05_wp*p))
+         noisy = data%kind == data_shear .and. tests > 1 .and. &
+                 (data%n < few*tests .or. any(abs(p_next - p) > p_tolerance*p .and. abs(p_next - p) < 0.05_wp*p))
       end associate
       if (noisy) then
-         call errors%add(0, plural(counts(2), 'test')//' in '//rows//' by the pressure: expected the rows of a test together; '// &
+         call errors%add(0, plural(tests, 'test')//' in '//rows//' by the pressure: expected the rows of a test together; '// &
                          '--p-tolerance 0.05 counts pressures within 5 % as one')
-      else if (counts(1) > counts(2) .and. data%n < few*counts(1)) then
-         call errors%add(0, 'the test turns back '//integer_text(counts(1) - counts(2))//' times in '//rows//', too often for '// &
+      else if (runs > tests .and. data%n < few*runs) then
+         call errors%add(0, 'the test turns back '//integer_text(runs - tests)//' times in '//rows//', too often for '// &
             'a record in the order of time; --unordered takes all rows as loading, --noise 0.1 ignores smaller turns, a column '// &
             'branch or run classifies the rows')
       else if (.not. any(data%branch(:data%n) == fit_load) .and. data%kind == data_normal) then

@@ -1,29 +1,36 @@
 !> The state of the analysis, which changes from increment to increment, and operations on it common to all methods.
 module analysis_state
-   use branch_starts, only: note_turns, turning_point
    use case_control, only: case_control_type, method_step, pressure_eq10
    use condensed_interface, only: condensed_type
    use condition_estimate, only: condition_type
    use equation_solver, only: equation_system, failure_type
    use interface_operator, only: add_global_force, interface_element, joint_movement
-   use joint_laws, only: element_state, is_apart, open_or_close, shear_pressure
+   use joint_laws, only: element_state, norm_and_shear
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections, temperature_type
    use normal_curve, only: normal_secant
-   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin, norm
+   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin
    use numbers, only: is_measure
-   use shear_stiffness, only: shear
    use terminal, only: show_line
    use text_tools, only: integer_text, real_text
    implicit none
    private
 
    public :: start_analysis, all_held, interface_stiffness, reach, find_unbalanced, subtract_joint_forces, &
-             element_force, tally_work, book_friction, record_iteration, note_largest, free_norm, force_noise, kind_on_branch
+             element_force, tally_work, record_iteration, note_largest, free_norm, force_noise, note_turns
 
    real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: the largest rounding error of forces that joints balance
 
    integer, parameter, public :: no_stiffness = 1, secant_stiffness = 2, tangent_stiffness = 3, e_u_stiffness = 4 !! k_n used
+
+   integer, parameter, public :: kind_on_branch(4) = [tangent_stiffness, e_u_stiffness, no_stiffness, e_u_stiffness] !! by branch
+
+   !> Where a shear branch of an interface element began, for the listing only.
+   type, public :: turning_point
+      integer  :: branch = branch_load              !! that began there
+      integer, private :: filler = 0                ! as in normal_state
+      real(wp) :: delta = 0.0_wp, tau = 0.0_wp      !! [length], [pressure]
+   end type turning_point
 
    !> Work done on one joint in the present stage [force x length].
    type, public :: joint_energy
@@ -176,26 +183,17 @@ contains
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(in)     :: failure
-      integer :: before, d, i
-      logical :: was_apart
+      logical :: was_open
+      integer :: i
 
       if (failure%raised) return
       analysis%record%n_removed = 0
       do i = 1, size(model%interface)
          associate (area => model%interface(i)%area, law => model%joints(model%interface(i)%joint)%law, &
                     state => analysis%states(i), k => analysis%k(:, i))
-            before = state%normal%branch
-            was_apart = is_apart(state)
-            call norm(law%normal, area, analysis%eq10, state%normal, k(3))
-            call open_or_close(law, was_apart, analysis%movement(:, i), state)
-            k(:2) = 0.0_wp
-            if (state%normal%branch /= branch_open) then
-               do d = 1, 2
-                  call shear(law%shear(d), area, shear_pressure(area, state%normal), state%shear(d), k(d))
-               end do
-            else if (before /= branch_open) then
-               analysis%record%n_removed = analysis%record%n_removed + 1
-            end if
+            was_open = state%normal%branch == branch_open
+            call norm_and_shear(law, area, analysis%eq10, analysis%movement(:, i), state, k)
+            if (state%normal%branch == branch_open .and. .not. was_open) analysis%record%n_removed = analysis%record%n_removed + 1
             analysis%next_kind(i) = kind_on_branch(state%normal%branch)
             if (is_virgin(area, state%normal) .and. k(3) <= normal_secant(law%normal, area, state%normal%p_av)) &
                analysis%next_kind(i) = secant_stiffness
@@ -205,14 +203,22 @@ contains
       call find_unbalanced(system, analysis)
    end subroutine interface_stiffness
 
-   !> The kind of the normal stiffness on a BRANCH.
-   pure integer function kind_on_branch(branch) result(kind)
-      integer, intent(in) :: branch
+   !> Note in TURNS(2, n) the shear branches that began with the last movement of the elements in these STATES. A branch begins
+   !! at the point before the movement.
+   pure subroutine note_turns(states, turns)
+      type(element_state), intent(in)    :: states(:)
+      type(turning_point), intent(inout) :: turns(:, :)
+      integer :: i, k
 
-      kind = e_u_stiffness
-      if (branch == branch_load) kind = tangent_stiffness
-      if (branch == branch_open) kind = no_stiffness
-   end function kind_on_branch
+      do i = 1, size(states)
+         do k = 1, 2
+            associate (state => states(i)%shear(k))
+               if (turns(k, i)%branch /= state%branch) &
+                  turns(k, i) = turning_point(branch=state%branch, delta=state%delta_before, tau=state%tau_before)
+            end associate
+         end do
+      end do
+   end subroutine note_turns
 
    !> Commit the displacements U, under which the bodies carry the forces BODY, and the resulting movements of the interface
    !! elements. All methods commit here.
@@ -294,14 +300,6 @@ contains
       energy%put_in = energy%put_in + max(0.0_wp, work)
       energy%given_back = energy%given_back + max(0.0_wp, -work)
    end subroutine tally_work
-
-   !> Book WORK of the work put in by shear as work on friction [force x length].
-   pure subroutine book_friction(energy, work)
-      type(joint_energy), intent(inout) :: energy
-      real(wp), intent(in)              :: work
-
-      energy%put_in = energy%put_in + [-work, 0.0_wp, work]
-   end subroutine book_friction
 
    !> Update the largest pressure and deflection so far.
    pure subroutine note_largest(analysis)

@@ -14,12 +14,13 @@ module back_method
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin, stand_at_limits
+   use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_tangent, pressure_floor
    use normal_stiffness, only: branch_load, branch_open, has_come_to
    use numbers, only: first_largest
+   use shear_stiffness, only: stand_at_limit
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none
@@ -37,6 +38,7 @@ module back_method
       real(wp), allocatable :: deflection(:, :)   ! (3, n) resulting deflections
       real(wp), allocatable :: change(:)          ! (n) largest change of a stress of the laws between both [pressure]
       real(wp), allocatable :: k_int(:, :, :)     ! (3, 3, n) stiffness, in joint axes
+      real(wp) :: largest_p = 0.0_wp              ! of the laws at the resulting deflections [pressure]
    end type iterate_type
 
 contains
@@ -50,32 +52,34 @@ contains
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(iterate_type) :: now
-      real(wp), allocatable :: u(:, :), body(:, :)
-      real(wp) :: k(3), largest_p
+      real(wp), allocatable :: u(:, :), body(:, :), load(:, :)
+      real(wp) :: k(3)
       integer  :: d, i, iteration, n, worst
 
       n = size(model%interface)
       allocate (now%taken(3, n), now%deflection(3, n), now%change(n), now%k_int(3, 3, n), source=0.0_wp)
       now%taken(3, :) = loading_deflection(model%joints(model%interface%joint)%law%normal, analysis%states%normal%p_av)
       do iteration = 1, merge(most_averages, most_shown, analysis%average)
+         load = analysis%now%condensed_load
          do i = 1, n
-            associate (element => model%interface(i), p_av => analysis%states(i)%normal%p_av)
-               k = back_stiffness(model%joints(element%joint)%law, element%area, p_av, now%taken(:, i))
+            associate (element => system%interface(i), law => model%joints(model%interface(i)%joint)%law)
+               k = back_stiffness(law, element%area, analysis%states(i)%normal%p_av, now%taken(:, i))
+               do d = 1, 3
+                  now%k_int(d, d, i) = k(d)
+               end do
+               ! the secant starts where the gap g is closed: k_n (closing - g)
+               if (abs(element%gap) > 0.0_wp) call add_force(element, [0.0_wp, 0.0_wp, k(3)*element%gap], load)
             end associate
-            do d = 1, 3
-               now%k_int(d, d, i) = k(d)
-            end do
          end do
          call form_structure_stiffness(model, now%k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, &
                                        failure, one_solution=.true.)
-         call solve_equations(model, system, load_of_secants(system, analysis%now%condensed_load, now), analysis%u, failure, &
+         call solve_equations(model, system, load, analysis%u, failure, &
                               moved=merge(analysis%now%moved(:, system%retained), 0.0_wp, analysis%moves))
          if (failure%raised) return
          if (n == 0) exit
-         call read_off(model, system, analysis, now, largest_p)
-         call record_iteration(analysis, iteration_record(before=largest_p, after=maxval(now%change), &
+         call read_off(model, system, analysis, now)
+         call record_iteration(analysis, iteration_record(before=now%largest_p, after=maxval(now%change), &
                                                 step=maxval(now%deflection(3, :)), part=-1))
-         analysis%record%is_settled = has_settled(model, system, analysis, now, largest_p)
          if (analysis%record%is_settled) exit
          now%taken = merge(0.5_wp*(now%taken + now%deflection), now%deflection, analysis%average)
       end do
@@ -94,34 +98,18 @@ contains
       call find_unbalanced(system, analysis)
    end subroutine back_increment
 
-   !> The load FELT plus the forces of secants with gaps: a secant starts where its gap is closed, k_n (closing - g).
-   pure function load_of_secants(system, felt, now) result(load)
-      class(equation_system), intent(in) :: system
-      real(wp), intent(in)               :: felt(:, :) !! (dimension, retained) [force]
-      type(iterate_type), intent(in)     :: now
-      real(wp), allocatable :: load(:, :)
-      integer :: i
-
-      load = felt
-      do i = 1, size(system%interface)
-         associate (element => system%interface(i))
-            if (abs(element%gap) > 0.0_wp) call add_force(element, [0.0_wp, 0.0_wp, now%k_int(3, 3, i)*element%gap], load)
-         end associate
-      end do
-   end function load_of_secants
-
-   !> Read from the solution the movements, the LARGEST_P of the laws there [pressure], and the difference of their stresses
-   !! from those at the last secants.
-   subroutine read_off(model, system, analysis, now, largest_p)
+   !> Read from the solution the deflections and the difference of the stresses of the laws there from those at the last secants.
+   !! The secants have settled where this is within TOL of the largest pressure, or within the rounding of the deflections times
+   !! the slope of the law.
+   subroutine read_off(model, system, analysis, now)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
-      type(analysis_type), intent(in)    :: analysis
+      type(analysis_type), intent(inout) :: analysis
       type(iterate_type), intent(inout)  :: now
-      real(wp), intent(out)              :: largest_p
-      real(wp) :: k(3), p(2)
+      real(wp) :: k(3), left(size(model%interface)), p(2)
       integer  :: i
 
-      largest_p = 0.0_wp
+      now%largest_p = 0.0_wp
       do i = 1, size(model%interface)
          associate (element => model%interface(i), deflection => now%deflection(:, i), &
                     law => model%joints(model%interface(i)%joint)%law)
@@ -130,32 +118,20 @@ contains
             k = back_stiffness(law, element%area, analysis%states(i)%normal%p_av, deflection)
             k(:2) = abs((k(:2) - [now%k_int(1, 1, i), now%k_int(2, 2, i)])*deflection(:2))/element%area
             now%change(i) = max(abs(p(2) - p(1)), k(1), k(2))
-            largest_p = max(largest_p, p(2))
+            now%largest_p = max(now%largest_p, p(2))
          end associate
       end do
-   end subroutine read_off
-
-   !> Whether the secants agree with the results: within TOL of the largest pressure, or within the rounding of the deflections
-   !! times the slope of the law.
-   pure logical function has_settled(model, system, analysis, now, largest_p)
-      type(model_type), intent(in)       :: model
-      class(equation_system), intent(in) :: system
-      type(analysis_type), intent(in)    :: analysis
-      type(iterate_type), intent(in)     :: now
-      real(wp), intent(in)               :: largest_p !! [pressure]
-      real(wp) :: left(size(model%interface)), p, slope
-      integer  :: i
-
-      p = max(largest_p, pressure_floor*maxval(analysis%states%normal%p_av))
-      do i = 1, size(model%interface)
-         associate (law => model%joints(model%interface(i)%joint)%law%normal)
-            slope = normal_tangent(law, 1.0_wp, p, analysis%states(i)%normal%p_av)
-            left(i) = max(analysis%load_tolerance*p, rounding*loading_deflection(law, p)*slope)
-         end associate
-      end do
+      associate (p => max(now%largest_p, pressure_floor*maxval(analysis%states%normal%p_av)))
+         do i = 1, size(left)
+            associate (law => model%joints(model%interface(i)%joint)%law%normal)
+               left(i) = max(analysis%load_tolerance*p, rounding*loading_deflection(law, p)* &
+                             normal_tangent(law, 1.0_wp, p, analysis%states(i)%normal%p_av))
+            end associate
+         end do
+      end associate
       left = max(left, 0.1_wp*force_noise(system, analysis%u)/model%interface%area)
-      has_settled = all(now%change <= left)
-   end function has_settled
+      analysis%record%is_settled = all(now%change <= left)
+   end subroutine read_off
 
    !> Store the states of the elements from the last solution.
    subroutine store(model, now, analysis)
@@ -182,7 +158,7 @@ contains
             state%shear%tau = state%shear%k_s*deflection(:2)/element%area
             state%slips = exceeds_limit(law, state, rest_margin)
             if (state%slips) then
-               call stand_at_limits(law, state)
+               call stand_at_limit(law%shear, max(0.0_wp, state%normal%pressure), state%shear)
                state%shear%slid = state%shear%delta_0
             end if
             call tally_work(analysis%energy(element%joint), loading_work(law, element%area, state))

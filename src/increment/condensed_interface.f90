@@ -33,9 +33,9 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: load_before(:, :), load_after(:, :) !! (dimension, retained) [force]
       type(condensed_type), intent(out)  :: condensed
-      real(wp), allocatable :: k(:, :), load(:, :)
-      integer, allocatable  :: joints(:), gone(:)
-      integer :: info, m, n
+      real(wp), allocatable :: k(:, :), load(:, :), x(:), y(:)
+      integer, allocatable  :: joints(:), gone(:), order(:)
+      integer :: i, info, m, n
 
       call find_unknowns(model, system, joints, gone)
       n = size(joints)
@@ -52,10 +52,18 @@ contains
       if (condensed%problem /= '') return
       condensed%node = system%node(joints)
       condensed%direction = system%direction(joints)
+      order = [joints, gone]
       allocate (k(n + m, n + m), load(n + m, 2))
-      call form_matrix(system, [joints, gone], k)
-      load(:, 1) = loads_on(system, [joints, gone], load_before)
-      load(:, 2) = loads_on(system, [joints, gone], load_after)
+      allocate (x(system%n), y(system%n), source=0.0_wp)
+      do i = 1, n + m
+         associate (d => system%direction(order(i)), node => system%retained_index(system%node(order(i))))
+            load(i, :) = [load_before(d, node), load_after(d, node)]
+         end associate
+         x(order(i)) = 1.0_wp
+         call system%multiply(x, y)
+         k(:, i) = y(order)
+         x(order(i)) = 0.0_wp
+      end do
       if (m > 0) then
          call dpotrf('L', m, k(n + 1, n + 1), n + m, info)
          if (info /= 0) then
@@ -99,34 +107,5 @@ contains
       end do
       gone = pack([(i, i = 1, system%n)], is_open)
    end subroutine find_unknowns
-
-   !> K of the equations in ORDER, column by column.
-   subroutine form_matrix(system, order, k)
-      class(equation_system), intent(in) :: system
-      integer, intent(in)                :: order(:)
-      real(wp), intent(out)              :: k(:, :)
-      real(wp) :: x(system%n), y(system%n)
-      integer  :: i
-
-      x = 0.0_wp
-      y = 0.0_wp
-      do i = 1, size(order)
-         x(order(i)) = 1.0_wp
-         call system%multiply(x, y)
-         k(:, i) = y(order)
-         x(order(i)) = 0.0_wp
-      end do
-   end subroutine form_matrix
-
-   !> The LOAD on retained nodes at the equations in ORDER.
-   pure function loads_on(system, order, load) result(f)
-      class(equation_system), intent(in) :: system
-      integer, intent(in)                :: order(:)
-      real(wp), intent(in)               :: load(:, :)
-      real(wp) :: f(size(order))
-      integer  :: i
-
-      f = [(load(system%direction(order(i)), system%retained_index(system%node(order(i)))), i = 1, size(order))]
-   end function loads_on
 
 end module condensed_interface

@@ -15,29 +15,49 @@ module finite_state
    implicit none
    private
 
-   public :: check_state, check_precision
+   public :: check_state
 
 contains
 
    !> FAILURE names the first load, displacement, interface element, bolt, joint or unbalanced force of the completed increment
    !! that is not finite or beyond all bounds. The displacements of all nodes are those of the last recovery.
+   !! Otherwise FAILURE states that the rounding error is not small compared with the joint forces: soft joints under stiff bodies,
+   !! or bodies that have moved far. Bodies that moved supports carry along or that interference has pushed away carry no force,
+   !! and are not tested.
    subroutine check_state(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(in)    :: analysis
       type(failure_type), intent(inout)  :: failure
-      integer :: i
+      character(:), allocatable :: place
+      real(wp) :: noise
+      integer  :: i
 
+      place = where_in_plan(plan, analysis%stage, analysis%increment)//': '
       call check_nodes('the load', analysis%now%load, [(i, i = 1, model%n_nodes)])
       call check_nodes('the displacement', analysis%u, system%retained)
-      call check_joints()
+      do i = 1, size(model%interface)
+         call check_element(i)
+      end do
+      do i = 1, size(model%joints)
+         call check('the work done on joint '//integer_text(model%joints(i)%id), [analysis%energy(i)%put_in, &
+                                                                                 analysis%energy(i)%given_back])
+      end do
       do i = 1, n_bars(model)
          call check('the pull of element '//integer_text(model%bars(i)%id), [analysis%pull(i)])
       end do
       call check_nodes('the force out of balance', analysis%unbalanced, system%retained)
       call check_nodes('the displacement', analysis%all_u, [(i, i = 1, model%n_nodes)])
       call check_nodes('the force out of balance or of support', analysis%all_unbalanced, [(i, i = 1, model%n_nodes)])
+
+      if (size(model%interface) == 0) return
+      noise = force_noise(system, analysis%u)
+      if (noise <= precise*analysis%largest_load) return
+      if (analysis%is_loose .and. analysis%largest_load <= 10.0_wp*idle*analysis%loose_force) return
+      if (noise >= analysis%largest_load .and. (analysis%is_moved .or. any(model%interface%gap < 0.0_wp))) return
+      call failure%raise(place//no_balance//', '//real_text(noise)//' of force where '//real_text(analysis%largest_load)// &
+                         ' act: see CONDITION OF THE STIFFNESS in the manual')
 
    contains
 
@@ -56,30 +76,24 @@ contains
          end do
       end subroutine check_nodes
 
-      !> Test the interface elements and the energies of the joints.
-      subroutine check_joints()
-         integer :: j, k
+      !> Test interface element I.
+      subroutine check_element(i)
+         integer, intent(in) :: i
+         character(:), allocatable :: words
 
-         do k = 1, size(model%interface)
-            associate (state => analysis%states(k), normal => analysis%states(k)%normal)
-               if (all(is_measure([normal%lambda, normal%pressure, normal%sumf, normal%k_n, normal%p_a, normal%lambda_a, &
-                                   normal%lambda_b, state%shear%delta, state%shear%tau, state%shear%k_s, analysis%k(:, k)]))) cycle
-               associate (words => ' of interface element '//integer_text(model%interface(k)%id)//' at node '// &
-                          integer_text(joint_node_id(model, k, 1)))
-                  call check('the deflection lambda'//words, [normal%lambda, normal%lambda_a, normal%lambda_b])
-                  call check('the pressure'//words, [normal%pressure, normal%p_a])
-                  call check('the normal force'//words, [normal%sumf])
-                  call check('the shear deflection'//words, state%shear%delta)
-                  call check('the shear stress'//words, state%shear%tau)
-                  call check('the stiffness'//words, [normal%k_n, state%shear%k_s, analysis%k(:, k)])
-               end associate
-            end associate
-         end do
-         do j = 1, size(model%joints)
-            call check('the work done on joint '//integer_text(model%joints(j)%id), [analysis%energy(j)%put_in, &
-                                                                                    analysis%energy(j)%given_back])
-         end do
-      end subroutine check_joints
+         associate (normal => analysis%states(i)%normal, shear => analysis%states(i)%shear, k => analysis%k(:, i))
+            if (all(is_measure([normal%lambda, normal%pressure, normal%sumf, normal%k_n, normal%p_a, normal%lambda_a, &
+                                normal%lambda_b, shear%delta, shear%tau, shear%k_s, k]))) return
+            words = ' of interface element '//integer_text(model%interface(i)%id)//' at node '// &
+                    integer_text(joint_node_id(model, i, 1))
+            call check('the deflection lambda'//words, [normal%lambda, normal%lambda_a, normal%lambda_b])
+            call check('the pressure'//words, [normal%pressure, normal%p_a])
+            call check('the normal force'//words, [normal%sumf])
+            call check('the shear deflection'//words, shear%delta)
+            call check('the shear stress'//words, shear%tau)
+            call check('the stiffness'//words, [normal%k_n, shear%k_s, k])
+         end associate
+      end subroutine check_element
 
       !> Test the VALUES of WHAT.
       subroutine check(what, values)
@@ -88,31 +102,11 @@ contains
          integer :: k
 
          do k = 1, size(values)
-            if (.not. is_measure(values(k))) call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)// &
-               ': '//what//' is '//real_text(values(k))//', too large; are loads, lengths and stiffnesses in consistent units?')
+            if (.not. is_measure(values(k))) call failure%raise(place//what//' is '//real_text(values(k))// &
+               ', too large; are loads, lengths and stiffnesses in consistent units?')
          end do
       end subroutine check
 
    end subroutine check_state
-
-   !> FAILURE states that the rounding error is not small compared with the joint forces: soft joints under stiff bodies, or
-   !! bodies that have moved far. Bodies that moved supports carry along or that interference has pushed away carry no force,
-   !! and are not tested.
-   subroutine check_precision(model, plan, system, analysis, failure)
-      type(model_type), intent(in)       :: model
-      type(stage_plan_type), intent(in)  :: plan
-      class(equation_system), intent(in) :: system
-      type(analysis_type), intent(in)    :: analysis
-      type(failure_type), intent(inout)  :: failure
-      real(wp) :: noise
-
-      if (size(model%interface) == 0) return
-      noise = force_noise(system, analysis%u)
-      if (noise <= precise*analysis%largest_load) return
-      if (analysis%is_loose .and. analysis%largest_load <= 10.0_wp*idle*analysis%loose_force) return
-      if (noise >= analysis%largest_load .and. (analysis%is_moved .or. any(model%interface%gap < 0.0_wp))) return
-      call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': '//no_balance//', '//real_text(noise)// &
-                         ' of force where '//real_text(analysis%largest_load)//' act: see CONDITION OF THE STIFFNESS in the manual')
-   end subroutine check_precision
 
 end module finite_state

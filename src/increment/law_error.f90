@@ -5,11 +5,10 @@
 module law_error
    use analysis_state, only: analysis_type
    use case_control, only: method_back, method_newton
-   use joint_laws, only: element_state, follow_element, rest_when_open, shear_pressure
+   use joint_laws, only: element_state, follow_element, norm_and_shear, rest_when_open
    use kinds, only: wp
    use model_data, only: model_type
-   use normal_stiffness, only: branch_open, law_deflection, norm
-   use shear_stiffness, only: shear
+   use normal_stiffness, only: law_deflection
    implicit none
    private
 
@@ -44,38 +43,27 @@ contains
       end do
    end subroutine follow_laws
 
-   !> The largest distance of joint J from its normal law: lambda from that of the law at the same pressure.
+   !> The largest distance of joint J from its normal law: lambda from that of the law at the same pressure. At zero pressure the
+   !! law holds for any lambda below the end of its branch.
    pure type(distance_type) function normal_distance(model, analysis, j) result(farthest)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: j
+      real(wp) :: by_law(model%joints(j)%first:model%joints(j)%last), p
+      integer  :: i
 
-      real(wp), allocatable :: by_law(:)
-      integer :: i
-
-      associate (first => model%joints(j)%first, last => model%joints(j)%last, lambda => analysis%states%normal%lambda)
-         allocate (by_law(last - first + 1))
-         do i = first, last
-            by_law(i - first + 1) = deflection_of_law(model, analysis, i)
+      associate (joint => model%joints(j), lambda => analysis%states%normal%lambda)
+         do i = joint%first, joint%last
+            p = analysis%states(i)%normal%pressure
+            if (p <= noise*analysis%largest_p) p = 0.0_wp
+            by_law(i) = law_deflection(joint%law%normal, analysis%exact(i)%normal, p)
+            if (.not. p > 0.0_wp) by_law(i) = min(by_law(i), lambda(i))
          end do
-         farthest = distance_of(lambda(first:last), by_law, maxval(lambda(first:last)), noise*analysis%largest_lambda)
-         farthest%element = first + farthest%element - 1
+         farthest = distance_of(lambda(joint%first:joint%last), by_law, maxval(lambda(joint%first:joint%last)), &
+                                noise*analysis%largest_lambda)
+         farthest%element = joint%first + farthest%element - 1
       end associate
    end function normal_distance
-
-   !> lambda of the law of interface element I at its computed pressure [length]. At zero pressure the law holds for any lambda
-   !! below the end of its branch.
-   pure real(wp) function deflection_of_law(model, analysis, i) result(by_law)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: i
-      real(wp) :: p
-
-      p = analysis%states(i)%normal%pressure
-      if (p <= noise*analysis%largest_p) p = 0.0_wp
-      by_law = law_deflection(model%joints(model%interface(i)%joint)%law%normal, analysis%exact(i)%normal, p)
-      if (.not. p > 0.0_wp) by_law = min(by_law, analysis%states(i)%normal%lambda)
-   end function deflection_of_law
 
    !> The largest distance of joint J from its shear laws: tau from that of the law at the same deflection, over both directions.
    pure type(distance_type) function shear_distance(model, analysis, j) result(farthest)
@@ -126,7 +114,7 @@ contains
       integer, intent(in)             :: method !! of case control
       real(wp) :: k(3, size(model%interface))
       type(element_state) :: state
-      integer :: d, i
+      integer :: i
 
       do i = 1, size(model%interface)
          state = analysis%states(i)
@@ -134,14 +122,8 @@ contains
          case (method_newton)
             k(:, i) = [state%shear%k_s, state%normal%k_n]
          case (method_back)
-            associate (area => model%interface(i)%area, law => model%joints(model%interface(i)%joint)%law)
-               call norm(law%normal, area, .false., state%normal, k(3, i))
-               k(:2, i) = 0.0_wp
-               do d = 1, 2
-                  if (state%normal%branch /= branch_open) call shear(law%shear(d), area, shear_pressure(area, state%normal), &
-                                                                     state%shear(d), k(d, i))
-               end do
-            end associate
+            call norm_and_shear(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, .false., &
+                                analysis%movement(:, i), state, k(:, i))
          case default
             k(:, i) = analysis%k(:, i)
          end select

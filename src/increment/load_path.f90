@@ -91,39 +91,30 @@ contains
    subroutine condense(model, system, is_elastic, at)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
-      logical, intent(in)                :: is_elastic(:)
+      logical, intent(in)                :: is_elastic(:) !! (bars)
       type(load_state), intent(inout)    :: at
 
-      call condense_load(system, forces_on_unknowns(model, at%load - forces_of(model, system, is_elastic, at%moved)), &
-                         at%condensed_load)
+      call condense_load(system, load_on_unknowns(model, system, is_elastic, at), at%condensed_load)
    end subroutine condense
 
-   !> Forces of bodies and elastic bars when held components are MOVED and all others are fixed.
-   function forces_of(model, system, is_elastic, moved) result(f)
+   !> The load AT an instant less the forces of bodies and elastic bars when held components are moved and all others are fixed.
+   function load_on_unknowns(model, system, is_elastic, at) result(f)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
-      logical, intent(in)                :: is_elastic(:) !! (bars)
-      real(wp), intent(in)               :: moved(:, :)
-      real(wp), allocatable :: f(:, :)
+      logical, intent(in)                :: is_elastic(:)
+      type(load_state), intent(in)       :: at
+      real(wp), allocatable :: f(:, :), held(:, :)
 
-      allocate (f, source=merge(moved, 0.0_wp, system%number == 0))
-      if (any(abs(f) > 0.0_wp)) then
-         call all_forces(model, is_elastic, displacements(model, merge(moved, 0.0_wp, system%number == 0)), f)
+      allocate (held, source=merge(at%moved, 0.0_wp, system%number == 0))
+      if (any(abs(held) > 0.0_wp)) then
+         allocate (f, mold=held)
+         call internal_forces(model, displacements(model, held), f)
+         call add_bar_forces(model, is_elastic, displacements(model, held), f)
+         f = forces_on_unknowns(model, at%load - f)
       else
-         f = 0.0_wp
+         f = forces_on_unknowns(model, at%load)
       end if
-   end function forces_of
-
-   !> Forces F of bodies and elastic bars under the displacements U of all nodes.
-   subroutine all_forces(model, is_elastic, u, f)
-      type(model_type), intent(in) :: model
-      logical, intent(in)          :: is_elastic(:)
-      real(wp), intent(in)         :: u(:, :)
-      real(wp), intent(out)        :: f(:, :)
-
-      call internal_forces(model, u, f)
-      call add_bar_forces(model, is_elastic, u, f)
-   end subroutine all_forces
+   end function load_on_unknowns
 
    !> {dF} of the next increment: its share of the stage's load change, plus the unbalanced forces where CARRY asks for them.
    subroutine start_increment(plan, system, analysis)
@@ -200,10 +191,9 @@ contains
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
-
       real(wp), allocatable :: felt(:, :), q(:, :)
 
-      call recover(model, system, analysis, analysis%now%load, analysis%now%moved, analysis%u, q, analysis%all_unbalanced)
+      call recover(model, system, analysis, analysis%now, analysis%u, q, analysis%all_unbalanced)
       analysis%all_u = displacements(model, q)
       analysis%u = q(:, system%retained)
       allocate (felt, source=forces_on_unknowns(model, analysis%all_unbalanced))
@@ -211,21 +201,24 @@ contains
    end subroutine recover_bodies
 
    !> The unknowns Q of all nodes and the UNBALANCED forces on them in global axes, for the unknowns U of retained nodes under
-   !! the LOAD on all nodes, with supports MOVED and the present joint forces.
-   subroutine recover(model, system, analysis, load, moved, u, q, unbalanced)
+   !! the loads and support movements AT an instant, with the present joint forces.
+   subroutine recover(model, system, analysis, at, u, q, unbalanced)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(in)    :: analysis
-      real(wp), intent(in)               :: load(:, :), moved(:, :), u(:, :)
+      type(load_state), intent(in)       :: at
+      real(wp), intent(in)               :: u(:, :)
       real(wp), allocatable, intent(out) :: q(:, :)
       real(wp), intent(out)              :: unbalanced(:, :)
+      real(wp), allocatable :: all_u(:, :)
 
-      allocate (q, mold=load)
-      call recover_displacements(system, forces_on_unknowns(model, &
-                                 load - forces_of(model, system, analysis%is_elastic, moved)), u, q)
-      where (system%number == 0) q = moved
-      call all_forces(model, analysis%is_elastic, displacements(model, q), unbalanced)
-      unbalanced = load - unbalanced
+      allocate (q, mold=at%load)
+      call recover_displacements(system, load_on_unknowns(model, system, analysis%is_elastic, at), u, q)
+      where (system%number == 0) q = at%moved
+      allocate (all_u, source=displacements(model, q))
+      call internal_forces(model, all_u, unbalanced)
+      call add_bar_forces(model, analysis%is_elastic, all_u, unbalanced)
+      unbalanced = at%load - unbalanced
       call subtract_joint_forces(model%interface, analysis%states, unbalanced)
    end subroutine recover
 
@@ -236,13 +229,15 @@ contains
       type(analysis_type), intent(in)    :: analysis
       real(wp), intent(in)               :: u(:, :) !! (dimension, retained) [length]
       real(wp), intent(in)               :: left    !! [-], 0 to 1
-      real(wp), dimension(model%dimension, model%n_nodes) :: unbalanced
-      real(wp), allocatable :: q(:, :)
+      type(load_state) :: at
+      real(wp), allocatable :: q(:, :), unbalanced(:, :)
 
-      associate (ahead => left*analysis%increment_fraction)
-         call recover(model, system, analysis, analysis%now%load - ahead*(analysis%after%load - analysis%before%load), &
-                      analysis%now%moved - ahead*(analysis%after%moved - analysis%before%moved), u, q, unbalanced)
+      associate (ahead => left*analysis%increment_fraction, before => analysis%before, after => analysis%after)
+         at%load = analysis%now%load - ahead*(after%load - before%load)
+         at%moved = analysis%now%moved - ahead*(after%moved - before%moved)
       end associate
+      allocate (unbalanced, mold=at%load)
+      call recover(model, system, analysis, at, u, q, unbalanced)
       force = norm2(pack(forces_on_unknowns(model, unbalanced), all_held(model, analysis)))
    end function support_force
 

@@ -35,6 +35,7 @@ module newton_direction
       logical :: imprecise = .false.              !! rounding in the bodies is not small compared with the load
       logical :: settled = .false.                !! no element has begun or stopped slipping in the last iteration
       logical :: floats = .false.                 !! only friction holds a body, which stays held
+      real(wp) :: tolerance = 1.0e-4_wp           !! residual that the next direction may leave, relative [-]
       real(wp) :: length = 0.0_wp                 !! of the last direction [length]
       logical :: coupled = .false.                !! the last direction was that of a coupled system
       logical :: converged = .false.
@@ -104,7 +105,8 @@ contains
       attempt%coupled = any(abs(rest(:2, 3, :)) > 0.0_wp) .and. all(abs(attempt%move) <= 0.0_wp)
       associate (failure => attempt%trouble)
          if (attempt%coupled) then
-            call solve_coupled(model, matrix, rest, residual, attempt%where, system, direction, failure)
+            direction = residual
+            call solve_coupled(model, matrix, rest, attempt%where, attempt%tolerance, system, direction, failure)
             tangent = matrix + rest
          else
             call form_structure_stiffness(model, matrix, attempt%where, system, failure, one_solution=.true.)
@@ -122,12 +124,13 @@ contains
       type(attempt_type), intent(inout)     :: attempt
       real(wp), intent(inout)               :: direction(:, :)
 
-      direction = 0.0_wp
       if (attempt%coupled) then
-         call solve_coupled_again(model, residual, system, direction, attempt%trouble)
+         direction = residual
+         call solve_coupled_again(model, attempt%tolerance, system, direction, attempt%trouble)
       else
+         direction = 0.0_wp
          call solve_equations(model, system, residual, direction, attempt%trouble, &
-                              digits=min(digits, ceiling(-log10(system%coupled%tolerance))))
+                              digits=min(digits, ceiling(-log10(attempt%tolerance))))
       end if
    end subroutine find_again
 

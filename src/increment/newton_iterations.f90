@@ -87,7 +87,7 @@ contains
             call first_laws(model, system, analysis, now, analysis%increment <= 1 .and. .not. attempt%searches, laws)
          end if
          residual = residual_of(system, attempt%load, now, laws)
-         system%coupled%tolerance = tolerance_of(way%gain, now%size, far_below*analysis%tolerance, system%coupled%price > 0)
+         attempt%tolerance = tolerance_of(way%gain, now%size, far_below*analysis%tolerance, system%coupled%price > 0)
          call find_direction(model, residual, analysis, system, attempt, laws, direction)
          if (attempt%trouble%raised) exit
          step = 1.0_wp
@@ -176,7 +176,7 @@ contains
       allocate (corrected, source=next)
       allocate (direction, mold=next%u)
       do i = 1, most_corrections
-         system%coupled%tolerance = max(half*first, 0.1_wp*enough/next%size, least_tolerance)
+         attempt%tolerance = max(half*first, 0.1_wp*enough/next%size, least_tolerance)
          call find_again(model, next%residual, system, attempt, direction)
          if (attempt%trouble%raised) return
          call take_step(model, system, attempt%load, analysis, next, direction, corrected)
@@ -349,7 +349,7 @@ contains
 
       allocate (direction, mold=analysis%u)
       call laws_at(model, system, now, laws)
-      system%coupled%tolerance = tight_end
+      attempt%tolerance = tight_end
       call find_direction(model, now%residual, analysis, system, attempt, laws, direction)
       if (attempt%trouble%raised) return
       call take_step(model, system, attempt%load, analysis, now, direction, next)

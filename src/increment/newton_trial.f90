@@ -1,12 +1,11 @@
 !> A trial of METHOD = NEWTON: displacements, joint states and residual; the step, the line search and the commit.
 module newton_trial
-   use analysis_state, only: analysis_type, free_norm, kind_on_branch, reach, subtract_joint_forces, tally_work
+   use analysis_state, only: analysis_type, free_norm, kind_on_branch, note_turns, reach, subtract_joint_forces, tally_work
    use equations, only: equation_system, forces_in_bodies
    use interface_operator, only: joint_movement
    use joint_laws, only: element_state, follow_element, rest_when_open
    use kinds, only: wp
    use model_data, only: model_type
-   use branch_starts, only: note_turns
    implicit none
    private
 

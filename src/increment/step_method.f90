@@ -1,10 +1,10 @@
 !> METHOD = STEP, the step-wise tangent-stiffness method: one routine for each box of the flow chart (Fig. 6a).
 module step_method
-   use analysis_state, only: analysis_type, book_friction, iteration_record, reach, record_iteration, slip_record, tally_work
+   use analysis_state, only: analysis_type, iteration_record, reach, record_iteration, slip_record, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: exceeds_limit, flag_margin, friction_excess, friction_limit, is_apart
+   use joint_laws, only: element_state, exceeds_limit, flag_margin, friction_excess, friction_limit, is_apart
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use newton_method, only: cross_gaps
@@ -136,7 +136,7 @@ contains
    end subroutine add_displacements
 
    !> Coulomb limit (section 4.4): where |tau| > mu p, the element is relieved of the excess. The excess is applied at its two
-   !! ends, and the structure is analysed again with the same stiffness, NREAN times.
+   !! ends, and the structure is analysed again with the same stiffness, NREAN times; for NREAN = -1 as long as any excess is left.
    subroutine limit_friction(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
@@ -145,83 +145,40 @@ contains
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: excess(:, :), relief(:, :)
       real(wp) :: total, total_after
-      integer  :: reanalysis, worst
-      logical  :: again, is_listed
+      integer  :: i, passes(size(model%interface)), reanalysis, worst
+      logical  :: is_listed, relieved(size(model%interface))
 
       if (failure%raised .or. analysis%crosses_gaps .or. .not. any(model%joints%law%has_friction)) return
       allocate (excess(2, size(model%interface)))
       allocate (relief, mold=analysis%u)
+      passes = model%joints(model%interface%joint)%n_reanalyses
       is_listed = plan%stages(analysis%stage)%output%level >= output_joint
       call find_excess(model, analysis, excess, total)
       do reanalysis = 1, most_reanalyses
          if (total <= 0.0_wp) return
-         if (is_listed) call note_slipping(model, reanalysis, excess, analysis)
-         call release(model, system, reanalysis, excess, analysis, relief, again)
-         if (.not. again) return
+         if (is_listed) analysis%record%slips = pack(analysis%record%slips, analysis%record%slips%reanalysis <= reanalyses_shown)
+         relieved = any(abs(excess) > 0.0_wp, dim=1) .and. (passes < 0 .or. reanalysis <= passes)
+         if (.not. any(relieved)) return
+         call release(model, system, reanalysis, relieved, is_listed, excess, analysis, relief)
          call solve_equations(model, system, relief, analysis%du, failure)
          if (failure%raised) return
          call add_displacements(model, system, relief, analysis)
          call find_excess(model, analysis, excess, total_after)
-         if (is_listed) call note_relieved(model, analysis)
+         do i = 1, size(analysis%record%slips)
+            associate (record => analysis%record%slips(i))
+               if (record%reanalysis == reanalysis) call note_slip(model, analysis%states, 2, record)
+            end associate
+         end do
          call record_iteration(analysis, iteration_record(before=total, after=total_after, changes=count(analysis%states%slips)))
          total = total_after
       end do
-      worst = first_largest(maxval(abs(excess), dim=1), model%joints(model%interface%joint)%n_reanalyses < 0)
+      worst = first_largest(maxval(abs(excess), dim=1), passes < 0)
       call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': after '//integer_text(most_reanalyses)// &
          ' re-analyses the friction of joint '//integer_text(model%joints(model%interface(worst)%joint)%id)// &
          ' is still exceeded, by '//real_text(total)//' in all, most at node '// &
          integer_text(joint_node_id(model, worst, 1))// &
          ' in its tangential direction: the joint slips as a whole')
    end subroutine limit_friction
-
-   !> Record the elements that re-analysis number REANALYSIS relieves, before it: the first re-analyses, and the last one in
-   !! place of those between.
-   subroutine note_slipping(model, reanalysis, excess, analysis)
-      type(model_type), intent(in)       :: model
-      integer, intent(in)                :: reanalysis
-      real(wp), intent(in)               :: excess(:, :)
-      type(analysis_type), intent(inout) :: analysis
-      type(slip_record) :: record
-      integer :: i
-
-      analysis%record%slips = pack(analysis%record%slips, analysis%record%slips%reanalysis <= reanalyses_shown)
-      do i = 1, size(model%interface)
-         if (.not. is_relieved(model, i, reanalysis, excess(:, i))) cycle
-         record%reanalysis = reanalysis
-         record%element = i
-         record%delta(:, 1) = analysis%states(i)%shear%delta
-         record%tau(:, 1) = analysis%states(i)%shear%tau
-         record%limit(1) = friction_limit(model%joints(model%interface(i)%joint)%law, analysis%states(i)%normal%pressure)
-         analysis%record%slips = [analysis%record%slips, record]
-      end do
-   end subroutine note_slipping
-
-   !> Record the same elements after the re-analysis.
-   pure subroutine note_relieved(model, analysis)
-      type(model_type), intent(in)       :: model
-      type(analysis_type), intent(inout) :: analysis
-      integer :: i
-
-      do i = 1, size(analysis%record%slips)
-         associate (record => analysis%record%slips(i), state => analysis%states(analysis%record%slips(i)%element))
-            if (record%reanalysis <= analysis%record%n_iterations) cycle
-            record%delta(:, 2) = state%shear%delta
-            record%tau(:, 2) = state%shear%tau
-            record%limit(2) = friction_limit(model%joints(model%interface(record%element)%joint)%law, state%normal%pressure)
-         end associate
-      end do
-   end subroutine note_relieved
-
-   !> Whether re-analysis number REANALYSIS relieves interface element I of its EXCESS.
-   pure logical function is_relieved(model, i, reanalysis, excess)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: i, reanalysis
-      real(wp), intent(in)         :: excess(2)
-
-      associate (allowed => model%joints(model%interface(i)%joint)%n_reanalyses)
-         is_relieved = norm2(excess) > 0.0_wp .and. (allowed < 0 .or. reanalysis <= allowed)
-      end associate
-   end function is_relieved
 
    !> EXCESS(2, n) of all elements and the TOTAL of their sizes [force]; those that slip are marked.
    subroutine find_excess(model, analysis, excess, total)
@@ -232,40 +189,62 @@ contains
 
       total = 0.0_wp
       do i = 1, size(model%interface)
-         excess(:, i) = friction_excess(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, analysis%states(i))
-         total = total + norm2(excess(:, i))
-         if (exceeds_limit(model%joints(model%interface(i)%joint)%law, analysis%states(i), flag_margin)) &
-            analysis%states(i)%slips = .true.
+         associate (law => model%joints(model%interface(i)%joint)%law, state => analysis%states(i))
+            excess(:, i) = friction_excess(law, model%interface(i)%area, state)
+            total = total + norm2(excess(:, i))
+            if (exceeds_limit(law, state, flag_margin)) state%slips = .true.
+         end associate
       end do
    end subroutine find_excess
 
-   !> Relieve the elements whose joints ask for re-analysis number REANALYSIS of their excess. RELIEF are the resulting nodal
-   !! forces; AGAIN tells whether there are any. NREAN = -1 continues as long as any excess is left.
-   subroutine release(model, system, reanalysis, excess, analysis, relief, again)
+   !> Relieve the elements RELIEVED of their EXCESS; RELIEF are the resulting nodal forces. The listing has the first re-analyses,
+   !! and the last one in place of those between.
+   subroutine release(model, system, reanalysis, relieved, is_listed, excess, analysis, relief)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       integer, intent(in)                :: reanalysis
+      logical, intent(in)                :: relieved(:), is_listed
       real(wp), intent(in)               :: excess(:, :)
       type(analysis_type), intent(inout) :: analysis
       real(wp), intent(out)              :: relief(:, :)
-      logical, intent(out)               :: again
-      real(wp) :: slid(2)
+      type(slip_record) :: record
+      real(wp) :: on_friction, slid(2)
       integer  :: i
 
       relief = 0.0_wp
-      again = .false.
       do i = 1, size(model%interface)
-         if (.not. is_relieved(model, i, reanalysis, excess(:, i))) cycle
-         associate (element => system%interface(i))
-            again = .true.
+         if (.not. relieved(i)) cycle
+         if (is_listed) then
+            record = slip_record(reanalysis=reanalysis, element=i)
+            call note_slip(model, analysis%states, 1, record)
+            analysis%record%slips = [analysis%record%slips, record]
+         end if
+         associate (element => system%interface(i), shear => analysis%states(i)%shear)
             slid = 0.0_wp
             where (analysis%k(:2, i) > 0.0_wp) slid = excess(:, i)/analysis%k(:2, i)
-            analysis%states(i)%shear%tau = analysis%states(i)%shear%tau - excess(:, i)/element%area
-            analysis%states(i)%shear%slid = analysis%states(i)%shear%slid + slid
-            call book_friction(analysis%energy(model%interface(i)%joint), element%area*sum(analysis%states(i)%shear%tau*slid))
+            shear%tau = shear%tau - excess(:, i)/element%area
+            shear%slid = shear%slid + slid
+            on_friction = element%area*sum(shear%tau*slid) ! was put in by shear
+            associate (put_in => analysis%energy(model%interface(i)%joint)%put_in)
+               put_in = put_in + [-on_friction, 0.0_wp, on_friction]
+            end associate
             call add_force(element, [excess(:, i), 0.0_wp], relief)
          end associate
       end do
    end subroutine release
+
+   !> Note deflections, stresses and limit of the element of RECORD, WHEN = 1 before a re-analysis, 2 after it.
+   pure subroutine note_slip(model, states, when, record)
+      type(model_type), intent(in)     :: model
+      type(element_state), intent(in)  :: states(:)
+      integer, intent(in)              :: when
+      type(slip_record), intent(inout) :: record
+
+      associate (state => states(record%element))
+         record%delta(:, when) = state%shear%delta
+         record%tau(:, when) = state%shear%tau
+         record%limit(when) = friction_limit(model%joints(model%interface(record%element)%joint)%law, state%normal%pressure)
+      end associate
+   end subroutine note_slip
 
 end module step_method

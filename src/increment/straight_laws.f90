@@ -17,7 +17,7 @@ module straight_laws
    use model_data, only: model_type
    use newton_trial, only: trial_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_law, normal_tangent, pressure_floor
-   use normal_stiffness, only: branch_open, follow_normal, normal_state, touches
+   use normal_stiffness, only: branch_open, follow_normal, normal_state
    use shear_path, only: follow_shear
    use shear_stiffness, only: shear_state
    implicit none
@@ -67,11 +67,11 @@ contains
             closes = is_apart(now%states(i)) .and. bears_nothing(model, now%states, element%joint)
             if (is_first .or. closes) then
                laws%tangent(3, 3, i) = k(3)
-            else if (elastic .and. touches(state)) then
+            else if (elastic .and. state%branch /= branch_open) then
                laws%tangent(3, 3, i) = max(laws%tangent(3, 3, i), model%joints(element%joint)%law%normal%e_u*element%area)
             end if
             if (closes) laws%force(3, i) = k(3)*(state%lambda - state%lambda_b)
-            if (.not. (is_first .or. closes .or. (elastic .and. touches(state)))) cycle
+            if (.not. (is_first .or. closes .or. (elastic .and. state%branch /= branch_open))) cycle
             if (elastic) laws%tangent(:2, 3, i) = 0.0_wp
             do d = 1, 2
                laws%tangent(d, d, i) = max(laws%tangent(d, d, i), k(d))

@@ -10,8 +10,8 @@ module joint_laws
    implicit none
    private
 
-   public :: stiffness_at_rest, shear_pressure, open_or_close, follow_element, work_along, rest_when_open, is_apart
-   public :: friction_limit, friction_excess, exceeds_limit, stand_at_limits
+   public :: norm_and_shear, stiffness_at_rest, follow_element, work_along, rest_when_open, is_apart
+   public :: friction_limit, friction_excess, exceeds_limit
    public :: back_stiffness, loading_work
 
    real(wp), parameter :: slip_margin = 1.0e-9_wp ! of the limit: rounding does not cause slip
@@ -36,6 +36,33 @@ module joint_laws
 
 contains
 
+   !> NORM, and SHEAR for x and y: the branches of an element after the last increment, and its stiffness for the next one. Where
+   !! the element has closed, its shear law begins at the point of closing; a slipping element stands at the limits.
+   pure subroutine norm_and_shear(law, area, eq10, movement, state, k)
+      type(joint_law), intent(in)        :: law
+      real(wp), intent(in)               :: area        !! a_i [length^2]
+      logical, intent(in)                :: eq10        !! as in NORM
+      real(wp), intent(in)               :: movement(3) !! total movement of end 1 relative to end 2 [length]
+      type(element_state), intent(inout) :: state
+      real(wp), intent(out)              :: k(3)        !! k_sx, k_sy, k_n [force/length]
+      logical  :: was_apart
+      real(wp) :: p
+
+      was_apart = is_apart(state)
+      k(:2) = 0.0_wp
+      call norm(law%normal, area, eq10, state%normal, k(3))
+      call rest_when_open(state, movement)
+      if (state%normal%branch == branch_open) return
+      if (was_apart) then
+         call begin_at_closing(movement, state)
+         state%shear%delta = movement(:2) - state%origin
+      end if
+      p = max(0.0_wp, state%normal%pressure)
+      if (state%slips) call stand_at_limit(law%shear, p, state%shear)
+      if (is_virgin(area, state%normal)) p = state%normal%p_av
+      call shear(law%shear, area, p, state%shear, k(:2))
+   end subroutine norm_and_shear
+
    !> The stiffness (k_sx, k_sy, k_n) of an element that has never been pressed [force/length].
    pure function stiffness_at_rest(law, area, p_av) result(k)
       type(joint_law), intent(in) :: law
@@ -43,40 +70,10 @@ contains
       real(wp), intent(in)        :: p_av !! [pressure]
       real(wp) :: k(3)
       type(element_state) :: state
-      integer :: d
 
       state%normal%p_av = p_av
-      call norm(law%normal, area, .false., state%normal, k(3))
-      do d = 1, 2
-         call shear(law%shear(d), area, p_av, state%shear(d), k(d))
-      end do
+      call norm_and_shear(law, area, .false., [0.0_wp, 0.0_wp, 0.0_wp], state, k)
    end function stiffness_at_rest
-
-   !> The pressure under which SHEAR finds the stiffness of an element in this STATE.
-   pure real(wp) function shear_pressure(area, state) result(p)
-      real(wp), intent(in)           :: area
-      type(normal_state), intent(in) :: state
-
-      p = max(0.0_wp, state%pressure)
-      if (is_virgin(area, state)) p = state%p_av
-   end function shear_pressure
-
-   !> Where NORM has opened or closed an element for the next increment, set the start of its shear law; a slipping element
-   !! stands at the limits.
-   pure subroutine open_or_close(law, was_apart, movement, state)
-      type(joint_law), intent(in)        :: law
-      logical, intent(in)                :: was_apart   !! before NORM
-      real(wp), intent(in)               :: movement(3) !! total movement of end 1 relative to end 2 [length]
-      type(element_state), intent(inout) :: state
-
-      call rest_when_open(state, movement)
-      if (state%normal%branch == branch_open) return
-      if (was_apart) then
-         call begin_at_closing(movement, state)
-         state%shear%delta = movement(:2) - state%origin
-      end if
-      if (state%slips) call stand_at_limits(law, state)
-   end subroutine open_or_close
 
    !> An open element transmits no shear. When it closes, its shear law begins anew at the present movement.
    pure subroutine rest_when_open(state, movement)
@@ -135,17 +132,6 @@ contains
       excess = tau*(1.0_wp - friction_limit(law, state%normal%pressure)/norm2(tau))*area
    end function friction_excess
 
-   !> Put both directions of a slipping element at the point of their loading curves where slip begins.
-   pure subroutine stand_at_limits(law, state)
-      type(joint_law), intent(in)        :: law
-      type(element_state), intent(inout) :: state
-      integer :: i
-
-      do i = 1, 2
-         call stand_at_limit(law%shear(i), max(0.0_wp, state%normal%pressure), state%shear(i))
-      end do
-   end subroutine stand_at_limits
-
    !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb
    !! friction as a return to the limit.
    pure subroutine follow_element(law, area, before, movement, after, tangent, work)
@@ -191,14 +177,12 @@ contains
       tangent(:2, :2) = limit/size_of_tau*(tangent(:2, :2) - matmul(spread(along, 2, 1), &
                                            matmul(spread(along, 1, 1), tangent(:2, :2))))
       tangent(:2, 3) = limit/size_of_tau*(tangent(:2, 3) - along*dot_product(along, tangent(:2, 3))) + law%mu*slope*area*along
-      do i = 1, 2
-         slid(i) = slid_from(law%shear(i), after%normal%pressure, after%shear(i), limit*along(i))
-      end do
+      slid = slid_from(law%shear, after%normal%pressure, after%shear, limit*along)
       after%shear%slid = after%shear%slid + slid
       after%shear%tau = limit*along
       work(3) = area*sum(after%shear%tau*slid)
       work(1) = sum(0.5_wp*area*(before%shear%tau + after%shear%tau)*(after%shear%delta - before%shear%delta)) - work(3)
-      call stand_at_limits(law, after)
+      call stand_at_limit(law%shear, max(0.0_wp, after%normal%pressure), after%shear)
    end subroutine follow_element
 
    !> Work of an element (tangential, normal) on the straight path from the movement FROM to TO, from its state BEFORE [force x

@@ -19,7 +19,7 @@ module normal_stiffness
    implicit none
    private
 
-   public :: at_rest, norm, is_virgin, pressure_reached, follow_normal, closed_share, branch_name, touches, has_come_to
+   public :: at_rest, norm, is_virgin, pressure_reached, follow_normal, closed_share, branch_name, has_come_to
    public :: line_pressure, stored_work, law_deflection, force_reached
 
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
@@ -99,7 +99,8 @@ contains
 
    !> The diamonds of Fig. 6(b), applied in order to the state after the increment: the branch of the element for the next
    !! increment. Point A is set where the element leaves the loading curve, point B where it opens. A removed element carries no
-   !! force; its former tension is left unbalanced. Hence no element enters an increment with tension.
+   !! force; its former tension is left unbalanced. Hence no element enters an increment with tension. As in the exact law, an
+   !! element is removed only where its force is below zero by more than rounding, whose sign therefore does not matter.
    pure subroutine ask_diamonds(area, state)
       real(wp), intent(in)              :: area
       type(normal_state), intent(inout) :: state
@@ -142,15 +143,6 @@ contains
 
       no_change = rounding*max(abs(state%sumf), abs(state%sigmaf), state%p_av*area)
    end function no_change
-
-   !> Whether the faces of an element in this STATE touch, with or without pressure. NORM and the exact law remove an element
-   !! only where its force is below zero by more than rounding. The sign of a pressure at the level of rounding therefore does
-   !! not matter.
-   elemental logical function touches(state)
-      type(normal_state), intent(in) :: state
-
-      touches = state%branch /= branch_open
-   end function touches
 
    !> Whether the deflection LAMBDA has reached POINT, apart from the rounding of deflections of this SIZE.
    elemental logical function has_come_to(point, lambda, size)

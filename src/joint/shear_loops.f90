@@ -31,7 +31,7 @@ module shear_loops
    use joint_laws, only: element_state, joint_law
    use kinds, only: wp
    use normal_curve, only: normal_tangent
-   use normal_stiffness, only: touches
+   use normal_stiffness, only: branch_open
    use numbers, only: find_zeros, zero_list
    use shear_stiffness, only: curve_deflection, shear_law
    implicit none
@@ -148,7 +148,7 @@ contains
       integer  :: i
 
       k = 0.0_wp
-      if (.not. touches(state%normal)) return
+      if (state%normal%branch == branch_open) return
       associate (p => max(0.0_wp, state%normal%pressure))
          k(3) = law%normal%e_u*area
          if (on_loading) k(3) = normal_tangent(law%normal, area, p, state%normal%p_av)

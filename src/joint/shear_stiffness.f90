@@ -27,7 +27,7 @@ module shear_stiffness
    private
 
    public :: shear, shear_slope, least_movement, least_stress, turn, goal_sense, is_past_a, join_loading, leave_offset
-   public :: cubic_of, curve_deflection, slid_from, stand_at_limit
+   public :: cubic_of, curve_deflection, slid_from, stand_at_limit, branch_shift
 
    real(wp), parameter :: rounding = 1.0e-10_wp ! of the present stresses: a smaller change is rounding
    real(wp), parameter :: past_peaks = 1.0e6_wp ! along the initial slope: a cubic without a peak reaches that stress far beyond d
@@ -61,7 +61,7 @@ contains
 
    !> Shear stiffness of one interface element in one direction for the next increment, from its state after the last one.
    !! Source: Edelugo, section 4.3, Eqs. (3)-(7), Fig. 4. The tangent is that of the curve at the present pressure.
-   pure subroutine shear(law, area, pressure, state, k_s)
+   elemental subroutine shear(law, area, pressure, state, k_s)
       type(shear_law), intent(in)      :: law
       real(wp), intent(in)             :: area     !! area of influence a_i, > 0 [length^2]
       real(wp), intent(in)             :: pressure !! p now, >= 0 [pressure]
@@ -198,7 +198,7 @@ contains
    !> Put a slipping element at point D of the loading curve in its sense of slip, where slip begins, and clear its branches:
    !! the asperities meet anew after sliding (section 4.4). Where the curve peaks below the stress, the element stands at the
    !! peak.
-   pure subroutine stand_at_limit(law, pressure, state)
+   elemental subroutine stand_at_limit(law, pressure, state)
       type(shear_law), intent(in)      :: law
       real(wp), intent(in)             :: pressure
       type(shear_state), intent(inout) :: state !! its tau is the stress after slip
@@ -219,7 +219,7 @@ contains
 
    !> Sliding of an element whose stress falls from that of STATE to TAU by slip: the difference over the slope of its branch,
    !! on the loading branch the mean slope between the two [length].
-   pure real(wp) function slid_from(law, pressure, state, tau) result(slid)
+   elemental real(wp) function slid_from(law, pressure, state, tau) result(slid)
       type(shear_law), intent(in)   :: law
       real(wp), intent(in)          :: pressure, tau
       type(shear_state), intent(in) :: state
@@ -237,6 +237,18 @@ contains
          if (slope > 0.0_wp) slid = (state%tau - tau)/slope
       end if
    end function slid_from
+
+   !> b0 or c0: the shift by which the curve of the branch of STATE under the pressure P passes through the point (DELTA, TAU)
+   !! where the branch began; zero on the loading curve [pressure].
+   pure real(wp) function branch_shift(law, state, p, delta, tau) result(shift)
+      type(shear_law), intent(in)   :: law
+      type(shear_state), intent(in) :: state
+      real(wp), intent(in)          :: p, delta, tau
+
+      shift = 0.0_wp
+      if (state%branch == branch_load) return
+      shift = state%sense*tau - cubic_value(cubic_of(law, state%branch), state%sense*(delta - state%delta_0), p)
+   end function branch_shift
 
    !> The cubic of a branch.
    pure type(cubic) function cubic_of(law, branch) result(curve)

@@ -9,12 +9,13 @@ module body_tables
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use interface_operator, only: named_node
    use kinds, only: wp
-   use table_writer, only: axes, column, heading, in_units, table_type, noise, page_type, page_width, shows
    use model_data, only: a_point, corners_of, has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, &
                          n_points, n_rotations, node_kind, supported
    use node_coupling, only: held_forces, node_axes
+   use result_page, only: page_type, shows
    use stage_entries, only: output_request
-   use structural_results, only: list_structural
+   use structural_results, only: list_beams, list_shells
+   use table_writer, only: axes, column, heading, in_units, noise, table_type
    use text_tools, only: clean, integer_text, upper
    implicit none
    private
@@ -27,37 +28,51 @@ module body_tables
 
 contains
 
-   !> Displacements, stresses, reactions; where stresses are ASKED also principal stresses, and those at nodes of second-order
-   !! elements.
+   !> Displacements, rotations in radians, stresses, reactions; where stresses are ASKED also principal stresses, and those at
+   !! nodes of second-order elements.
    subroutine list_bodies(page, asked, model, analysis)
       type(page_type), intent(inout)  :: page
       type(output_request), intent(in) :: asked
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      logical :: has_bodies
-
-      call list_displacements(page, model, analysis)
-      call list_rotations(page, model, analysis)
-      has_bodies = model%n_elements > 0
-      if (allocated(model%structural%place)) has_bodies = any(model%structural%place == 0)
-      if (has_bodies) call list_stresses(page, asked%stress, model, analysis)
-      call list_structural(page, asked, model, analysis)
-      if (asked%stress .and. has_second_order(model)) call list_node_stresses(page, model, analysis)
-      call list_reactions(page, model, analysis)
-      call list_moments(page, model, analysis)
-   end subroutine list_bodies
-
-   subroutine list_displacements(page, model, analysis)
-      type(page_type), intent(inout)  :: page
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, allocatable :: list(:)
-      integer :: node
+      type(table_type) :: table
+      real(wp), allocatable :: stress(:, :)
+      integer, allocatable  :: list(:)
+      real(wp) :: floor
+      logical  :: has_bodies
+      integer  :: m, node
 
       list = pack([(node, node = 1, n_points(model))], [(model%used(node) .and. shows(page, [node]), node = 1, n_points(model))])
       call list_vectors(page, model, [character(22) :: 'DISPLACEMENTS OF NODES', 'U.', page%labels%length], list, &
                         analysis%all_u(:, list), spread(noise*maxval(abs(analysis%all_u(:, :n_points(model)))), 1, size(list)))
-   end subroutine list_displacements
+      m = merge(3, 1, model%dimension == 3)
+      associate (rotations => model%rotations)
+         if (n_rotations(model) > 0) call list_vectors(page, model, &
+            [character(28) :: 'ROTATIONS OF REFERENCE NODES', 'THETA .', 'RADIANS'], rotations%point, &
+            analysis%all_u(:m, rotations%node)/spread(rotations%arm, 1, m), noise*maxval(abs(analysis%all_u))/rotations%arm, &
+            turns=.true.)
+      end associate
+      has_bodies = model%n_elements > 0
+      if (allocated(model%structural%place)) has_bodies = any(model%structural%place == 0)
+      if (has_bodies) call list_stresses(page, asked%stress, model, analysis)
+      if (allocated(model%structural%place)) then
+         call list_shells(page, asked%forces, model, analysis)
+         call list_beams(page, model, analysis)
+      end if
+      if (asked%stress .and. has_second_order(model)) then
+         allocate (stress(max_stresses, n_points(model)))
+         call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
+         floor = noise*maxval(abs(stress))
+         call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
+                          [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')], page%file)
+         do node = 1, n_points(model)
+            if (model%first_at(node + 1) == model%first_at(node) .or. .not. shows(page, [node])) cycle
+            call table%add([model%node_id(node)], clean([stress(shown_stresses(model), node), von_mises(stress(:, node))], floor))
+            call table%print_row(page%file)
+         end do
+      end if
+      call list_reactions(page, model, analysis)
+   end subroutine list_bodies
 
    !> Print a table of the VECTORS at NODES, given in global axes; values below the FLOORS of their rows are zero. Rotations and
    !! moments of a plane model have one component, about z, and their rows no places.
@@ -108,42 +123,27 @@ contains
       real(wp), intent(in)                 :: x(:, :)      !! (dimension, rows)
       real(wp), intent(in)                 :: values(:, :) !! (n, rows)
       integer, intent(in), optional        :: system(:)    !! (rows)
-      character(piece*(page_width + 1)), allocatable :: lines(:)
-      integer :: first, last, part, used(block_rows/piece)
+      type(table_type), allocatable :: pieces(:)
+      integer :: first, k, last, part
 
-      allocate (lines(min(block_rows, size(id) + piece - 1)/piece))
+      allocate (pieces(min(block_rows, size(id) + piece - 1)/piece))
+      pieces = table
       do first = 1, size(id), block_rows
          last = min(size(id), first + block_rows - 1)
-         !$omp parallel do schedule(dynamic, 1) default(shared) if(size(id) > few)
+         !$omp parallel do schedule(dynamic, 1) default(shared) private(k) if(size(id) > few)
          do part = 1, (last - first)/piece + 1
-            call write_piece(first + (part - 1)*piece, min(last, first + part*piece - 1), lines(part), used(part))
+            do k = first + (part - 1)*piece, min(last, first + part*piece - 1)
+               call pieces(part)%add([id(k)], x(:, k))
+               call pieces(part)%add(values(:, k))
+               if (present(system)) call pieces(part)%add([system(k)])
+               call pieces(part)%keep_row()
+            end do
          end do
          !$omp end parallel do
          do part = 1, (last - first)/piece + 1
-            call page%file%put_lines(lines(part)(:used(part)))
+            call pieces(part)%print_kept(page%file, as_rows=.true.)
          end do
       end do
-
-   contains
-
-      !> The LINES of rows FROM to UNTIL, and the number of characters USED.
-      subroutine write_piece(from, until, lines, used)
-         integer, intent(in)         :: from, until
-         character(*), intent(inout) :: lines
-         integer, intent(out)        :: used
-         type(table_type) :: mine
-         integer :: k
-
-         mine = table
-         used = 0
-         do k = from, until
-            call mine%add([id(k)], x(:, k))
-            call mine%add(values(:, k))
-            if (present(system)) call mine%add([system(k)])
-            call mine%take_line(lines, used)
-         end do
-      end subroutine write_piece
-
    end subroutine print_rows
 
    !> Stresses at the centres of elements, and if PRINCIPAL the principal stresses and the equivalent stress of von Mises there.
@@ -173,7 +173,8 @@ contains
       call table%start('STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
                        [column('ELEMENT', 'i11'), column('CENTRE '//axes(:model%dimension), 'es13.5'), &
                         column(stress_names(model), 'es13.5')], page%file)
-      list = pack([(e, e = 1, model%n_elements)], [(shows_body(page, model, e), e = 1, model%n_elements)])
+      list = pack([(e, e = 1, model%n_elements)], [(shows(page, corners_of(model, e)) .and. &
+                  .not. (is_shell(model, e) .or. is_beam(model, e)), e = 1, model%n_elements)])
       call print_rows(page, table, model%element_id(list), clean(centre(:, list)), clean(stress(:n, list), floor))
       if (.not. principal) return
       call table%start('PRINCIPAL STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
@@ -185,15 +186,6 @@ contains
          call table%print_row(page%file)
       end do
    end subroutine list_stresses
-
-   !> Whether the tables of bodies have element E.
-   pure logical function shows_body(page, model, e)
-      type(page_type), intent(in)  :: page
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-
-      shows_body = shows(page, corners_of(model, e)) .and. .not. (is_shell(model, e) .or. is_beam(model, e))
-   end function shows_body
 
    !> Which of the stresses (xx, yy, zz, xy, yz, zx) the tables of MODEL show.
    pure function shown_stresses(model) result(shown)
@@ -217,122 +209,58 @@ contains
       names = all_names(shown_stresses(model))
    end function stress_names
 
-   !> Stresses at nodes, averaged over their elements, and their equivalent stress of von Mises.
-   subroutine list_node_stresses(page, model, analysis)
-      type(page_type), intent(inout)  :: page
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      type(table_type) :: table
-      real(wp), allocatable :: stress(:, :)
-      integer, allocatable  :: shown(:)
-      real(wp) :: floor
-      integer  :: node
-
-      allocate (stress(max_stresses, n_points(model)))
-      call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
-      floor = noise*maxval(abs(stress))
-      shown = shown_stresses(model)
-      call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
-                       [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')], page%file)
-      do node = 1, n_points(model)
-         if (model%first_at(node + 1) == model%first_at(node) .or. .not. shows(page, [node])) cycle
-         call table%add([model%node_id(node)], clean([stress(shown, node), von_mises(stress(:, node))], floor))
-         call table%print_row(page%file)
-      end do
-   end subroutine list_node_stresses
-
-   !> Reactions at supports, and the balance of all external forces: loads, supports, rigid bases.
+   !> Reactions at supports, the balance of all external forces, which are loads, supports and rigid bases, and support moments.
    subroutine list_reactions(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
+      character(33), parameter :: names(5) = [character(33) :: 'LOADS', 'SUPPORTS', 'RIGID BASES, THROUGH THE JOINTS', &
+                                              'GROUND, THROUGH SPRINGS', 'SUM: LEFT UNBALANCED']
       type(table_type) :: table
-      real(wp), dimension(model%dimension) :: supports, base, ground, loads
       real(wp), allocatable :: held(:, :)
       integer, allocatable  :: list(:)
-      real(wp) :: floor, force(3)
-      integer  :: first, i
+      real(wp) :: balance(model%dimension, 5), floor, floors(5), force(3)
+      integer  :: first, i, m
 
       floor = noise*max(page%largest_force, tiny(1.0_wp))
       allocate (held, source=-held_forces(model, analysis%all_unbalanced))
+      balance = 0.0_wp
+      balance(:, 1) = sum(analysis%now%load(:, :n_points(model)), dim=2)
       list = pack([(i, i = 1, n_points(model))], [(any(supported(model, i)) .and. model%used(i), i = 1, n_points(model))])
-      supports = sum(held(:, list), dim=2)
+      balance(:, 2) = sum(held(:, list), dim=2)
       list = pack(list, [(shows(page, list(i:i)), i = 1, size(list))])
       call list_vectors(page, model, [character(21) :: 'REACTIONS AT SUPPORTS', 'R.', page%labels%force], list, held(:, list), &
                         spread(floor, 1, size(list)))
-      base = 0.0_wp
       do i = 1, size(model%interface)
          if (named_node(model%interface(i), 2) /= 0) cycle
          force = element_force(model%interface(i), analysis%states(i))
-         base = base - force(:model%dimension)
+         balance(:, 3) = balance(:, 3) - force(:model%dimension)
       end do
-      ground = 0.0_wp
       do i = 1, n_bars(model)
          if (model%bars(i)%nodes(2) > 0 .or. node_kind(model, model%bars(i)%nodes(1)) /= a_point) cycle
-         ground = ground + bar_tension(model, analysis, i)*model%bars(i)%direction(:model%dimension, 1)
+         balance(:, 4) = balance(:, 4) + bar_tension(model, analysis, i)*model%bars(i)%direction(:model%dimension, 1)
       end do
-      loads = sum(analysis%now%load(:, :n_points(model)), dim=2)
+      balance(:, 5) = sum(balance, dim=2)
       first = merge(2, 1, model%axisymmetric)
       call table%start('BALANCE OF FORCES'//page%now//in_units(page%labels%force), &
                        [column('', 'a35'), column(axes(first:model%dimension), 'es13.5'), &
                         column(merge('  (THE RADIAL FORCES BALANCE ROUND THE RING)', repeat(' ', 44), model%axisymmetric), 'a')], &
                        page%file)
-      call balance_line('LOADS', loads(first:), min(floor, of_a_sum*sum(abs(analysis%now%load))))
-      call balance_line('SUPPORTS', supports(first:), floor)
-      call balance_line('RIGID BASES, THROUGH THE JOINTS', base(first:), floor)
-      if (has_ground_springs(model)) call balance_line('GROUND, THROUGH SPRINGS', ground(first:), floor)
-      call balance_line('SUM: LEFT UNBALANCED', loads(first:) + supports(first:) + base(first:) + ground(first:), floor)
-
-   contains
-
-      subroutine balance_line(words, resultant, floor)
-         character(*), intent(in) :: words
-         real(wp), intent(in)     :: resultant(:)
-         real(wp), intent(in)     :: floor !! values below it are rounding [force]
-         character(33) :: name
-
-         name = words
-         call table%add(name, clean(resultant, floor))
+      floors = floor
+      floors(1) = min(floor, of_a_sum*sum(abs(analysis%now%load)))
+      do i = 1, 5
+         if (i == 4 .and. .not. has_ground_springs(model)) cycle
+         call table%add(names(i), clean(balance(first:, i), floors(i)))
          call table%print_row(page%file)
-      end subroutine balance_line
-
-   end subroutine list_reactions
-
-   !> Rotations in radians about the global axes, or those of the systems CD.
-   subroutine list_rotations(page, model, analysis)
-      type(page_type), intent(inout)  :: page
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer :: m
-
-      if (n_rotations(model) == 0) return
-      m = merge(3, 1, model%dimension == 3)
-      associate (rotations => model%rotations)
-         call list_vectors(page, model, [character(28) :: 'ROTATIONS OF REFERENCE NODES', 'THETA .', 'RADIANS'], rotations%point, &
-                           analysis%all_u(:m, rotations%node)/spread(rotations%arm, 1, m), &
-                           noise*maxval(abs(analysis%all_u))/rotations%arm, turns=.true.)
-      end associate
-   end subroutine list_rotations
-
-   !> Support moments about these axes, where any rotation is supported.
-   subroutine list_moments(page, model, analysis)
-      type(page_type), intent(inout)  :: page
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      real(wp), allocatable :: held(:, :)
-      integer, allocatable  :: list(:)
-      integer :: i, m
-
+      end do
       list = pack([(i, i = 1, n_rotations(model))], [(any(supported(model, model%rotations(i)%node)), i = 1, n_rotations(model))])
       if (size(list) == 0) return
       m = merge(3, 1, model%dimension == 3)
-      held = held_forces(model, analysis%all_unbalanced)
       associate (rotations => model%rotations(list))
          call list_vectors(page, model, [character(19) :: 'MOMENTS AT SUPPORTS', 'M.', ''], rotations%point, &
-                           -held(:m, rotations%node)*spread(rotations%arm, 1, m), &
-                           noise*max(page%largest_force, tiny(1.0_wp))*rotations%arm, turns=.true.)
+                           held(:m, rotations%node)*spread(rotations%arm, 1, m), floor*rotations%arm, turns=.true.)
       end associate
-   end subroutine list_moments
+   end subroutine list_reactions
 
    !> [k_b] condensed on the joint unknowns, and the condensed loads before and after the stage; columns in groups.
    subroutine list_condensed(page, model, analysis)

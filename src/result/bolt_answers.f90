@@ -17,7 +17,7 @@ module bolt_answers
    implicit none
    private
 
-   public :: n_bolts, start_bolts, find_bolt_answers, keep_bolts, record_bolts, load_along, whole_load, bending_moment
+   public :: start_bolts, find_bolt_answers, record_bolts, load_along, whole_load, bending_moment
 
    ! of forces and movements: the remainder of sums and differences that are zero but for rounding and the tolerance of iterations
    real(wp), parameter, public :: remainder = 1.0e-7_wp
@@ -43,7 +43,7 @@ module bolt_answers
       type(bolt_place), allocatable, private :: bolts(:)
       integer, private :: assembly = 0    !! position of the last stage so far that tightened a bolt, 0: none
       real(wp), private :: load = 0.0_wp  !! the largest since assembly [force]
-      real(wp), allocatable, private :: before(:)    !! forces at the end of the stage before [force]
+      real(wp), allocatable :: before(:)             !! forces at the end of the stage before [force]
       real(wp), allocatable, private :: tightened(:) !! at the end of tightening, 0: not yet
       real(wp), allocatable, private :: largest(:)   !! largest since then
       real(wp), allocatable, private :: assembled(:) !! at assembly
@@ -80,23 +80,16 @@ module bolt_answers
 
 contains
 
-   !> Number of bolts.
-   pure integer function n_bolts(model) result(n)
-      type(model_type), intent(in) :: model
-
-      n = n_sections(model)
-      if (n_bars(model) > 0) n = n + count(model%bars%bolt > 0)
-   end function n_bolts
-
    !> Find all bolts of MODEL, bars first, and the joint of each; the history is empty.
    subroutine start_bolts(model, history)
       type(model_type), intent(in)    :: model
       type(bolt_history), intent(out) :: history
       type(surface_node_list) :: list
-      real(wp) :: radius
+      real(wp) :: along, radius, span(2)
       integer  :: i, n, s
 
-      n = n_bolts(model)
+      n = n_sections(model)
+      if (n_bars(model) > 0) n = n + count(model%bars%bolt > 0)
       allocate (history%bolts(n))
       allocate (history%before(n), history%tightened(n), history%largest(n), history%assembled(n), history%change(n), &
                 history%clamped(n), source=0.0_wp)
@@ -121,28 +114,17 @@ contains
             do s = 1, list%n
                radius = max(radius, norm2(model%x(:, list%node(s)) - bolt%point))
             end do
-            call find_own_joint(model, span_of(model, bolt, section%point, radius), bolt)
+            span = 0.0_wp ! of the nodes of its body no farther from the axis than those of its pretension section
+            do s = 1, n_points(model)
+               if (model%part(s) /= model%part(section%point)) cycle
+               if (distance(bolt, model%x(:, s)) > radius*(1.0_wp + 1.0e-3_wp)) cycle
+               along = dot_product(model%x(:, s) - bolt%point, bolt%direction)
+               span = [min(span(1), along), max(span(2), along)]
+            end do
+            call find_own_joint(model, span, bolt)
          end associate
       end do
    end subroutine start_bolts
-
-   !> The axial range of a solid BOLT: the nodes of its body no farther from the axis than those of its pretension section.
-   pure function span_of(model, bolt, point, radius) result(span)
-      type(model_type), intent(in) :: model
-      type(bolt_place), intent(in) :: bolt
-      integer, intent(in)          :: point  !! a node of its pretension section
-      real(wp), intent(in)         :: radius !! [length]
-      real(wp) :: span(2), along
-      integer  :: node
-
-      span = 0.0_wp
-      do node = 1, n_points(model)
-         if (model%part(node) /= model%part(point)) cycle
-         if (distance(bolt, model%x(:, node)) > radius*(1.0_wp + 1.0e-3_wp)) cycle
-         along = dot_product(model%x(:, node) - bolt%point, bolt%direction)
-         span = [min(span(1), along), max(span(2), along)]
-      end do
-   end function span_of
 
    !> The joint of BOLT: its element nearest to the axis lies within the SPAN of the bolt and faces the axis. Joints much
    !! farther than the nearest one belong to other bolts. Of the remaining joints the one of largest area is taken, the first of
@@ -221,27 +203,21 @@ contains
       real(wp), intent(in)         :: fraction
       real(wp), allocatable, intent(out) :: force(:, :)
 
+      real(wp) :: shares(3)
+      integer  :: i, k, stages(3)
+
+      stages = [stage, stage - 1, from]
+      shares = [fraction, 1.0_wp - fraction, -1.0_wp]
       allocate (force(3, model%n_nodes), source=0.0_wp)
-      call add(stage, fraction)
-      call add(stage - 1, 1.0_wp - fraction)
-      call add(from, -1.0_wp)
-
-   contains
-
-      subroutine add(s, share)
-         integer, intent(in)  :: s
-         real(wp), intent(in) :: share
-         integer :: i
-
-         if (abs(share) <= 0.0_wp .or. s < 1) return
-         associate (loads => model%stage_loads(s))
+      do k = 1, 3
+         if (abs(shares(k)) <= 0.0_wp .or. stages(k) < 1) cycle
+         associate (loads => model%stage_loads(stages(k)))
             do i = 1, loads%n
                if (node_kind(model, loads%node(i)) == a_point) &
-                  force(:, loads%node(i)) = force(:, loads%node(i)) + share*loads%force(:, i)
+                  force(:, loads%node(i)) = force(:, loads%node(i)) + shares(k)*loads%force(:, i)
             end do
          end associate
-      end subroutine add
-
+      end do
    end subroutine find_load_change
 
    !> Bending moment at the pretension section of a solid bolt: the moment that the elements behind it exert on the nodes of the
@@ -302,7 +278,25 @@ contains
       allocate (answers(size(history%bolts)), force(size(history%bolts)))
       if (size(answers) == 0) return
       do i = 1, size(answers)
-         call describe(history%bolts(i), answers(i), force(i))
+         associate (answer => answers(i), bolt => history%bolts(i))
+            answer%id = bolt%id
+            if (bolt%bar > 0) then
+               force(i) = bar_tension(model, analysis, bolt%bar)
+               answer%element = model%bars(bolt%bar)%id
+               answer%longer = elongation_now(model, analysis, bolt%bar)
+            else
+               force(i) = section_tension(model, analysis, bolt%section)
+               answer%surface = model%sections(bolt%section)%surface
+               answer%longer = -overlap_now(model, analysis, bolt%section)
+            end if
+            answer%force = above(force(i), floor)
+            answer%stress = answer%force/bolt%area
+            answer%has_moment = bolt%section > 0 .and. completed
+            if (.not. answer%has_moment) cycle
+            answer%moment = above(bending_moment(model, model%sections(bolt%section), analysis%all_u, analysis%now%temperature), &
+                                  floor*sqrt(bolt%area))
+            answer%edge_stress = answer%stress + 4.0_wp*sqrt(pi)*answer%moment/bolt%area**1.5_wp ! W = pi d**3/32, A = pi d**2/4
+         end associate
       end do
       allocate (clamping, shear, mold=force)
       call find_clamping(model, analysis, history%bolts, clamping, shear)
@@ -332,34 +326,6 @@ contains
             if (answer%has_safety) answer%safety = model%joints(bolt%joint)%law%mu*max(0.0_wp, clamping(i))/shear(i)
          end associate
       end do
-
-   contains
-
-      !> Describe BOLT and its present state.
-      subroutine describe(bolt, answer, force)
-         type(bolt_place), intent(in)        :: bolt
-         type(bolt_answer_type), intent(out) :: answer
-         real(wp), intent(out)               :: force
-
-         answer%id = bolt%id
-         if (bolt%bar > 0) then
-            force = bar_tension(model, analysis, bolt%bar)
-            answer%element = model%bars(bolt%bar)%id
-            answer%longer = elongation_now(model, analysis, bolt%bar)
-         else
-            force = section_tension(model, analysis, bolt%section)
-            answer%surface = model%sections(bolt%section)%surface
-            answer%longer = -overlap_now(model, analysis, bolt%section)
-         end if
-         answer%force = above(force, floor)
-         answer%stress = answer%force/bolt%area
-         answer%has_moment = bolt%section > 0 .and. completed
-         if (.not. answer%has_moment) return
-         answer%moment = above(bending_moment(model, model%sections(bolt%section), analysis%all_u, analysis%now%temperature), &
-                               floor*sqrt(bolt%area))
-         answer%edge_stress = answer%stress + 4.0_wp*sqrt(pi)*answer%moment/bolt%area**1.5_wp ! W = pi d**3/32, A = pi d**2/4
-      end subroutine describe
-
    end subroutine find_bolt_answers
 
    !> Clamping and shear forces of the own joint around each bolt: sums over the elements of the joint nearest to the axis of
@@ -420,14 +386,6 @@ contains
          where (abs(force - history%assembled) > abs(history%change)) history%change = force - history%assembled
       end associate
    end subroutine record_increment
-
-   !> Record a stage that ends with ANSWERS.
-   pure subroutine keep_bolts(answers, history)
-      type(bolt_answer_type), intent(in) :: answers(:)
-      type(bolt_history), intent(inout)  :: history
-
-      history%before = answers%force
-   end subroutine keep_bolts
 
    !> Write the history to a restart file, or read it for the same model.
    subroutine record_bolts(stream, history)

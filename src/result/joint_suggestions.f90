@@ -22,7 +22,8 @@ module joint_suggestions
 
 contains
 
-   !> Print the suggestions for MODEL of DECK, which is named NAME, into FILE: cards in free format, and comments about them.
+   !> Print the suggestions for MODEL of DECK, which is named NAME, into FILE: cards in free format, and comments about them. Each
+   !! pair of bodies has a joint, unless one connects them there. The numbers of new cards are above those of the deck.
    subroutine suggest_joints(name, deck, model, file)
       character(*), intent(in)              :: name
       type(deck_type), intent(in)           :: deck
@@ -33,75 +34,71 @@ contains
       type(facing_type), allocatable :: pairs(:)
       type(next_numbers)   :: next
       integer, allocatable :: sees(:), mark(:)
-      integer :: body(model%n_elements), first, i, p
+      logical, allocatable :: own(:, :)
+      integer  :: body(model%n_elements), first, i, k, marks(2), p
+      logical  :: is_new(2)
+      real(wp) :: reach
 
       call list_bodies(model, body, bodies)
       call list_outer_sides(model, body, sides)
       call find_facing(model, sides, pairs, sees)
       call find_marks(model, sides, mark)
-      next = free_numbers(deck, model)
+      associate (bulk => deck%bulk)
+         next%element = 1 + maxval([0, model%element_id, bulk%edge%id, bulk%element%id, bulk%rigid%id, &
+                                    bulk%conrod%id, bulk%spring%id])
+         next%mark = 1 + maxval([0, bulk%pmark%id, bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, &
+                                 bulk%beam_property%id])
+         next%joint = 1 + maxval([0, bulk%joint%id])
+         if (size(bulk%pjoint) > 0) next%law = bulk%pjoint(1)%id
+      end associate
       call file%put('$ '//name//': '//integer_text(size(bodies))//' bodies')
       do i = 1, size(bodies)
          call file%put('$ '//body_words(i, bodies(i)))
       end do
       first = next%joint
-      do p = 1, size(pairs)
-         call suggest_pair(pairs(p))
-      end do
+      allocate (own(size(sides), 2))
+      each_pair: do p = 1, size(pairs)
+         associate (pair => pairs(p))
+            call file%put('$')
+            call file%put('$ bodies '//integer_text(pair%body(1))//' and '//integer_text(pair%body(2))//' face each other: '// &
+               integer_text(pair%n(1))//' and '//integer_text(pair%n(2))//' sides, areas '//number(pair%area(1))//' and '// &
+               number(pair%area(2))//', gap '//number(pair%gap(1))//' to '//number(pair%gap(2))// &
+               ', normal '//box_words(pair%normal))
+            if (minval(pair%n) == 0) then
+               call file%put('$ only body '//integer_text(pair%body(maxloc(pair%n, dim=1)))// &
+                             ' has sides opposite to the other; marks on its sides alone would have no opposite side')
+               cycle
+            end if
+            own(:, 1) = sides%body == pair%body(1) .and. sees == pair%body(2)
+            own(:, 2) = sides%body == pair%body(2) .and. sees == pair%body(1)
+            do i = 1, size(deck%bulk%joint) ! a joint connects them there if its marks cover more than half of the area
+               associate (joint => deck%bulk%joint(i))
+                  do k = 1, 2
+                     is_new(k) = sum(sides%area, mask=own(:, k) .and. mark > 0 .and. (mark == joint%sides(1) .or. &
+                                 mark == joint%sides(2))) <= 0.5_wp*sum(sides%area, mask=own(:, k))
+                  end do
+                  if (any(is_new) .and. (joint%sides(2) /= 0 .or. all(is_new))) cycle
+                  call file%put('$ JOINT '//integer_text(joint%id)//' of the deck connects them there')
+                  cycle each_pair
+               end associate
+            end do
+            do k = 1, 2
+               call take_mark(deck, pack(mark, own(:, k)), next, marks(k), is_new(k))
+               if (is_new(k)) call file%put('PMARK,'//integer_text(marks(k)))
+            end do
+            reach = max(2.0_wp*pair%gap(2), 0.01_wp*minval(sides%size, mask=sides%body == pair%body(1))) ! TOL
+            call file%put('JOINT,'//integer_text(next%joint)//','//integer_text(next%law)//','//integer_text(marks(1))//','// &
+                          integer_text(marks(2))//','//number(reach))
+            next%joint = next%joint + 1
+            do k = 1, 2
+               if (is_new(k)) call put_sides(model, pack(sides, own(:, k)), marks(k), next, file)
+            end do
+         end associate
+      end do each_pair
       if (size(pairs) == 0) call file%put('$ no sides of two bodies face each other within a tenth of the edge of a side')
       if (next%joint > first .and. all(deck%bulk%pjoint%id /= next%law)) call file%put( &
          '$ PJOINT '//integer_text(next%law)//', the laws of these joints, is not in the deck: --help PJOINT')
       if (size(deck%bulk%support) == 0) call suggest_support(deck, model, sides, sees, mark, next, file)
-
-   contains
-
-      !> Print the cards of one pair of bodies, unless a joint connects them there.
-      subroutine suggest_pair(pair)
-         type(facing_type), intent(in) :: pair
-         real(wp) :: reach
-         integer  :: marks(2), k
-         logical  :: own(size(sides), 2), is_new(2)
-
-         call file%put('$')
-         call file%put('$ bodies '//integer_text(pair%body(1))//' and '//integer_text(pair%body(2))//' face each other: '// &
-            integer_text(pair%n(1))//' and '//integer_text(pair%n(2))//' sides, areas '//number(pair%area(1))//' and '// &
-            number(pair%area(2))//', gap '//number(pair%gap(1))//' to '//number(pair%gap(2))//', normal '//box_words(pair%normal))
-         if (minval(pair%n) == 0) then
-            call file%put('$ only body '//integer_text(pair%body(maxloc(pair%n, dim=1)))// &
-                          ' has sides opposite to the other; marks on its sides alone would have no opposite side')
-            return
-         end if
-         do k = 1, 2
-            own(:, k) = sides%body == pair%body(k) .and. sees == pair%body(3 - k)
-         end do
-         do i = 1, size(deck%bulk%joint)
-            is_new = .not. [(covers(deck%bulk%joint(i)%sides, own(:, k)), k = 1, 2)]
-            if (any(is_new) .and. (deck%bulk%joint(i)%sides(2) /= 0 .or. all(is_new))) cycle
-            call file%put('$ JOINT '//integer_text(deck%bulk%joint(i)%id)//' of the deck connects them there')
-            return
-         end do
-         do k = 1, 2
-            call take_mark(deck, pack(mark, own(:, k)), next, marks(k), is_new(k))
-            if (is_new(k)) call file%put('PMARK,'//integer_text(marks(k)))
-         end do
-         reach = max(2.0_wp*pair%gap(2), 0.01_wp*minval(sides%size, mask=sides%body == pair%body(1))) ! TOL
-         call file%put('JOINT,'//integer_text(next%joint)//','//integer_text(next%law)//','//integer_text(marks(1))//','// &
-                       integer_text(marks(2))//','//number(reach))
-         next%joint = next%joint + 1
-         do k = 1, 2
-            if (is_new(k)) call put_sides(model, pack(sides, own(:, k)), marks(k), next, file)
-         end do
-      end subroutine suggest_pair
-
-      !> Whether more than half of the area of THESE sides has marks of the sides of a joint.
-      pure logical function covers(joint_sides, these)
-         integer, intent(in) :: joint_sides(2)
-         logical, intent(in) :: these(:)
-
-         covers = sum(sides%area, mask=these .and. mark > 0 .and. (mark == joint_sides(1) .or. mark == joint_sides(2))) > &
-                  0.5_wp*sum(sides%area, mask=these)
-      end function covers
-
    end subroutine suggest_joints
 
    !> The MARK of the deck of each of SIDES, the last of several; 0: none.
@@ -149,22 +146,6 @@ contains
       end function same_side
 
    end subroutine find_marks
-
-   !> Numbers above those of the deck.
-   pure function free_numbers(deck, model) result(next)
-      type(deck_type), intent(in)  :: deck
-      type(model_type), intent(in) :: model
-      type(next_numbers) :: next
-
-      associate (bulk => deck%bulk)
-         next%element = 1 + maxval([0, model%element_id, bulk%edge%id, bulk%element%id, bulk%rigid%id, &
-                                  bulk%conrod%id, bulk%spring%id])
-         next%mark = 1 + maxval([0, bulk%pmark%id, bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, &
-                               bulk%beam_property%id])
-         next%joint = 1 + maxval([0, bulk%joint%id])
-         if (size(bulk%pjoint) > 0) next%law = bulk%pjoint(1)%id
-      end associate
-   end function free_numbers
 
    !> The MARK for sides with the marks NOW: that of the deck if all of these sides and no others have it, otherwise a new one.
    subroutine take_mark(deck, now, next, mark, is_new)

@@ -1,21 +1,21 @@
 !> Tables of the interface elements: history in NAME.joint.csv, tables of each joint in the listing, and its plot.
 module joint_tables
    use analysis_state, only: analysis_type
-   use branch_starts, only: branch_shift
    use interface_operator, only: at_first_end
    use joint_laws, only: friction_limit
    use kinds, only: wp
-   use table_writer, only: axes, column, column_type, heading, joint_table, table_type, noise, page_type, page_width, shows
    use model_data, only: has_gaps, joint_node_id, joint_type, model_type
    use normal_curve, only: loading_deflection
-   use normal_stiffness, only: branch_name, branch_open, branch_reload, branch_unload, force_reached, normal_state
-   use shear_stiffness, only: curve_deflection
+   use normal_stiffness, only: branch_name, branch_open, branch_reload, branch_unload, force_reached
+   use result_page, only: joint_table, page_type, shows
+   use shear_stiffness, only: branch_shift, curve_deflection
    use stage_entries, only: output_request
+   use table_writer, only: axes, column, column_type, heading, noise, page_width, table_type
    use text_tools, only: clean, csv_line_type, integer_text
    implicit none
    private
 
-   public :: history_titles, write_history, list_joints, list_energy, plot_joints
+   public :: write_history, list_joints, list_energy, plot_joint
 
    ! subjects of the tables
    integer, parameter :: of_elements = 1, of_stiffness = 2, of_removed = 3, of_shear = 4, of_state = 5, of_shear_state = 6
@@ -23,17 +23,6 @@ module joint_tables
    integer, parameter :: width = 101 ! columns of the field of a plot: 0 to 100 per cent
 
 contains
-
-   !> The titles of the columns of NAME.joint.csv. GAP and SLID only where the deck has them.
-   pure function history_titles(model) result(titles)
-      type(model_type), intent(in) :: model
-      character(:), allocatable    :: titles
-
-      titles = 'stage,increment,load,joint,element,node1,node2,x,y,z,area,branch,lambda,pressure,force,k_n,'// &
-               'branch_x,delta_x,tau_x,k_sx,branch_y,delta_y,tau_y,k_sy,slip'
-      if (has_gaps(model)) titles = titles//',gap'
-      if (any(model%joints%law%has_friction)) titles = titles//',slid_x,slid_y'
-   end function history_titles
 
    !> Write a row for each interface element into the file of the joints, after the completed increment. node2 is 0 for the
    !! rigid base; a direction without shear stiffness has no branch.
@@ -78,34 +67,25 @@ contains
       type(output_request), intent(in) :: asked
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      integer :: j
+      integer :: j, k
 
       do j = 1, size(model%joints)
          call list_elements(page, of_elements, model, analysis, j)
          call list_elements(page, of_stiffness, model, analysis, j)
          if (allocated(analysis%exact)) call list_elements(page, of_removed, model, analysis, j) ! STEP
-         call list_directions(of_shear)
-      end do
-      if (.not. asked%state) return
-      do j = 1, size(model%joints)
-         call list_elements(page, of_state, model, analysis, j)
-         call list_directions(of_shear_state)
-      end do
-
-   contains
-
-      subroutine list_directions(subject)
-         integer, intent(in) :: subject
-         integer :: k
-
          do k = 1, model%dimension - 1
-            if (model%joints(j)%law%shear(k)%given) call list_elements(page, subject, model, analysis, j, k)
+            call list_elements(page, of_shear, model, analysis, j, k)
          end do
-      end subroutine list_directions
-
+      end do
+      do j = 1, merge(size(model%joints), 0, asked%state)
+         call list_elements(page, of_state, model, analysis, j)
+         do k = 1, model%dimension - 1
+            call list_elements(page, of_shear_state, model, analysis, j, k)
+         end do
+      end do
    end subroutine list_joints
 
-   !> The table of SUBJECT of joint J, in direction K for shear: a row for each element.
+   !> The table of SUBJECT of joint J: a row for each element. A table of shear is for direction K, if that has a shear law.
    subroutine list_elements(page, subject, model, analysis, j, k)
       type(page_type), intent(inout)  :: page
       integer, intent(in)             :: subject
@@ -116,6 +96,7 @@ contains
       character(43), parameter :: titles(6) = [character(43) :: 'INTERFACE ELEMENTS', 'NORMAL STIFFNESS', &
          'ELEMENTS REMOVED FROM JOINT', 'SHEAR IN DIRECTION', 'STATE OF THE INTERFACE ELEMENTS', 'STATE OF SHEAR IN DIRECTION']
       type(table_type) :: table
+      type(column_type), allocatable :: columns(:)
       character(:), allocatable :: title
       integer, allocatable :: list(:)
       integer :: i
@@ -125,26 +106,13 @@ contains
          if (subject == of_removed) list = pack(list, normal(list)%branch == branch_open .and. force_reached(normal(list)) < 0.0_wp)
          if (subject == of_removed .and. size(list) == 0) return
          title = trim(titles(subject))
-         if (present(k)) title = title//' '//axes(k)
+         if (present(k)) then
+            if (.not. joint%law%shear(k)%given) return
+            title = title//' '//axes(k)
+         end if
          if (subject /= of_removed) title = title//' OF JOINT'
-         call table%start(title//' '//integer_text(joint%id)//page%now, &
-                          [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), columns_of(page, subject, model)], page%file)
+         title = title//' '//integer_text(joint%id)//page%now
       end associate
-      do i = 1, size(list)
-         call table%add([model%interface(list(i))%id, joint_node_id(model, list(i), 1)])
-         if (present(k)) call add_shear(table, subject, model, analysis, list(i), k)
-         if (.not. present(k)) call add_normal(table, subject, model, analysis, list(i))
-         call table%print_row(page%file)
-      end do
-   end subroutine list_elements
-
-   !> The columns of a table of SUBJECT after element and node.
-   function columns_of(page, subject, model) result(columns)
-      type(page_type), intent(in)    :: page
-      integer, intent(in)            :: subject
-      type(model_type), intent(in)   :: model
-      type(column_type), allocatable :: columns(:)
-
       associate (labels => page%labels, d => model%dimension)
          select case (subject)
          case (of_elements) ! K_N in space only in the joint history
@@ -173,7 +141,14 @@ contains
                        column([character(5) :: 'TAU_R', 'O', 'B0', 'C0'], 'es13.5', labels%pressure)]
          end select
       end associate
-   end function columns_of
+      call table%start(title, [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), columns], page%file)
+      do i = 1, size(list)
+         call table%add([model%interface(list(i))%id, joint_node_id(model, list(i), 1)])
+         if (present(k)) call add_shear(table, subject, model, analysis, list(i), k)
+         if (.not. present(k)) call add_normal(table, subject, model, analysis, list(i))
+         call table%print_row(page%file)
+      end do
+   end subroutine list_elements
 
    !> Add the normal values of interface element I. The normal stiffness is that used in the increment, with its kind. The
    !! difference of lambda from the loading curve at the present p follows; where gaps exist also the closing, of which lambda
@@ -194,25 +169,20 @@ contains
          case (of_elements)
             call table%add([joint_node_id(model, i, 2)], at_first_end(element, model%x(:model%dimension, :)))
             call table%add([element%area])
-            call table%add(branch_name(state%branch))
-            call table%add([state%lambda], lambda_floor)
-            call table%add([state%pressure], p_floor)
-            call table%add([state%sumf], p_floor*joint%area)
-            call table%add([state%k_n])
+            call table%add(branch_name(state%branch), clean([state%lambda, state%pressure, state%sumf, state%k_n], &
+                                                            [lambda_floor, p_floor, p_floor*joint%area, 0.0_wp]))
          case (of_stiffness)
             call table%add([state%lambda, loading_deflection(joint%law%normal, max(0.0_wp, state%pressure))], lambda_floor)
             call table%add([state%k_n])
             call table%add([state%lambda + state%gap, state%gap], lambda_floor)
             call table%add(trim(kinds(analysis%record%kind(i))))
          case (of_removed)
-            call table%add([state%sigmaf, force_reached(state)], p_floor*element%area)
-            call table%add([state%lambda_b], lambda_floor)
+            call table%add(clean([state%sigmaf, force_reached(state), state%lambda_b], &
+                                 [p_floor*element%area, p_floor*element%area, lambda_floor]))
          case (of_state)
-            call table%add(branch_name(state%branch))
-            call table%add([state%sigmaf, state%sumf], p_floor*element%area)
-            call table%add([state%lambda_a], lambda_floor)
-            call table%add([state%p_a], p_floor)
-            call table%add([state%lambda_b], lambda_floor)
+            call table%add(branch_name(state%branch), &
+                           clean([state%sigmaf, state%sumf, state%lambda_a, state%p_a, state%lambda_b], &
+                                 [p_floor*element%area, p_floor*element%area, lambda_floor, p_floor, lambda_floor]))
          end select
       end associate
    end subroutine add_normal
@@ -229,23 +199,18 @@ contains
       delta_floor = noise*analysis%largest_lambda
       tau_floor = noise*analysis%largest_p
       associate (element => model%interface(i), law => model%joints(model%interface(i)%joint)%law, &
-                 state => analysis%states(i)%shear(k), &
-                 p => analysis%states(i)%normal%pressure)
+                 state => analysis%states(i)%shear(k), p => analysis%states(i)%normal%pressure)
          call table%add(branch_name(state%branch))
          if (subject == of_shear) then
-            call table%add([state%delta], delta_floor)
-            call table%add([state%tau], tau_floor)
-            call table%add([state%tau*element%area], tau_floor*element%area)
-            call table%add([state%k_s])
+            call table%add(clean([state%delta, state%tau, state%tau*element%area, state%k_s], &
+                                 [delta_floor, tau_floor, tau_floor*element%area, 0.0_wp]))
             call table%add([friction_limit(law, p)], tau_floor, where=[law%has_friction])
             call table%add(trim(merge('  SLIPS', '       ', analysis%states(i)%slips)))
          else
-            shift = branch_shift(law%shear(k), state, max(0.0_wp, p), analysis%turns(k, i))
-            call table%add([nint(state%sense)])
-            call table%add([curve_deflection(state)], delta_floor)
-            call table%add([state%sense*state%tau], tau_floor)
-            call table%add([state%d_r], delta_floor)
-            call table%add([state%tau_r, state%offset], tau_floor)
+            shift = branch_shift(law%shear(k), state, max(0.0_wp, p), analysis%turns(k, i)%delta, analysis%turns(k, i)%tau)
+            call table%add([nint(state%sense)], &
+                           clean([curve_deflection(state), state%sense*state%tau, state%d_r, state%tau_r, state%offset], &
+                                 [delta_floor, tau_floor, delta_floor, tau_floor, tau_floor]))
             call table%add([shift, shift], tau_floor, where=state%branch == [branch_unload, branch_reload])
          end if
       end associate
@@ -284,22 +249,6 @@ contains
       end do
    end subroutine list_energy
 
-   !> A plot for each joint; a map where the joint has a plane in space.
-   subroutine plot_joints(page, model, analysis)
-      type(page_type), intent(inout)  :: page
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer :: j
-
-      do j = 1, size(model%joints)
-         if (model%dimension == 3 .and. .not. model%joints(j)%frame%faces_all_ways) then
-            call map_joint(page, model, analysis, model%joints(j))
-         else
-            call plot_joint(page, model, analysis, model%joints(j))
-         end if
-      end do
-   end subroutine plot_joints
-
    !> Map of the pressure of JOINT over its plane, seen against its normal: x of the joint to the right, y upwards. A character
    !! shows the largest pressure of the interface elements there: tenths of the largest of all, which is *; - where all are
    !! open.
@@ -312,6 +261,7 @@ contains
       character(*), parameter :: ranks = '-0123456789*' ! the later of two signs at one place is shown
       character(width), allocatable :: rows(:)
       character(page_width) :: line
+      character(1) :: sign
       real(wp) :: place(3, joint%first:joint%last), low(3), high(3), step, p_most
       integer  :: column, i, row
 
@@ -329,7 +279,10 @@ contains
       do i = joint%first, joint%last
          column = 1 + nint((place(1, i) - low(1))/step)
          row = nint((high(2) - place(2, i))/(upright*step))
-         associate (sign => map_sign(analysis%states(i)%normal, p_most), there => rows(row)(column:column))
+         associate (state => analysis%states(i)%normal, there => rows(row)(column:column))
+            sign = achar(iachar('0') + max(0, min(9, int(10.0_wp*(1.0_wp + noise)*state%pressure/p_most))))
+            if (state%pressure >= (1.0_wp - noise)*p_most) sign = '*'
+            if (state%branch == branch_open) sign = '-'
             if (index(ranks, sign) > index(ranks, there)) there = sign
          end associate
       end do
@@ -345,18 +298,8 @@ contains
       end do
    end subroutine map_joint
 
-   !> The sign of an interface element in this STATE on a map.
-   pure character(1) function map_sign(state, p_most) result(sign)
-      type(normal_state), intent(in) :: state
-      real(wp), intent(in)           :: p_most
-
-      sign = '-'
-      if (state%branch == branch_open) return
-      sign = achar(iachar('0') + max(0, min(9, int(10.0_wp*(1.0_wp + noise)*state%pressure/p_most))))
-      if (state%pressure >= (1.0_wp - noise)*p_most) sign = '*'
-   end function map_sign
-
-   !> A line for each interface element of JOINT, P as *, LAMBDA as +, both as # where they coincide.
+   !> A map of JOINT where that has a plane in space. Otherwise a line for each interface element, P as *, LAMBDA as +, both as #
+   !! where they coincide.
    subroutine plot_joint(page, model, analysis, joint)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -366,6 +309,10 @@ contains
       real(wp) :: p_most, lambda_most, lambda_least
       integer  :: i
 
+      if (model%dimension == 3 .and. .not. joint%frame%faces_all_ways) then
+         call map_joint(page, model, analysis, joint)
+         return
+      end if
       associate (state => analysis%states%normal)
          p_most = max(maxval(state(joint%first:joint%last)%pressure), tiny(1.0_wp))
          lambda_least = min(0.0_wp, minval(state(joint%first:joint%last)%lambda))

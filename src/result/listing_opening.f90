@@ -1,31 +1,35 @@
-!> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
+!> The first pages of the listing: heading, echo of the deck, summary of the model, joints and stages.
 module listing_opening
    use branch_cubic, only: cubic
    use case_control, only: method_newton, method_step, pressure_eq10
-   use terminal, only: standard_input, version
+   use deck_cards, only: card_name
    use deck_input, only: deck_type
+   use deck_text, only: is_include
    use element_kinds, only: element_table
    use element_mapping, only: has_modes
    use equation_solver, only: equation_system
    use facing_bodies, only: body_type, list_bodies
    use interface_operator, only: named_node
    use kinds, only: long, wp
-   use listing_echo, only: write_echo
-   use table_writer, only: axes, column, cut, heading, in_form, table_type, page_type, page_width
    use model_data, only: has_gaps, is_coarser, model_type, n_bars, n_points, n_rotations, n_sections, n_springs, supported, &
                          whole_share
    use normal_curve, only: pressure_floor
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
    use output_file, only: output_file_type
    use range_watch, only: tetra_words
+   use result_page, only: page_type
    use shear_loops, only: loop_closure, worst_closure
    use shear_stiffness, only: cubic_of
    use stage_plan, only: stage_plan_type
-   use text_tools, only: clean, integer_text, real_text, upper
+   use table_writer, only: axes, column, cut, heading, in_form, page_width, table_type
+   use terminal, only: standard_input, version
+   use text_tools, only: clean, integer_text, plural, real_text, upper
    implicit none
    private
 
    public :: write_opening
+
+   integer, parameter :: most_echoed = 5000 ! cards of a deck that are echoed without ECHO
 
 contains
 
@@ -37,6 +41,9 @@ contains
       type(stage_plan_type), intent(in) :: plan
       class(equation_system), intent(in) :: system
       character(:), allocatable :: words
+      type(table_type) :: table
+      real(wp) :: total(3), largest
+      integer  :: s
 
       words = 'FROM THE STANDARD INPUT'
       associate (path => deck%text%files(1)%path) ! without its folder
@@ -52,12 +59,95 @@ contains
       call write_echo(page%file, deck)
       call write_summary(page%file, deck, model, system)
       call write_bodies(page, model)
-      if (allocated(model%placed)) call write_placed(page, model)
       if (size(model%joints) > 0) call write_joints(page, model)
-      if (has_gaps(model)) call write_gaps(page, model)
       call write_shear_laws(page%file, model)
-      call write_stages(page, model, plan)
+      ! the load history: totals at the end of every stage
+      call table%start('STAGES', [column('STAGE', 'i11', heading_shift=-1), column('INCREMENTS', 'i11'), &
+                                  column(['FIRST SHARE', 'LAST SHARE '], 'es14.5'), &
+                                  column('TOTAL LOAD '//axes(:model%dimension), 'es15.5', page%labels%force), &
+                                  column('   LABEL', 'a')], page%file)
+      do s = 1, size(plan%stages)
+         associate (stage => plan%stages(s), loads => model%stage_loads(s))
+            total = sum(loads%force(:, :loads%n), dim=2, mask=spread(loads%node(:loads%n) <= n_points(model), 1, 3)) ! no moments
+            largest = 0.0_wp
+            if (loads%n > 0) largest = maxval(abs(loads%force(:, :loads%n)))
+            call table%add([stage%id, size(stage%fractions)])
+            call table%add([stage%fractions(1), stage%fractions(size(stage%fractions))])
+            call table%add(clean(total(:model%dimension), 1.0e-9_wp*largest))
+            call table%add('   '//cut(stage%label, 33))
+            call table%print_row(page%file)
+         end associate
+      end do
    end subroutine write_opening
+
+   !> The deck as read, cards counted, under a field ruler. INCLUDE files are counted, not shown. The same holds for the cards
+   !! of a very long deck, unless ECHO asks for them.
+   subroutine write_echo(file, deck)
+      type(output_file_type), intent(inout) :: file
+      type(deck_type), intent(in)           :: deck
+      integer, parameter :: outside = 0, begins = 1, a_card = 2, in_card = 3 ! where a line is: in the bulk data or not
+      integer, allocatable :: part(:)
+      character(10) :: counter
+      character(8)  :: name
+      integer(long) :: first, last
+      integer :: cards, comma, i, number
+      integer :: hidden ! lines of INCLUDE files since the last one shown
+      logical :: ended, shows_cards
+
+      if (.not. deck%control%echo) then
+         call heading(file, 'DECK: '//integer_text(deck%bulk%n_cards)//' CARDS, NOT ECHOED')
+         return
+      end if
+      call heading(file, 'DECK ECHO')
+      associate (text => deck%text, is_own => [(deck%text%file_number(i) == 1, i = 1, deck%text%n)])
+         allocate (part(0:text%n), source=outside)
+         ended = .false.
+         do i = 1, text%n
+            if (part(i - 1) /= outside) then
+               call text%find(i, number, first, last, comma) ! examined in place: copies of a long deck take time
+               associate (line => text%files(number)%bytes(first:last))
+                  name = card_name(line, comma)
+                  if (is_include(line)) name = ''
+               end associate
+               part(i) = merge(in_card, a_card, name == '' .or. name == 'ENDDATA')
+               ended = name == 'ENDDATA' .and. is_own(i)
+               if (ended) part(i) = outside
+            else if (.not. ended) then
+               if (index(adjustl(upper(text%card_part(i))), 'BEGIN') == 1) part(i) = begins
+            end if
+         end do
+         shows_cards = deck%control%echo_asked .or. count(is_own .and. part(1:) == a_card) <= most_echoed
+         cards = 0
+         hidden = 0
+         do i = 1, text%n
+            if (part(i) == a_card) cards = cards + 1
+            counter = ''
+            if (shows_cards .and. part(i) == a_card) write (counter, '(i9, a)') cards, '-'
+            if (.not. is_own(i)) then
+               hidden = hidden + 1
+            else if (shows_cards .or. part(i) <= begins) then
+               call count_hidden()
+               call file%put(' '//counter//' '//cut(text%line(i), page_width - 13))
+            end if
+            if (part(i) /= begins .or. .not. shows_cards) cycle
+            call file%put('   CARD')
+            call file%put('  COUNT-    .   1  ..   2  ..   3  ..   4  ..   5  ..   6  ..   7  ..   8  ..   9  ..  10  .')
+         end do
+      end associate
+      call count_hidden()
+      call file%put('')
+      call file%put('  TOTAL COUNT '//integer_text(cards)//' CARDS')
+      if (.not. shows_cards) call file%put('  THE DECK ITSELF HAS MORE THAN '//integer_text(most_echoed)// &
+                                           ', NOT ECHOED: ECHO = YES SHOWS THEM')
+
+   contains
+
+      subroutine count_hidden()
+         if (hidden > 0) call file%put('            ('//upper(plural(hidden, 'line'))//' OF INCLUDE FILES, NOT ECHOED)')
+         hidden = 0
+      end subroutine count_hidden
+
+   end subroutine write_echo
 
    !> The numbers of the parts of the model, and the solver.
    subroutine write_summary(file, deck, model, system)
@@ -65,7 +155,8 @@ contains
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
       class(equation_system), intent(in)    :: system
-      integer :: i
+      character(:), allocatable :: words
+      integer :: first, i, last
 
       call heading(file, 'MODEL SUMMARY')
       call count_line(file, 'NODES', int(n_points(model), long))
@@ -107,7 +198,14 @@ contains
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
-      call write_folded(file, upper(deck%bulk%ignored%words()))
+      words = upper(deck%bulk%ignored%words()) ! a list with commas, in as many lines as needed
+      first = 1
+      do while (first <= len(words))
+         last = min(first + page_width - 6, len(words))
+         if (last < len(words)) last = first - 1 + max(1, index(words(first:last), ',', back=.true.))
+         call file%put('  '//repeat(' ', merge(0, 1, first == 1))//words(first:last))
+         first = last + 1
+      end do
       if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
    end subroutine write_summary
 
@@ -150,7 +248,8 @@ contains
       call file%put(line)
    end subroutine count_line
 
-   !> The bodies, if several, with their numbers in the answers and in the energies of modes.
+   !> The bodies, if several, with their numbers in the answers and in the energies of modes; and the nodes that the deck names
+   !! by place, NODEAT with its distance from there, and the reference nodes of RBE2M and RBE3M.
    subroutine write_bodies(page, model)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
@@ -158,94 +257,78 @@ contains
       type(body_type), allocatable :: bodies(:)
       integer :: body(model%n_elements), d, i
 
-      call list_bodies(model, body, bodies)
-      if (size(bodies) < 2) return
       d = model%dimension
-      call table%start('BODIES', [column('BODY', 'i11'), column([character(8) :: 'ELEMENTS', 'NODES'], 'i11'), &
-                                  column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i13'), &
-                                  column('FROM '//axes(:d), 'es12.4', page%labels%length), &
-                                  column('TO '//axes(:d), 'es12.4', page%labels%length)], page%file)
-      do i = 1, size(bodies)
+      call list_bodies(model, body, bodies)
+      if (size(bodies) > 1) call table%start('BODIES', &
+         [column('BODY', 'i11'), column([character(8) :: 'ELEMENTS', 'NODES'], 'i11'), &
+          column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i13'), &
+          column('FROM '//axes(:d), 'es12.4', page%labels%length), &
+          column('TO '//axes(:d), 'es12.4', page%labels%length)], page%file)
+      do i = 1, merge(size(bodies), 0, size(bodies) > 1)
          associate (b => bodies(i))
             call table%add([i, b%n_elements, b%n_nodes, b%first, b%last], clean([b%low(:d), b%high(:d)]))
             call table%print_row(page%file)
          end associate
       end do
-   end subroutine write_bodies
-
-   !> The nodes that the deck names by place, NODEAT with its distance from there, and the reference nodes of RBE2M and RBE3M.
-   subroutine write_placed(page, model)
-      type(page_type), intent(inout) :: page
-      type(model_type), intent(in)   :: model
-      type(table_type) :: table
-      integer :: d, i
-
-      d = model%dimension
+      if (.not. allocated(model%placed)) return
       call table%start('NODES BY PLACE AND SURFACE', [column([character(8) :: 'NODE', 'NODEAT', 'ELEMENT', 'PMARK'], 'i11'), &
                        column(axes(:d), 'es14.5', page%labels%length), column('DISTANCE', 'es12.3', page%labels%length)], page%file)
       do i = 1, size(model%placed)
-         associate (placed => model%placed(i))
-            associate (x => model%x(:, placed%node))
-               call table%add([model%node_id(placed%node), placed%id, placed%element, placed%surface], &
-                              clean([x(:d), merge(norm2(x - placed%x), 0.0_wp, placed%id > 0)]))
-            end associate
+         associate (placed => model%placed(i), x => model%x(:, model%placed(i)%node))
+            call table%add([model%node_id(placed%node), placed%id, placed%element, placed%surface], &
+                           clean([x(:d), merge(norm2(x - placed%x), 0.0_wp, placed%id > 0)]))
             call table%print_row(page%file)
          end associate
       end do
-   end subroutine write_placed
+   end subroutine write_bodies
 
-   !> WORDS, a list with commas, in as many lines as needed; nothing for an empty list.
-   subroutine write_folded(file, words)
-      type(output_file_type), intent(inout) :: file
-      character(*), intent(in)              :: words
-      integer :: first, last
-
-      first = 1
-      do while (first <= len(words))
-         last = min(first + page_width - 6, len(words))
-         if (last < len(words)) last = first - 1 + max(1, index(words(first:last), ',', back=.true.))
-         call file%put('  '//repeat(' ', merge(0, 1, first == 1))//words(first:last))
-         first = last + 1
-      end do
-   end subroutine write_folded
-
-   !> Laws and areas of the joints.
+   !> Laws and areas of the joints, and the cover of joint sides that do not match node by node. Initial gaps: of the elements of a
+   !! joint how many stand open, and how many are pressed by interference at rest.
    subroutine write_joints(page, model)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
       type(table_type) :: table
-      integer :: d, j
+      integer :: d, i, j, lists(size(model%joints)) ! interface elements coupled to lists of nodes
+      logical :: shown(size(model%joints))
 
       d = model%dimension
       associate (labels => page%labels)
          call table%start('JOINTS', [column('JOINT', 'i11'), column('ELEMENTS', 'i9'), column('A_INT', 'es13.5', labels%area), &
                                      column('C', 'es13.5'), column('M', 'f7.4'), column('E_U', 'es15.5', labels%slope), &
                                      column(['FIRST P (EQ.9) ', 'LEAST P ON LOAD'], 'es17.5', labels%pressure), &
-                                     column('NORMAL '//axes(:d), merge('f10.6', 'f11.6', d == 3))])
+                                     column('NORMAL '//axes(:d), merge('f10.6', 'f11.6', d == 3))], page%file)
       end associate
-      call table%print_head(page%file)
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), law => model%joints(j)%law%normal)
             call table%add([joint%id, joint%last - joint%first + 1])
             call table%add([joint%area, law%c, law%m, law%e_u, joint%p_av, pressure_floor*joint%p_av])
-            if (joint%frame%faces_all_ways) then
-               call table%add(' CLOSED')
-            else
-               call table%add(clean(joint%normal(:d), 1.0e-9_wp))
-            end if
+            if (joint%frame%faces_all_ways) call table%add(' CLOSED')
+            if (.not. joint%frame%faces_all_ways) call table%add(clean(joint%normal(:d), 1.0e-9_wp))
+            call table%print_row(page%file)
+            lists(j) = count([(model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0, i = joint%first, joint%last)])
+         end associate
+      end do
+      shown = model%joints%cover%fitted .and. (lists > 0 .or. model%joints%cover%share < whole_share)
+      if (any(shown)) call table%start('JOINTS OF FACES THAT DO NOT MATCH', [column('JOINT', 'i11'), &
+                                       column(['PAIRS', 'LISTS'], 'i9'), column('SIDE1 COVERED', 'f15.6'), &
+                                       column('FARTHEST APART', 'es17.5', page%labels%length)], page%file)
+      do j = 1, size(model%joints)
+         if (.not. shown(j)) cycle
+         associate (joint => model%joints(j))
+            call table%add([joint%id, joint%last - joint%first + 1 - lists(j), lists(j)])
+            call table%add([joint%cover%share, clean(joint%cover%farthest, 1.0e-9_wp*sqrt(joint%area))])
             call table%print_row(page%file)
          end associate
       end do
-      call write_covers(page, model)
-   end subroutine write_joints
-
-   !> The initial gaps: of the elements of a joint how many stand open, and how many are pressed by interference at rest.
-   subroutine write_gaps(page, model)
-      type(page_type), intent(inout) :: page
-      type(model_type), intent(in)   :: model
-      type(table_type) :: table
-      integer :: j
-
+      do j = 1, size(model%joints)
+         associate (joint => model%joints(j))
+            if (shown(j) .and. joint%cover%share < whole_share) call page%file%put( &
+               '  NOTE: SIDE2 COVERS ONLY A PART OF SIDE1 OF JOINT '//integer_text(joint%id)//'. THE REST OF SIDE1 HAS NO JOINT.')
+            if (shown(j) .and. is_coarser(joint%cover)) call page%file%put('  NOTE: SIDE1 OF JOINT '//integer_text(joint%id)// &
+               ' IS COARSER THAN SIDE2. EXCHANGE THEM FOR BETTER STRESSES BESIDE THE JOINT.')
+         end associate
+      end do
+      if (.not. has_gaps(model)) return
       call table%start('INITIAL GAPS, NEGATIVE: INTERFERENCE', &
                        [column('JOINT', 'i11'), column('GIVEN BY', 'a10'), column(['SMALLEST', 'LARGEST '], 'es15.5', &
                         page%labels%length), column(['OPEN   ', 'PRESSED'], 'i9')], page%file)
@@ -258,7 +341,7 @@ contains
             call table%print_row(page%file)
          end associate
       end do
-   end subroutine write_gaps
+   end subroutine write_joints
 
    !> Shear laws and friction of the joints that have them.
    subroutine write_shear_laws(file, model)
@@ -266,7 +349,9 @@ contains
       type(model_type), intent(in)          :: model
       integer, parameter :: branches(3) = [branch_load, branch_unload, branch_reload]
       type(table_type) :: table
-      character(page_width)    :: line
+      character(*), parameter :: behind = repeat(' ', 17)
+      character(page_width) :: line
+      type(loop_closure) :: closure
       type(cubic) :: curve
       integer :: b, j, k
 
@@ -277,24 +362,25 @@ contains
       do j = 1, size(model%joints)
          associate (law => model%joints(j)%law)
             do k = 1, model%dimension - 1
-               if (.not. law%shear(k)%given) cycle
-               do b = 1, 3
-                  curve = cubic_of(law%shear(k), branches(b))
-                  call table%add([model%joints(j)%id])
-                  call table%add(axes(k))
-                  call table%add(branch_name(branches(b)))
-                  call table%add(pack(curve%coefficients, .true.))
-                  call table%print_row(file)
-               end do
-               if (law%shear(k)%p_max < huge(1.0_wp)) then
-                  write (line, '(17x, a, es13.5)') 'TESTED UP TO P =', law%shear(k)%p_max
-                  call file%put(line)
-               end if
-               if (law%shear(k)%d_max < huge(1.0_wp)) then
-                  write (line, '(17x, a, es13.5)') 'TESTED UP TO D =', law%shear(k)%d_max
-                  call file%put(line)
-               end if
-               call file%put(closure_line(worst_closure(law%shear(k), model%joints(j)%p_av)))
+               associate (shear => law%shear(k))
+                  if (.not. shear%given) cycle
+                  do b = 1, 3
+                     curve = cubic_of(shear, branches(b))
+                     call table%add([model%joints(j)%id])
+                     call table%add(axes(k))
+                     call table%add(branch_name(branches(b)), pack(curve%coefficients, .true.))
+                     call table%print_row(file)
+                  end do
+                  if (shear%p_max < huge(1.0_wp)) call file%put(behind//'TESTED UP TO P ='//in_form(shear%p_max, '(es13.5)', 13))
+                  if (shear%d_max < huge(1.0_wp)) call file%put(behind//'TESTED UP TO D ='//in_form(shear%d_max, '(es13.5)', 13))
+                  closure = worst_closure(shear, model%joints(j)%p_av) ! of the loops: the widest gap and its place
+               end associate
+               line = '   D ='//in_form(closure%d, '(es13.5)', 13)
+               if (.not. closure%d > 0.0_wp) line = '   OF SMALL LOOPS: THE CARD HAS NO DMAX'
+               if (closure%is_known) call file%put(behind//'CLOSURE'//in_form(100.0_wp*closure%share, '(f9.3)', 9)// &
+                  ' PER CENT OF TAU_R'//trim(merge(', WIDEST', '        ', closure%d > 0.0_wp))//' AT P ='// &
+                  in_form(closure%p, '(es13.5)', 13)//line)
+               if (.not. closure%is_known) call file%put(behind//'CLOSURE: UNLOADING DOES NOT REACH TAU = 0')
             end do
             if (law%has_friction) then
                write (line, '(i11, 3a, i5)') model%joints(j)%id, '   FRICTION MU =', in_form(law%mu, '(f10.6)', 10), &
@@ -304,81 +390,5 @@ contains
          end associate
       end do
    end subroutine write_shear_laws
-
-   !> Words about the closure of the loops of a shear law: the widest gap and its place.
-   function closure_line(closure) result(line)
-      type(loop_closure), intent(in) :: closure
-      character(page_width) :: line
-
-      if (.not. closure%is_known) then
-         line = repeat(' ', 17)//'CLOSURE: UNLOADING DOES NOT REACH TAU = 0'
-      else if (closure%d > 0.0_wp) then
-         write (line, '(17x, 3a, es13.5, a, es13.5)') 'CLOSURE', in_form(100.0_wp*closure%share, '(f9.3)', 9), &
-            ' PER CENT OF TAU_R, WIDEST AT P =', closure%p, '   D =', closure%d
-      else
-         write (line, '(17x, 3a, es13.5)') 'CLOSURE', in_form(100.0_wp*closure%share, '(f9.3)', 9), &
-            ' PER CENT OF TAU_R AT P =', closure%p
-         line = trim(line)//'   OF SMALL LOOPS: THE CARD HAS NO DMAX'
-      end if
-   end function closure_line
-
-   !> The load history: totals at the end of every stage.
-   subroutine write_stages(page, model, plan)
-      type(page_type), intent(inout)    :: page
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      type(table_type) :: table
-      real(wp) :: total(3), largest
-      integer  :: s
-
-      call table%start('STAGES', [column('STAGE', 'i11', heading_shift=-1), column('INCREMENTS', 'i11'), &
-                                  column(['FIRST SHARE', 'LAST SHARE '], 'es14.5'), &
-                                  column('TOTAL LOAD '//axes(:model%dimension), 'es15.5', page%labels%force), &
-                                  column('   LABEL', 'a')], page%file)
-      do s = 1, size(plan%stages)
-         associate (stage => plan%stages(s), loads => model%stage_loads(s))
-            total = sum(loads%force(:, :loads%n), dim=2, mask=spread(loads%node(:loads%n) <= n_points(model), 1, 3)) ! no moments
-            largest = 0.0_wp
-            if (loads%n > 0) largest = maxval(abs(loads%force(:, :loads%n)))
-            call table%add([stage%id, size(stage%fractions)])
-            call table%add([stage%fractions(1), stage%fractions(size(stage%fractions))])
-            call table%add(clean(total(:model%dimension), 1.0e-9_wp*largest))
-            call table%add('   '//cut(stage%label, 33))
-            call table%print_row(page%file)
-         end associate
-      end do
-   end subroutine write_stages
-
-   !> The cover of joint sides that do not match node by node.
-   subroutine write_covers(page, model)
-      type(page_type), intent(inout) :: page
-      type(model_type), intent(in)   :: model
-      type(table_type) :: table
-      integer :: i, j, lists(size(model%joints)) ! interface elements coupled to lists of nodes
-      integer, allocatable :: shown(:)
-
-      lists = [(count([(model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0, &
-                        i = model%joints(j)%first, model%joints(j)%last)]), j = 1, size(model%joints))]
-      shown = pack([(j, j = 1, size(model%joints))], model%joints%cover%fitted .and. &
-                   (lists > 0 .or. model%joints%cover%share < whole_share))
-      if (size(shown) == 0) return
-      call table%start('JOINTS OF FACES THAT DO NOT MATCH', [column('JOINT', 'i11'), column(['PAIRS', 'LISTS'], 'i9'), &
-                       column('SIDE1 COVERED', 'f15.6'), column('FARTHEST APART', 'es17.5', page%labels%length)], page%file)
-      do j = 1, size(shown)
-         associate (joint => model%joints(shown(j)))
-            call table%add([joint%id, joint%last - joint%first + 1 - lists(shown(j)), lists(shown(j))])
-            call table%add([joint%cover%share, clean(joint%cover%farthest, 1.0e-9_wp*sqrt(joint%area))])
-            call table%print_row(page%file)
-         end associate
-      end do
-      do j = 1, size(shown)
-         associate (joint => model%joints(shown(j)))
-            if (joint%cover%share < whole_share) call page%file%put('  NOTE: SIDE2 COVERS ONLY A PART OF SIDE1 OF JOINT '// &
-               integer_text(joint%id)//'. THE REST OF SIDE1 HAS NO JOINT.')
-            if (is_coarser(joint%cover)) call page%file%put('  NOTE: SIDE1 OF JOINT '//integer_text(joint%id)// &
-               ' IS COARSER THAN SIDE2. EXCHANGE THEM FOR BETTER STRESSES BESIDE THE JOINT.')
-         end associate
-      end do
-   end subroutine write_covers
 
 end module listing_opening

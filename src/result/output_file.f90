@@ -13,7 +13,7 @@ module output_file
       character(:), allocatable :: path          ! empty: standard output
       character(:), allocatable, public :: part  !! its name until the end
       character(:), allocatable :: buffer
-      integer :: used = 0
+      integer, public :: used = 0                !! characters of the buffer: of the standard output all
       integer :: descriptor = -1
       logical, public :: fault = .false.         !! some write has failed, or the writer has found a fault
       logical, public :: is_open = .false.
@@ -23,9 +23,7 @@ module output_file
       procedure :: start
       procedure :: put
       procedure :: put_lines
-      procedure :: length
       procedure :: text_behind
-      procedure :: failed
       procedure :: close
       procedure :: finish
       procedure :: discard
@@ -96,13 +94,6 @@ contains
       self%used = self%used + len(text)
    end subroutine put_lines
 
-   !> Number of buffered characters: for the standard output all.
-   pure integer function length(self)
-      class(output_file_type), intent(in) :: self
-
-      length = self%used
-   end function length
-
    !> The text behind the first N characters.
    pure function text_behind(self, n) result(text)
       class(output_file_type), intent(in) :: self
@@ -134,13 +125,6 @@ contains
       wider(:self%used) = self%buffer(:self%used)
       call move_alloc(wider, self%buffer)
    end subroutine make_room
-
-   !> Whether anything could not be written.
-   pure logical function failed(self)
-      class(output_file_type), intent(in) :: self
-
-      failed = self%fault
-   end function failed
 
    !> Write the rest and close the file, which has no name yet.
    subroutine close(self)

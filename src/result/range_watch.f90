@@ -9,14 +9,15 @@ module range_watch
    use element_kinds, only: kind_tetra4
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
-   use table_writer, only: axes, page_type, page_width, table_type
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, branch_unload
    use numbers, only: tie
    use restart_stream, only: restart_stream_type
+   use result_page, only: page_type
    use shear_loops, only: loop_closure, wide_gap, worst_closure
    use shear_stiffness, only: curve_deflection, shear_law, shear_slope
+   use table_writer, only: axes, page_width, table_type
    use text_tools, only: integer_text, plural, real_text, upper
    use unknowns, only: unknown_name
    implicit none
@@ -53,7 +54,6 @@ module range_watch
       type(farthest_type) :: farthest
       character(:), allocatable :: poor_condition !! last warning of the condition for the screen, '': none
       character(:), allocatable :: divided    !! message about the last divided increment, '': none
-      character(:), allocatable, private :: place ! stage and increment
       integer, allocatable, private :: stage(:, :)   ! (bounds, n) stage in which an element was last found beyond a bound
       type(tally_type), allocatable, private :: tallies(:, :) ! (bounds, joints)
       logical, allocatable, private :: soft_line(:)  ! whether the E_u of a joint was warned of
@@ -77,33 +77,84 @@ contains
       watch%divided = ''
    end subroutine start_watch
 
-   !> Warn of the increment just completed.
+   !> Warn of the increment just completed: of the condition of the stiffness, the poorest so far, of which only powers of ten are
+   !! given, because the digits are rounding; and of a divided increment where its answer depends on the parts.
    subroutine watch_increment(page, model, analysis, method, watch)
       type(page_type), intent(in)           :: page
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
       integer, intent(in)                   :: method !! of case control
       type(range_watch_type), intent(inout) :: watch
+      character(:), allocatable :: first, second
+      integer :: power
 
-      watch%place = page%place
-      if (analysis%record%condition%is_new) call note_condition(model, analysis, watch)
-      if (analysis%record%n_parts > 1 .and. .not. analysis%record%is_partial) call note_division(analysis, watch)
+      first = ''
+      associate (record => analysis%record)
+         if (record%condition%is_new) then
+            power = nint(log10(record%condition%number))
+            first = page%place//': condition of the stiffness about 1E'//integer_text(power)//', about '// &
+                    integer_text(max(0, 16 - power))//' of 16 digits remain'
+            second = 'softest at '//unknown_name(model, record%condition%node, record%condition%direction)
+            call warn(watch, '  WARNING: '//upper(first)//': ', upper(second))
+            watch%poor_condition = first//': '//second
+         end if
+         if (record%n_parts > 1 .and. .not. record%is_partial) then
+            first = page%place//': divided into '//integer_text(record%n_parts)//' parts'
+            second = 'then repeated as a whole from the state that they reached'
+            if (.not. record%is_whole) &
+               second = 'it did not converge as a whole, and the answer depends on the parts: more increments show by how much'
+            call warn(watch, merge('  NOTE:    ', '  WARNING: ', record%is_whole)//upper(first)//', ', upper(second))
+            watch%divided = first//', '//second
+         end if
+      end associate
       call watch_ranges(model, analysis, watch)
       if (method == method_back) return
       if (any(watch%first_of < 0)) call watch_closures(model, watch)
-      call watch_shear_laws(model, analysis, watch)
-      call watch_unloading(model, analysis, watch)
+      call watch_unloading(page%place, model, analysis, watch)
    end subroutine watch_increment
 
-   !> Warn of the stage just completed.
+   !> Warn of the stage just completed: a line for each joint and bound of its shear law that elements have exceeded; the unbalanced
+   !! force, and the remaining excess over the friction limits.
    subroutine watch_stage(page, model, analysis, watch)
       type(page_type), intent(in)           :: page
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
+      character(:), allocatable :: words
+      real(wp) :: excess, limit, unbalanced
+      integer  :: i, j, which
 
-      call say_ranges(model, page%stage, watch)
-      call watch_balance(model, analysis, page%largest_force, watch)
+      do j = 1, size(model%joints)
+         do which = beyond_p, no_slope
+            associate (tally => watch%tallies(which, j))
+               if (tally%n == 0) cycle
+               words = 'WITHOUT A POSITIVE SLOPE'
+               if (which == beyond_p) words = 'BEYOND P = '//real_text(tally%bound)
+               if (which == beyond_d) words = 'BEYOND D = '//real_text(tally%bound)
+               call warn(watch, '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', '//page%stage//': '// &
+                  upper(plural(tally%n, 'element'))//' '//words//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)// &
+                  ' (INCREMENT '//integer_text(tally%increment)//'),', &
+                  ' WORST '//integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d))
+            end associate
+         end do
+      end do
+      watch%tallies = tally_type()
+      words = '  WARNING: '//upper(page%place)//': '
+      unbalanced = free_norm(analysis%unbalanced, analysis%held)
+      if (unbalanced > much*page%largest_force) call warn(watch, words//real_text(unbalanced)// &
+         ' OF FORCE REMAIN UNBALANCED BY REMOVED ELEMENTS: SEE CARRY = YES, METHOD = NEWTON')
+      if (.not. analysis%record%is_settled) call warn(watch, words//'THE SECANTS HAVE NOT CONVERGED IN '// &
+         integer_text(analysis%record%n_iterations)//' ITERATIONS; THE RESULTS ARE THOSE OF THE LAST: SEE AVERAGE = YES')
+      excess = 0.0_wp
+      limit = 0.0_wp
+      do i = 1, size(model%interface)
+         associate (law => model%joints(model%interface(i)%joint)%law, area => model%interface(i)%area)
+            excess = excess + norm2(friction_excess(law, area, analysis%states(i)))
+            limit = limit + friction_limit(law, analysis%states(i)%normal%pressure)*area
+         end associate
+      end do
+      if (excess > much*limit .and. excess > 0.0_wp) &
+         call warn(watch, words//'FRICTION LIMITS ARE STILL EXCEEDED BY '//real_text(excess)//' IN ALL: SEE NREAN')
    end subroutine watch_stage
 
    !> The warning for a model whose bodies are of linear tetrahedra only; otherwise empty.
@@ -115,33 +166,6 @@ contains
       if (model%n_elements > 0 .and. all(model%element_kind == kind_tetra4)) words = 'all bodies are of linear tetrahedra, on '// &
          'usual meshes 10 to 35 % too stiff in bending: mesh with second order'
    end function tetra_words
-
-   !> Warn of laws of which an element has begun to unload less steeply than it was loaded: there a branch leaves its loading curve
-   !! on the wrong side.
-   subroutine watch_shear_laws(model, analysis, watch)
-      type(model_type), intent(in)          :: model
-      type(analysis_type), intent(in)       :: analysis
-      type(range_watch_type), intent(inout) :: watch
-      integer :: i, k, law
-
-      do i = 1, size(model%interface)
-         do k = 1, model%dimension - 1
-            law = watch%first_of(k, model%interface(i)%joint)
-            if (law == 0) cycle
-            if (watch%soft_unloading(law)) cycle
-            associate (curves => model%joints(model%interface(i)%joint)%law%shear(k), state => analysis%states(i)%shear(k), &
-                       p => max(0.0_wp, analysis%states(i)%normal%pressure))
-               if (state%branch /= branch_unload .or. cubic_slope(curves%unload, state%d_r, p) >= &
-                   (1.0_wp - rounding)*cubic_slope(curves%load, state%d_r, p)) cycle
-               watch%soft_unloading(law) = .true.
-               call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
-                  upper(watch%place)//': SHEAR LAW OF JOINT '// &
-                  integer_text(model%joints(model%interface(i)%joint)%id)//', '//axes(k)// &
-                  ': UNLOADING IS LESS STEEP THAN LOADING AT P = '//real_text(p)//', D = '//real_text(state%d_r))
-            end associate
-         end do
-      end do
-   end subroutine watch_shear_laws
 
    !> Number the shear laws by the first direction of a joint with that law, and note those with a wide gap.
    subroutine watch_closures(model, watch)
@@ -226,31 +250,6 @@ contains
 
    end subroutine watch_ranges
 
-   !> At the end of a stage print a line for each joint and bound of its shear law that elements have exceeded.
-   subroutine say_ranges(model, stage, watch)
-      type(model_type), intent(in)          :: model
-      character(*), intent(in)              :: stage !! 'STAGE 2'
-      type(range_watch_type), intent(inout) :: watch
-      character(:), allocatable :: words
-      integer :: j, which
-
-      do j = 1, size(model%joints)
-         do which = beyond_p, no_slope
-            associate (tally => watch%tallies(which, j))
-               if (tally%n == 0) cycle
-               words = 'WITHOUT A POSITIVE SLOPE'
-               if (which == beyond_p) words = 'BEYOND P = '//real_text(tally%bound)
-               if (which == beyond_d) words = 'BEYOND D = '//real_text(tally%bound)
-               call warn(watch, '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', '//stage//': '// &
-                  upper(plural(tally%n, 'element'))//' '//words//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)// &
-                  ' (INCREMENT '//integer_text(tally%increment)//'),', &
-                  ' WORST '//integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d))
-            end associate
-         end do
-      end do
-      watch%tallies = tally_type()
-   end subroutine say_ranges
-
    !> Keep the line of a warning, or of a NOTE, which is not counted. If both parts are too long for one line, SECOND has a line
    !! of its own.
    pure subroutine warn(watch, first, second)
@@ -269,15 +268,34 @@ contains
       end if
    end subroutine warn
 
-   !> Warn of joints of which an element has reached a point where the loading curve is steeper than its line of unloading, of
-   !! slope E_u.
-   subroutine watch_unloading(model, analysis, watch)
+   !> Warn of shear laws of which an element has begun to unload less steeply than it was loaded: there a branch leaves its loading
+   !! curve on the wrong side. Warn of joints of which an element has reached a point where the loading curve is steeper than its
+   !! line of unloading, of slope E_u.
+   subroutine watch_unloading(place, model, analysis, watch)
+      character(*), intent(in)              :: place !! stage and increment
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
       real(wp) :: slope
-      integer  :: i
+      integer  :: i, k, law
 
+      do i = 1, size(model%interface)
+         do k = 1, model%dimension - 1
+            law = watch%first_of(k, model%interface(i)%joint)
+            if (law == 0) cycle
+            if (watch%soft_unloading(law)) cycle
+            associate (curves => model%joints(model%interface(i)%joint)%law%shear(k), state => analysis%states(i)%shear(k), &
+                       p => max(0.0_wp, analysis%states(i)%normal%pressure))
+               if (state%branch /= branch_unload .or. cubic_slope(curves%unload, state%d_r, p) >= &
+                   (1.0_wp - rounding)*cubic_slope(curves%load, state%d_r, p)) cycle
+               watch%soft_unloading(law) = .true.
+               call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
+                  upper(place)//': SHEAR LAW OF JOINT '// &
+                  integer_text(model%joints(model%interface(i)%joint)%id)//', '//axes(k)// &
+                  ': UNLOADING IS LESS STEEP THAN LOADING AT P = '//real_text(p)//', D = '//real_text(state%d_r))
+            end associate
+         end do
+      end do
       do i = 1, size(model%interface)
          associate (j => model%interface(i)%joint, state => analysis%states(i)%normal)
             if (watch%soft_line(j) .or. state%branch /= branch_load) cycle
@@ -286,80 +304,13 @@ contains
                if (law%e_u >= slope*(1.0_wp - rounding)) cycle
                watch%soft_line(j) = .true.
                call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
-                  upper(watch%place)//': E_U = '//real_text(law%e_u)//' OF JOINT '// &
+                  upper(place)//': E_U = '//real_text(law%e_u)//' OF JOINT '// &
                   integer_text(model%joints(j)%id)//' IS BELOW THE LOADING SLOPE '//real_text(slope)//' AT P = '//real_text(p)// &
                   trim(merge(': NEGATIVE SET', '              ', p/law%e_u > loading_deflection(law, max(p, 0.0_wp)))))
             end associate
          end associate
       end do
    end subroutine watch_unloading
-
-   !> At the end of a stage: the unbalanced force, and the remaining excess over the friction limits.
-   subroutine watch_balance(model, analysis, largest_force, watch)
-      type(model_type), intent(in)          :: model
-      type(analysis_type), intent(in)       :: analysis
-      real(wp), intent(in)                  :: largest_force !! ever applied at a node
-      type(range_watch_type), intent(inout) :: watch
-      character(:), allocatable :: words
-      real(wp) :: excess, limit, unbalanced
-      integer  :: i
-
-      words = '  WARNING: '//upper(watch%place)//': '
-      unbalanced = free_norm(analysis%unbalanced, analysis%held)
-      if (unbalanced > much*largest_force) then
-         call warn(watch, words//real_text(unbalanced)//' OF FORCE REMAIN UNBALANCED BY REMOVED ELEMENTS: '// &
-                             'SEE CARRY = YES, METHOD = NEWTON')
-      end if
-      if (.not. analysis%record%is_settled) then
-         call warn(watch, words//'THE SECANTS HAVE NOT CONVERGED IN '//integer_text(analysis%record%n_iterations)// &
-                                   ' ITERATIONS; THE RESULTS ARE THOSE OF THE LAST: SEE AVERAGE = YES')
-      end if
-      excess = 0.0_wp
-      limit = 0.0_wp
-      do i = 1, size(model%interface)
-         associate (law => model%joints(model%interface(i)%joint)%law, area => model%interface(i)%area)
-            excess = excess + norm2(friction_excess(law, area, analysis%states(i)))
-            limit = limit + friction_limit(law, analysis%states(i)%normal%pressure)*area
-         end associate
-      end do
-      if (excess > much*limit .and. excess > 0.0_wp) then
-         call warn(watch, words//'FRICTION LIMITS ARE STILL EXCEEDED BY '//real_text(excess)//' IN ALL: SEE NREAN')
-      end if
-   end subroutine watch_balance
-
-   !> Warn of the condition of the stiffness, the poorest so far. Only powers of ten are given: the digits are rounding.
-   subroutine note_condition(model, analysis, watch)
-      type(model_type), intent(in)          :: model
-      type(analysis_type), intent(in)       :: analysis
-      type(range_watch_type), intent(inout) :: watch
-      character(:), allocatable :: first, second
-      integer :: power
-
-      associate (condition => analysis%record%condition)
-         power = nint(log10(condition%number))
-         first = watch%place//': condition of the stiffness about 1E'// &
-                 integer_text(power)//', about '//integer_text(max(0, 16 - power))//' of 16 digits remain'
-         second = 'softest at '//unknown_name(model, condition%node, condition%direction)
-      end associate
-      call warn(watch, '  WARNING: '//upper(first)//': ', upper(second))
-      watch%poor_condition = first//': '//second
-   end subroutine note_condition
-
-   !> Note a divided increment, and warn where its answer depends on the parts.
-   subroutine note_division(analysis, watch)
-      type(analysis_type), intent(in)       :: analysis
-      type(range_watch_type), intent(inout) :: watch
-      character(:), allocatable :: first, second
-
-      first = watch%place//': divided into '// &
-              integer_text(analysis%record%n_parts)//' parts'
-      second = 'then repeated as a whole from the state that they reached'
-      if (.not. analysis%record%is_whole) then
-         second = 'it did not converge as a whole, and the answer depends on the parts: more increments show by how much'
-      end if
-      call warn(watch, merge('  NOTE:    ', '  WARNING: ', analysis%record%is_whole)//upper(first)//', ', upper(second))
-      watch%divided = first//', '//second
-   end subroutine note_division
 
    !> The line on the screen after a run FAR from its laws; '' otherwise.
    pure function distance_words(farthest) result(words)

@@ -1,16 +1,15 @@
 !> The results of one deck, as the main program uses them: opened, written after every increment, closed.
 module results
    use analysis_state, only: analysis_type
-   use answer_tables, only: bolt_columns, print_answer, print_bolts, print_reactions, print_watched, reaction_columns, &
-                            split_columns, stage_columns, watch_columns
+   use answer_tables, only: print_answer, print_bolts, print_reactions, print_watched
    use body_tables, only: list_bodies, list_condensed
-   use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, keep_bolts, n_bolts, record_bolts, start_bolts
+   use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, record_bolts, start_bolts
    use c_library, only: close_file, lock_folder
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
-   use joint_tables, only: history_titles, list_energy, list_joints, plot_joints, write_history
+   use joint_tables, only: list_energy, list_joints, plot_joint, write_history
    use kinds, only: wp
    use listing_opening, only: write_opening
    use mode_values, only: modes_type
@@ -18,21 +17,20 @@ module results
    use node_coupling, only: held_forces
    use range_watch, only: range_watch_type, record_watch, start_watch, watch_increment, watch_stage
    use restart_stream, only: restart_stream_type
+   use result_page, only: backbone_table, bend_table, bolt_table, energy_table, joint_table, loop_table, modes_table, page_type, &
+                          response_table, set_labels, shell_table, split_table, table_columns, table_endings, watch_table
    use stage_answer, only: fault_of_answer, find_answer, stage_answer_type
    use stage_entries, only: output_all, output_joint, output_last
-   use stage_plan, only: planned_stage, stage_plan_type
+   use stage_plan, only: stage_plan_type
    use stage_tables, only: n_stage_tables, note_stage_tables, pass_rows
-   use structural_results, only: list_shell_forces, shell_columns
+   use structural_results, only: list_shell_forces
    use support_reactions, only: find_reactions, reactions_type
-   use table_writer, only: backbone_table, bend_table, bolt_table, csv_titles, energy_table, joint_table, loop_table, modes_table, &
-                           page_type, reaction_table, response_table, set_labels, shell_table, split_table, stage_table, &
-                           table_endings, table_type, watch_table
+   use table_writer, only: csv_titles, table_type
    use text_tools, only: integer_text, plural, real_text, upper
-   use vibration_tables, only: backbone_columns, bend_columns, energy_columns, list_modes, loop_columns, modes_columns, &
-                               response_columns
-   use vtu_lists, only: is_vtu_ending, remove_old_vtu
-   use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, write_modes, write_vtu
-   use watched_nodes, only: find_watched, keep_watched, record_watched, start_watched, watch_answer, watch_state
+   use vibration_tables, only: list_modes
+   use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, record_vtu, remove_old_vtu, start_vtu, vtu_names, &
+                          vtu_results_type, write_modes, write_vtu
+   use watched_nodes, only: find_watched, keep_watched, start_watched, watch_answer, watch_state
    implicit none
    private
 
@@ -64,13 +62,12 @@ module results
       type(vtu_results_type), private :: vtu
       type(bolt_history), private     :: bolts
       type(watch_state), private      :: watched_before ! at the end of the last stage, where nodes are watched
-      logical, private :: has_table(size(table_endings)) = .false.
    end type results_type
 
 contains
 
-   !> Open the files whose names begin with BASE and write their heads. Without BASE the listing goes to the standard output,
-   !! and no other file is written. OK is false where that fails.
+   !> Open the files whose names begin with BASE, the CSV files that PLAN asks for among them, and write their heads. Without BASE
+   !! the listing goes to the standard output, and no other file is written. OK is false where that fails.
    subroutine start_results(base, deck, model, plan, system, results, ok)
       character(*), intent(in)          :: base
       type(deck_type), intent(in)       :: deck
@@ -80,6 +77,8 @@ contains
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
       class(subdomain_output_type), allocatable :: subdomains
+      logical :: is_asked(size(table_endings))
+      integer :: i
 
       call all_complete()
       results%base = base
@@ -95,52 +94,27 @@ contains
          call write_opening(page, deck, model, plan, system)
          if (base /= '' .and. any(plan%stages%output%vtu)) call distribute_bodies(model, system, subdomains)
          call start_vtu(results%vtu, base, page%labels, plan, subdomains)
-         ok = .not. page%file%failed()
+         ok = .not. page%file%fault
          call page%screen%start('')
       end associate
-      if (base /= '') call start_tables(model, plan, results, ok)
-   end subroutine start_results
-
-   !> Open the CSV files that PLAN asks for, with the titles of their columns.
-   subroutine start_tables(model, plan, results, ok)
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      type(results_type), intent(inout) :: results
-      logical, intent(inout)            :: ok
-
-      associate (labels => results%page%labels, d => model%dimension)
-         call open_table(joint_table, .true., history_titles(model))
-         call open_table(stage_table, .true., csv_titles(stage_columns(labels)))
-         call open_table(bolt_table, n_bolts(model) > 0, csv_titles(bolt_columns(labels, 1)))
-         call open_table(modes_table, plan%has_modes, csv_titles(modes_columns()))
-         call open_table(energy_table, plan%has_modes, csv_titles(energy_columns()))
-         call open_table(response_table, plan%has_responses, csv_titles(response_columns()))
-         call open_table(backbone_table, plan%has_backbones, csv_titles(backbone_columns(labels)))
-         call open_table(loop_table, plan%has_backbones, csv_titles(loop_columns()))
-         call open_table(bend_table, plan%has_backbones .and. plan%has_responses, csv_titles(bend_columns(labels)))
-         call open_table(watch_table, plan%has_watched_nodes, csv_titles(watch_columns(labels, d)))
-         call open_table(split_table, plan%has_watched_nodes, csv_titles(split_columns()))
-         call open_table(reaction_table, .true., csv_titles(reaction_columns(labels, d)))
-         call open_table(shell_table, any(plan%stages%output%forces), csv_titles(shell_columns(labels)))
-      end associate
-
-   contains
-
-      subroutine open_table(i, is_wanted, titles)
-         integer, intent(in)      :: i
-         logical, intent(in)      :: is_wanted
-         character(*), intent(in) :: titles
-
-         if (.not. is_wanted) return
-         results%has_table(i) = .true.
+      if (base == '') return
+      is_asked = .true.
+      is_asked(bolt_table) = size(results%bolts%before) > 0
+      is_asked([modes_table, energy_table]) = plan%has_modes
+      is_asked(response_table) = plan%has_responses
+      is_asked([backbone_table, loop_table]) = plan%has_backbones
+      is_asked(bend_table) = plan%has_backbones .and. plan%has_responses
+      is_asked([watch_table, split_table]) = plan%has_watched_nodes
+      is_asked(shell_table) = any(plan%stages%output%forces)
+      do i = 1, size(table_endings)
+         if (.not. is_asked(i)) cycle
          associate (table => results%page%tables(i))
-            call table%start(results%base//trim(table_endings(i)))
-            ok = ok .and. .not. table%failed()
-            call table%put(titles)
+            call table%start(base//trim(table_endings(i)))
+            ok = ok .and. .not. table%fault
+            call table%put(csv_titles(table_columns(i, results%page%labels, model)))
          end associate
-      end subroutine open_table
-
-   end subroutine start_tables
+      end do
+   end subroutine start_results
 
    !> Note the increment just completed; write the tables that OUTPUT = ALL or JOINT asks for, VTU with STEPS, and the rows of the
    !! CSV files.
@@ -156,7 +130,21 @@ contains
       results%digest%iterations = results%digest%iterations + analysis%record%n_iterations
       results%n_removed = results%n_removed + analysis%record%n_removed
       associate (stage => plan%stages(analysis%stage), page => results%page)
-         call turn_page(page, model, stage, analysis)
+         page%stage_id = stage%id
+         page%stage = 'STAGE '//integer_text(stage%id)
+         page%place = 'stage '//integer_text(stage%id)//', increment '//integer_text(analysis%increment)
+         page%now = ', '//upper(page%place)//stage%shown_words
+         page%label = trim(stage%label)
+         page%along_cd = stage%output%along_cd
+         if (analysis%increment == 1) then
+            if (allocated(page%shown)) deallocate (page%shown)
+            if (allocated(stage%shown)) page%shown = stage%shown
+         end if
+         page%largest_force = max(page%largest_force, maxval(abs(analysis%now%load(:, analysis%loaded))))
+         if (analysis%is_moved) page%largest_force = &
+            max(page%largest_force, maxval(abs(held_forces(model, analysis%all_unbalanced)))) ! forces that move the supports
+         if (any(model%interface%gap < 0.0_wp)) page%largest_force = &
+            max(page%largest_force, maxval(abs(analysis%states%normal%sumf)))              ! forces of interference
          call note_stage_tables(page, results%method, model, analysis, results%stage_tables, results%watch%farthest)
          call watch_increment(page, model, analysis, results%method, results%watch)
          if (stage%output%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
@@ -173,33 +161,9 @@ contains
          call find_bolt_answers(model, analysis, page%largest_force, results%bolts, bolts)
          if (results%base == '') return
          call write_history(page, model, analysis)
-         call print_bolts(page, analysis, bolts, in_answer=.false.)
+         call print_bolts(page, model, analysis, bolts, in_answer=.false.)
       end associate
    end subroutine print_increment
-
-   !> Set what PAGE shows in the increment of STAGE just completed, and the scale of its forces.
-   subroutine turn_page(page, model, stage, analysis)
-      type(page_type), intent(inout)   :: page
-      type(model_type), intent(in)     :: model
-      type(planned_stage), intent(in)  :: stage
-      type(analysis_type), intent(in)  :: analysis
-
-      page%stage_id = stage%id
-      page%stage = 'STAGE '//integer_text(stage%id)
-      page%place = 'stage '//integer_text(stage%id)//', increment '//integer_text(analysis%increment)
-      page%now = ', '//upper(page%place)//stage%shown_words
-      page%label = trim(stage%label)
-      page%along_cd = stage%output%along_cd
-      if (analysis%increment == 1) then
-         if (allocated(page%shown)) deallocate (page%shown)
-         if (allocated(stage%shown)) page%shown = stage%shown
-      end if
-      page%largest_force = max(page%largest_force, maxval(abs(analysis%now%load(:, analysis%loaded))))
-      if (analysis%is_moved) page%largest_force = &
-         max(page%largest_force, maxval(abs(held_forces(model, analysis%all_unbalanced)))) ! forces that move the supports
-      if (any(model%interface%gap < 0.0_wp)) page%largest_force = &
-         max(page%largest_force, maxval(abs(analysis%states%normal%sumf)))              ! forces of interference
-   end subroutine turn_page
 
    !> Write the results of the completed stage: the tables of its last increment, those of the whole stage, and the answer. FAILURE
    !! is raised where a value of the answer is beyond all bounds.
@@ -216,7 +180,9 @@ contains
 
       associate (stage => plan%stages(analysis%stage), page => results%page)
          if (stage%output%level >= output_last) call list_joints(page, stage%output, model, analysis)
-         if (stage%output%plot) call plot_joints(page, model, analysis)
+         do i = 1, merge(size(model%joints), 0, stage%output%plot)
+            call plot_joint(page, model, analysis, model%joints(i))
+         end do
          if (any(stage%output%level == [output_all, output_last])) then
             call list_bodies(page, stage%output, model, analysis)
          else if (stage%output%forces) then
@@ -235,9 +201,9 @@ contains
          title = 'ANSWER AT THE END OF '//page%stage//'   '//stage%label
          if (analysis%record%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label
-         before = page%screen%length()
+         before = page%screen%used
          call print_answer(page, title, model, answer)
-         call print_bolts(page, analysis, answer%bolts, in_answer=.true.)
+         call print_bolts(page, model, analysis, answer%bolts, in_answer=.true.)
          call find_reactions(model, analysis, page%largest_force, reactions)
          call print_reactions(page, model, reactions)
          if (allocated(stage%watched)) then
@@ -254,7 +220,7 @@ contains
          digest%contact = min(digest%contact, minval(answer%joints%contact))
          digest%safety = min(digest%safety, minval(answer%joints%safety, mask=answer%joints%has_safety))
       end associate
-      call keep_bolts(answer%bolts, results%bolts)
+      results%bolts%before = answer%bolts%force
       if (plan%has_watched_nodes) call keep_watched(model, analysis, results%watched_before)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
@@ -289,7 +255,7 @@ contains
       integer :: i, hold
       logical :: closed, has_vtu
 
-      call lock_folder(folder_of(results%base), hold)
+      call lock_folder(results%base(:index(results%base, '/', back=.true.))//'.', hold)
       call remove_all(results%base) ! of two runs of one name the later one leaves its own files only
       ok = .true.
       do i = 1, size(table_endings)
@@ -300,38 +266,24 @@ contains
          if (.not. has_vtu) results%missing_vtu = what_is_in_the_way()
          if (.not. has_vtu .and. results%missing_vtu == '') results%missing_vtu = 'is there room on the disk?'
       end if
-      if (ok) call finish_listing(plan, failure, results, ok)
+      if (ok) then
+         associate (file => results%page%file)
+            call file%put('')
+            if (failure%raised) then
+               call file%put(' *** THE RUN ENDED EARLY, ABOVE IS THE LAST STATE IN EQUILIBRIUM ***')
+               call file%put('  '//upper(failure%message))
+               call file%put('')
+            end if
+            call file%put(trim(merge(' ENDED EARLY   ', ' END OF LISTING', failure%raised))//'   '// &
+               upper(plural(size(plan%stages), 'stage')//', '//plural(results%digest%increments, 'increment')//', '// &
+               plural(results%n_removed, 'interface element'))//' REMOVED, '//upper(plural(results%watch%n_warnings, 'warning')))
+            call file%finish(ok)
+         end associate
+      end if
       if (.not. ok) call discard_results(results)
       if (ok) call all_complete()
       call close_file(hold, closed)
    end subroutine finish_results
-
-   !> Close the listing under its name.
-   subroutine finish_listing(plan, failure, results, ok)
-      type(stage_plan_type), intent(in) :: plan
-      type(failure_type), intent(in)    :: failure !! raised: the listing ends before it
-      type(results_type), intent(inout) :: results
-      logical, intent(out)              :: ok
-
-      call results%page%file%put('')
-      if (failure%raised) then
-         call results%page%file%put(' *** THE RUN ENDED EARLY, ABOVE IS THE LAST STATE IN EQUILIBRIUM ***')
-         call results%page%file%put('  '//upper(failure%message))
-         call results%page%file%put('')
-      end if
-      call results%page%file%put(trim(merge(' ENDED EARLY   ', ' END OF LISTING', failure%raised))//'   '// &
-         upper(plural(size(plan%stages), 'stage')//', '//plural(results%digest%increments, 'increment')//', '// &
-         plural(results%n_removed, 'interface element'))//' REMOVED, '//upper(plural(results%watch%n_warnings, 'warning')))
-      call results%page%file%finish(ok)
-   end subroutine finish_listing
-
-   !> The folder of the files that begin with BASE.
-   pure function folder_of(base) result(folder)
-      character(*), intent(in)  :: base
-      character(:), allocatable :: folder
-
-      folder = base(:index(base, '/', back=.true.))//'.'
-   end function folder_of
 
    !> Show the answers and the names of the files on the standard output. OK is false where that fails.
    subroutine show_answers(results, ok)
@@ -345,7 +297,7 @@ contains
       names = results%base//listing_ending//' (listing)'
       names = names//', '//results%base//trim(table_endings(joint_table))
       do i = joint_table + 1, size(table_endings)
-         if (results%has_table(i)) names = names//', '//trim(table_endings(i))
+         if (results%page%tables(i)%is_named) names = names//', '//trim(table_endings(i))
       end do
       call results%page%screen%put('')
       call results%page%screen%put(' RESULTS: '//names//vtu_names(results%vtu))
@@ -400,7 +352,9 @@ contains
          call page%screen%record(stream)
          call record_vtu(results%vtu, stream)
          call record_bolts(stream, results%bolts)
-         call record_watched(stream, results%watched_before)
+         associate (before => results%watched_before)
+            if (allocated(before%u)) call stream%item(before%u, before%force, before%movement, before%tension)
+         end associate
          call stream%item(d%stages, d%increments, d%iterations, d%u_max, d%mises_max, d%contact)
          call stream%item(d%safety, d%frequency, d%strained)
       end associate
@@ -413,7 +367,7 @@ contains
       logical :: closed
 
       if (base == '') return
-      call lock_folder(folder_of(base), hold)
+      call lock_folder(base(:index(base, '/', back=.true.))//'.', hold)
       call remove_all(base)
       call close_file(hold, closed)
    end subroutine remove_old_results

@@ -64,7 +64,8 @@ module stage_answer
 
 contains
 
-   !> The answer at the end of the stage just completed, the bodies recovered.
+   !> The answer at the end of the stage just completed, the bodies recovered. Peaks are the largest displacement of a node, and
+   !! the largest von Mises stress at the centre of an element and at a node as the mean of its elements.
    subroutine find_answer(model, analysis, method, largest_force, bolts, answer)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -72,27 +73,15 @@ contains
       real(wp), intent(in)            :: largest_force !! ever applied at a node, for the noise [force]
       type(bolt_history), intent(inout)    :: bolts
       type(stage_answer_type), intent(out) :: answer
-      real(wp), allocatable :: k(:, :)
-      integer :: j
+      real(wp), allocatable :: k(:, :), at_node(:, :), size_of(:), structural(:), at_ends(:)
+      integer :: e, j, node
 
-      call find_peaks(model, analysis, answer)
       allocate (answer%joints(size(model%joints)))
       allocate (k, source=tangents_now(model, analysis, method))
       do j = 1, size(model%joints)
          call describe_joint(model, analysis, model%joints(j), k, remainder*largest_force, answer%joints(j))
       end do
       call find_bolt_answers(model, analysis, largest_force, bolts, answer%bolts)
-   end subroutine find_answer
-
-   !> Largest displacement of a node; largest von Mises stress at the centre of an element, and at a node as the mean of its
-   !! elements.
-   subroutine find_peaks(model, analysis, answer)
-      type(model_type), intent(in)           :: model
-      type(analysis_type), intent(in)        :: analysis
-      type(stage_answer_type), intent(inout) :: answer
-      real(wp), allocatable :: at_node(:, :), size_of(:), structural(:), at_ends(:)
-      integer :: e, node
-
       allocate (size_of(n_points(model)))
       do node = 1, size(size_of)
          size_of(node) = norm2(analysis%all_u(:, node))
@@ -124,7 +113,7 @@ contains
       answer%at_centre = peak_type(.true., size_of(e), model%element_id(e))
       answer%at_centre%value = largest(size_of)
       answer%at_centre%x(:model%dimension) = element_centre(model, e)
-   end subroutine find_peaks
+   end subroutine find_answer
 
    !> The largest of VALUES, or the first one that is not a number.
    pure real(wp) function largest(values)

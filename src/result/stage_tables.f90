@@ -7,13 +7,14 @@ module stage_tables
    use determinate_joints, only: carried_resultant
    use kinds, only: wp
    use law_error, only: distance_type, normal_distance, shear_distance
-   use table_writer, only: axes, column, table_type, noise, page_type
-   use model_data, only: a_spring, bar_nodes, joint_node_id, joint_type, model_type, n_bars, n_sections, point_of, stage_load_type
+   use model_data, only: a_spring, bar_nodes, joint_node_id, model_type, n_bars, n_sections, point_of, stage_load_type
    use normal_stiffness, only: branch_open
    use numbers, only: first_largest
    use range_watch, only: farthest_type
+   use result_page, only: page_type
    use stage_answer, only: find_resultant, joint_resultant
    use step_method, only: reanalyses_shown
+   use table_writer, only: axes, column, noise, table_type
    use text_tools, only: above, clean, integer_text
    implicit none
    private
@@ -21,9 +22,9 @@ module stage_tables
    public :: note_stage_tables
 
    ! the tables in the order of printing; warnings come before the passes
-   integer, parameter, public :: increment_rows = 1, distance_rows = 2, pass_rows = 3, slip_rows = 4, resultant_rows = 5, &
-                                 bar_rows = 6, &
-                                 spring_rows = 7, section_rows = 8, n_stage_tables = 8
+   integer, parameter, public :: pass_rows = 3, n_stage_tables = 8
+   integer, parameter :: increment_rows = 1, distance_rows = 2, slip_rows = 4, resultant_rows = 5, bar_rows = 6, spring_rows = 7, &
+                         section_rows = 8
 
 contains
 
@@ -53,8 +54,8 @@ contains
       type(analysis_type), intent(in)         :: analysis
       type(table_type), intent(inout)         :: table
       type(stage_load_type) :: now !! present load
-      real(wp) :: floor, unbalanced
-      integer  :: j
+      real(wp) :: applied, floor, force, unbalanced
+      integer  :: at_lambda, at_p, i, j
 
       associate (labels => page%labels)
          ! here the unit of LAMBDA ends two characters behind its numbers
@@ -73,37 +74,30 @@ contains
       unbalanced = free_norm(analysis%unbalanced, analysis%held)
       do j = min(1, size(model%joints)), size(model%joints)
          call table%add([analysis%increment], [analysis%increment_fraction, analysis%fraction])
-         if (j > 0) call add_joint(model%joints(j))
-         if (j == 0) call table%skip(9)
+         if (j == 0) then
+            call table%skip(9)
+         else
+            associate (joint => model%joints(j), first => model%joints(j)%first, &
+                       state => analysis%states(model%joints(j)%first:model%joints(j)%last)%normal)
+               force = 0.0_wp
+               do i = 1, size(state)
+                  force = force + state(i)%sumf*dot_product(model%interface(first - 1 + i)%axes(:, 3), joint%normal)
+               end do
+               applied = 0.0_wp
+               if (joint%determinate) applied = carried_resultant(model, joint, now)
+               at_lambda = first - 1 + first_largest(above(state%lambda, noise*analysis%largest_lambda))
+               at_p = first - 1 + first_largest(above(state%pressure, noise*analysis%largest_p))
+               call table%add([joint%id, count(state%branch == branch_open)], &
+                              [clean(maxval(state%lambda), noise*analysis%largest_lambda)])
+               call table%add([joint_node_id(model, at_lambda, 1)], [clean(maxval(state%pressure), noise*analysis%largest_p)])
+               call table%add([joint_node_id(model, at_p, 1)])
+               call table%add([force, applied, force - applied], floor, &
+                              where=[.not. joint%frame%faces_all_ways, joint%determinate, joint%determinate])
+            end associate
+         end if
          call table%add([unbalanced], floor)
          call table%keep_row()
       end do
-
-   contains
-
-      subroutine add_joint(joint)
-         type(joint_type), intent(in) :: joint
-         real(wp) :: force, applied
-         integer  :: i, at_lambda, at_p
-
-         associate (first => joint%first, state => analysis%states(joint%first:joint%last)%normal)
-            force = 0.0_wp
-            do i = 1, size(state)
-               force = force + state(i)%sumf*dot_product(model%interface(first - 1 + i)%axes(:, 3), joint%normal)
-            end do
-            at_lambda = first - 1 + first_largest(above(state%lambda, noise*analysis%largest_lambda))
-            at_p = first - 1 + first_largest(above(state%pressure, noise*analysis%largest_p))
-            call table%add([joint%id, count(state%branch == branch_open)], &
-                           [clean(maxval(state%lambda), noise*analysis%largest_lambda)])
-            call table%add([joint_node_id(model, at_lambda, 1)], [clean(maxval(state%pressure), noise*analysis%largest_p)])
-            call table%add([joint_node_id(model, at_p, 1)])
-         end associate
-         call table%add([force], floor, where=[.not. joint%frame%faces_all_ways])
-         applied = 0.0_wp
-         if (joint%determinate) applied = carried_resultant(model, joint, now)
-         call table%add([applied, force - applied], floor, where=spread(joint%determinate, 1, 2))
-      end subroutine add_joint
-
    end subroutine note_increment
 
    !> The distance of the joints from their laws, and its maximum in the run.
@@ -113,9 +107,11 @@ contains
       type(analysis_type), intent(in)         :: analysis
       type(table_type), intent(inout)         :: table
       type(farthest_type), intent(inout)      :: farthest
-      type(distance_type) :: normal, shear
+      character(12), parameter :: quantities(2) = [character(12) :: 'deflection', 'shear stress']
+      type(distance_type) :: distances(2)
+      real(wp) :: largest(2) ! so far
       logical :: has_shear
-      integer :: j
+      integer :: j, k
 
       has_shear = any([(model%joints(j)%law%shear%given, j = 1, size(model%joints))])
       associate (p => page%labels%pressure, length => page%labels%length)
@@ -127,46 +123,27 @@ contains
              column('AT NODE', 'i11', is_listed=has_shear), column('ALONG', 'a6', is_listed=has_shear), &
              column(['TAU    ', 'TAU LAW'], 'es13.5', p, is_listed=has_shear)])
       end associate
+      largest = [analysis%largest_lambda, analysis%largest_p]
       do j = 1, size(model%joints)
-         normal = normal_distance(model, analysis, j)
-         shear = shear_distance(model, analysis, j)
+         distances = [normal_distance(model, analysis, j), shear_distance(model, analysis, j)]
          call table%add([analysis%increment, model%joints(j)%id])
-         call add(normal, analysis%largest_lambda)
-         if (shear%is_there) call add(shear, analysis%largest_p)
+         do k = 1, 2
+            associate (distance => distances(k))
+               if (.not. distance%is_there) call table%skip(4)
+               if (.not. distance%is_there) cycle
+               call table%add([100.0_wp*clean(distance%relative, noise)])
+               call table%add([joint_node_id(model, distance%element, 1)])
+               if (distance%direction < 3) call table%add(axes(distance%direction))
+               call table%add(clean([distance%actual, distance%by_law], noise*largest(k)))
+               if (distance%relative <= farthest%relative) cycle
+               farthest%relative = distance%relative
+               farthest%node = joint_node_id(model, distance%element, 1)
+               farthest%quantity = trim(quantities(k))
+               farthest%place = page%place
+            end associate
+         end do
          call table%keep_row()
-         call remember(normal, 'deflection')
-         call remember(shear, 'shear stress')
       end do
-
-   contains
-
-      !> Add the columns of one DISTANCE; LARGEST is the largest value so far.
-      subroutine add(distance, largest)
-         type(distance_type), intent(in) :: distance
-         real(wp), intent(in)            :: largest
-
-         if (.not. distance%is_there) then
-            call table%skip(4)
-            return
-         end if
-         call table%add([100.0_wp*clean(distance%relative, noise)])
-         call table%add([joint_node_id(model, distance%element, 1)])
-         if (distance%direction < 3) call table%add(axes(distance%direction))
-         call table%add(clean([distance%actual, distance%by_law], noise*largest))
-      end subroutine add
-
-      !> Keep DISTANCE if it is the largest so far.
-      subroutine remember(distance, quantity)
-         type(distance_type), intent(in) :: distance
-         character(*), intent(in)        :: quantity
-
-         if (.not. distance%is_there .or. distance%relative <= farthest%relative) return
-         farthest%relative = distance%relative
-         farthest%node = joint_node_id(model, distance%element, 1)
-         farthest%quantity = quantity
-         farthest%place = page%place
-      end subroutine remember
-
    end subroutine note_distances
 
    !> The slipping elements before and after each re-analysis, t_1 and t_1' of Fig. 5(b).
@@ -312,7 +289,8 @@ contains
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
       type(table_type), intent(inout)         :: bars, springs
-      integer :: i, id(2), k
+      real(wp) :: floors(2) ! of force and length: rounding becomes zero
+      integer  :: i, id(2), k
 
       associate (force => column('FORCE', 'es15.5', page%labels%force), longer => column('ELONGATION', 'es15.5', &
                                                                                          page%labels%length))
@@ -324,8 +302,10 @@ contains
             page%stage, [column('INCR', 'i6'), column([character(7) :: 'ELEMENT', 'NODE 1', 'NODE 2'], 'i11'), &
                          column('AXIS', 'a6'), force, longer])
       end associate
+      floors = noise*[page%largest_force, maxval(abs(analysis%u))]
       do i = 1, n_bars(model)
-         associate (bar => model%bars(i))
+         associate (bar => model%bars(i), &
+                    values => clean([bar_tension(model, analysis, i), elongation_now(model, analysis, i)], floors))
             if (bar%kind == a_spring) then
                id = 0
                do k = 1, size(bar_nodes(bar))
@@ -333,16 +313,15 @@ contains
                end do
                if (bar%ground_first) id = id([2, 1])
                call springs%add([analysis%increment, bar%id, id])
-               call springs%add('  '//bar%axis//'  ')
-               call add_forces(page, analysis, bar_tension(model, analysis, i), elongation_now(model, analysis, i), springs)
+               call springs%add('  '//bar%axis//'  ', values)
+               call springs%keep_row()
             else
                call bars%add([analysis%increment, bar%bolt], where=[.true., bar%bolt > 0])
-               call bars%add([bar%id, model%node_id(bar%nodes)])
-               call add_forces(page, analysis, bar_tension(model, analysis, i), elongation_now(model, analysis, i), bars)
-               if (bar%bolt > 0) call bars%add(state_of_bolt(bar%stage == analysis%stage, analysis%is_elastic(i)))
+               call bars%add([bar%id, model%node_id(bar%nodes)], values)
+               if (bar%bolt > 0) call bars%add(merge(' LOCKED   ', merge(' TIGHTENED', '          ', &
+                                                     bar%stage == analysis%stage), analysis%is_elastic(i)))
+               call bars%keep_row()
             end if
-            if (bar%kind == a_spring) call springs%keep_row()
-            if (bar%kind /= a_spring) call bars%keep_row()
          end associate
       end do
    end subroutine note_bars
@@ -353,40 +332,23 @@ contains
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
       type(table_type), intent(inout)         :: table
-      integer :: i
+      real(wp) :: floors(2) ! of force and length
+      integer  :: i
 
       if (table%is_empty()) call table%start('BOLT FORCES, SOLID BOLTS (TENSION POSITIVE), '//page%stage, &
          [column('INCR', 'i6'), column([character(7) :: 'BOLT', 'SURFACE'], 'i11'), column('', 'a22'), &
           column('FORCE', 'es15.5', page%labels%force), column('SHORTENED BY', 'es15.5', page%labels%length), column('', 'a')])
+      floors = noise*[page%largest_force, maxval(abs(analysis%u))]
       do i = 1, n_sections(model)
          associate (section => model%sections(i))
             call table%add([analysis%increment, section%bolt, section%surface])
             call table%skip(1)
-            call add_forces(page, analysis, section_tension(model, analysis, i), overlap_now(model, analysis, i), table)
-            call table%add(state_of_bolt(section%stage == analysis%stage, analysis%is_locked(i)))
+            call table%add(clean([section_tension(model, analysis, i), overlap_now(model, analysis, i)], floors))
+            call table%add(merge(' LOCKED   ', merge(' TIGHTENED', '          ', section%stage == analysis%stage), &
+                                 analysis%is_locked(i)))
             call table%keep_row()
          end associate
       end do
    end subroutine note_sections
-
-   !> Add a FORCE and a LENGTH; rounding becomes zero.
-   subroutine add_forces(page, analysis, force, length, table)
-      type(page_type), intent(in)             :: page
-      type(analysis_type), intent(in)         :: analysis
-      real(wp), intent(in)                    :: force, length
-      type(table_type), intent(inout)         :: table
-
-      call table%add([force], noise*page%largest_force)
-      call table%add([length], noise*maxval(abs(analysis%u)))
-   end subroutine add_forces
-
-   pure function state_of_bolt(is_tightened, is_locked) result(word)
-      logical, intent(in) :: is_tightened, is_locked
-      character(10) :: word
-
-      word = ''
-      if (is_tightened) word = ' TIGHTENED'
-      if (is_locked) word = ' LOCKED'
-   end function state_of_bolt
 
 end module stage_tables

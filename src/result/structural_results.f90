@@ -7,17 +7,17 @@ module structural_results
    use elasticity, only: max_stresses, von_mises
    use joint_sides, only: joint_axes
    use kinds, only: wp
-   use table_writer, only: column, column_type, csv, in_units, label_type, table_type, noise, page_type, shell_table, shows
    use model_data, only: a_bar, corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
+   use result_page, only: page_type, shell_table, shows, table_columns
    use shell_membrane, only: shell_frame, shell_frame_of
-   use stage_entries, only: output_request
    use structural_elements, only: beam_ends, nodal_values, section_forces, structural_stress
+   use table_writer, only: column, in_units, noise, table_type
    use temperatures, only: element_rise
    use text_tools, only: clean
    implicit none
    private
 
-   public :: end_forces, face_stresses, list_structural, list_shell_forces, node_peaks, section_stresses, shell_columns
+   public :: end_forces, face_stresses, list_beams, list_shell_forces, list_shells, node_peaks, section_stresses
 
    real(wp), parameter :: one_plate = 0.94_wp ! cosine of 20 degrees: shells at a node whose normals differ more are not averaged
 
@@ -165,27 +165,17 @@ contains
 
    end subroutine node_peaks
 
-   !> The tables of shells and of beams, if any; the forces of shells where they are ASKED for.
-   subroutine list_structural(page, asked, model, analysis)
-      type(page_type), intent(inout)   :: page
-      type(output_request), intent(in) :: asked
-      type(model_type), intent(in)     :: model
-      type(analysis_type), intent(in)  :: analysis
-
-      if (.not. allocated(model%structural%place)) return
-      if (size(model%structural%shells) > 0) call list_shells(page, model, analysis)
-      if (asked%forces) call list_shell_forces(page, model, analysis, is_listed=.true.)
-      if (size(model%structural%beams) > 0) call list_beams(page, model, analysis)
-   end subroutine list_structural
-
-   subroutine list_shells(page, model, analysis)
+   !> The tables of shells, if any; their forces per length only with HAS_FORCES.
+   subroutine list_shells(page, has_forces, model, analysis)
       type(page_type), intent(inout)  :: page
+      logical, intent(in)             :: has_forces
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(table_type) :: table
       real(wp) :: stress(max_stresses, 5, 2), floor
       integer  :: e, f, pass
 
+      if (size(model%structural%shells) == 0) return
       call table%start('STRESSES AT THE FACES OF SHELLS, AT THEIR CENTRES'//page%now//in_units(page%labels%pressure), &
          [column('ELEMENT', 'i11'), column('HEIGHT', 'es13.5'), column([character(9) :: 'SIGMA X', 'SIGMA Y', 'SIGMA Z', 'TAU XY', &
           'TAU YZ', 'TAU ZX', 'VON MISES'], 'es13.5')], page%file)
@@ -205,24 +195,11 @@ contains
             end associate
          end do
       end do
+      if (has_forces) call list_shell_forces(page, model, analysis, is_listed=.true.)
    end subroutine list_shells
 
-   !> Forces and moments per length of shells: a row for the centre and, in the CSV file, for every corner.
-   function shell_columns(labels) result(columns)
-      type(label_type), intent(in)   :: labels
-      type(column_type), allocatable :: columns(:)
-
-      columns = [csv([character(9) :: 'stage', 'increment', 'load']), column('ELEMENT', 'i11', name='element'), &
-                 csv([character(4) :: 'node', 'x', 'y', 'z']), &
-                 column([character(4) :: 'N X', 'N Y', 'N XY'], 'es13.5', labels%stiffness, &
-                        name=[character(4) :: 'n_x', 'n_y', 'n_xy']), &
-                 column([character(4) :: 'M X', 'M Y', 'M XY'], 'es13.5', labels%force, &
-                        name=[character(4) :: 'm_x', 'm_y', 'm_xy']), &
-                 column(['Q X', 'Q Y'], 'es13.5', labels%stiffness, name=['q_x', 'q_y'])]
-   end function shell_columns
-
-   !> Write forces and moments per length into the CSV file, and where IS_LISTED those at the centres into the listing. The directions
-   !! x and y of a shell follow from its normal as those of a joint do.
+   !> Write forces and moments per length into the CSV file, and where IS_LISTED those at the centres into the listing. The
+   !! directions x and y of a shell follow from its normal as those of a joint do.
    subroutine list_shell_forces(page, model, analysis, is_listed)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -231,8 +208,8 @@ contains
       type(table_type) :: table
       type(shell_frame) :: frame
       real(wp), allocatable :: force(:, :, :)
-      real(wp) :: axes(3, 3), floor(2), thickness
-      integer  :: e
+      real(wp) :: axes(3, 3), floor(2), thickness, x(3)
+      integer  :: e, i, node
 
       if (.not. allocated(model%structural%place)) return
       thickness = 0.0_wp
@@ -249,63 +226,53 @@ contains
       end do
       if (size(force) == 0) return
       floor = noise*max(maxval(abs(force([1, 2, 3, 7, 8], :, :))), maxval(abs(force(4:6, :, :)))/thickness)*[1.0_wp, thickness]
-      if (is_listed) call table%start('FORCES AND MOMENTS PER LENGTH OF SHELLS, AT THEIR CENTRES'//page%now, &
-                                      shell_columns(page%labels), page%file)
-      if (.not. is_listed) call table%start('', shell_columns(page%labels))
+      call table%start('FORCES AND MOMENTS PER LENGTH OF SHELLS, AT THEIR CENTRES'//page%now, &
+                       table_columns(shell_table, page%labels, model))
+      if (is_listed) call table%print_head(page%file)
       do e = 1, model%n_elements
          if (.not. is_shell(model, e)) cycle
-         if (shows(page, corners_of(model, e))) call rows(e, corners_of(model, e))
+         associate (nodes => corners_of(model, e), n => size(corners_of(model, e)))
+            if (.not. shows(page, nodes)) cycle
+            do i = 1, n + 1
+               node = 0
+               x = sum(model%x(:, nodes), dim=2)/n
+               if (i <= n) node = model%node_id(nodes(i))
+               if (i <= n) x = model%x(:, nodes(i))
+               associate (own => force(:, i, model%structural%place(e)))
+                  call table%add([page%stage_id, analysis%increment], [analysis%fraction])
+                  call table%add([model%element_id(e), node], x)
+                  call table%add(own(:3), floor(1))
+                  call table%add(own(4:6), floor(2))
+                  call table%add(own(7:), floor(1))
+               end associate
+               call table%print_row(page%file, page%tables(shell_table), is_listed=is_listed .and. i > n)
+            end do
+         end associate
       end do
-
-   contains
-
-      !> The rows of shell E with corners NODES.
-      subroutine rows(e, nodes)
-         integer, intent(in) :: e, nodes(:)
-         real(wp) :: x(3)
-         integer  :: i, n, node
-
-         n = size(nodes)
-         do i = 1, n + 1
-            node = 0
-            x = sum(model%x(:, nodes), dim=2)/n
-            if (i <= n) node = model%node_id(nodes(i))
-            if (i <= n) x = model%x(:, nodes(i))
-            associate (own => force(:, i, model%structural%place(e)))
-               call table%add([page%stage_id, analysis%increment], [analysis%fraction])
-               call table%add([model%element_id(e), node], x)
-               call table%add(own(:3), floor(1))
-               call table%add(own(4:6), floor(2))
-               call table%add(own(7:), floor(1))
-            end associate
-            call table%print_row(page%file, page%tables(shell_table), is_listed=is_listed .and. i > n)
-         end do
-      end subroutine rows
-
    end subroutine list_shell_forces
 
+   !> The tables of beams, if any.
    subroutine list_beams(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(table_type) :: table, stresses
-      real(wp), allocatable :: forces(:, :, :)
-      real(wp) :: floor(2), stress_floor
+      real(wp), allocatable :: forces(:, :, :), stress(:, :, :)
+      real(wp) :: floor(3)
       integer  :: e, end
 
-      allocate (forces(6, 2, size(model%structural%beams)))
-      stress_floor = 0.0_wp
+      if (size(model%structural%beams) == 0) return
+      allocate (forces(6, 2, size(model%structural%beams)), stress(5, 2, size(model%structural%beams)))
       do e = 1, model%n_elements
          if (.not. is_beam(model, e)) cycle
          associate (place => model%structural%place(e))
             forces(:, :, place) = end_forces(model, analysis, e)
             do end = 1, 2
-               stress_floor = max(stress_floor, noise*maxval(abs(section_stresses(model%structural%beams(place), &
-                                                                                  forces(:, end, place)))))
+               stress(:, end, place) = section_stresses(model%structural%beams(place), forces(:, end, place))
             end do
          end associate
       end do
-      floor = noise*[maxval(abs(forces(:3, :, :))), maxval(abs(forces(4:, :, :)))]
+      floor = noise*[maxval(abs(forces(:3, :, :))), maxval(abs(forces(4:, :, :))), maxval(abs(stress))]
       call table%start('FORCES IN BEAMS, AT BOTH ENDS, IN THE AXES OF THE BEAM'//page%now, &
          [column('ELEMENT', 'i11'), column('NODE', 'i11'), column([character(7) :: 'AXIAL N', 'Q Y', 'Q Z'], 'es13.5', &
           page%labels%force), column([character(6) :: 'TORQUE', 'M Y', 'M Z'], 'es13.5', page%labels%moment)], page%file)
@@ -322,7 +289,7 @@ contains
                call table%add(clean(forces(4:, end, place), floor(2)))
                call table%print_row(page%file)
                call stresses%add([model%element_id(e), model%node_id(model%element_nodes(end, e))])
-               call stresses%add(clean(section_stresses(model%structural%beams(place), forces(:, end, place)), stress_floor))
+               call stresses%add(clean(stress(:, end, place), floor(3)))
                call stresses%keep_row()
             end do
          end associate

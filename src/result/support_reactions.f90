@@ -7,7 +7,7 @@ module support_reactions
    use interface_operator, only: at_first_end, named_node
    use kinds, only: wp
    use model_data, only: a_rotation, has_ground_springs, model_type, n_bars, n_points, n_rotations, node_kind, place_in_kind
-   use node_coupling, only: forces_on_unknowns
+   use node_coupling, only: coupling_parts, forces_on_unknowns
    use numbers, only: cross
    use text_tools, only: above
    implicit none
@@ -106,38 +106,23 @@ contains
       type(reaction_type), intent(inout) :: parts(:)
       real(wp), allocatable :: felt(:, :)
       real(wp) :: force(model%dimension)
-      integer  :: d, g, node
+      integer  :: d, g, k, node
 
       allocate (felt, source=forces_on_unknowns(model, analysis%all_unbalanced))
       do node = 1, size(model%support_of, 2)
-         associate (groups => model%support_of(:, node))
+         associate (groups => model%support_of(:, node), coupled => coupling_parts(model, node))
             do d = 1, model%dimension
                g = groups(d)
                if (g == 0 .or. any(groups(:d - 1) == g) .or. .not. model%used(node)) cycle
                force = -merge(felt(:, node), 0.0_wp, groups == g)
-               if (allocated(model%coupling%of_node)) force = along_axes(model, node, force)
+               do k = coupled(1), coupled(2) ! from the unknowns of the node to global axes
+                  if (model%coupling%node(k) == node) force = matmul(model%coupling%t(:, :, k), force)
+               end do
                call act_on(model, node, force, parts(g))
             end do
          end associate
       end do
    end subroutine add_supports
-
-   !> Transform FORCE on the unknowns of NODE to global axes.
-   pure function along_axes(model, node, force) result(turned)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      real(wp), intent(in)         :: force(:) !! (dimension)
-      real(wp) :: turned(size(force))
-      integer  :: k
-
-      turned = force
-      associate (coupling => model%coupling, c => model%coupling%of_node(node))
-         if (c == 0) return ! not coupled
-         do k = coupling%first(c), coupling%first(c + 1) - 1
-            if (coupling%node(k) == node) turned = matmul(coupling%t(:, :, k), force)
-         end do
-      end associate
-   end function along_axes
 
    !> Add FORCE on NODE; on the node of a rotation it is a moment.
    pure subroutine act_on(model, node, force, part)

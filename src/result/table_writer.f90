@@ -17,41 +17,11 @@ module table_writer
    implicit none
    private
 
-   public :: column, csv, csv_titles, heading, cut, in_form, in_units, set_labels, shows
+   public :: column, csv, csv_titles, heading, cut, in_form, in_units
 
    integer, parameter, public      :: page_width = 132
    real(wp), parameter, public     :: noise = 1.0e-9_wp !! of the largest number of its kind: smaller values are rounding
    character(1), parameter, public :: axes(3) = ['X', 'Y', 'Z']
-
-   !> The units of the numbers of the listing, blank where the deck names none.
-   type, public :: label_type
-      character(20) :: length = '', force = '', pressure = '', area = '', stiffness = '', moment = ''
-      character(20) :: slope = ''     !! of pressure over length
-   end type label_type
-
-   ! the CSV files in the order of their endings
-   integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
-                                 response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9, watch_table = 10, &
-                                 split_table = 11, reaction_table = 12, shell_table = 13
-   character(*), parameter, public :: history_ending = '.joint.csv'
-   character(22), parameter, public :: table_endings(13) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
-      '.modes.csv', '.modes.energy.csv', '.response.csv', '.backbone.csv', '.loop.csv', '.backbone.response.csv', '.watch.csv', &
-      '.watch.energy.csv', '.reaction.csv', '.shell.csv']
-
-   !> The files and settings common to all tables.
-   type, public :: page_type
-      type(output_file_type) :: file          !! the listing
-      type(output_file_type) :: screen        !! answers, for the standard output at the end
-      type(output_file_type) :: tables(size(table_endings)) !! open where the deck asks for them
-      type(label_type)       :: labels
-      integer :: stage_id = 0                 !! number of the stage
-      character(:), allocatable :: stage, now !! 'STAGE 2'; ', STAGE 2, INCREMENT 5' behind a title
-      character(:), allocatable :: label, place !! of the stage; 'stage 2, increment 5' in messages
-      real(wp) :: largest_force = 0.0_wp      !! largest applied so far, the scale of rounding
-      logical, allocatable :: shown(:)        !! nodes to which the tables of this stage are limited; not allocated: all
-      logical :: along_cd = .false.           !! nodal tables of this stage are along the systems CD
-      character(:), allocatable :: date       !! date for the head, if wanted
-   end type page_type
 
    type, public :: column_type
       private
@@ -82,7 +52,6 @@ module table_writer
       generic   :: add => add_integers, add_reals, add_text
       procedure :: skip
       procedure :: print_row
-      procedure :: take_line
       procedure :: keep_row
       procedure :: keep_line
       procedure :: print_kept
@@ -91,20 +60,6 @@ module table_writer
    end type table_type
 
 contains
-
-   !> The units above the columns, from those of LENGTH and FORCE. (A structure constructor is freed twice by gfortran 12 at -O0.)
-   pure subroutine set_labels(length, force, labels)
-      character(*), intent(in)        :: length, force
-      type(label_type), intent(inout) :: labels
-
-      labels%length = length
-      labels%force = force
-      labels%pressure = force//'/'//length//'2'
-      labels%area = length//'2'
-      labels%stiffness = force//'/'//length
-      labels%moment = force//' '//length
-      labels%slope = force//'/'//length//'2/'//length
-   end subroutine set_labels
 
    !> A column. FORM is the edit descriptor of its values: i11, es13.5, f9.4, a8; 'a' is text to the end of the row. Heading and
    !! unit end where the values end, or the given number of characters behind.
@@ -318,37 +273,17 @@ contains
       lists = present(file)
       if (present(is_listed)) lists = lists .and. is_listed
       if (lists) call file%put(self%row)
-      call begin_row(self)
-   end subroutine print_row
-
-   pure subroutine begin_row(self)
-      class(table_type), intent(inout)         :: self
-
       self%row = ''
       self%line%length = 0
       self%used = 0
-   end subroutine begin_row
-
-   !> Complete the row and append it as a line after the first USED characters of LINES, without trailing blanks. LINES must
-   !! have room.
-   pure subroutine take_line(self, lines, used)
-      class(table_type), intent(inout)         :: self
-      character(*), intent(inout)              :: lines
-      integer, intent(inout)                   :: used
-      integer :: length
-
-      length = len_trim(self%row)
-      lines(used + 1:used + length + 1) = self%row(:length)//new_line('a')
-      used = used + length + 1
-      call begin_row(self)
-   end subroutine take_line
+   end subroutine print_row
 
    !> Complete the row and keep it until the table is printed.
-   pure subroutine keep_row(self)
+   subroutine keep_row(self)
       class(table_type), intent(inout)         :: self
 
       call self%keep_line(self%row)
-      call begin_row(self)
+      call self%print_row() ! into no file: only the next row begins
    end subroutine keep_row
 
    !> Keep a LINE across all columns.
@@ -370,13 +305,17 @@ contains
       self%n_kept = self%n_kept + length + 1
    end subroutine keep_line
 
-   !> Print the kept rows under title and headings, if any, and clear them.
-   subroutine print_kept(self, file)
+   !> Print the kept rows, and clear them; under title and headings, if any, or AS_ROWS behind earlier rows.
+   subroutine print_kept(self, file, as_rows)
       class(table_type), intent(inout)         :: self
       type(output_file_type), intent(inout)    :: file
+      logical, intent(in), optional            :: as_rows !! default: no
+      logical :: has_head
 
       if (self%n_kept == 0) return
-      if (allocated(self%columns)) call self%print_head(file)
+      has_head = .true.
+      if (present(as_rows)) has_head = .not. as_rows
+      if (has_head .and. allocated(self%columns)) call self%print_head(file)
       if (.not. allocated(self%columns)) call file%put('')
       call file%put_lines(self%kept(:self%n_kept))
       self%n_kept = 0
@@ -423,15 +362,6 @@ contains
       words = ''
       if (label /= '') words = '   ('//trim(label)//')'
    end function in_units
-
-   !> Whether tables limited to some nodes show an item with these NODES.
-   pure logical function shows(page, nodes)
-      type(page_type), intent(in) :: page
-      integer, intent(in)         :: nodes(:)
-
-      shows = .true.
-      if (allocated(page%shown)) shows = any(page%shown(nodes))
-   end function shows
 
    !> At most WIDTH characters of LINE, with tabs and other control characters as blanks.
    pure function cut(line, width) result(part)

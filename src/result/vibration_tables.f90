@@ -4,22 +4,20 @@ module vibration_tables
    use backbone, only: backbone_type
    use element_mapping, only: two_pi
    use kinds, only: wp
-   use table_writer, only: axes, backbone_table, bend_table, column, column_type, csv, energy_table, label_type, &
-                            table_type, loop_table, modes_table, noise, page_type, response_table
-   use modal_response, only: missed_peak, response_type
+   use modal_response, only: response_type
    use mode_values, only: modes_type
    use model_data, only: model_type
    use numbers, only: first_largest
-   use output_file, only: output_file_type
+   use result_page, only: backbone_table, bend_table, energy_table, loop_table, modes_table, page_type, response_table, &
+                          table_columns, xyz
    use stage_plan, only: vibration_plan_type
+   use table_writer, only: axes, column, noise, table_type
    use text_tools, only: above, integer_text, real_text, upper
    implicit none
    private
 
-   public :: modes_columns, energy_columns, backbone_columns, bend_columns, loop_columns, response_columns, list_modes, &
-             list_backbone, list_response, write_response
+   public :: list_modes, list_backbone, list_response
 
-   character(1), parameter :: xyz(3) = ['x', 'y', 'z']
    real(wp), parameter :: percent = 100.0_wp
    real(wp), parameter :: least_share = 1.0e-4_wp  ! of the strain energy: a smaller share has no row in the listing
    real(wp), parameter :: no_part = 1.0e-9_wp      ! of the largest mass or participation possible: rounding
@@ -28,67 +26,17 @@ module vibration_tables
 
 contains
 
-   !> A row for each mode; the effective masses have a table of their own in the listing.
-   function modes_columns() result(columns)
-      type(column_type), allocatable :: columns(:)
-
-      columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('FREQUENCY', 'es15.5', '1/TIME', name='frequency'), &
-                 column('OMEGA', 'es15.5', 'RAD/TIME', name='omega'), column('GENERALISED MASS', 'es18.5'), &
-                 column('RESIDUAL', 'es12.1', name='residual'), csv('mass_'//xyz), &
-                 column('LOSS FACTOR', 'es15.5', name='loss_factor')]
-   end function modes_columns
-
-   !> A row for each body, joint and bar: its share of the strain energy of a mode. Bodies and bars stand under normal.
-   function energy_columns() result(columns)
-      type(column_type), allocatable :: columns(:)
-
-      columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('PART', 'a8', name='kind'), &
-                 column('NUMBER', 'i11', name='id'), column([character(6) :: 'ALL', 'NORMAL', 'SHEAR'], 'f10.2'), csv(['normal', &
-                                                                                                                       'shear '])]
-   end function energy_columns
-
-   !> A row for each amplitude.
-   function backbone_columns(labels) result(columns)
-      type(label_type), intent(in)   :: labels
-      type(column_type), allocatable :: columns(:)
-
-      columns = [csv(['stage', 'mode ']), column('AMPLITUDE', 'es14.5', labels%length, name='amplitude'), &
-                 column('FREQUENCY', 'es14.5', '1/TIME', name='frequency'), column('SHIFT', 'f10.4', 'PERCENT'), &
-                 column('LOSS FACTOR', 'es14.4', name='loss_factor'), csv(['slipping', 'open    ']), &
-                 column('SLIPPING', 'f10.2', 'PERCENT'), column('OPEN', 'f8.2', 'PERCENT'), column('CENTRE', 'f9.4'), &
-                 column('NOT CLOSED', 'f12.6'), column('DISTORTION', 'f12.5', name='distortion'), column('LOOPS', 'i7')]
-   end function backbone_columns
-
-   !> A row for each amplitude of the response of the mode alone, ascending; the listing has the resonances only.
-   function bend_columns(labels) result(columns)
-      type(label_type), intent(in)   :: labels
-      type(column_type), allocatable :: columns(:)
-
-      columns = [csv(['stage', 'mode ']), column('AMPLITUDE', 'es14.5', labels%length, name='amplitude'), &
-                 column('FREQUENCY', 'es14.5', '1/TIME', name='below'), &
-                 csv([character(11) :: 'phase_below', 'above', 'phase_above'])]
-   end function bend_columns
-
-   !> A row for each point of the last loop of each amplitude, from its upper turning point on.
-   function loop_columns() result(columns)
-      type(column_type), allocatable :: columns(:)
-
-      columns = csv([character(9) :: 'stage', 'mode', 'amplitude', 'point', 'alpha', 'q'])
-   end function loop_columns
-
-   !> A row for each frequency, node and component.
-   function response_columns() result(columns)
-      type(column_type), allocatable :: columns(:)
-
-      columns = csv([character(9) :: 'stage', 'frequency', 'node', 'component', 'amplitude', 'phase'])
-   end function response_columns
-
-   !> The search for the modes, frequencies, masses, and shares of strain energy.
+   !> The search for the modes, mass, frequencies, and shares of strain energy.
    subroutine list_modes(page, model, plan, modes)
       type(page_type), intent(inout)        :: page
       type(model_type), intent(in)          :: model
       type(vibration_plan_type), intent(in) :: plan
       type(modes_type), intent(in)          :: modes
+      character(4), parameter :: moments(6) = ['I XX', 'I YY', 'I ZZ', 'I XY', 'I YZ', 'I ZX']
+      type(table_type) :: table
+      integer, allocatable :: shown(:)
+      real(wp) :: extent
+      integer  :: c, d
 
       call page%file%put('')
       call page%file%put(' NATURAL MODES ABOUT THE END OF '//page%stage//'   '// &
@@ -105,87 +53,59 @@ contains
       end if
       if (modes%n_before > 0) call page%file%put('  BELOW THE RANGE: '//integer_text(modes%n_before))
       if (size(modes%modes) == 0) call page%file%put('  NO MODE IS IN THE RANGE')
-      call list_mass(page, model, modes)
-      if (size(modes%modes) == 0) return
-      call list_frequencies(page, plan, modes)
-      call list_participation(page, model, modes)
-      call list_energies(page, model, modes)
-   end subroutine list_modes
-
-   !> Mass, centre and moments of inertia of the structure.
-   subroutine list_mass(page, model, modes)
-      type(page_type), intent(inout) :: page
-      type(model_type), intent(in)   :: model
-      type(modes_type), intent(in)   :: modes
-      character(4), parameter :: moments(6) = ['I XX', 'I YY', 'I ZZ', 'I XY', 'I YZ', 'I ZX']
-      type(table_type) :: table
-      integer, allocatable :: shown(:)
-      real(wp) :: extent
-      integer  :: c, d
-
       d = model%dimension
       shown = pack([(c, c = 1, 6)], [(d == 3 .or. (c == 3 .and. .not. model%axisymmetric), c = 1, 6)])
       extent = maxval(abs(model%x))
       call table%start('MASS OF THE STRUCTURE', [column('MASS', 'es13.5'), column('CENTRE '//axes(:d), 'es13.5', &
-                                                                                  page%labels%length), &
-                                                 column(moments(shown), 'es13.5')], page%file)
+                       page%labels%length), column(moments(shown), 'es13.5')], page%file)
       call table%add([modes%mass])
       call table%add(modes%centre(:d), no_part*extent)
       call table%add(modes%inertia(shown), no_part*modes%mass*extent**2)
       call table%print_row(page%file)
-   end subroutine list_mass
+      if (size(modes%modes) == 0) return
+      call list_frequencies(page, model, plan, modes)
+      call list_energies(page, model, modes)
+   end subroutine list_modes
 
-   subroutine list_frequencies(page, plan, modes)
+   !> Frequencies, participation and effective masses.
+   subroutine list_frequencies(page, model, plan, modes)
       type(page_type), intent(inout)        :: page
+      type(model_type), intent(in)          :: model
       type(vibration_plan_type), intent(in) :: plan
       type(modes_type), intent(in)          :: modes
-      type(table_type) :: table
-      integer :: m
+      type(table_type) :: table, parts
+      integer :: c, d, m
 
-      call table%start('FREQUENCIES', modes_columns(), page%file)
+      d = model%dimension
+      call table%start('FREQUENCIES', table_columns(modes_table, page%labels, model), page%file)
+      call parts%start('PARTICIPATION AND EFFECTIVE MASS', [column('MODE', 'i6'), column('PARTICIPATION '//axes(:d), 'es18.5'), &
+                       column('MASS ALONG '//axes(:d), 'es15.5')])
       do m = 1, size(modes%modes)
-         associate (mode => modes%modes(m))
+         associate (mode => modes%modes(m), largest => sqrt(modes%mass/modes%modes(m)%mass))
             call table%add([page%stage_id, modes%n_before + m], [mode%frequency, mode%omega, mode%mass])
             call table%add([mode%residual], noise)
             call table%add(above(mode%effective, no_mass*modes%mass))
             call table%add([mode%loss], where=[plan%has_losses .and. .not. mode%is_rigid])
+            call table%print_row(page%file, page%tables(modes_table))
+            call parts%add([modes%n_before + m])
+            call parts%add(above(mode%participation(:d), sqrt(no_part)*largest), no_part*largest)
+            call parts%add(mode%effective(:d), no_part*modes%mass)
+            call parts%keep_row()
          end associate
-         call table%print_row(page%file, page%tables(modes_table))
       end do
+      if (modes%mass > 0.0_wp) then
+         call parts%add('SUM')
+         call parts%skip(d)
+         call parts%add([(sum(modes%modes%effective(c)), c = 1, d)], no_part*modes%mass)
+         call parts%keep_row()
+      end if
       if (any(modes%modes%is_rigid)) call page%file%put('  FREQUENCY 0: THE STRUCTURE, OR A PART OF IT, MOVES WITHOUT STRAIN')
       if (plan%amplitude > 0.0_wp) call page%file%put('  LOSS FACTORS FOR A LARGEST DISPLACEMENT OF THE MODE OF '// &
                                                       real_text(plan%amplitude))
       if (plan%has_losses .and. plan%amplitude <= 0.0_wp) call page%file%put( &
          '  LOSS FACTORS OF MATERIALS (GE, PARAM G) ALONE: THE LOSS OF JOINTS NEEDS AN AMPLITUDE')
+      call parts%print_kept(page%file)
    end subroutine list_frequencies
-
-   subroutine list_participation(page, model, modes)
-      type(page_type), intent(inout) :: page
-      type(model_type), intent(in)   :: model
-      type(modes_type), intent(in)   :: modes
-      type(table_type) :: table
-      real(wp) :: sums(3)
-      integer  :: d, m
-
-      d = model%dimension
-      call table%start('PARTICIPATION AND EFFECTIVE MASS', [column('MODE', 'i6'), column('PARTICIPATION '//axes(:d), 'es18.5'), &
-                       column('MASS ALONG '//axes(:d), 'es15.5')], page%file)
-      sums = 0.0_wp
-      do m = 1, size(modes%modes)
-         associate (mode => modes%modes(m), largest => sqrt(modes%mass/modes%modes(m)%mass))
-            call table%add([modes%n_before + m])
-            call table%add(above(mode%participation(:d), sqrt(no_part)*largest), no_part*largest)
-            call table%add(mode%effective(:d), no_part*modes%mass)
-            call table%print_row(page%file)
-            sums = sums + mode%effective
-         end associate
-      end do
-      if (.not. modes%mass > 0.0_wp) return
-      call table%add('SUM')
-      call table%skip(d)
-      call table%add(sums(:d), no_part*modes%mass)
-      call table%print_row(page%file)
-   end subroutine list_participation
 
    !> A rigid-body mode has no rows.
    subroutine list_energies(page, model, modes)
@@ -196,7 +116,7 @@ contains
       integer :: i, m
 
       call table%start('STRAIN ENERGY OF THE MODES, PERCENT; SHARES BELOW '//real_text(percent*least_share)// &
-                       ' ARE NOT LISTED', energy_columns(), page%file)
+                       ' ARE NOT LISTED', table_columns(energy_table, page%labels, model), page%file)
       do m = 1, size(modes%modes)
          if (modes%modes(m)%is_rigid) cycle
          associate (energy => modes%modes(m)%energy)
@@ -246,7 +166,7 @@ contains
          linear = sqrt(found%omega_squared)/two_pi
          call page%file%put('  AMPLITUDE: OF THE MODE AT NODE '//integer_text(model%node_id(found%node))// &
                             '; SHIFT: FROM THE FREQUENCY OF MODES; LOSS FACTOR: THAT OF THE JOINTS, TWICE ZETA')
-         call table%start('FREQUENCY AND LOSS AGAINST AMPLITUDE', backbone_columns(page%labels), page%file)
+         call table%start('FREQUENCY AND LOSS AGAINST AMPLITUDE', table_columns(backbone_table, page%labels, model), page%file)
          do i = 1, size(found%loops)
             associate (loop => found%loops(i), frequency => sqrt(found%loops(i)%omega_squared)/two_pi)
                call table%add([page%stage_id, found%mode], [loop%q*found%peak, frequency])
@@ -258,8 +178,19 @@ contains
             end associate
             call table%print_row(page%file, page%tables(backbone_table))
          end do
-         if (size(model%joints) > 1) call list_shares(page, model, found)
-         if (allocated(found%answers)) call list_resonances(page, found)
+         if (size(model%joints) > 1) then
+            call table%start('SHARE OF THE LOSS BY JOINT', [column('AMPLITUDE', 'es14.5', page%labels%length), &
+                             column('JOINT', 'i11'), column('SHARE', 'f10.2', 'PERCENT')], page%file)
+            do i = 1, size(found%loops)
+               do k = 1, merge(size(model%joints), 0, found%loops(i)%loss > 0.0_wp)
+                  call table%add([found%loops(i)%q*found%peak])
+                  call table%add([model%joints(k)%id])
+                  call table%add([percent*found%loops(i)%shares(k)], tiny_share)
+                  call table%print_row(page%file)
+               end do
+            end do
+         end if
+         if (allocated(found%answers)) call list_resonances(page, model, found)
       end if
       if (found%problem /= '') n_warnings = n_warnings + 1
       if (found%is_limited) then
@@ -268,7 +199,7 @@ contains
       else if (found%problem /= '') then
          call page%file%put('  WARNING: NO BACKBONE: '//upper(found%problem))
       end if
-      call table%start('', loop_columns())
+      call table%start('', table_columns(loop_table, page%labels, model))
       do i = 1, size(found%loops)
          do k = 1, size(found%loops(i)%way, 2)
             call table%add([page%stage_id, found%mode], [found%loops(i)%q*found%peak])
@@ -279,14 +210,16 @@ contains
    end subroutine list_backbone
 
    !> The resonances of the mode alone, with the frequency and loss of the backbone, under the oscillating load.
-   subroutine list_resonances(page, found)
+   subroutine list_resonances(page, model, found)
       type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
       type(backbone_type), intent(in) :: found
       real(wp), parameter :: at_resonance = -90.0_wp
       type(table_type) :: table
       integer :: i
 
-      call table%start('RESPONSE OF THIS MODE ALONE BY ITS BACKBONE: RESONANCES', bend_columns(page%labels), page%file)
+      call table%start('RESPONSE OF THIS MODE ALONE BY ITS BACKBONE: RESONANCES', &
+                       table_columns(bend_table, page%labels, model), page%file)
       do i = 1, size(found%answers, 2)
          associate (answer => found%answers(:, i))
             call table%add([page%stage_id, found%mode], answer(1:1))
@@ -300,34 +233,16 @@ contains
          '  NONE UP TO THE LARGEST AMPLITUDE: THE BRANCHES DO NOT MEET')
    end subroutine list_resonances
 
-   !> The contribution of every joint to the loss.
-   subroutine list_shares(page, model, found)
+   !> The largest amplitude of every wanted component, with its frequency; the CSV file has all amplitudes, ordered by frequency,
+   !! node and component. N_WARNINGS counts warnings.
+   subroutine list_response(page, model, response, n_warnings)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
-      type(backbone_type), intent(in) :: found
-      type(table_type) :: table
-      integer :: i, j
-
-      call table%start('SHARE OF THE LOSS BY JOINT', [column('AMPLITUDE', 'es14.5', page%labels%length), column('JOINT', 'i11'), &
-                                                      column('SHARE', 'f10.2', 'PERCENT')], page%file)
-      do i = 1, size(found%loops)
-         if (.not. found%loops(i)%loss > 0.0_wp) cycle
-         do j = 1, size(model%joints)
-            call table%add([found%loops(i)%q*found%peak])
-            call table%add([model%joints(j)%id])
-            call table%add([percent*found%loops(i)%shares(j)], tiny_share)
-            call table%print_row(page%file)
-         end do
-      end do
-   end subroutine list_shares
-
-   !> The largest amplitude of every wanted component, with its frequency.
-   subroutine list_response(page, response, n_warnings)
-      type(page_type), intent(inout)  :: page
       type(response_type), intent(in) :: response
       integer, intent(inout)          :: n_warnings
       type(table_type) :: table
-      integer :: at, c, i
+      character(12) :: amplitude, beside, frequency
+      integer :: at, c, f, i
 
       n_warnings = n_warnings + size(response%missed) + merge(1, 0, size(response%frequency) == 0)
       if (size(response%frequency) == 0) then
@@ -350,47 +265,29 @@ contains
       if (.not. response%is_complete) call page%file%put( &
          '  BY THESE MODES ALONE: AN UNSUPPORTED STRUCTURE HAS NO STATIC RESPONSE')
       do i = 1, size(response%missed)
-         call page%file%put(missed_words(response, response%missed(i)))
+         associate (peak => response%missed(i))
+            write (frequency, '(es12.5)') peak%frequency
+            write (amplitude, '(es12.5)') peak%amplitude
+            write (beside, '(es12.5)') peak%beside
+            if (peak%amplitude <= 0.0_wp) amplitude = 'NO BOUND'
+            call page%file%put('  WARNING: MODE '//integer_text(peak%mode)// &
+               ' HAS ITS PEAK BETWEEN THE REQUESTED FREQUENCIES: AT '//trim(adjustl(frequency))//' NODE '// &
+               integer_text(response%node(peak%node))//' '//axes(peak%component)//' '//trim(adjustl(amplitude))// &
+               ', IN THE TABLE '//trim(adjustl(beside))//'; SEE FREQ4')
+         end associate
       end do
-      call write_response(page%tables(response_table), page%stage_id, response)
-   end subroutine list_response
-
-   !> The warning of a PEAK between the given frequencies.
-   pure function missed_words(response, peak) result(words)
-      type(response_type), intent(in) :: response
-      type(missed_peak), intent(in)   :: peak
-      character(:), allocatable       :: words
-      character(12) :: amplitude, beside, frequency
-
-      write (frequency, '(es12.5)') peak%frequency
-      write (amplitude, '(es12.5)') peak%amplitude
-      write (beside, '(es12.5)') peak%beside
-      if (peak%amplitude <= 0.0_wp) amplitude = 'NO BOUND'
-      words = '  WARNING: MODE '//integer_text(peak%mode)//' HAS ITS PEAK BETWEEN THE REQUESTED FREQUENCIES: AT '// &
-              trim(adjustl(frequency))//' NODE '//integer_text(response%node(peak%node))//' '//axes(peak%component)//' '// &
-              trim(adjustl(amplitude))//', IN THE TABLE '//trim(adjustl(beside))//'; SEE FREQ4'
-   end function missed_words
-
-   !> The rows of the response in the stage with the number STAGE: ordered by frequency, node and component.
-   subroutine write_response(file, stage, response)
-      type(output_file_type), intent(inout) :: file
-      integer, intent(in)                   :: stage
-      type(response_type), intent(in)       :: response
-      type(table_type) :: table
-      integer :: d, f, k
-
-      call table%start('', response_columns())
+      call table%start('', table_columns(response_table, page%labels, model))
       do f = 1, size(response%frequency)
-         do k = 1, size(response%node)
-            do d = 1, size(response%amplitude, 1)
-               call table%add([stage])
+         do i = 1, size(response%node)
+            do c = 1, size(response%amplitude, 1)
+               call table%add([page%stage_id])
                call table%add([response%frequency(f)])
-               call table%add([response%node(k)])
-               call table%add(xyz(d), [response%amplitude(d, k, f), response%phase(d, k, f)])
-               call table%print_row(csv_file=file)
+               call table%add([response%node(i)])
+               call table%add(xyz(c), [response%amplitude(c, i, f), response%phase(c, i, f)])
+               call table%print_row(csv_file=page%tables(response_table))
             end do
          end do
       end do
-   end subroutine write_response
+   end subroutine list_response
 
 end module vibration_tables

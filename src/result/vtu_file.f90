@@ -1,4 +1,5 @@
-!> A VTK XML unstructured grid, NAME.vtu, for ParaView: points, cells, and arrays of values on either.
+!> The VTK XML files for ParaView: an unstructured grid, NAME.vtu, the index of its pieces, NAME.pvtu, and a list of files with
+!! their times, NAME.pvd. A grid has points, cells, and arrays of values on either.
 !!
 !! Every array is passed once and written at once; the module keeps none of it. Use:
 !!
@@ -24,12 +25,13 @@
 module vtu_file
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
    use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
+   use kinds, only: wp
    use output_file, only: output_file_type
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: named, xml_text
+   public :: named, piece_of, xml_text, write_index, write_collection
 
    integer(int8), parameter, public :: vtk_vertex = 1_int8 !! a type of cell; those of bodies: element_kinds
 
@@ -99,19 +101,15 @@ contains
       integer(int32), intent(in), contiguous :: connectivity(:) !! nodes of the first cell, the second, ...: 1 to n
       integer(int32), intent(in), contiguous :: ends(:)         !! (n_cells) where each cell's nodes end in CONNECTIVITY
       integer(int8), intent(in), contiguous  :: types(:)        !! (n_cells) VTK's numbers: vtk_vertex, ...
-      integer :: i, n
 
       call require(self, self%n_points >= 0 .and. self%n_cells < 0 .and. size(ends) == size(types))
       call require(self, all(connectivity >= 1 .and. connectivity <= self%n_points))
       self%n_cells = size(ends)
-      n = 0 ! ENDS must not decrease, and end at the size of CONNECTIVITY
-      do i = 1, size(ends)
-         call require(self, ends(i) >= n)
-         n = ends(i)
-      end do
-      call write_array(self, in_cells, 'connectivity', 'Int32', 4, n, connectivity - 1) ! VTK counts the points from 0
+      ! ENDS must not decrease, and end at the size of CONNECTIVITY
+      call require(self, all(ends >= 0) .and. all(ends(2:) >= ends(:size(ends) - 1)))
+      call write_array(self, in_cells, 'connectivity', 'Int32', 4, connectivity - 1, maxval([0, ends])) ! VTK counts points from 0
       call self%add(in_cells, 'offsets', ends)
-      call write_array(self, in_cells, 'types', 'UInt8', 1, self%n_cells, types)
+      call write_array(self, in_cells, 'types', 'UInt8', 1, types)
    end subroutine cells
 
    !> An array of values: (n), or (components, n), one for every point or every cell.
@@ -121,7 +119,7 @@ contains
       character(*), intent(in)             :: name
       real(real64), intent(in), contiguous :: values(..)
 
-      call write_array(self, section, name, 'Float64', 8, n_tuples(self, section), values)
+      call write_array(self, section, name, 'Float64', 8, values)
    end subroutine add_reals
 
    subroutine add_integers(self, section, name, values)
@@ -130,29 +128,24 @@ contains
       character(*), intent(in)               :: name
       integer(int32), intent(in), contiguous :: values(..)
 
-      call write_array(self, section, name, 'Int32', 4, n_tuples(self, section), values)
+      call write_array(self, section, name, 'Int32', 4, values)
    end subroutine add_integers
 
-   !> Number of tuples of an array of SECTION: one for each point or cell; -1 where not yet known.
-   pure integer function n_tuples(self, section)
-      type(vtu_file_type), intent(in) :: self
-      integer, intent(in)             :: section
-
-      n_tuples = merge(self%n_points, self%n_cells, section == in_points .or. section == point_data)
-   end function n_tuples
-
    !> Record an array for the header, and write its length and bytes.
-   subroutine write_array(self, section, name, number, bytes, n, values)
+   subroutine write_array(self, section, name, number, bytes, values, n_tuples)
       type(vtu_file_type), intent(inout) :: self
       integer, intent(in)                :: section
       character(*), intent(in)           :: name, number
       integer, intent(in)                :: bytes      !! of a number
-      integer, intent(in)                :: n          !! tuples required
       type(*), intent(in), contiguous, target :: values(..) !! (n) or (components, n)
+      integer, intent(in), optional      :: n_tuples   !! required; default: one for each point or cell
       character(:), allocatable :: line
       character(20)  :: offset
-      integer        :: components
+      integer        :: components, n
+      integer(int64) :: n_bytes
 
+      n = merge(self%n_points, self%n_cells, section == in_points .or. section == point_data)
+      if (present(n_tuples)) n = n_tuples
       components = 1
       if (rank(values) == 2) components = size(values, 1)
       ! an empty array constructor has an extent of -1 in gfortran 12
@@ -162,21 +155,15 @@ contains
       line = '        <DataArray type="'//number//'" Name="'//xml_text(name)//'"'
       if (components > 1) line = line//' NumberOfComponents="'//integer_text(components)//'"' ! 1: a matrix to some readers
       self%sections(section)%lines = self%sections(section)%lines//line//' format="appended" offset="'//trim(offset)//'"/>'//newline
-      call put_bytes(int(bytes, int64)*components*n)
-
-   contains
-
-      !> Write the number N of bytes, and the bytes of VALUES.
-      subroutine put_bytes(n)
-         integer(int64), intent(in) :: n
-         character(n), pointer :: as_bytes
+      n_bytes = int(bytes, int64)*components*n
+      block
+         character(n_bytes), pointer :: as_bytes
 
          call c_f_pointer(c_loc(values), as_bytes)
-         call self%file%put_lines(transfer(n, '12345678'))
+         call self%file%put_lines(transfer(n_bytes, '12345678'))
          call self%file%put_lines(as_bytes)
-         self%n_bytes = self%n_bytes + storage_size(n)/8 + n
-      end subroutine put_bytes
-
+      end block
+      self%n_bytes = self%n_bytes + storage_size(n_bytes)/8 + n_bytes
    end subroutine write_array
 
    !> Mark the file as failed unless a call FITS the state.
@@ -187,14 +174,25 @@ contains
       self%file%fault = self%file%fault .or. .not. fits
    end subroutine require
 
-   !> Write the header and close the file, which has no name yet.
+   !> Write the header, padded to data_start bytes, and close the file, which has no name yet. FAULT where anything failed.
    subroutine complete(self)
       class(vtu_file_type), intent(inout) :: self
+      character(*), parameter :: last = '  <AppendedData encoding="raw">'//newline//'_'
+      character(*), parameter :: orders(0:1) = [character(12) :: 'BigEndian', 'LittleEndian']
       character(:), allocatable :: header
-      integer :: status, unit
+      integer :: i, status, unit
 
       if (.not. self%file%is_open) return
-      header = header_text(self%n_points, self%n_cells, self%sections)
+      header = '<?xml version="1.0"?>'//newline//'<VTKFile type="UnstructuredGrid" version="1.0" byte_order="'// &
+               trim(orders(transfer(1_int32, 1_int8)))//'" header_type="UInt64">'//newline// &
+               '  <UnstructuredGrid>'//newline//'    <Piece NumberOfPoints="'//integer_text(self%n_points)// &
+               '" NumberOfCells="'//integer_text(self%n_cells)//'">'//newline
+      do i = 1, size(section_tags)
+         header = header//'      <'//trim(section_tags(i))//'>'//newline//self%sections(i)%lines// &
+                  '      </'//trim(section_tags(i))//'>'//newline
+      end do
+      header = header//'    </Piece>'//newline//'  </UnstructuredGrid>'//newline
+      header = header//repeat(' ', max(0, data_start - len(header) - len(last)))//last
       call require(self, self%n_cells >= 0 .and. len(header) == data_start)
       call self%file%put_lines(closing)
       call self%file%close()
@@ -214,27 +212,6 @@ contains
       call self%complete()
       call self%file%finish(ok)
    end subroutine finish
-
-   !> The header, at least data_start bytes long; longer for too many arrays.
-   pure function header_text(n_points, n_cells, sections) result(text)
-      integer, intent(in)            :: n_points, n_cells
-      type(section_type), intent(in) :: sections(:)
-      character(:), allocatable      :: text
-      character(*), parameter :: last = '  <AppendedData encoding="raw">'//newline//'_'
-      character(*), parameter :: orders(0:1) = [character(12) :: 'BigEndian', 'LittleEndian']
-      integer :: i
-
-      text = '<?xml version="1.0"?>'//newline//'<VTKFile type="UnstructuredGrid" version="1.0" byte_order="'// &
-             trim(orders(transfer(1_int32, 1_int8)))//'" header_type="UInt64">'//newline// &
-             '  <UnstructuredGrid>'//newline//'    <Piece NumberOfPoints="'//integer_text(n_points)// &
-             '" NumberOfCells="'//integer_text(n_cells)//'">'//newline
-      do i = 1, size(sections)
-         text = text//'      <'//trim(section_tags(i))//'>'//newline//sections(i)%lines// &
-                '      </'//trim(section_tags(i))//'>'//newline
-      end do
-      text = text//'    </Piece>'//newline//'  </UnstructuredGrid>'//newline
-      text = text//repeat(' ', max(0, data_start - len(text) - len(last)))//last
-   end function header_text
 
    !> NAME of an array with the UNIT of its values, if the deck names one.
    pure function named(name, unit) result(words)
@@ -259,5 +236,96 @@ contains
          if (k > 0) escaped = escaped//trim(entities(k))
       end do
    end function xml_text
+
+   !> The name of piece K of the grid with this INDEX: .2.p0.vtu, .2.p1.vtu of .2.pvtu.
+   pure function piece_of(index, k) result(name)
+      character(*), intent(in)  :: index
+      integer, intent(in)       :: k !! from 0 on
+      character(:), allocatable :: name
+
+      name = index(:len(index) - len('pvtu'))//'p'//integer_text(k)//'.vtu'
+   end function piece_of
+
+   !> Write the index PATH of N_PIECES pieces. Its arrays are those in the header of the first piece. If a file cannot be read or
+   !! written, OK is false and the index is removed.
+   subroutine write_index(path, n_pieces, ok)
+      character(*), intent(in) :: path
+      integer, intent(in)      :: n_pieces
+      logical, intent(out)     :: ok
+      type(output_file_type)    :: file
+      character(:), allocatable :: header
+      integer :: i, k, status, unit
+
+      allocate (character(data_start) :: header)
+      open (newunit=unit, file=piece_of(path, 0), access='stream', action='read', status='old', iostat=status)
+      ok = status == 0
+      if (.not. ok) return
+      read (unit, iostat=status) header
+      ok = status == 0
+      close (unit)
+      if (.not. ok) return
+      call file%start(path)
+      call file%put('<?xml version="1.0"?>')
+      i = index(header, '<VTKFile')
+      k = index(header, '"UnstructuredGrid"')
+      call file%put(header(i:k)//'P'//header(k + 1:i + index(header(i:), '>') - 1))
+      call file%put('  <PUnstructuredGrid GhostLevel="0">')
+      call put_section('Points')
+      call put_section('PointData')
+      call put_section('CellData')
+      do i = 0, n_pieces - 1
+         call file%put('    <Piece Source="'//xml_text(piece_of(path(index(path, '/', back=.true.) + 1:), i))//'"/>')
+      end do
+      call file%put('  </PUnstructuredGrid>')
+      call file%put('</VTKFile>')
+      call file%finish(ok)
+
+   contains
+
+      !> The arrays of the section TAG, without their offsets in the file.
+      subroutine put_section(tag)
+         character(*), intent(in) :: tag
+         integer :: at, last, length
+
+         at = index(header, '<'//tag//'>')
+         last = index(header, '</'//tag//'>')
+         call file%put('    <P'//tag//'>')
+         do
+            length = index(header(at:last), '<DataArray')
+            if (length == 0) exit
+            at = at + length
+            length = index(header(at:last), ' format=') - 1
+            call file%put('      <P'//header(at:at + length - 1)//'/>')
+         end do
+         call file%put('    </P'//tag//'>')
+      end subroutine put_section
+
+   end subroutine write_index
+
+   !> Write the list of .vtu files that ParaView opens: the files of each time. If it cannot be written, OK is false and the
+   !! list is removed.
+   subroutine write_collection(path, times, parts, names, ok)
+      character(*), intent(in) :: path
+      real(wp), intent(in)     :: times(:) !! ascending
+      integer, intent(in)      :: parts(:) !! 0, 1, ... within one time
+      character(*), intent(in) :: names(:) !! the .vtu files, relative to the folder of the list
+      logical, intent(out)     :: ok
+      type(output_file_type) :: file
+      character(24) :: time
+      integer :: i
+
+      call file%start(path)
+      call file%put('<?xml version="1.0"?>')
+      call file%put('<VTKFile type="Collection" version="1.0">')
+      call file%put('  <Collection>')
+      do i = 1, size(names)
+         write (time, '(f24.9)') times(i)
+         call file%put('    <DataSet timestep="'//trim(adjustl(time))//'" group="" part="'//integer_text(parts(i))//'"')
+         call file%put('             file="'//xml_text(trim(names(i)))//'"/>') ! on a line of its own: names may be long
+      end do
+      call file%put('  </Collection>')
+      call file%put('</VTKFile>')
+      call file%finish(ok)
+   end subroutine write_collection
 
 end module vtu_file

@@ -4,32 +4,31 @@
 module vtu_grids
    use analysis_state, only: analysis_type
    use body_elements, only: node_stresses, whole_stress
-   use body_parts, only: all_shown, body_piece_type, shown_type
+   use body_parts, only: body_piece_type, shown_type
    use elasticity, only: max_stresses, principal_stresses, von_mises
    use element_kinds, only: element_table
    use interface_operator, only: at_first_end, nodes_of_end, weights_of_end
    use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: wp
-   use table_writer, only: label_type
-   use mode_values, only: modes_type
-   use model_data, only: corners_of, is_shell, joint_type, model_type, n_points, surface_type, temperature_type
+   use model_data, only: corners_of, is_shell, joint_type, model_type, surface_type, temperature_type
+   use result_page, only: label_type
    use stage_answer, only: face_distance
    use structural_results, only: face_stresses, node_peaks
    use surface_sides, only: nodes_of
    use temperatures, only: node_temperatures
-   use text_tools, only: integer_text, real_text
    use vtu_file, only: cell_data, named, point_data, vtk_vertex, vtu_file_type
    implicit none
    private
 
-   public :: write_bodies, write_joints, write_shapes, write_piece, notes_for_pieces
+   public :: write_bodies, write_joints, write_mesh, write_piece
 
    integer, parameter :: n_values = 8 ! lambda, pressure, tau(3), gap, averaged slip, area
 
    !> The points and cells of all joints during assembly.
    type :: grid_type
       integer :: n_points = 0, n_cells = 0, n_corners = 0
-      real(wp), allocatable :: x(:, :), u(:, :), values(:, :)
+      real(wp), allocatable :: x(:, :), values(:, :)
+      integer, allocatable  :: node(:)         ! with which a point moves
       integer, allocatable  :: element(:)      ! interface element that gives a point its branch
       integer, allocatable  :: corners(:), ends(:)
       integer(int8), allocatable :: types(:)
@@ -37,7 +36,8 @@ module vtu_grids
 
 contains
 
-   !> Write the SHOWN elements with stresses at their centres, and their nodes with displacements and averaged stresses.
+   !> Write the SHOWN elements with stresses at their centres, shells with thickness and stress at both faces, and their nodes with
+   !! displacements and averaged stresses.
    subroutine write_bodies(file, labels, model, shown, u, temperature)
       type(vtu_file_type), intent(inout) :: file
       type(label_type), intent(in)       :: labels
@@ -46,7 +46,9 @@ contains
       real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
       type(temperature_type), intent(in) :: temperature
       real(wp), allocatable :: moved(:, :), at_node(:, :), at_centre(:, :), principal(:, :), peaks(:), at_ends(:)
-      integer :: i, m, n
+      real(wp), allocatable :: thickness(:), at_face(:, :)
+      real(wp) :: stress(max_stresses, 5, 2)
+      integer  :: f, i, k, m, n
 
       m = shown%n_points
       n = size(shown%elements)
@@ -75,43 +77,22 @@ contains
       call file%add(cell_data, named('principal_stress', labels%pressure), principal)
       call file%add(cell_data, named('von_mises_at_centre', labels%pressure), [(max(von_mises(at_centre(:, i)), &
                                                                                 at_ends(shown%elements(i))), i = 1, n)])
-      if (allocated(model%structural%place)) call write_faces(file, labels, model, shown, u, temperature)
-   end subroutine write_bodies
-
-   !> Thickness and von Mises stress at the centres of both faces of shells; zero for other elements.
-   subroutine write_faces(file, labels, model, shown, u, temperature)
-      type(vtu_file_type), intent(inout) :: file
-      type(label_type), intent(in)       :: labels
-      type(model_type), intent(in)       :: model
-      type(shown_type), intent(in)       :: shown
-      real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
-      type(temperature_type), intent(in) :: temperature
-      real(wp) :: thickness(size(shown%elements)), at_face(size(shown%elements), 2), stress(max_stresses, 5, 2)
-      integer  :: f, i, n
-
-      thickness = 0.0_wp
-      at_face = 0.0_wp
-      do i = 1, size(thickness)
+      if (.not. allocated(model%structural%place)) return
+      allocate (thickness(n), at_face(n, 2), source=0.0_wp) ! at the centres of both faces of shells; zero for other elements
+      do i = 1, n
          if (.not. is_shell(model, shown%elements(i))) cycle
-         n = size(corners_of(model, shown%elements(i)))
+         k = size(corners_of(model, shown%elements(i)))
          call face_stresses(model, shown%elements(i), u, temperature, stress)
-         at_face(i, :) = [(von_mises(stress(:, n + 1, f)), f = 1, 2)]
-         thickness(i) = sum(model%structural%shells(model%structural%place(shown%elements(i)))%thickness(:n))/n
+         at_face(i, :) = [(von_mises(stress(:, k + 1, f)), f = 1, 2)]
+         thickness(i) = sum(model%structural%shells(model%structural%place(shown%elements(i)))%thickness(:k))/k
       end do
       call file%add(cell_data, named('thickness', labels%length), thickness)
       call file%add(cell_data, named('von_mises_at_z1', labels%pressure), at_face(:, 1))
       call file%add(cell_data, named('von_mises_at_z2', labels%pressure), at_face(:, 2))
-   end subroutine write_faces
+   end subroutine write_bodies
 
-   !> The LABELS of a file that is written in pieces, packed for write_piece.
-   pure function notes_for_pieces(labels) result(notes)
-      type(label_type), intent(in) :: labels
-      character(:), allocatable    :: notes
-
-      notes = labels%length//labels%pressure
-   end function notes_for_pieces
-
-   !> The piece_writer of the results: write a PIECE as write_bodies does into FILE, the part that rank 0 has created.
+   !> The piece_writer of the results: write a PIECE as write_bodies does into FILE, the part that rank 0 has created. NOTES are the
+   !! labels of length and pressure.
    subroutine write_piece(piece, u, temperature, notes, file, ok)
       type(body_piece_type), intent(in)  :: piece
       real(wp), intent(in)               :: u(:, :) !! (dimension, nodes of its model) [length]
@@ -126,26 +107,8 @@ contains
       call part%start(file, is_part=.true.)
       call write_bodies(part, labels, piece%model, piece%shown, u, temperature)
       call part%complete()
-      ok = .not. part%file%failed()
+      ok = .not. part%file%fault
    end subroutine write_piece
-
-   !> The shapes of the MODES: a nodal vector for each mode, named by its number and frequency.
-   subroutine write_shapes(file, model, modes)
-      type(vtu_file_type), intent(inout) :: file
-      type(model_type), intent(in)       :: model
-      type(modes_type), intent(in)       :: modes
-      real(wp), allocatable :: u(:, :)
-      integer :: k, m
-
-      m = n_points(model)
-      allocate (u(3, m), source=0.0_wp)
-      call write_mesh(file, model, all_shown(model))
-      do k = 1, size(modes%modes)
-         u(:model%dimension, :) = modes%modes(k)%u(:, :m)
-         call file%add(point_data, 'mode '//integer_text(modes%n_before + k)//', frequency '// &
-                       real_text(modes%modes(k)%frequency), u)
-      end do
-   end subroutine write_shapes
 
    !> The points and cells of the SHOWN elements, and the numbers of the nodes.
    subroutine write_mesh(file, model, shown)
@@ -182,6 +145,7 @@ contains
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
       type(grid_type) :: grid
+      real(wp), allocatable :: u(:, :)
       integer :: cells, i, j, n, points
 
       points = size(model%interface) ! upper bounds of points and cells
@@ -193,8 +157,9 @@ contains
             cells = cells + surface%n
          end associate
       end do
-      allocate (grid%x(3, points), grid%element(points), grid%corners(points), grid%ends(cells), grid%types(cells))
-      allocate (grid%u(3, points), grid%values(n_values, points), source=0.0_wp)
+      allocate (grid%x(3, points), grid%node(points), grid%element(points), grid%corners(points))
+      allocate (grid%ends(cells), grid%types(cells))
+      allocate (grid%values(n_values, points), source=0.0_wp)
       do j = 1, size(model%joints)
          if (model%joints(j)%side_1 > 0) then
             call add_faces(model, analysis, model%joints(j), model%surfaces(model%joints(j)%side_1), grid)
@@ -210,7 +175,9 @@ contains
       associate (values => grid%values(:, :n), of => grid%element(:n))
          call file%add(point_data, 'element', model%interface(of)%id)
          call file%add(point_data, 'joint', model%joints(model%interface(of)%joint)%id)
-         call file%add(point_data, named('displacement', labels%length), grid%u(:, :n))
+         allocate (u(3, n), source=0.0_wp)
+         u(:model%dimension, :) = analysis%all_u(:, grid%node(:n))
+         call file%add(point_data, named('displacement', labels%length), u)
          call file%add(point_data, named('lambda', labels%length), values(1, :))
          call file%add(point_data, named('pressure', labels%pressure), values(2, :))
          call file%add(point_data, named('gap', labels%length), values(6, :))
@@ -252,7 +219,7 @@ contains
       all_nodes = nodes_of(surface)
       do k = 1, size(all_nodes)
          if (point(all_nodes(k)) == 0) cycle
-         call add_point(model, analysis, all_nodes(k), model%x(:, all_nodes(k)), grid)
+         call add_point(all_nodes(k), model%x(:, all_nodes(k)), grid)
          point(all_nodes(k)) = grid%n_points
       end do
       do f = 1, surface%n
@@ -321,7 +288,7 @@ contains
       type(grid_type), intent(inout)  :: grid
 
       associate (nodes => nodes_of_end(model%interface(i), 1))
-         call add_point(model, analysis, nodes(1), at_first_end(model%interface(i), model%x), grid)
+         call add_point(nodes(1), at_first_end(model%interface(i), model%x), grid)
       end associate
       grid%element(grid%n_points) = i
       grid%values(:, grid%n_points) = values_of(model, analysis, i)
@@ -329,16 +296,14 @@ contains
    end subroutine add_element
 
    !> Add a point at X that moves with NODE.
-   subroutine add_point(model, analysis, node, x, grid)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: node
-      real(wp), intent(in)            :: x(3)
-      type(grid_type), intent(inout)  :: grid
+   pure subroutine add_point(node, x, grid)
+      integer, intent(in)            :: node
+      real(wp), intent(in)           :: x(3)
+      type(grid_type), intent(inout) :: grid
 
       grid%n_points = grid%n_points + 1
       grid%x(:, grid%n_points) = x
-      grid%u(:model%dimension, grid%n_points) = analysis%all_u(:, node)
+      grid%node(grid%n_points) = node
    end subroutine add_point
 
    subroutine add_cell(points, kind, grid)

@@ -5,23 +5,23 @@
 module vtu_results
    use analysis_state, only: analysis_type
    use body_parts, only: all_shown
-   use c_library, only: remove_file
+   use c_library, only: is_regular_file, read_all_bytes, remove_file
    use distribution, only: subdomain_output_type
+   use incomplete_results, only: remove_old
    use kinds, only: wp
-   use table_writer, only: label_type
    use mode_values, only: modes_type
-   use model_data, only: model_type
+   use model_data, only: model_type, n_points
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
+   use result_page, only: label_type
    use stage_plan, only: stage_plan_type
-   use text_tools, only: integer_text
-   use vtu_file, only: vtu_file_type
-   use vtu_grids, only: notes_for_pieces, write_bodies, write_joints, write_shapes
-   use vtu_lists, only: piece_ending, write_collection, write_index
+   use text_tools, only: integer_text, real_text
+   use vtu_file, only: piece_of, point_data, vtu_file_type, write_collection, write_index, xml_text
+   use vtu_grids, only: write_bodies, write_joints, write_mesh
    implicit none
    private
 
-   public :: start_vtu, write_vtu, write_modes, finish_vtu, discard_vtu, record_vtu, vtu_names
+   public :: start_vtu, write_vtu, write_modes, finish_vtu, discard_vtu, record_vtu, vtu_names, is_vtu_ending, remove_old_vtu
 
    integer, parameter :: of_bodies = 0, of_joints = 1, of_modes = 2 ! parts of one time
 
@@ -48,7 +48,7 @@ module vtu_results
 
 contains
 
-   !> NAME: beginning of the names of the files, folder included; empty: no files. DEALT, if present, writes the bodies; it is
+   !> NAME: beginning of the names of the files, folder included; empty: no files. SUBDOMAINS, if present, writes the bodies; it is
    !! moved into RESULTS.
    subroutine start_vtu(results, name, labels, plan, subdomains)
       type(vtu_results_type), intent(inout) :: results
@@ -89,37 +89,40 @@ contains
          if (stage%output%steps) words = '.'//integer_text(analysis%increment)
          time = real(stage%id - 1, wp) + analysis%fraction
          if (model%n_elements > 0 .and. allocated(results%subdomains)) then
-            call begin_part(results, stage%id, words//'.pvtu', time, of_bodies, results%subdomains%n)
-            call write_pieces(results, results%parts(results%n), analysis)
+            call begin_part(results, stage%id, words//'.pvtu', time, of_bodies)
+            call write_pieces(results, analysis)
          else if (model%n_elements > 0) then
-            call begin_part(results, stage%id, words//'.vtu', time, of_bodies, 0)
-            call grid%start(path_of(results, results%n, 1))
+            call begin_part(results, stage%id, words//'.vtu', time, of_bodies, grid)
             call write_bodies(grid, results%labels, model, all_shown(model), analysis%all_u, analysis%now%temperature)
             call end_part(results, grid)
          end if
          if (size(model%interface) == 0) return
-         call begin_part(results, stage%id, words//'.joint.vtu', time, of_joints, 0)
-         call grid%start(path_of(results, results%n, 1))
+         call begin_part(results, stage%id, words//'.joint.vtu', time, of_joints, grid)
          call write_joints(grid, results%labels, model, analysis)
          call end_part(results, grid)
       end associate
    end subroutine write_vtu
 
-   !> Begin the next part of RESULTS in the stage with the number STAGE: one file, or PIECES.
-   subroutine begin_part(results, stage, ending, time, part, pieces)
+   !> Begin the next part of RESULTS in the stage with the number STAGE: one file, the GRID, or without it pieces.
+   subroutine begin_part(results, stage, ending, time, part, grid)
       type(vtu_results_type), intent(inout) :: results
       integer, intent(in)                   :: stage, part
       character(*), intent(in)              :: ending !! of its name, behind the number of the stage where there are several
       real(wp), intent(in)                  :: time
-      integer, intent(in)                   :: pieces !! 0: none
+      type(vtu_file_type), intent(inout), optional :: grid
 
       results%n = results%n + 1
       associate (next => results%parts(results%n))
+         next = part_type()
          next%time = time
          next%part = part
          next%ending = ending
          if (results%many) next%ending = '.'//integer_text(stage)//ending
-         call make_room(next, max(1, pieces), pieces > 0)
+         next%is_index = .not. present(grid)
+         if (next%is_index) allocate (next%files(results%subdomains%n))
+         if (next%is_index) return
+         allocate (next%files(1))
+         call grid%start(path_of(results, results%n, 1))
       end associate
    end subroutine begin_part
 
@@ -133,18 +136,6 @@ contains
       grid%file = output_file_type()
    end subroutine end_part
 
-   !> Give PART N_FILES files, none of them open; with IS_INDEX they are pieces.
-   pure subroutine make_room(part, n_files, is_index)
-      type(part_type), intent(inout) :: part
-      integer, intent(in)            :: n_files
-      logical, intent(in)            :: is_index
-
-      if (allocated(part%files)) deallocate (part%files)
-      allocate (part%files(n_files))
-      part%is_index = is_index
-      part%is_indexed = .false.
-   end subroutine make_room
-
    !> The final path of file K of part I.
    pure function path_of(results, i, k) result(path)
       type(vtu_results_type), intent(in) :: results
@@ -153,53 +144,60 @@ contains
 
       associate (part => results%parts(i))
          path = results%name//trim(part%ending)
-         if (part%is_index) path = results%name//piece_ending(trim(part%ending), k - 1)
+         if (part%is_index) path = piece_of(path, k - 1)
       end associate
    end function path_of
 
-   !> Write all pieces of PART, on the processes that hold them; none where one cannot be written.
-   subroutine write_pieces(results, part, analysis)
-      type(vtu_results_type), intent(in) :: results
-      type(part_type), intent(inout)     :: part
-      type(analysis_type), intent(in)    :: analysis
+   !> Write all pieces of the present part, on the processes that hold them; none where one cannot be written.
+   subroutine write_pieces(results, analysis)
+      type(vtu_results_type), intent(inout) :: results
+      type(analysis_type), intent(in)       :: analysis
       integer :: k, longest
       logical :: ok
 
-      longest = 0
-      do k = 1, size(part%files)
-         call part%files(k)%start(results%name//piece_ending(trim(part%ending), k - 1))
-         call part%files(k)%close()
-         longest = max(longest, len(part%files(k)%part))
-      end do
-      ok = .not. any([(part%files(k)%failed(), k = 1, size(part%files))])
-      if (ok) then
-         block
-            character(longest) :: names(size(part%files))
+      associate (files => results%parts(results%n)%files, labels => results%labels)
+         longest = 0
+         do k = 1, size(files)
+            call files(k)%start(path_of(results, results%n, k))
+            call files(k)%close()
+            longest = max(longest, len(files(k)%part))
+         end do
+         ok = .not. any(files%fault)
+         if (ok) then
+            block
+               character(longest) :: names(size(files))
 
-            do k = 1, size(names)
-               names(k) = part%files(k)%part
-            end do
-            call results%subdomains%write(analysis%all_u, analysis%now%temperature, notes_for_pieces(results%labels), names, ok)
-         end block
-      end if
-      if (ok) return
-      do k = 1, size(part%files)
-         call part%files(k)%discard()
-      end do
+               do k = 1, size(names)
+                  names(k) = files(k)%part
+               end do
+               call results%subdomains%write(analysis%all_u, analysis%now%temperature, labels%length//labels%pressure, names, ok)
+            end block
+         end if
+         do k = 1, merge(0, size(files), ok)
+            call files(k)%discard()
+         end do
+      end associate
    end subroutine write_pieces
 
-   !> Write the file of the natural MODES about the end of the stage with this number.
+   !> Write the file of the natural MODES about the end of the stage with this number: a nodal vector for each mode.
    subroutine write_modes(results, model, stage, modes)
       type(vtu_results_type), intent(inout) :: results
       type(model_type), intent(in)          :: model
       integer, intent(in)                   :: stage
       type(modes_type), intent(in)          :: modes
       type(vtu_file_type) :: grid
+      real(wp), allocatable :: u(:, :)
+      integer :: k
 
       if (results%name == '' .or. model%n_elements == 0) return
-      call begin_part(results, stage, '.modes.vtu', real(stage, wp), of_modes, 0)
-      call grid%start(path_of(results, results%n, 1))
-      call write_shapes(grid, model, modes)
+      call begin_part(results, stage, '.modes.vtu', real(stage, wp), of_modes, grid)
+      call write_mesh(grid, model, all_shown(model))
+      allocate (u(3, n_points(model)), source=0.0_wp)
+      do k = 1, size(modes%modes)
+         u(:model%dimension, :) = modes%modes(k)%u(:, :n_points(model))
+         call grid%add(point_data, 'mode '//integer_text(modes%n_before + k)//', frequency '// &
+                       real_text(modes%modes(k)%frequency), u)
+      end do
       call end_part(results, grid)
    end subroutine write_modes
 
@@ -216,7 +214,7 @@ contains
             if (ok) call results%parts(i)%files(k)%finish(ok)
          end do
          associate (part => results%parts(i))
-            if (ok .and. part%is_index) call write_index(results%name, trim(part%ending), size(part%files), part%is_indexed)
+            if (ok .and. part%is_index) call write_index(results%name//trim(part%ending), size(part%files), part%is_indexed)
             ok = ok .and. (part%is_indexed .or. .not. part%is_index)
          end associate
       end do
@@ -271,20 +269,22 @@ contains
       type(vtu_results_type), intent(inout)    :: results
       type(restart_stream_type), intent(inout) :: stream
       integer :: i, k, n, n_files
-      logical :: is_index
 
       n = results%n
       call stream%extent(n, 64)
       n = min(n, size(results%parts))
       do i = 1, n
          associate (part => results%parts(i))
-            is_index = part%is_index
             call stream%text(part%ending)
-            call stream%item(part%time, part%part, is_index)
+            call stream%item(part%time, part%part, part%is_index)
             n_files = 1
             if (allocated(part%files)) n_files = size(part%files)
             call stream%extent(n_files, 8)
-            if (.not. stream%writes) call make_room(part, n_files, is_index)
+            if (.not. stream%writes) then
+               part%is_indexed = .false.
+               if (allocated(part%files)) deallocate (part%files)
+               allocate (part%files(n_files))
+            end if
             do k = 1, n_files
                if (.not. stream%writes) call part%files(k)%start(path_of(results, i, k))
                call part%files(k)%record(stream)
@@ -294,5 +294,69 @@ contains
          results%n = max(results%n, i)
       end do
    end subroutine record_vtu
+
+   !> Whether ENDING, behind the name of the deck, is that of a file for ParaView: .vtu, .pvtu and its pieces, .joint.vtu,
+   !! .modes.vtu, all optionally preceded by the number of a stage, or of a stage and an increment; .pvd.
+   pure logical function is_vtu_ending(ending)
+      character(*), intent(in) :: ending
+      integer :: first, k, length
+
+      is_vtu_ending = ending == '.pvd'
+      first = 1
+      do k = 0, 2
+         is_vtu_ending = is_vtu_ending .or. is_piece_ending(ending(first:)) .or. &
+                         any(ending(first:) == [character(10) :: '.vtu', '.pvtu', '.joint.vtu', '.modes.vtu'])
+         if (is_vtu_ending .or. len(ending) < first + 2) return
+         length = verify(ending(first + 1:), '0123456789') - 1
+         if (ending(first:first) /= '.' .or. length < 1) return
+         first = first + 1 + length
+      end do
+   end function is_vtu_ending
+
+   !> Whether ENDING is that of a piece: .p0.vtu, .p1.vtu and so on.
+   pure logical function is_piece_ending(ending)
+      character(*), intent(in) :: ending
+      integer :: length
+
+      is_piece_ending = .false.
+      if (len(ending) < len('.p0.vtu')) return
+      length = verify(ending(3:), '0123456789') - 1
+      is_piece_ending = ending(:2) == '.p' .and. length >= 1 .and. ending(3 + length:) == '.vtu'
+   end function is_piece_ending
+
+   !> Remove the files of an earlier run: those without a number, and those in its lists.
+   subroutine remove_old_vtu(name)
+      character(*), intent(in) :: name
+
+      call remove_old(name//'.vtu')
+      call remove_old(name//'.joint.vtu')
+      call remove_old(name//'.modes.vtu')
+      call remove_list(name, '.pvtu', 'Source="')
+      call remove_list(name, '.pvd', 'file="')
+   end subroutine remove_old_vtu
+
+   !> Remove the file of NAME with this ENDING, the files that it names behind MARK, and the pieces of those that are indexes.
+   recursive subroutine remove_list(name, ending, mark)
+      character(*), intent(in) :: name, ending, mark
+      character(:), allocatable :: bytes, base, listed
+      integer :: at, first
+      logical :: ok
+
+      if (.not. is_regular_file(name//ending)) return
+      call read_all_bytes(name//ending, bytes, ok)
+      if (.not. ok) return
+      base = mark//xml_text(name(index(name, '/', back=.true.) + 1:))
+      first = 1
+      do
+         at = index(bytes(first:), base)
+         if (at == 0) exit
+         first = first + at - 1 + len(base)
+         listed = bytes(first:first + index(bytes(first:)//'"', '"') - 2)
+         if (.not. is_vtu_ending(listed)) cycle
+         if (ending == '.pvd' .and. index(listed, '.pvtu') > 0) call remove_list(name, listed, 'Source="')
+         call remove_old(name//listed)
+      end do
+      call remove_old(name//ending)
+   end subroutine remove_list
 
 end module vtu_results

@@ -17,11 +17,10 @@ module watched_nodes
    use kinds, only: wp
    use connected_bodies, only: find_bodies
    use model_data, only: a_spring, bar_nodes, corners_of, model_type, n_bars, n_points
-   use restart_stream, only: restart_stream_type
    implicit none
    private
 
-   public :: start_watched, find_watched, keep_watched, record_watched
+   public :: start_watched, find_watched, keep_watched
 
    real(wp), parameter :: cancels = 1.0e-9_wp   ! of the sum of amounts: a smaller sum of forces or works is zero
    real(wp), parameter :: rests = 1.0e-7_wp     ! of the largest movement over the stage: a smaller one is zero
@@ -68,12 +67,20 @@ contains
       type(watch_answer), intent(out) :: answer
       real(wp), allocatable :: change(:, :), load(:, :)
       real(wp) :: on_nodes(3), total(3), amount, largest
-      integer  :: d, k
+      integer  :: d, k, s
 
       d = model%dimension
       change = analysis%all_u - before%u
       largest = maxval(abs(change(:, :n_points(model))))
-      call load_change(model, analysis, load)
+      allocate (load(3, model%n_nodes), source=0.0_wp) ! change over the stage of the loads of the deck, without preloads [force]
+      do s = max(1, analysis%stage - 1), analysis%stage
+         associate (loads => model%stage_loads(s))
+            do k = 1, loads%n
+               load(:, loads%node(k)) = load(:, loads%node(k)) + &
+                                        merge(1, -1, s == analysis%stage)*analysis%fraction*loads%force(:, k)
+            end do
+         end associate
+      end do
       amount = cancels*sum(abs(load))
       on_nodes = sum(load(:, watched), dim=2)
       total = sum(load, dim=2)
@@ -95,24 +102,6 @@ contains
       end do
       call share_work(model, analysis, change, before, answer)
    end subroutine find_watched
-
-   !> The change of the loads of the deck over the stage at every node, without preloads [force].
-   pure subroutine load_change(model, analysis, load)
-      type(model_type), intent(in)       :: model
-      type(analysis_type), intent(in)    :: analysis
-      real(wp), allocatable, intent(out) :: load(:, :) !! (3, n_nodes)
-      integer :: i, s
-
-      allocate (load(3, model%n_nodes), source=0.0_wp)
-      do s = max(1, analysis%stage - 1), analysis%stage
-         associate (loads => model%stage_loads(s))
-            do i = 1, loads%n
-               load(:, loads%node(i)) = load(:, loads%node(i)) + &
-                                        merge(1, -1, s == analysis%stage)*analysis%fraction*loads%force(:, i)
-            end do
-         end associate
-      end do
-   end subroutine load_change
 
    !> The shares of bodies, joints, bars and springs in the work over the stage, in which the nodes moved by CHANGE.
    subroutine share_work(model, analysis, change, before, answer)
@@ -232,13 +221,5 @@ contains
       end do
       before%tension = [(bar_tension(model, analysis, i), i = 1, n_bars(model))]
    end subroutine keep_watched
-
-   !> Write BEFORE to a restart file, or read it.
-   subroutine record_watched(stream, before)
-      type(restart_stream_type), intent(inout) :: stream
-      type(watch_state), intent(inout)         :: before
-
-      if (allocated(before%u)) call stream%item(before%u, before%force, before%movement, before%tension)
-   end subroutine record_watched
 
 end module watched_nodes

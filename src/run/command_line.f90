@@ -2,20 +2,53 @@
 module command_line
    use c_library, only: true_path
    use card_manual, only: manual_entry, manual_names
-   use terminal, only: argument_text, complain, input_argument, is_option, say, set_input, standard_input, version
+   use terminal, only: command_reader, complain, input_argument, next_option, say, standard_input, version
    use deck_parameters, only: is_parameter_name, parameter_type
    use field_rules, only: parse_integer
-   use table_writer, only: history_ending
+   use result_page, only: history_ending
    use results, only: is_result_ending, listing_ending
    use text_tools, only: upper
-   use vtu_lists, only: is_vtu_ending
+   use vtu_results, only: is_vtu_ending
    implicit none
    private
 
    public :: read_command_line, is_result_of
 
-   character(*), parameter :: program = 'jointfem'
-   character(9), parameter :: options_with_value(5) = [character(9) :: '-o', '--threads', '--watch', '--summary', '--set']
+   character(*), parameter :: program = 'jointfem', nl = new_line('a')
+   character(9), parameter :: help_options(2) = [character(9) :: '--help', '-h'] ! the entry may follow
+   character(9), parameter :: options_with_value(7) = [character(9) :: '-o', '--threads', '--watch', '--summary', '--set', &
+                                                       help_options]
+
+   character(*), parameter :: help = &
+      'usage: jointfem [options] DECK...'//nl// &
+      ''//nl// &
+      'Solves each deck: a structure with flexible joints, loaded in increments. The deck `-` is read from standard'//nl// &
+      'input; its listing goes to standard output. For beam.bdf the program writes beam.out (the listing),'//nl// &
+      'beam.joint.csv (every interface element after every increment), beam.stage.csv (the answer of every stage)'//nl// &
+      'and, with bolts, beam.bolt.csv. At the end the answers and the names of the files go to standard output.'//nl// &
+      ''//nl// &
+      '   -o DIR        folder of the results (default: the current folder)'//nl// &
+      '   --check       read and check the decks without solving them'//nl// &
+      '   --joints      print cards for joints where bodies face each other, without solving'//nl// &
+      '   -q            do not show progress on the terminal'//nl// &
+      '   --threads N   use at most N threads (default: all cores); the results do not depend on N'//nl// &
+      '   --set N=V     replace ${N} in the decks by V; N=V,V,V makes one run for each value, named beam_N=V'//nl// &
+      '   --watch N,N   nodes whose displacement and stiffness are added to the answer of every stage'//nl// &
+      '   --summary F   write a table of all runs to the file F, one row for each run'//nl// &
+      '   --resume      continue each deck from its restart file, beam.restart: the results are those of an'//nl// &
+      '                 uninterrupted run. A deck without a restart file starts from the beginning.'//nl// &
+      '   --date        print date and time in the heading of the listing'//nl// &
+      '   --times       print the seconds of each phase, operations and memory to standard error'//nl// &
+      '   --version     print the version'//nl// &
+      '   --help        print this text'//nl// &
+      '   --help CARD   print the section of the manual on a card, or on a key of case control'//nl// &
+      ''//nl// &
+      '`make mpi` builds jointfem_mpi, which also has the solvers PETSC and MUMPS (--help SOLVER) for several'//nl// &
+      'processes: mpirun -n 4 jointfem_mpi DECK...'//nl// &
+      ''//nl// &
+      'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 the structure cannot be'//nl// &
+      'solved, 4 output could not be written; of several decks the highest. input/README.md is the manual of the'//nl// &
+      'cards.'
 
    !> One deck of the command.
    type, extends(input_argument), public :: deck_argument
@@ -27,6 +60,7 @@ module command_line
    !> --set NAME=V[,V...]
    type :: setting_type
       character(:), allocatable :: name, values
+      integer, allocatable :: commas(:) ! positions in VALUES: 0, and one behind each value
    end type setting_type
 
    type, public :: command_type
@@ -45,46 +79,34 @@ module command_line
 
 contains
 
-   !> Read the command. FINISHED is true where nothing is left to do: after --help and --version (STATUS 0), and after
-   !! a wrong command (STATUS 1, with a message on the standard error).
-   subroutine read_command_line(command, finished, status)
+   !> Read the command. STATUS is the exit status where nothing is left to do, after --help and --version, and after a wrong command,
+   !! which has a message on the standard error; otherwise it is -1.
+   subroutine read_command_line(command, status)
       type(command_type), intent(out) :: command
-      logical, intent(out)            :: finished
       integer, intent(out)            :: status
-      character(:), allocatable :: argument, value
+      type(command_reader) :: reader
+      character(:), allocatable :: option, value
       type(setting_type), allocatable :: settings(:)
-      integer :: i, n
-      logical :: options, ok
+      logical :: is_missing, ok
 
       command%folder = ''
       command%watched = ''
       command%summary = ''
-      allocate (settings(0), command%decks(0))
-      finished = .true.
+      allocate (settings(0))
       status = 1
-      n = command_argument_count()
-      options = .true.
-      i = 1
-      do while (i <= n)
-         argument = argument_text(i)
-         i = i + 1
-         if (.not. is_option(argument, options)) then
-            call add_deck(command%decks, argument)
-            cycle
-         end if
-         value = argument_text(i)
-         ok = .true.
-         if (any(argument == options_with_value) .and. i > n) then
-            call complain(program, argument//' needs a value')
+      ok = .true.
+      do
+         call next_option(reader, options_with_value, option, value, is_missing)
+         if (is_missing .and. all(option /= help_options)) then
+            call complain(program, option//' needs a value')
             return
          end if
-         i = i + count(argument == options_with_value)
-         select case (argument)
-         case ('--')
-            options = .false.
+         select case (option)
+         case ('')
+            exit
          case ('--help', '-h')
-            if (i <= n) call print_entry(upper(value), status)
-            if (i > n) call print_help(status)
+            if (is_missing) call say(help, status)
+            if (.not. is_missing) call print_entry(upper(value), status)
             return
          case ('--version')
             call say(program//' '//version, status)
@@ -118,13 +140,12 @@ contains
             if (.not. ok) call complain(program, '--threads '//value//': expected a number of 1 or more')
          case default
             ok = .false.
-            call complain(program, 'unknown option '//argument)
+            call complain(program, 'unknown option '//option)
          end select
          if (.not. ok) return
       end do
-      call name_results(command, settings, ok)
-      finished = .not. ok
-      if (ok) status = 0
+      call plan_runs(reader%files, settings, command, ok)
+      if (ok) status = -1
    end subroutine read_command_line
 
    !> Read TEXT, 'NAME=V,V,V', into SETTINGS.
@@ -132,123 +153,58 @@ contains
       character(*), intent(in) :: text
       type(setting_type), allocatable, intent(inout) :: settings(:)
       logical, intent(out)     :: ok
+      character(:), allocatable :: values
       integer :: equals, k
 
       equals = index(text, '=')
+      values = text(equals + 1:)//','
       ok = equals > 1 .and. equals < len(text) .and. verify(text, ' ') > 0
-      if (ok) ok = is_parameter_name(text(:equals - 1)) .and. index(','//text(equals + 1:)//',', ',,') == 0
+      if (ok) ok = is_parameter_name(text(:equals - 1)) .and. index(','//values, ',,') == 0
       if (.not. ok) then
          call complain(program, '--set '//text//': expected NAME=VALUE, or NAME=VALUE,VALUE,... for a run with each')
          return
       end if
       do k = 1, size(settings)
-         if (settings(k)%name /= text(:equals - 1)) cycle
-         ok = .false.
-         call complain(program, '--set '//text(:equals)//': given twice')
-         return
+         ok = ok .and. settings(k)%name /= text(:equals - 1)
       end do
-      settings = [settings, setting_type(text(:equals - 1), text(equals + 1:))]
+      if (.not. ok) call complain(program, '--set '//text(:equals)//': given twice')
+      settings = [settings, setting_type(text(:equals - 1), values, &
+                                         [0, pack([(k, k = 1, len(values))], [(values(k:k) == ',', k = 1, len(values))])])]
    end subroutine read_setting
 
-   !> A run of every deck with every combination of values of SETTINGS, the last setting changing fastest. The values of a setting
-   !! with several values become part of the names.
-   subroutine vary(command, settings)
-      type(command_type), intent(inout) :: command
+   !> The runs of COMMAND: each of FILES with every combination of values of SETTINGS. beam.bdf gives beam.out and beam.joint.csv. No two
+   !! runs may write the same file, and no result may replace a deck.
+   subroutine plan_runs(files, settings, command, ok)
+      type(input_argument), intent(in)  :: files(:)
       type(setting_type), intent(in)    :: settings(:)
-      type(deck_argument), allocatable  :: runs(:)
-      character(:), allocatable :: value
-      integer, allocatable :: n(:)
-      integer :: d, i, k, r, run, which
-
-      allocate (n(size(settings)))
-      do k = 1, size(settings)
-         n(k) = 1 + count([(settings(k)%values(d:d) == ',', d = 1, len(settings(k)%values))])
-      end do
-      allocate (runs(size(command%decks)*product(n)))
-      r = 0
-      do d = 1, size(command%decks)
-         do run = 0, product(n) - 1
-            r = r + 1
-            runs(r)%path = command%decks(d)%path
-            runs(r)%name = command%decks(d)%name
-            runs(r)%base = ''
-            runs(r)%number = r
-            runs(r)%of = size(runs)
-            allocate (runs(r)%parameters(size(settings)))
-            do k = 1, size(settings)
-               which = modulo(run/product(n(k + 1:)), n(k)) + 1
-               associate (parameter => runs(r)%parameters(k))
-                  parameter%name = settings(k)%name
-                  value = value_of(settings(k)%values, which)
-                  parameter%value = value
-                  if (n(k) == 1) cycle
-                  do i = 1, len(value) ! the name of a file cannot have slashes
-                     if (value(i:i) == '/') value(i:i) = '-'
-                  end do
-                  runs(r)%base = runs(r)%base//'_'//parameter%name//'='//value
-                  runs(r)%name = runs(r)%name//', '//parameter%name//'='//parameter%value
-               end associate
-            end do
-         end do
-      end do
-      call move_alloc(runs, command%decks)
-   end subroutine vary
-
-   !> Value number WHICH of the comma-separated VALUES.
-   pure recursive function value_of(values, which) result(value)
-      character(*), intent(in)  :: values
-      integer, intent(in)       :: which
-      character(:), allocatable :: value
-      integer :: comma
-
-      comma = index(values//',', ',')
-      if (which > 1) then
-         value = value_of(values(comma + 1:), which - 1)
-      else
-         value = values(:comma - 1)
-      end if
-   end function value_of
-
-   !> Append the deck that ARGUMENT names to DECKS. (An array constructor would leak its names in gfortran 12.)
-   subroutine add_deck(decks, argument)
-      type(deck_argument), allocatable, intent(inout) :: decks(:)
-      character(*), intent(in) :: argument
-      type(deck_argument), allocatable :: more(:)
-
-      allocate (more(size(decks) + 1))
-      more(:size(decks)) = decks
-      call set_input(more(size(more)), argument)
-      more(size(more))%base = ''
-      call move_alloc(more, decks)
-   end subroutine add_deck
-
-   !> The runs of COMMAND, and the names of their results: beam.bdf gives beam.out and beam.joint.csv. No two runs may write the same
-   !! file, and no result may replace a deck.
-   subroutine name_results(command, settings, ok)
       type(command_type), intent(inout) :: command
-      type(setting_type), intent(in)    :: settings(:)
       logical, intent(out)              :: ok
-      character(:), allocatable :: name
-      integer :: dot, i, k
+      integer :: dot, first, i, k, n
 
       ok = .false.
-      if (size(command%decks) == 0) then
+      if (size(files) == 0) then
          call complain(program, 'no deck given')
          return
       end if
-      do i = 1, size(command%decks)
-         if (.not. command%resume .or. command%decks(i)%path /= standard_input) cycle
+      do i = 1, size(files)
+         if (.not. command%resume .or. files(i)%path /= standard_input) cycle
          call complain(program, '--resume: a deck from the standard input has no restart file')
          return
       end do
-      call vary(command, settings)
+      n = product([(size(settings(k)%commas) - 1, k = 1, size(settings))])
+      allocate (command%decks(size(files)*n))
       do i = 1, size(command%decks)
          associate (deck => command%decks(i))
+            deck%path = files((i - 1)/n + 1)%path
+            deck%name = files((i - 1)/n + 1)%name
+            deck%number = i
+            deck%of = size(command%decks)
+            call set_parameters(settings, modulo(i - 1, n), deck)
             if (deck%path == standard_input) cycle
-            name = deck%path(index(deck%path, '/', back=.true.) + 1:)
-            dot = index(name, '.', back=.true.)
-            if (dot > 1) name = name(:dot - 1)
-            deck%base = command%folder//name//deck%base
+            first = index(deck%path, '/', back=.true.) + 1
+            dot = index(deck%path, '.', back=.true.)
+            if (dot <= first) dot = len(deck%path) + 1
+            deck%base = command%folder//deck%path(first:dot - 1)//deck%base
             do k = 1, i - 1
                if (command%decks(k)%base == deck%base) then
                   call complain(program, command%decks(k)%name//' and '//deck%name//' would both write '//deck%base//listing_ending)
@@ -269,7 +225,35 @@ contains
          end do
       end do
       ok = .true.
-   end subroutine name_results
+   end subroutine plan_runs
+
+   !> Set the parameters of DECK to combination RUN = 0, 1, ... of the values of SETTINGS, the last setting changing fastest. The values of
+   !! a setting with several values become part of its name and its base.
+   subroutine set_parameters(settings, run, deck)
+      type(setting_type), intent(in)     :: settings(:)
+      integer, intent(in)                :: run
+      type(deck_argument), intent(inout) :: deck
+      character(:), allocatable :: value
+      integer :: i, k, n(size(settings)), which
+
+      n = [(size(settings(k)%commas) - 1, k = 1, size(settings))]
+      deck%base = ''
+      allocate (deck%parameters(size(settings)))
+      do k = 1, size(settings)
+         which = modulo(run/product(n(k + 1:)), n(k)) + 1
+         associate (commas => settings(k)%commas, parameter => deck%parameters(k))
+            value = settings(k)%values(commas(which) + 1:commas(which + 1) - 1)
+            parameter%name = settings(k)%name
+            parameter%value = value
+            if (n(k) == 1) cycle
+            do i = 1, len(value) ! the name of a file cannot have slashes
+               if (value(i:i) == '/') value(i:i) = '-'
+            end do
+            deck%base = deck%base//'_'//parameter%name//'='//value
+            deck%name = deck%name//', '//parameter%name//'='//parameter%value
+         end associate
+      end do
+   end subroutine set_parameters
 
    !> Whether A and B could both write one VTU file, with a message: with OUTPUT = VTU, stage 1 of A writes A.1.vtu, which the deck
    !! A.1 may write too; likewise A.joint. The decks need not ask for VTU: each run also removes that file as its own of an earlier
@@ -314,41 +298,5 @@ contains
          status = 1
       end if
    end subroutine print_entry
-
-   subroutine print_help(status)
-      integer, intent(out) :: status
-      character(*), parameter :: nl = new_line('a')
-
-      call say( &
-         'usage: jointfem [options] DECK...'//nl// &
-         ''//nl// &
-         'Solves each deck: a structure with flexible joints, loaded in increments. The deck `-` is read from standard'//nl// &
-         'input; its listing goes to standard output. For beam.bdf the program writes beam.out (the listing),'//nl// &
-         'beam.joint.csv (every interface element after every increment), beam.stage.csv (the answer of every stage)'//nl// &
-         'and, with bolts, beam.bolt.csv. At the end the answers and the names of the files go to standard output.'//nl// &
-         ''//nl// &
-         '   -o DIR        folder of the results (default: the current folder)'//nl// &
-         '   --check       read and check the decks without solving them'//nl// &
-         '   --joints      print cards for joints where bodies face each other, without solving'//nl// &
-         '   -q            do not show progress on the terminal'//nl// &
-         '   --threads N   use at most N threads (default: all cores); the results do not depend on N'//nl// &
-         '   --set N=V     replace ${N} in the decks by V; N=V,V,V makes one run for each value, named beam_N=V'//nl// &
-         '   --watch N,N   nodes whose displacement and stiffness are added to the answer of every stage'//nl// &
-         '   --summary F   write a table of all runs to the file F, one row for each run'//nl// &
-         '   --resume      continue each deck from its restart file, beam.restart: the results are those of an'//nl// &
-         '                 uninterrupted run. A deck without a restart file starts from the beginning.'//nl// &
-         '   --date        print date and time in the heading of the listing'//nl// &
-         '   --times       print the seconds of each phase, operations and memory to standard error'//nl// &
-         '   --version     print the version'//nl// &
-         '   --help        print this text'//nl// &
-         '   --help CARD   print the section of the manual on a card, or on a key of case control'//nl// &
-         ''//nl// &
-         '`make mpi` builds jointfem_mpi, which also has the solvers PETSC and MUMPS (--help SOLVER) for several'//nl// &
-         'processes: mpirun -n 4 jointfem_mpi DECK...'//nl// &
-         ''//nl// &
-         'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 the structure cannot be'//nl// &
-         'solved, 4 output could not be written; of several decks the highest. input/README.md is the manual of the'//nl// &
-         'cards.', status)
-   end subroutine print_help
 
 end module command_line

@@ -29,6 +29,7 @@ module progress
       logical :: timed = .false.
       integer :: phase = 0
       integer :: done  = 0, total = 0, before = 0 ! increments; before: by an earlier run
+      integer(long), public :: began = 0          !! clock at the start of the run
       integer(long) :: entered = 0, increments_began = 0, rate = 1
       integer(long) :: ticks(size(phase_name)) = 0
       character(:), allocatable :: deck
@@ -61,7 +62,7 @@ module progress
       type(restart_stream_type) :: restart     !! the restart file to continue from, while it is read
       logical :: resumes = .false.             !! there is such a file
       character(:), allocatable :: problem     !! why the restart file cannot be used
-      logical :: misses_restart = .false.      !! a restart file could not be written
+      logical :: misses_output = .false.       !! a restart file, the answer or a VTU file could not be written
    end type run_type
 
 contains
@@ -77,8 +78,8 @@ contains
       if (argument%of > 1) call open_line(self%deck//' ('//integer_text(argument%number)//' of '//integer_text(argument%of)//')', &
                                           command%quiet)
       self%timed = command%times
-      self%ticks = 0
-      call system_clock(self%entered, self%rate)
+      call system_clock(self%began, self%rate)
+      self%entered = self%began
       self%phase = phase_read
    end subroutine start
 

@@ -22,17 +22,9 @@ module restart_file
    implicit none
    private
 
-   public :: open_restart_file, take_up, write_restart, restart_name, record_analysis
+   public :: open_restart_file, take_up, write_restart, record_analysis
 
 contains
-
-   !> The restart file of a run whose results begin with BASE.
-   pure function restart_name(base) result(name)
-      character(*), intent(in)  :: base
-      character(:), allocatable :: name
-
-      name = base//restart_ending
-   end function restart_name
 
    !> Look for a restart file of DECK. Without one the run begins at the start. A damaged file, or one of another deck or another
    !! version of the program, ends the run.
@@ -42,7 +34,7 @@ contains
       character(:), allocatable :: bytes, name
       logical :: there, readable
 
-      name = restart_name(run%argument%base)
+      name = run%argument%base//restart_ending
       inquire (file=name, exist=there)
       if (.not. there) then
          call say_line(run%argument%name//': there is no '//name//', the run '// &
@@ -68,55 +60,51 @@ contains
       type(stage_plan_type), intent(in)     :: plan
       class(equation_system), intent(inout), allocatable :: system
       type(analysis_type), intent(inout)    :: analysis
-      character(:), allocatable :: words
+      character(:), allocatable :: name, words
       integer :: s
 
       if (is_over(run) .or. .not. run%resumes) return
       call record_analysis(run%restart, analysis)
       call record_results(run%restart, run%results)
+      run%problem = ''
       if (.not. run%restart%is_at_end()) then
-         run%ending = is_refused
          run%problem = 'it holds more than the state of this deck'
          if (allocated(run%restart%fault)) run%problem = run%restart%fault
-      else if (.not. is_in_plan(plan, analysis)) then
-         run%ending = is_refused
+      else if (analysis%stage < 1 .or. analysis%stage > size(plan%stages)) then
+         run%problem = 'the deck has no such stage and increment'
+      else if (analysis%increment < 1 .or. analysis%increment > size(plan%stages(analysis%stage)%fractions)) then
          run%problem = 'the deck has no such stage and increment'
       end if
-      if (is_over(run)) return
+      if (run%problem /= '') run%ending = is_refused
+      if (run%problem /= '') return
       run%restart = restart_stream_type() ! free its bytes
       call lock_again(model, analysis, system)
       call system%forget_past()
       analysis%goes_on = analysis%increment < size(plan%stages(analysis%stage)%fractions)
-      call say_at_interrupts(run%argument%name//': interrupted; '//restart_name(run%argument%base)//' stays as it was')
+      name = run%argument%base//restart_ending
+      call say_at_interrupts(run%argument%name//': interrupted; '//name//' stays as it was')
       call run%progress%expect(plan, sum([(size(plan%stages(s)%fractions), s = 1, analysis%stage - 1)]) + analysis%increment)
-      words = ': resumed from '//restart_name(run%argument%base)//' after stage '// &
-              integer_text(plan%stages(analysis%stage)%id)//', increment '//integer_text(analysis%increment)
+      words = ' after stage '//integer_text(plan%stages(analysis%stage)%id)//', increment '//integer_text(analysis%increment)
       if (allocated(analysis%kept)) then
          words = words//', '//integer_text(size(analysis%kept, 2))//' amplitudes of its backbone done'
       else if (analysis%stage == size(plan%stages) .and. .not. analysis%goes_on) then
-         words = ': resumed from '//restart_name(run%argument%base)//', where the run is complete; its results are written again'
+         words = ', where the run is complete; its results are written again'
       end if
-      call say_line(run%argument%name//words)
+      call say_line(run%argument%name//': resumed from '//name//words)
    end subroutine take_up
 
-   !> Whether PLAN has the stage and the increment of ANALYSIS.
-   pure logical function is_in_plan(plan, analysis)
-      type(stage_plan_type), intent(in) :: plan
-      type(analysis_type), intent(in)   :: analysis
-
-      is_in_plan = analysis%stage >= 1 .and. analysis%stage <= size(plan%stages)
-      if (is_in_plan) is_in_plan = analysis%increment >= 1 .and. analysis%increment <= size(plan%stages(analysis%stage)%fractions)
-   end function is_in_plan
-
-   !> WRITE THE RESTART FILE at the end of a stage, and after every n increments where RESTART gives n; otherwise do nothing. If it cannot
-   !! be written, the run continues and an older file stays.
+   !> WRITE THE RESTART FILE at the end of a stage, and after every n increments where RESTART gives n; otherwise do nothing. A new file
+   !! is written beside the older one, which it replaces when it is complete. If it cannot be written, the run continues.
    subroutine write_restart(run, deck, plan, system, analysis)
       type(run_type), intent(inout)         :: run
       type(deck_type), intent(in)           :: deck
       type(stage_plan_type), intent(in)     :: plan
       class(equation_system), intent(inout), allocatable :: system
       type(analysis_type), intent(inout)    :: analysis
-      logical :: ok
+      type(restart_stream_type) :: stream
+      character(:), allocatable :: name, part
+      integer :: descriptor
+      logical :: closed, ok
 
       if (is_over(run) .or. run%argument%base == '' .or. deck%control%restart == no_restart) return
       if (analysis%increment < size(plan%stages(analysis%stage)%fractions)) then
@@ -124,41 +112,32 @@ contains
          if (modulo(analysis%increment, deck%control%restart) /= 0) return
       end if
       if (run%deck_sum == 0) run%deck_sum = checksum_of(deck%text)
-      call write_state(run, analysis, ok)
-      if (.not. (ok .or. run%misses_restart)) call say_line(run%argument%name//': the restart file '// &
-         restart_name(run%argument%base)//' cannot be written; the run continues')
-      run%misses_restart = run%misses_restart .or. .not. ok
-      if (ok) call say_at_interrupts(run%argument%name//': interrupted; '//restart_name(run%argument%base)// &
-         ' keeps the state behind '//where_in_plan(plan, analysis%stage, analysis%increment)//': --resume goes on from there')
+      name = run%argument%base//restart_ending
+      call create_part(name, part, descriptor)
+      ok = descriptor >= 0
+      if (ok) then
+         call stream%start(descriptor, version, run%deck_sum)
+         call record_analysis(stream, analysis)
+         call record_results(stream, run%results)
+         call stream%complete(ok)
+         if (ok) call keep_on_disk(descriptor, ok) ! before the older one is replaced: a power failure leaves one of the two
+         call close_file(descriptor, closed)
+         ok = ok .and. closed
+         if (ok) then
+            call name_part(part, name, ok, stays=.true.)
+         else
+            call remove_file(part)
+         end if
+      end if
+      if (ok) then
+         call say_at_interrupts(run%argument%name//': interrupted; '//name//' keeps the state behind '// &
+                                where_in_plan(plan, analysis%stage, analysis%increment)//': --resume goes on from there')
+      else if (.not. run%misses_output) then
+         call say_line(run%argument%name//': the restart file '//name//' cannot be written; the run continues')
+         run%misses_output = .true.
+      end if
       call system%forget_past()
    end subroutine write_restart
-
-   !> Write a new file beside the older one, and replace the older one when the new one is complete.
-   subroutine write_state(run, analysis, ok)
-      type(run_type), intent(inout)      :: run
-      type(analysis_type), intent(inout) :: analysis
-      logical, intent(out)               :: ok
-      type(restart_stream_type) :: stream
-      character(:), allocatable :: part
-      integer :: descriptor
-      logical :: closed
-
-      call create_part(restart_name(run%argument%base), part, descriptor)
-      ok = descriptor >= 0
-      if (.not. ok) return
-      call stream%start(descriptor, version, run%deck_sum)
-      call record_analysis(stream, analysis)
-      call record_results(stream, run%results)
-      call stream%complete(ok)
-      if (ok) call keep_on_disk(descriptor, ok) ! before the older one is replaced: a power failure leaves one of the two
-      call close_file(descriptor, closed)
-      if (ok .and. closed) then
-         call name_part(part, restart_name(run%argument%base), ok, stays=.true.)
-      else
-         call remove_file(part)
-         ok = .false.
-      end if
-   end subroutine write_state
 
    !> Write A, or read it into one that start_analysis has just made for the same model. Two components are left out: condensed, which
    !! does not change in an increment and which the first increment prints, and goes_on, which is true only while the run resumes.

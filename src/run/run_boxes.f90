@@ -4,17 +4,17 @@
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use backbone, only: backbone_type, find_loop, finish_backbone, start_backbone
-   use c_library, only: open_standard_outputs, tell_failed_writes
+   use c_library, only: end_run, open_standard_outputs, tell_failed_writes
    use case_control, only: method_back, method_newton
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use condensed_interface, only: condense_on_joints
    use condition_estimate, only: watch_condition
    use deck_input, only: deck_type, read_deck
-   use distribution, only: join_processes
+   use distribution, only: join_processes, leave_processes
    use equation_solver, only: equation_system, failure_type
    use equations, only: form_body_stiffness, start_equations
    use facing_bodies, only: loose_words
-   use finite_state, only: check_precision, check_state
+   use finite_state, only: check_state
    use incomplete_results, only: say_at_interrupts, watch_ends
    use joint_suggestions, only: suggest_joints
    use kinds, only: wp
@@ -33,7 +33,6 @@ module run_boxes
                        was_searched, would_overwrite
    use restart_file, only: open_restart_file, take_up, write_restart
    use results, only: list_results => print_increment, print_modes, print_stage, remove_old_results, start_results
-   use run_end, only: end_program
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
    use unit_watch, only: unit_words
    use vibration_tables, only: list_backbone, list_response
@@ -118,7 +117,7 @@ contains
          if (allocated(wanted%backbone)) call list_backbone(page, model, found, n_warnings)
          if (.not. allocated(wanted%response)) return
          call find_response(model, structure, wanted%response, spectrum, modes, shifted, response, run%failure)
-         if (.not. run%failure%raised) call list_response(page, response, n_warnings)
+         if (.not. run%failure%raised) call list_response(page, model, response, n_warnings)
       end associate
    end subroutine oscillate
 
@@ -126,14 +125,16 @@ contains
    !! processes rank 0 continues, and the others serve it from here on.
    subroutine start_program(command)
       type(command_type), intent(out) :: command
-      logical :: finished
       integer :: status
 
       call open_standard_outputs()
       call join_processes(write_piece)
       call watch_ends()
-      call read_command_line(command, finished, status)
-      if (finished) call end_program(status)
+      call read_command_line(command, status)
+      if (status >= 0) then
+         call leave_processes()
+         call end_run(status)
+      end if
       call use_threads(command%threads)
       call tell_failed_writes()
    end subroutine start_program
@@ -274,30 +275,9 @@ contains
       if (another_increment) another_increment = analysis%increment < size(plan%stages(analysis%stage)%fractions)
    end function another_increment
 
-   !> Print the completed increment, and the stage that it completes, or the part of the stage before an early end.
+   !> Print the completed increment, with the state of the bodies where OUTPUT asks for it, and the stage that it completes, or the part
+   !! of the stage before an early end.
    subroutine print_increment(run, model, plan, system, analysis)
-      type(run_type), intent(inout)      :: run
-      type(model_type), intent(in)       :: model
-      type(stage_plan_type), intent(in)  :: plan
-      class(equation_system), intent(in) :: system
-      type(analysis_type), intent(inout) :: analysis
-      type(failure_type) :: overflow
-
-      call list_increment(run, model, plan, system, analysis)
-      if (is_over(run) .and. .not. run%keeps_results) return
-      if (analysis%increment == 0) return
-      if (analysis%increment < size(plan%stages(analysis%stage)%fractions) .and. .not. run%keeps_results) return
-      call run%progress%enter(phase_write)
-      call print_stage(model, plan, analysis, run%results, overflow)
-      if (overflow%raised) then
-         run%failure = overflow
-         run%keeps_results = .false.
-      end if
-      call run%progress%enter(phase_increments)
-   end subroutine print_increment
-
-   !> Print the increment, and the state of the bodies where OUTPUT asks for it.
-   subroutine list_increment(run, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
@@ -305,41 +285,47 @@ contains
       type(analysis_type), intent(inout) :: analysis
       type(failure_type)    :: overflow
       real(wp), allocatable :: u(:, :), unbalanced(:, :)
+      logical :: completes_stage
 
       run%keeps_results = run%failure%raised .and. run%ending == goes_on .and. analysis%record%ends_early
       if (is_over(run) .and. .not. run%keeps_results) return
+      completes_stage = analysis%increment == size(plan%stages(analysis%stage)%fractions)
       if (run%keeps_results .and. .not. analysis%record%is_partial) then ! all is printed but the tables of the end
          call recover_bodies(model, system, analysis)
-         return
+      else
+         call note_largest(analysis)
+         call follow_laws(model, analysis)
+         call watch_condition(system, analysis%record%condition)
+         if (plan%stages(analysis%stage)%output%condensed .and. analysis%increment == 1) &
+            call condense_on_joints(model, system, analysis%before%condensed_load, analysis%after%condensed_load, &
+                                    analysis%record%condensed)
+         call run%progress%enter(phase_recover)
+         if (run%keeps_results .or. analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) then
+            call recover_bodies(model, system, analysis)
+         else if (completes_stage) then
+            u = analysis%u                   ! a copy for the answer of the stage: the analysis continues from the original
+            unbalanced = analysis%unbalanced
+            call recover_bodies(model, system, analysis)
+            analysis%u = u
+            analysis%unbalanced = unbalanced
+         end if
+         call check_state(model, plan, system, analysis, overflow)
+         if (.not. overflow%raised) then
+            call run%progress%enter(phase_write)
+            run%progress%solver = system%description
+            call list_results(model, plan, analysis, run%results)
+            call run%progress%advance(analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%fractions))
+         end if
       end if
-      call note_largest(analysis)
-      call follow_laws(model, analysis)
-      call watch_condition(system, analysis%record%condition)
-      if (plan%stages(analysis%stage)%output%condensed .and. analysis%increment == 1) &
-         call condense_on_joints(model, system, analysis%before%condensed_load, analysis%after%condensed_load, &
-                                 analysis%record%condensed)
-      call run%progress%enter(phase_recover)
-      if (run%keeps_results .or. analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) then
-         call recover_bodies(model, system, analysis)
-      else if (analysis%increment == size(plan%stages(analysis%stage)%fractions)) then
-         u = analysis%u                   ! a copy for the answer of the stage: the analysis continues from the original
-         unbalanced = analysis%unbalanced
-         call recover_bodies(model, system, analysis)
-         analysis%u = u
-         analysis%unbalanced = unbalanced
+      if (analysis%increment > 0 .and. (completes_stage .or. run%keeps_results) .and. .not. overflow%raised) then
+         call run%progress%enter(phase_write)
+         call print_stage(model, plan, analysis, run%results, overflow)
       end if
-      call check_state(model, plan, system, analysis, overflow)
-      call check_precision(model, plan, system, analysis, overflow)
       if (overflow%raised) then
          run%failure = overflow
          run%keeps_results = .false.
-         return
       end if
-      call run%progress%enter(phase_write)
-      run%progress%solver = system%description
-      call list_results(model, plan, analysis, run%results)
-      call run%progress%advance(analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%fractions))
       call run%progress%enter(phase_increments)
-   end subroutine list_increment
+   end subroutine print_increment
 
 end module run_boxes

@@ -57,7 +57,6 @@ module equation_solver
 
    !> Statistics of coupled systems solved by conjugate residuals, with the present factor as preconditioner.
    type, public :: coupled_tally
-      real(wp) :: tolerance = 1.0e-4_wp              !! relative to the residual of u = 0
       integer :: most_steps = 25                     !! with a new factor
       integer :: price = 0                           !! steps that cost as much as a factorisation; 0: never worth while
       logical :: serves = .false.                    !! whether a factor of the present bodies exists

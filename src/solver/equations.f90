@@ -163,20 +163,16 @@ contains
       logical :: moves
 
       if (failure%raised) return
-      allocate (x(system%n))
       moves = .false.
       if (present(moved)) moves = any(abs(moved) > 0.0_wp)
-      if (moves) then
-         allocate (less, source=f)
-         do i = 1, size(system%interface)
-            associate (element => system%interface(i))
-               call add_global_force(element, -matmul(system%k_int(:, :, i), relative_movement(element, moved)), less)
-            end associate
-         end do
-         call gather(system, less, x)
-      else
-         call gather(system, f, x)
-      end if
+      allocate (less, source=f)
+      do i = 1, merge(size(system%interface), 0, moves)
+         associate (element => system%interface(i))
+            call add_global_force(element, -matmul(system%k_int(:, :, i), relative_movement(element, moved)), less)
+         end associate
+      end do
+      allocate (x(system%n))
+      call gather(system, less, x)
       system%options%digits = exact_digits
       if (present(digits)) system%options%digits = digits
       call system%solve(x, fault)
@@ -254,32 +250,33 @@ contains
       end do
    end subroutine put
 
-   !> Displacements U of the retained nodes with ([k_b] + sum of (K_INT + REST)) U = F on the free components, K_INT symmetric,
-   !! by conjugate residuals with a factor as preconditioner. The present factor is kept while two conditions hold: its steps
-   !! beyond those of a new factor cost less than a factorisation, and they are no more than the average since it was made.
-   !! Otherwise [k_b] + sum of K_INT is factorised. The residual is reduced below the tolerance of the system's tally times the
-   !! residual of U = 0, or as far as the limit of steps allows: the caller iterates anyway.
-   subroutine solve_coupled(model, k_int, rest, f, where, system, u, failure)
+   !> Replace the forces U on the retained nodes by the displacements with ([k_b] + sum of (K_INT + REST)) u = f on the free
+   !! components, K_INT symmetric, by conjugate residuals with a factor as preconditioner. The present factor is kept while two
+   !! conditions hold: its steps beyond those of a new factor cost less than a factorisation, and they are no more than the average
+   !! since it was made. Otherwise [k_b] + sum of K_INT is factorised. The residual is reduced below TOLERANCE times that of u = 0,
+   !! or as far as the steps reach.
+   subroutine solve_coupled(model, k_int, rest, where, tolerance, system, u, failure)
       type(model_type), intent(in)          :: model
-      real(wp), intent(in)                  :: k_int(:, :, :), rest(:, :, :) !! (3, 3, n) of elements, in their axes [force/length]
-      real(wp), intent(in)                  :: f(:, :)     !! (dimension, retained) [force]
-      character(*), intent(in)              :: where       !! for messages
+      real(wp), intent(in)                  :: k_int(:, :, :) !! (3, 3, n) of interface elements, in their axes [force/length]
+      real(wp), intent(in)                  :: rest(:, :, :)  !! likewise
+      character(*), intent(in)              :: where          !! as in form_structure_stiffness
+      real(wp), intent(in)                  :: tolerance
       class(equation_system), intent(inout) :: system
-      real(wp), intent(inout)               :: u(:, :)     !! likewise [length]
+      real(wp), intent(inout)               :: u(:, :)        !! (dimension, retained) [force] on entry, [length] on return
       type(failure_type), intent(inout)     :: failure
-      real(wp) :: digits_wanted
+      real(wp) :: digits_wanted, load(size(u, 1), size(u, 2))
       integer  :: i, own, steps
 
-      if (failure%raised) return
       if (.not. allocated(system%coupled%change)) allocate (system%coupled%change, mold=rest)
       associate (tally => system%coupled)
-         digits_wanted = -log10(tally%tolerance)
+         digits_wanted = -log10(tolerance)
+         load = u
          if (tally%serves .and. tally%price > 0 .and. tally%extra*tally%solved <= tally%spent) then
             do i = 1, size(rest, 3)
                tally%change(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i) + rest(:, :, i)) - system%k_int(:, :, i)
             end do
             own = nint(tally%own*digits_wanted)
-            call iterate_coupled(model, system, f, own + tally%price, u, steps, failure)
+            call iterate_coupled(model, tolerance, own + tally%price, system, u, steps, failure)
             if (failure%raised) return
             tally%extra = max(0, steps - own)
             tally%spent = tally%spent + tally%extra
@@ -291,7 +288,8 @@ contains
          do i = 1, size(rest, 3)
             tally%change(:, :, i) = global_stiffness(system%interface(i), rest(:, :, i))
          end do
-         call iterate_coupled(model, system, f, tally%most_steps, u, steps, failure)
+         u = load
+         call iterate_coupled(model, tolerance, tally%most_steps, system, u, steps, failure)
          tally%own = steps/digits_wanted
          tally%extra = 0
          tally%spent = tally%price
@@ -299,44 +297,43 @@ contains
       end associate
    end subroutine solve_coupled
 
-   !> Solve the system of the last solve_coupled for another right-hand side F.
-   subroutine solve_coupled_again(model, f, system, u, failure)
+   !> Replace other forces U by the displacements under the stiffness of the last solve_coupled.
+   subroutine solve_coupled_again(model, tolerance, system, u, failure)
       type(model_type), intent(in)          :: model
-      real(wp), intent(in)                  :: f(:, :)     !! (dimension, retained) [force]
+      real(wp), intent(in)                  :: tolerance
       class(equation_system), intent(inout) :: system
-      real(wp), intent(inout)               :: u(:, :)     !! likewise [length]
+      real(wp), intent(inout)               :: u(:, :)     !! (dimension, retained) [force] on entry, [length] on return
       type(failure_type), intent(inout)     :: failure
       integer :: steps
 
-      call iterate_coupled(model, system, f, system%coupled%most_steps, u, steps, failure, again=.true.)
+      call iterate_coupled(model, tolerance, system%coupled%most_steps, system, u, steps, failure, again=.true.)
    end subroutine solve_coupled_again
 
-   !> Solve ([k] + sum of CHANGE) U = F by generalised conjugate residuals in STEPS steps, [k] being the stiffness in SYSTEM.
-   !! STEPS exceeds MOST_STEPS where the residual is not below the tolerance of the tally times the residual of U = 0.
+   !> Replace the forces U by the displacements with ([k] + sum of CHANGE) u = f by generalised conjugate residuals in STEPS steps,
+   !! [k] being the stiffness in SYSTEM. STEPS exceeds MOST_STEPS where the residual is not below TOLERANCE times that of u = 0.
    !! Directions of earlier systems with the same [k] are kept: their products with [k] are known, so they cost no solution.
    !! Sources: Eisenstat, Elman, Schultz, SIAM J. Numer. Anal. 20 (1983) 345-357, preconditioned from the right; Parks et al.,
    !! SIAM J. Sci. Comput. 28 (2006) 1651-1674.
-   subroutine iterate_coupled(model, system, f, most_steps, u, steps, failure, again)
+   subroutine iterate_coupled(model, tolerance, most_steps, system, u, steps, failure, again)
       type(model_type), intent(in)          :: model
-      class(equation_system), intent(inout) :: system
-      real(wp), intent(in)                  :: f(:, :)
+      real(wp), intent(in)                  :: tolerance
       integer, intent(in)                   :: most_steps
+      class(equation_system), intent(inout) :: system
       real(wp), intent(inout)               :: u(:, :)
       integer, intent(out)                  :: steps
       type(failure_type), intent(inout)     :: failure
       logical, intent(in), optional         :: again       !! the kept directions are those of this system; false
       type(solver_direction), allocatable :: directions(:)
-      logical  :: held(size(f, 1), size(f, 2))
-      real(wp) :: left(size(f, 1), size(f, 2)), enough
+      logical  :: held(size(u, 1), size(u, 2))
+      real(wp) :: left(size(u, 1), size(u, 2)), enough
       integer  :: i, n, n_kept
 
       steps = 0
-      u = 0.0_wp
-      if (failure%raised) return
       held = system%held_now()
-      left = merge(0.0_wp, f, held)
-      enough = system%coupled%tolerance*norm2(left)
-      if (enough <= 0.0_wp) return
+      left = merge(0.0_wp, u, held)
+      u = 0.0_wp
+      enough = tolerance*norm2(left)
+      if (failure%raised .or. enough <= 0.0_wp) return
       n_kept = 0
       if (allocated(system%coupled%kept)) n_kept = size(system%coupled%kept)
       allocate (directions(n_kept + most_steps))
@@ -347,37 +344,54 @@ contains
       end do
       do i = n + 1, n_kept ! new directions replace useless ones
          if (i > n + 1) directions(n + 1) = directions(i)
-         call add_direction(directions(:n + 1))
+         call add_direction()
       end do
       do while (norm2(left) > enough)
          steps = steps + 1
          if (steps > most_steps) exit
          associate (new => directions(n + 1))
             new%force = left
-            new%u = f
+            new%u = left
             call solve_equations(model, system, left, new%u, failure, digits=digits)
          end associate
          if (failure%raised) return
          i = n
-         call add_direction(directions(:n + 1))
+         call add_direction()
          if (n == i) steps = most_steps ! no direction reduces the residual
       end do
       system%coupled%kept = directions(max(0, n - most_kept) + 1:n)
 
    contains
 
-      !> Make the last of these DIRECTIONS independent of the others and reduce LEFT along it, unless nothing new remains of it.
-      subroutine add_direction(directions)
-         type(solver_direction), intent(inout) :: directions(:)
-         logical :: is_new
+      !> Find the product of the coupled stiffness and direction N + 1, orthogonalise it against those of the N directions, give
+      !! it the length 1, and reduce LEFT along it; N grows. Nothing is done where only rounding remains of the product.
+      subroutine add_direction()
+         real(wp) :: length, product(size(left, 1), size(left, 2)), share
+         integer  :: j
 
-         associate (new => directions(size(directions)))
-            new%product = merge(0.0_wp, change_times(system, new%u), held) + new%force
+         associate (new => directions(n + 1))
+            product = 0.0_wp
+            do j = 1, size(system%interface)
+               associate (element => system%interface(j))
+                  call add_global_force(element, matmul(system%coupled%change(:, :, j), relative_movement(element, new%u)), product)
+               end associate
+            end do
+            new%product = merge(0.0_wp, product, held) + new%force
+            length = norm2(new%product)
+            do j = 1, n
+               share = sum(directions(j)%product*new%product)
+               new%product = new%product - share*directions(j)%product
+               new%u = new%u - share*directions(j)%u
+               new%force = new%force - share*directions(j)%force
+            end do
+            if (.not. norm2(new%product) > dependent*length) return
+            length = norm2(new%product)
+            new%product = new%product/length
+            new%u = new%u/length
+            new%force = new%force/length
+            call go_along(new)
          end associate
-         call orthogonalise(directions, is_new)
-         if (.not. is_new) return
          n = n + 1
-         call go_along(directions(size(directions)))
       end subroutine add_direction
 
       !> Reduce LEFT along a DIRECTION.
@@ -391,45 +405,5 @@ contains
       end subroutine go_along
 
    end subroutine iterate_coupled
-
-   !> The changes of the interface stiffness times the displacements U.
-   function change_times(system, u) result(f)
-      class(equation_system), intent(in) :: system
-      real(wp), intent(in)               :: u(:, :) !! (dimension, retained) [length]
-      real(wp) :: f(size(u, 1), size(u, 2))
-      integer  :: i
-
-      f = 0.0_wp
-      do i = 1, size(system%interface)
-         associate (element => system%interface(i))
-            call add_global_force(element, matmul(system%coupled%change(:, :, i), relative_movement(element, u)), f)
-         end associate
-      end do
-   end function change_times
-
-   !> Orthogonalise the product of the last of DIRECTIONS against the products of the others, and give it the length 1. IS_NEW is
-   !! false where nothing but rounding remains of it.
-   subroutine orthogonalise(directions, is_new)
-      type(solver_direction), intent(inout) :: directions(:)
-      logical, intent(out)                  :: is_new
-      real(wp) :: length, share
-      integer  :: i
-
-      associate (new => directions(size(directions)))
-         length = norm2(new%product)
-         do i = 1, size(directions) - 1
-            share = sum(directions(i)%product*new%product)
-            new%product = new%product - share*directions(i)%product
-            new%u = new%u - share*directions(i)%u
-            new%force = new%force - share*directions(i)%force
-         end do
-         is_new = norm2(new%product) > dependent*length
-         if (.not. is_new) return
-         length = norm2(new%product)
-         new%product = new%product/length
-         new%u = new%u/length
-         new%force = new%force/length
-      end associate
-   end subroutine orthogonalise
 
 end module equations

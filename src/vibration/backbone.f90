@@ -44,8 +44,8 @@ module backbone
 
 contains
 
-   !> Choose the mode of the backbone FOUND, with the loops that ANALYSIS has kept. FAILURE where the state at the end of the stage
-   !! is not in equilibrium.
+   !> Choose the mode of the backbone FOUND and the node whose displacement is the amplitude, with the loops that ANALYSIS has kept.
+   !! FAILURE where the state at the end of the stage is not in equilibrium.
    subroutine start_backbone(model, plan, analysis, system, modes, found, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
@@ -54,16 +54,32 @@ contains
       type(modes_type), intent(in)       :: modes
       type(backbone_type), intent(out)   :: found
       type(failure_type), intent(inout)  :: failure
-      integer :: i
+      real(wp), allocatable :: moved(:)
+      integer :: i, k
 
+      found%problem = ''
+      allocate (found%loops(0))
       associate (wanted => plan%stages(analysis%stage)%vibration%backbone)
-         call choose_mode(model, modes, wanted, found)
-         if (index(system%description%name, 'PETSC') == 1) found%problem = 'IT NEEDS SOLVER = TREE OR SKYLINE'
-         if (found%problem /= '') return
-         allocate (found%modal)
-         associate (mode => modes%modes(wanted%mode - modes%n_before))
-            call start_modal_load(model, plan, analysis, system, mode%u/sqrt(mode%mass), found%modal, failure)
-         end associate
+         found%mode = wanted%mode
+         k = wanted%mode - modes%n_before
+         if (k < 1 .or. k > size(modes%modes)) then
+            found%problem = 'THE MODE IS NOT AMONG THOSE FOUND'
+         else if (modes%modes(k)%is_rigid) then
+            found%problem = 'THE MODE HAS NO STRAIN'
+         else
+            moved = sqrt(sum(modes%modes(k)%u(:, :n_points(model))**2, dim=1)/modes%modes(k)%mass)
+            found%omega_squared = modes%modes(k)%lambda
+            found%node = wanted%node
+            if (found%node == 0) found%node = findloc(moved >= (1.0_wp - reached)*maxval(moved), .true., dim=1)
+            found%peak = moved(found%node)
+            if (found%peak <= reached*maxval(moved)) found%problem = 'THE REQUESTED NODE DOES NOT MOVE IN THIS MODE'
+         end if
+      end associate
+      if (index(system%description%name, 'PETSC') == 1) found%problem = 'IT NEEDS SOLVER = TREE OR SKYLINE'
+      if (found%problem /= '') return
+      allocate (found%modal)
+      associate (mode => modes%modes(k))
+         call start_modal_load(model, plan, analysis, system, mode%u/sqrt(mode%mass), found%modal, failure)
       end associate
       if (allocated(analysis%kept)) &
          found%loops = [(taken_up(size(model%joints), analysis%kept(:, i)), i = 1, size(analysis%kept, 2))]
@@ -84,31 +100,12 @@ contains
          more = found%problem == '' .and. i <= size(wanted%amplitudes)
          if (.not. more) return
          call show_line('backbone, amplitude '//integer_text(i)//' of '//integer_text(size(wanted%amplitudes)), at_once=i == 1)
-         call reach_amplitude(model, wanted, wanted%amplitudes(i), found%modal, found, loop)
+         call reach_amplitude(model, wanted, wanted%amplitudes(i), found, loop)
          if (loop%n_loops > 0) found%loops = [found%loops, loop]
          more = found%problem == ''
          if (more) analysis%kept = reshape([(numbers_of(found%loops(k)), k = 1, i)], [size(numbers_of(loop)), i])
       end associate
    end subroutine find_loop
-
-   !> Complete the backbone FOUND: the response of the mode along it, where the stage asks for a response.
-   subroutine finish_backbone(model, vibration, modes, found)
-      type(model_type), intent(in)          :: model
-      type(vibration_plan_type), intent(in) :: vibration
-      type(modes_type), intent(in)          :: modes
-      type(backbone_type), intent(inout)    :: found
-      real(wp) :: loss
-
-      if (.not. allocated(found%modal)) return
-      if (allocated(vibration%response)) then
-         associate (mode => modes%modes(found%mode - modes%n_before))
-            loss = mode%material_loss
-            if (allocated(vibration%response%damping)) loss = loss + loss_at(vibration%response%damping, mode%frequency)
-         end associate
-         call find_answers(abs(sum(found%modal%phi*vibration%response%force(:model%dimension, :))), loss, found)
-      end if
-      deallocate (found%modal)
-   end subroutine finish_backbone
 
    !> The printed numbers of LOOP, for a restart file; and a loop of these NUMBERS.
    pure function numbers_of(loop) result(numbers)
@@ -128,47 +125,20 @@ contains
                        way=reshape(numbers(11 + n_joints:), [2, (size(numbers) - 10 - n_joints)/2]))
    end function taken_up
 
-   !> The mode WANTED among MODES, and the node whose displacement is the amplitude.
-   subroutine choose_mode(model, modes, wanted, found)
-      type(model_type), intent(in)       :: model
-      type(modes_type), intent(in)       :: modes
-      type(backbone_plan), intent(in)    :: wanted
-      type(backbone_type), intent(inout) :: found
-      real(wp), allocatable :: moved(:)
-
-      found%mode = wanted%mode
-      found%problem = ''
-      allocate (found%loops(0))
-      associate (k => wanted%mode - modes%n_before)
-         if (k < 1 .or. k > size(modes%modes)) then
-            found%problem = 'THE MODE IS NOT AMONG THOSE FOUND'
-         else if (modes%modes(k)%is_rigid) then
-            found%problem = 'THE MODE HAS NO STRAIN'
-         else
-            moved = sqrt(sum(modes%modes(k)%u(:, :n_points(model))**2, dim=1)/modes%modes(k)%mass)
-            found%omega_squared = modes%modes(k)%lambda
-            found%node = wanted%node
-            if (found%node == 0) found%node = findloc(moved >= (1.0_wp - reached)*maxval(moved), .true., dim=1)
-            found%peak = moved(found%node)
-            if (found%peak <= reached*maxval(moved)) found%problem = 'THE REQUESTED NODE DOES NOT MOVE IN THIS MODE'
-         end if
-      end associate
-   end subroutine choose_mode
-
    !> The LOOP of this AMPLITUDE, by secants over the load, bracketed by loads found too small and too large. A load that the
    !! structure does not carry is too large. Where no load remains below it, the last loop is that of the largest load carried,
    !! if it adds one.
-   subroutine reach_amplitude(model, wanted, amplitude, modal, found, loop)
+   subroutine reach_amplitude(model, wanted, amplitude, found, loop)
       type(model_type), intent(in)       :: model
       type(backbone_plan), intent(in)    :: wanted
       real(wp), intent(in)               :: amplitude
-      type(modal_load_type), intent(inout) :: modal
       type(backbone_type), intent(inout) :: found
       type(loop_type), intent(out)       :: loop
       type(trial_type)   :: low, high, now, before
       type(loop_type)    :: next, best
       type(failure_type) :: refused, none
-      integer :: trial
+      real(wp) :: alpha
+      integer  :: trial
 
       high%alpha = huge(1.0_wp)
       now%alpha = found%omega_squared*amplitude/found%peak
@@ -180,7 +150,7 @@ contains
       before = low
       do trial = 1, most_trials
          refused = none
-         call run_loops(model, modal, wanted, now%alpha, .false., next, refused)
+         call run_loops(model, found%modal, wanted, now%alpha, .false., next, refused)
          if (refused%raised) then
             high = trial_type(now%alpha, huge(1.0_wp))
             found%problem = refused%message
@@ -195,7 +165,13 @@ contains
             else
                high = now
             end if
-            call next_trial(amplitude, low, high, before, now)
+            alpha = -1.0_wp ! of the secant through now and before
+            if (abs(now%amplitude - before%amplitude) > 0.0_wp) alpha = now%alpha + (amplitude - now%amplitude)* &
+               (now%alpha - before%alpha)/(now%amplitude - before%amplitude)
+            before = now
+            now%alpha = alpha
+            if (.not. (alpha > low%alpha .and. alpha < high%alpha)) &
+               now%alpha = merge(0.5_wp*(low%alpha + high%alpha), 2.0_wp*low%alpha, high%alpha < huge(1.0_wp))
          end if
          if (high%alpha - low%alpha <= same*high%alpha) exit
          found%is_limited = high%amplitude >= huge(1.0_wp) .and. high%alpha - low%alpha <= near_limit*high%alpha
@@ -207,36 +183,30 @@ contains
          found%problem = ''
       end if
       if (loop%n_loops == 0) return
-      call run_loops(model, modal, wanted, loop%alpha, .true., next, refused)
+      call run_loops(model, found%modal, wanted, loop%alpha, .true., next, refused)
       if (.not. refused%raised) loop = next
    end subroutine reach_amplitude
 
-   !> The next trial NOW, by the secant through NOW and BEFORE, within LOW and HIGH.
-   pure subroutine next_trial(amplitude, low, high, before, now)
-      real(wp), intent(in)            :: amplitude
-      type(trial_type), intent(in)    :: low, high
-      type(trial_type), intent(inout) :: before, now
-      real(wp) :: alpha
-
-      alpha = -1.0_wp
-      if (abs(now%amplitude - before%amplitude) > 0.0_wp) alpha = now%alpha + (amplitude - now%amplitude)* &
-         (now%alpha - before%alpha)/(now%amplitude - before%amplitude)
-      before = now
-      if (.not. (alpha > low%alpha .and. alpha < high%alpha)) then
-         alpha = 2.0_wp*low%alpha
-         if (high%alpha < huge(1.0_wp)) alpha = 0.5_wp*(low%alpha + high%alpha)
-      end if
-      now%alpha = alpha
-   end subroutine next_trial
-
-   !> The response of the mode alone to the modal force FORCE, at every amplitude of FOUND and between these (linear over log
-   !! q); LOSS is the loss factor without the joints. The two frequencies meet at resonance, which has a row of its own.
-   subroutine find_answers(force, loss, found)
-      real(wp), intent(in)               :: force, loss
-      type(backbone_type), intent(inout) :: found
-      real(wp) :: row(5), excess, before, low, high, w
+   !> Complete the backbone FOUND. Where the stage asks for a response, this is the response of the mode alone to the modal force,
+   !! at every amplitude of FOUND and between these (linear over log q). The two frequencies meet at resonance, which has a row of
+   !! its own.
+   subroutine finish_backbone(model, vibration, modes, found)
+      type(model_type), intent(in)          :: model
+      type(vibration_plan_type), intent(in) :: vibration
+      type(modes_type), intent(in)          :: modes
+      type(backbone_type), intent(inout)    :: found
+      real(wp) :: row(5), before, excess, force, high, loss, low, w ! loss factor without the joints
       integer  :: i, k, n
 
+      if (.not. allocated(found%modal)) return
+      if (allocated(vibration%response)) &
+         force = abs(sum(found%modal%phi*vibration%response%force(:model%dimension, :)))
+      deallocate (found%modal)
+      if (.not. allocated(vibration%response)) return
+      associate (mode => modes%modes(found%mode - modes%n_before))
+         loss = mode%material_loss
+         if (allocated(vibration%response%damping)) loss = loss + loss_at(vibration%response%damping, mode%frequency)
+      end associate
       allocate (found%answers(5, 0))
       before = 1.0_wp
       do i = 1, size(found%loops)
@@ -285,6 +255,6 @@ contains
          row(5) = -180.0_wp - row(3)
       end subroutine answer
 
-   end subroutine find_answers
+   end subroutine finish_backbone
 
 end module backbone

@@ -291,7 +291,7 @@ contains
       type(analysis_type), intent(inout) :: now
       type(loop_type), intent(inout)     :: loop
       type(failure_type), intent(inout)  :: failure
-      real(wp), allocatable :: u_low(:, :)
+      real(wp), allocatable :: u_low(:, :), d(:, :), f(:, :), other(:, :)
       real(wp) :: area, high, low, top, share
       integer  :: j
 
@@ -322,27 +322,16 @@ contains
       share = 1.0_wp/max(1, size(model%interface))
       loop%slipping = share*count(loop%has_slipped)
       loop%open = share*count(loop%has_opened)
-      loop%distortion = distortion_of(model, modal, 0.5_wp*(now%u - u_low), loop)
-   end subroutine run_loop
 
-   !> The part of the movement U of retained nodes, half of that between the turning points, that differs from phi: |d - q
-   !! phi|/|d|, d the movement of all nodes, in the norm of [M] [-].
-   function distortion_of(model, modal, u, loop) result(share)
-      type(model_type), intent(in)       :: model
-      type(modal_load_type), intent(in)        :: modal
-      real(wp), intent(in)               :: u(:, :)
-      type(loop_type), intent(in)        :: loop
-      real(wp) :: share
-      real(wp), allocatable :: d(:, :), f(:, :), other(:, :)
-
+      ! |d - q phi|/|d| in the norm of [M], d the movement of all nodes, half of that between the turning points
       allocate (d, f, mold=modal%phi)
-      call recover_displacements(modal%system, forces_on_unknowns(model, loop%alpha*modal%force), u, d)
+      call recover_displacements(modal%system, forces_on_unknowns(model, loop%alpha*modal%force), 0.5_wp*(now%u - u_low), d)
       d = displacements(model, d)
       other = d - loop%q*modal%phi
       call mass_times(model, modal%mass, other, f)
-      share = max(0.0_wp, sum(other*f))
+      loop%distortion = max(0.0_wp, sum(other*f))
       call mass_times(model, modal%mass, d, f)
-      share = sqrt(share/sum(d*f))
-   end function distortion_of
+      loop%distortion = sqrt(loop%distortion/sum(d*f))
+   end subroutine run_loop
 
 end module modal_loops

@@ -30,7 +30,7 @@ module mode_values
    use model_data, only: bar_nodes, model_type, n_bars, n_points
    use natural_modes, only: oscillating_type, spectrum_type
    use node_coupling, only: participating_nodes
-   use normal_stiffness, only: touches
+   use normal_stiffness, only: branch_open
    use shear_loops, only: loop_loss, no_limit
    use stage_plan, only: vibration_plan_type
    implicit none
@@ -80,44 +80,34 @@ module mode_values
 
 contains
 
-   !> Rotate the shapes of every group of equal LAMBDA among themselves.
+   !> Rotate the shapes of every group of equal LAMBDA among themselves: for each row of PARTICIPATION that is not weak, then of U,
+   !! give the remaining components to one mode.
    subroutine settle_equal_modes(lambda, mass, participation, u)
       real(wp), intent(in)    :: lambda(:)           !! ascending
       real(wp), intent(in)    :: mass                !! of the structure
       real(wp), intent(inout) :: participation(:, :) !! (directions, modes)
       real(wp), intent(inout) :: u(:, :, :)          !! (dimension, n_nodes, modes), of generalised mass 1
-      integer :: first, last
+      integer :: at(2), d, last, next
 
-      first = 1
-      do while (first <= size(lambda))
-         last = first
+      last = 0
+      do while (last < size(lambda))
+         next = last + 1 ! the first mode of the group
+         last = next
          do while (last < size(lambda))
             if (lambda(last + 1) - lambda(last) > equal*abs(lambda(last + 1))) exit
             last = last + 1
          end do
-         if (last > first) call settle_group(weak*sqrt(mass), participation(:, first:last), u(:, :, first:last))
-         first = last + 1
-      end do
-   end subroutine settle_equal_modes
-
-   !> Rotate the modes of one group: for each row of PARTICIPATION above LEAST, then of U, give the remaining components to one
-   !! mode.
-   subroutine settle_group(least, participation, u)
-      real(wp), intent(in)    :: least
-      real(wp), intent(inout) :: participation(:, :), u(:, :, :)
-      integer :: at(2), d, next
-
-      next = 1
-      do d = 1, size(participation, 1)
-         if (next == size(u, 3)) return
-         if (norm2(participation(d, next:)) > least) call give_to_one((participation(d, next:)))
-      end do
-      do while (next < size(u, 3)) ! the first component and node, in their order, whose displacement in all modes is almost
-                                   ! the largest
-         associate (squares => sum(u(:, :, next:)**2, dim=3))
-            at = findloc(squares >= near**2*maxval(squares), .true.)
-         end associate
-         call give_to_one((u(at(1), at(2), next:)))
+         do d = 1, size(participation, 1)
+            if (next == last) exit
+            if (norm2(participation(d, next:last)) > weak*sqrt(mass)) call give_to_one((participation(d, next:last)))
+         end do
+         do while (next < last) ! the first component and node, in their order, whose displacement in all modes is almost
+                                ! the largest
+            associate (squares => sum(u(:, :, next:last)**2, dim=3))
+               at = findloc(squares >= near**2*maxval(squares), .true.)
+            end associate
+            call give_to_one((u(at(1), at(2), next:last)))
+         end do
       end do
 
    contains
@@ -132,19 +122,19 @@ contains
          v(1) = v(1) + sign(norm2(row), row(1))
          v = v/norm2(v)
          do n = 1, size(participation, 1)
-            along = dot_product(v, participation(n, next:))
-            participation(n, next:) = participation(n, next:) - 2.0_wp*along*v
+            along = dot_product(v, participation(n, next:last))
+            participation(n, next:last) = participation(n, next:last) - 2.0_wp*along*v
          end do
          do n = 1, size(u, 2)
             do c = 1, size(u, 1)
-               along = dot_product(v, u(c, n, next:))
-               u(c, n, next:) = u(c, n, next:) - 2.0_wp*along*v
+               along = dot_product(v, u(c, n, next:last))
+               u(c, n, next:last) = u(c, n, next:last) - 2.0_wp*along*v
             end do
          end do
          next = next + 1
       end subroutine give_to_one
 
-   end subroutine settle_group
+   end subroutine settle_equal_modes
 
    !> Set the sign of a shape: its largest component, the first of almost equal ones, is positive.
    pure subroutine settle_sign(participation, u)
@@ -173,7 +163,7 @@ contains
       modes%n_before = spectrum%n_before
       modes%n_counted = spectrum%n_counted
       modes%counted_at = merge(sqrt(spectrum%counted_at)/two_pi, huge(1.0_wp), spectrum%counted_at < huge(1.0_wp))
-      modes%n_touching = count(touches(analysis%states%normal))
+      modes%n_touching = count(analysis%states%normal%branch /= branch_open)
       call total_mass(model, structure%mass, modes%mass, modes%centre, modes%inertia)
       n = size(spectrum%lambda)
       allocate (u(model%dimension, model%n_nodes, n), g(model%dimension, n))
@@ -266,7 +256,7 @@ contains
       lost = 0.0_wp
       do i = 1, size(model%interface)
          associate (state => analysis%states(i), law => model%joints(model%interface(i)%joint)%law)
-            if (.not. touches(state%normal)) cycle
+            if (state%normal%branch == branch_open) cycle
             limit = no_limit
             if (law%has_friction) limit = friction_limit(law, state%normal%pressure)
             movement = factor*joint_movement(model%interface(i), mode%u)
@@ -299,23 +289,39 @@ contains
       self%damped = factor*self%damped
    end subroutine scale
 
-   !> The strain energies of the shapes U, half of u^T [k] u for each part, and the forces F = [k] U.
+   !> The strain energies of the shapes U, half of u^T [k] u for each part, and the forces F = [k] U. Each element is formed once,
+   !! for all shapes.
    pure subroutine strain_energies(model, structure, u, energies, f)
       type(model_type), intent(in)       :: model
       type(oscillating_type), intent(in) :: structure
       real(wp), intent(in)               :: u(:, :, :)  !! (dimension, n_nodes, modes) [length]
       type(energy_type), intent(out)     :: energies(:) !! (modes)
       real(wp), intent(out)              :: f(:, :, :)  !! as U [force]
+      real(wp) :: k(max_felt_dofs, max_felt_dofs), q(max_felt_dofs, size(energies)), p(max_felt_dofs, size(energies)), own
       real(wp) :: movement(3), tension
-      integer  :: body(model%n_elements), i, j, m, n_bodies
+      integer  :: body(model%n_elements), d, e, i, j, m, n, n_bodies
 
+      d = model%dimension
       f = 0.0_wp
       call find_bodies(model, body, n_bodies)
       do m = 1, size(energies)
          allocate (energies(m)%body(n_bodies), energies(m)%bar(n_bars(model)), energies(m)%normal(size(model%joints)), &
                    energies(m)%shear(size(model%joints)), source=0.0_wp)
       end do
-      call strain_bodies(model, body, u, energies, f)
+      do e = 1, model%n_elements
+         call element_stiffness(model, e, k)
+         associate (nodes => participating_nodes(model, e))
+            n = d*size(nodes)
+            q(:n, :) = reshape(u(:, nodes, :), [n, size(energies)])
+            p(:n, :) = matmul(k(:n, :n), q(:n, :))
+            f(:, nodes, :) = f(:, nodes, :) + reshape(p(:n, :), [d, size(nodes), size(energies)])
+         end associate
+         do m = 1, size(energies)
+            own = 0.5_wp*dot_product(q(:n, m), p(:n, m))
+            energies(m)%body(body(e)) = energies(m)%body(body(e)) + own
+            energies(m)%damped = energies(m)%damped + model%properties(model%element_property(e))%damping*own
+         end do
+      end do
       do m = 1, size(energies)
          do i = 1, n_bars(model)
             if (.not. structure%is_elastic(i)) cycle
@@ -328,43 +334,14 @@ contains
          end do
          do i = 1, size(model%interface)
             movement = joint_movement(model%interface(i), u(:, :, m))
-            associate (k => structure%k(:, i))
+            associate (k_int => structure%k(:, i))
                j = model%interface(i)%joint
-               energies(m)%shear(j) = energies(m)%shear(j) + 0.5_wp*sum(k(:2)*movement(:2)**2)
-               energies(m)%normal(j) = energies(m)%normal(j) + 0.5_wp*k(3)*movement(3)**2
-               call add_force(model%interface(i), k*movement, f(:, :, m))
+               energies(m)%shear(j) = energies(m)%shear(j) + 0.5_wp*sum(k_int(:2)*movement(:2)**2)
+               energies(m)%normal(j) = energies(m)%normal(j) + 0.5_wp*k_int(3)*movement(3)**2
+               call add_force(model%interface(i), k_int*movement, f(:, :, m))
             end associate
          end do
       end do
    end subroutine strain_energies
-
-   !> The strain energies of the bodies: each element once, for all shapes.
-   pure subroutine strain_bodies(model, body, u, energies, f)
-      type(model_type), intent(in)     :: model
-      integer, intent(in)              :: body(:) !! (n_elements)
-      real(wp), intent(in)             :: u(:, :, :)
-      type(energy_type), intent(inout) :: energies(:)
-      real(wp), intent(inout)          :: f(:, :, :)
-      real(wp) :: k(max_felt_dofs, max_felt_dofs), q(max_felt_dofs, size(energies)), p(max_felt_dofs, size(energies)), own
-      integer  :: d, e, m, n
-
-      d = model%dimension
-      do e = 1, model%n_elements
-         call element_stiffness(model, e, k)
-         associate (nodes => participating_nodes(model, e))
-            n = d*size(nodes)
-            q(:n, :) = reshape(u(:, nodes, :), [n, size(energies)])
-            p(:n, :) = matmul(k(:n, :n), q(:n, :))
-            f(:, nodes, :) = f(:, nodes, :) + reshape(p(:n, :), [d, size(nodes), size(energies)])
-            do m = 1, size(energies)
-               own = 0.5_wp*dot_product(q(:n, m), p(:n, m))
-               associate (energy => energies(m))
-                  energy%body(body(e)) = energy%body(body(e)) + own
-                  energy%damped = energy%damped + model%properties(model%element_property(e))%damping*own
-               end associate
-            end do
-         end associate
-      end do
-   end subroutine strain_bodies
 
 end module mode_values

@@ -155,7 +155,9 @@ contains
       call hold_bolts(model, structure, system)
    end subroutine find_natural_modes
 
-   !> Some of the modes of a large structure.
+   !> Some of the modes of a large structure, from the lower end of the range on or from below. They are found until their number
+   !! agrees with the count: at the upper end of the range, or without an end in the first clear gap behind the last wanted mode,
+   !! or behind all modes where few nodes have mass.
    subroutine find_some(model, structure, plan, spectrum, failure)
       type(model_type), intent(in)          :: model
       type(oscillating_type), intent(in)    :: structure
@@ -163,7 +165,7 @@ contains
       type(spectrum_type), intent(inout)    :: spectrum
       type(failure_type), intent(inout)     :: failure
       class(equation_system), allocatable   :: system
-      integer :: below_end
+      integer :: below_end, last, n, trial, under
 
       below_end = huge(1)
       if (plan%has_highest) then
@@ -174,21 +176,65 @@ contains
       if (plan%has_lowest) then
          spectrum%shift = (two_pi*plan%lowest)**2
          call factorise_beside(model, structure, spectrum%shift, system, failure)
-         if (failure%raised) return
-         spectrum%n_before = system%n_negative
+         if (.not. failure%raised) spectrum%n_before = system%n_negative
       end if
       if (failure%raised) return
       spectrum%n_wanted = min(spectrum%n_wanted, below_end - spectrum%n_before)
       if (needs_all(structure%started, spectrum%n_wanted)) then
          if (allocated(system)) deallocate (system)
          call find_all(model, structure, plan, spectrum, failure)
+         return
       else if (spectrum%n_wanted <= 0) then
          spectrum%n_wanted = 0
          allocate (spectrum%lambda(0), spectrum%x(structure%started%n, 0))
-      else
-         if (.not. plan%has_lowest) call search_from_below(model, structure, spectrum%n_wanted + beyond, spectrum, system, failure)
-         call find_and_count(model, structure, below_end, spectrum, system, failure)
+         return
       end if
+
+      if (.not. plan%has_lowest) call search_from_below(model, structure, spectrum%n_wanted + beyond, spectrum, system, failure)
+      n = spectrum%n_wanted + beyond
+      do trial = 1, most_trials
+         n = min(n, structure%started%n - 1)
+         if (.not. allocated(system)) call factorise_at(model, structure, spectrum%shift, system, failure)
+         if (.not. failure%raised .and. (trial > 1 .or. .not. allocated(spectrum%lambda))) &
+            call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
+         if (failure%raised) return
+         spectrum%lambda(:spectrum%n_rigid) = 0.0_wp
+         associate (lambda => spectrum%lambda, wanted => spectrum%n_wanted)
+            if (wanted == below_end - spectrum%n_before) then ! the whole range, which has been counted; a mode may be at its end
+               if (count(lambda < (1.0_wp - clear)*spectrum%counted_at) <= wanted .and. &
+                   count(lambda < (1.0_wp + clear)*spectrum%counted_at) >= wanted) return
+               n = n + beyond
+               cycle
+            end if
+            last = findloc(lambda(wanted + 1:) - lambda(wanted:size(lambda) - 1) > clear*abs(lambda(wanted + 1:)), .true., dim=1)
+            if (last > 0) then
+               last = wanted - 1 + last
+               spectrum%counted_at = 0.5_wp*(lambda(last) + lambda(last + 1))
+            else if (size(lambda) < n) then ! no more modes exist
+               last = size(lambda)
+               spectrum%counted_at = 2.0_wp*maxval([lambda, abs(spectrum%shift)])
+               if (.not. spectrum%counted_at > 0.0_wp) then ! no free unknown has mass
+                  wanted = 0
+                  return
+               end if
+            else
+               n = 2*n
+               cycle
+            end if
+            deallocate (system)
+            call count_below(model, structure, spectrum%counted_at, under, failure)
+            if (failure%raised) return
+            spectrum%n_counted = under
+            if (under - spectrum%n_before == last) then
+               wanted = min(wanted, last)
+               return
+            end if
+            n = max(n, under - spectrum%n_before) + beyond
+         end associate
+      end do
+      call failure%raise('MODES: '//integer_text(spectrum%n_counted)//' modes were counted, and '// &
+                         integer_text(spectrum%n_before + size(spectrum%lambda))//' found in '// &
+                         integer_text(most_trials)//' trials')
    end subroutine find_some
 
    !> All modes of a small structure, and the range of them.
@@ -216,75 +262,6 @@ contains
       spectrum%lambda = spectrum%lambda(spectrum%n_before + 1:)
       spectrum%x = spectrum%x(:, spectrum%n_before + 1:)
    end subroutine find_all
-
-   !> Find the modes from the shift of SYSTEM on, and more of them until their number agrees with the count. The count is that
-   !! at the end of the range, BELOW_END. Without an end it is taken in the first clear gap behind the last wanted mode, or
-   !! behind all modes where few nodes have mass.
-   subroutine find_and_count(model, structure, below_end, spectrum, system, failure)
-      type(model_type), intent(in)       :: model
-      type(oscillating_type), intent(in) :: structure
-      integer, intent(in)                :: below_end
-      type(spectrum_type), intent(inout) :: spectrum
-      class(equation_system), allocatable, intent(inout) :: system
-      type(failure_type), intent(inout)  :: failure
-      integer :: last, n, trial, under
-
-      n = spectrum%n_wanted + beyond
-      do trial = 1, most_trials
-         if (failure%raised) return
-         n = min(n, structure%started%n - 1)
-         if (.not. allocated(system)) call factorise_at(model, structure, spectrum%shift, system, failure)
-         if (failure%raised) return
-         if (trial > 1 .or. .not. allocated(spectrum%lambda)) &
-            call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
-         if (failure%raised) return
-         spectrum%lambda(:spectrum%n_rigid) = 0.0_wp
-         associate (lambda => spectrum%lambda)
-            last = clear_gap(lambda, spectrum%n_wanted)
-            if (spectrum%n_wanted == below_end - spectrum%n_before) then ! the whole range, which has been counted
-               if (count(lambda < (1.0_wp - clear)*spectrum%counted_at) <= spectrum%n_wanted .and. &
-                   count(lambda < (1.0_wp + clear)*spectrum%counted_at) >= spectrum%n_wanted) return ! a mode may be at the end
-               n = n + beyond
-            else if (last > 0 .or. size(lambda) < n) then
-               if (last > 0) then
-                  spectrum%counted_at = 0.5_wp*(lambda(last) + lambda(last + 1))
-               else ! no more modes exist
-                  last = size(lambda)
-                  spectrum%counted_at = 2.0_wp*maxval([lambda, abs(spectrum%shift)])
-                  if (.not. spectrum%counted_at > 0.0_wp) then ! no free unknown has mass
-                     spectrum%n_wanted = 0
-                     return
-                  end if
-               end if
-               deallocate (system)
-               call count_below(model, structure, spectrum%counted_at, under, failure)
-               if (failure%raised) return
-               spectrum%n_counted = under
-               if (under - spectrum%n_before == last) then
-                  spectrum%n_wanted = min(spectrum%n_wanted, last)
-                  return
-               end if
-               n = max(n, under - spectrum%n_before) + beyond
-            else
-               n = 2*n
-            end if
-         end associate
-      end do
-      call failure%raise('MODES: '//integer_text(spectrum%n_counted)//' modes were counted, and '// &
-                         integer_text(spectrum%n_before + size(spectrum%lambda))//' found in '// &
-                         integer_text(most_trials)//' trials')
-   end subroutine find_and_count
-
-   !> The first of the ascending LAMBDA, from number FROM on, that is clearly below the next one; 0: there is none.
-   pure integer function clear_gap(lambda, from) result(last)
-      real(wp), intent(in) :: lambda(:)
-      integer, intent(in)  :: from
-
-      do last = from, size(lambda) - 1
-         if (lambda(last + 1) - lambda(last) > clear*abs(lambda(last + 1))) return
-      end do
-      last = 0
-   end function clear_gap
 
    !> Count the eigenvalues BELOW a positive SHIFT.
    subroutine count_below(model, structure, shift, below, failure)
@@ -332,7 +309,7 @@ contains
       class(equation_system), allocatable, intent(out) :: system
       type(failure_type), intent(inout)  :: failure
       type(failure_type) :: loose
-      real(wp) :: first, least
+      real(wp) :: extent, first, least, scale
       integer  :: i, trial
 
       spectrum%shift = 0.0_wp
@@ -346,7 +323,17 @@ contains
          call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
          return
       end if
-      spectrum%shift = -wave_scale(model)
+
+      ! the square of the frequency of a wave through the structure: E/rho over its size^2
+      associate (x => model%x(:, :n_points(model)))
+         extent = norm2(maxval(x, dim=2) - minval(x, dim=2))
+      end associate
+      scale = 0.0_wp
+      do i = 1, size(model%properties)
+         if (model%properties(i)%rho > 0.0_wp) scale = max(scale, model%properties(i)%e/(model%properties(i)%rho*extent**2))
+      end do
+      if (.not. scale > 0.0_wp) scale = 1.0_wp ! nodal masses only: the search finds its own scale
+      spectrum%shift = -scale
       do trial = 1, most_trials
          call factorise_at(model, structure, spectrum%shift, system, failure)
          if (failure%raised) return
@@ -366,22 +353,6 @@ contains
          spectrum%shift = -first
       end do
    end subroutine search_from_below
-
-   !> The square of the frequency of a wave through the structure: E/rho over its size^2.
-   pure real(wp) function wave_scale(model) result(scale)
-      type(model_type), intent(in) :: model
-      real(wp) :: extent
-      integer  :: i
-
-      associate (x => model%x(:, :n_points(model)))
-         extent = norm2(maxval(x, dim=2) - minval(x, dim=2))
-      end associate
-      scale = 0.0_wp
-      do i = 1, size(model%properties)
-         if (model%properties(i)%rho > 0.0_wp) scale = max(scale, model%properties(i)%e/(model%properties(i)%rho*extent**2))
-      end do
-      if (.not. scale > 0.0_wp) scale = 1.0_wp ! nodal masses only: the search finds its own scale
-   end function wave_scale
 
    !> Estimate of the largest eigenvalue: the largest k_ii/m_ii.
    real(wp) function stiffest(model, structure, system) result(largest)

@@ -6,8 +6,7 @@
 !! Exit status 1 if a file cannot be written.
 program vtu_sample
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8, real64
-   use vtu_file, only: cell_data, point_data, vtk_vertex, vtu_file_type
-   use vtu_lists, only: write_collection
+   use vtu_file, only: cell_data, point_data, vtk_vertex, vtu_file_type, write_collection
    implicit none
    integer(int8), parameter :: vtk_line = 3_int8, vtk_triangle = 5_int8, vtk_quad = 9_int8, vtk_tetra = 10_int8, &
                                vtk_hexahedron = 12_int8, vtk_wedge = 13_int8

@@ -1,0 +1,174 @@
+!> What all tables of the results share: the open files, the units, the stage and increment shown, and the columns of the CSV files.
+!! A table and the CSV file of the same subject share one list of columns; the listing shows those with a heading.
+module result_page
+   use kinds, only: wp
+   use model_data, only: has_gaps, model_type
+   use output_file, only: output_file_type
+   use table_writer, only: axes, column, column_type, csv
+   implicit none
+   private
+
+   public :: set_labels, shows, table_columns
+
+   character(1), parameter, public :: xyz(3) = ['x', 'y', 'z']
+
+   ! the CSV files in the order of their endings; the second block of the bolts in the listing has no file of its own
+   integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
+                                 response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9, watch_table = 10, &
+                                 split_table = 11, reaction_table = 12, shell_table = 13, bolt_block_2 = 14
+   character(*), parameter, public :: history_ending = '.joint.csv'
+   character(22), parameter, public :: table_endings(13) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
+      '.modes.csv', '.modes.energy.csv', '.response.csv', '.backbone.csv', '.loop.csv', '.backbone.response.csv', '.watch.csv', &
+      '.watch.energy.csv', '.reaction.csv', '.shell.csv']
+
+   !> The units of the numbers of the listing, blank where the deck names none.
+   type, public :: label_type
+      character(20) :: length = '', force = '', pressure = '', area = '', stiffness = '', moment = ''
+      character(20) :: slope = ''     !! of pressure over length
+   end type label_type
+
+   !> The files and settings common to all tables.
+   type, public :: page_type
+      type(output_file_type) :: file          !! the listing
+      type(output_file_type) :: screen        !! answers, for the standard output at the end
+      type(output_file_type) :: tables(size(table_endings)) !! open where the deck asks for them
+      type(label_type)       :: labels
+      integer :: stage_id = 0                 !! number of the stage
+      character(:), allocatable :: stage, now !! 'STAGE 2'; ', STAGE 2, INCREMENT 5' behind a title
+      character(:), allocatable :: label, place !! of the stage; 'stage 2, increment 5' in messages
+      real(wp) :: largest_force = 0.0_wp      !! largest applied so far, the scale of rounding
+      logical, allocatable :: shown(:)        !! nodes to which the tables of this stage are limited; not allocated: all
+      logical :: along_cd = .false.           !! nodal tables of this stage are along the systems CD
+      character(:), allocatable :: date       !! date for the head, if wanted
+   end type page_type
+
+contains
+
+   !> The units above the columns, from those of LENGTH and FORCE. (A structure constructor is freed twice by gfortran 12 at -O0.)
+   pure subroutine set_labels(length, force, labels)
+      character(*), intent(in)        :: length, force
+      type(label_type), intent(inout) :: labels
+
+      labels%length = length
+      labels%force = force
+      labels%pressure = force//'/'//length//'2'
+      labels%area = length//'2'
+      labels%stiffness = force//'/'//length
+      labels%moment = force//' '//length
+      labels%slope = force//'/'//length//'2/'//length
+   end subroutine set_labels
+
+   !> Whether tables limited to some nodes show an item with these NODES.
+   pure logical function shows(page, nodes)
+      type(page_type), intent(in) :: page
+      integer, intent(in)         :: nodes(:)
+
+      shows = .true.
+      if (allocated(page%shown)) shows = any(page%shown(nodes))
+   end function shows
+
+   !> The columns of one of the tables with a CSV file. Of a plane model the listing shows components in the plane and moments
+   !! about z only.
+   function table_columns(table, labels, model) result(columns)
+      integer, intent(in)            :: table
+      type(label_type), intent(in)   :: labels
+      type(model_type), intent(in)   :: model
+      type(column_type), allocatable :: columns(:)
+      logical :: along(3), about(3), first, second
+
+      along = [.true., .true., model%dimension == 3]
+      about = [model%dimension == 3, model%dimension == 3, .true.]
+      first = table == bolt_table
+      second = table == bolt_block_2
+      select case (table)
+      case (joint_table) ! a row for each interface element and increment; GAP and SLID only where the deck has them
+         columns = csv([character(9) :: 'stage', 'increment', 'load', 'joint', 'element', 'node1', 'node2', xyz, 'area', 'branch', &
+            'lambda', 'pressure', 'force', 'k_n', 'branch_x', 'delta_x', 'tau_x', 'k_sx', 'branch_y', 'delta_y', 'tau_y', 'k_sy', &
+            'slip'])
+         if (has_gaps(model)) columns = [columns, csv('gap')]
+         if (any(model%joints%law%has_friction)) columns = [columns, csv(['slid_x', 'slid_y'])]
+      case (stage_table) ! for each joint: peaks of the bodies, contact, forces, movement, stiffness; percent in the listing only
+         columns = [csv('stage'), column('JOINT', 'i11', name='joint'), &
+            csv([character(13) :: 'u_max', 'u_node', 'mises_centre', 'mises_element', 'mises_max', 'mises_node', 'area', xyz, &
+            'closed', 'normal_'//xyz, 'contact']), column('CONTACT %', 'f10.2'), &
+            column('P MAX', 'es12.4', labels%pressure, name='p_max'), column('AT NODE', 'i11', name='p_node'), &
+            column('GAP MAX', 'es12.4', labels%length, name='gap_max'), column('AT NODE', 'i11', name='gap_node'), &
+            column('SLIPPING', 'i9', name='slipping'), column(['N', 'T'], 'es12.4', labels%force, name=['n', 't']), &
+            column('M', 'es12.4', labels%moment, name='m'), csv('safety'), column('MU N/T', 'f11.3'), column('', 'a'), &
+            csv([character(14) :: 'force_x', 'force_y', 'force_n', 'moment_x', 'moment_y', 'moment_n', &
+            'move_x', 'move_y', 'move_n', 'turn_x', 'turn_y', 'turn_n', &
+            'tangent_x', 'tangent_y', 'tangent_n', 'tangent_tilt_x', 'tangent_tilt_y', 'tangent_twist', &
+            'secant_x', 'secant_y', 'secant_n', 'secant_tilt_x', 'secant_tilt_y', 'secant_twist'])]
+      case (bolt_table, bolt_block_2) ! for each bolt: forces of the stage; values since it was tightened, stress, clamping force
+         columns = [csv([character(9) :: 'stage', 'increment', 'load']), column('BOLT', 'i11', name='bolt'), &
+            column(['ELEMENT', 'SURFACE'], 'i11', is_listed=first), &
+            column([character(6) :: 'FORCE', 'CHANGE', 'LOAD'], 'es13.4', labels%force, &
+            name=[character(11) :: 'force', 'change', 'load_change'], is_listed=first), &
+            column('CHANGE/LOAD', 'f13.5', name='ratio', is_listed=first), &
+            column('BENDING', 'es13.4', labels%moment, name='bending', is_listed=first), csv(['longer ', 'element', 'surface']), &
+            column([character(9) :: 'TIGHTENED', 'LARGEST', 'ALL LOADS'], 'es12.4', labels%force, &
+            name=[character(9) :: 'tightened', 'largest', 'all_loads'], is_listed=second), &
+            column('SHARE', 'f9.5', name='share', is_listed=second), column(['STRESS     ', 'AND BENDING'], 'es12.4', &
+            labels%pressure, name=['stress     ', 'edge_stress'], is_listed=second), &
+            csv('use'), column('OF ST %', 'f9.2', is_listed=second), column('JOINT', 'i9', name='joint', is_listed=second), &
+            column('CLAMPING', 'es12.4', labels%force, name='clamping', is_listed=second), csv('loss'), &
+            column('LOSS %', 'f9.2', is_listed=second), csv('safety'), column('MU N/T', 'f11.3', is_listed=second)]
+      case (reaction_table) ! for each support, their sum, the loads
+         columns = [csv('stage'), column('REACTIONS', 'a9', name='kind'), column('NUMBER', 'i11'), csv(['id  ', 'line']), &
+            column('NODES', 'i8', name='nodes'), csv(xyz), &
+            column('R'//axes, 'es12.4', labels%force, name='force_'//xyz, is_listed=along), &
+            column('M'//axes, 'es11.3', labels%moment, name='moment_'//xyz, is_listed=about), &
+            column('MC'//axes, 'es11.3', labels%moment, name='central_'//xyz, is_listed=about)]
+      case (watch_table) ! for each node of WATCH
+         columns = [csv('stage'), column('WATCHED', 'i11', name='node'), csv(xyz), &
+            column('U'//axes, 'es13.4', labels%length, name='u_'//xyz, is_listed=along), &
+            column('CHANGE '//axes, 'es13.4', labels%length, name='change_'//xyz, is_listed=along), csv('load_'//xyz), &
+            column('LOAD', 'es13.4', labels%force), column('ALONG IT', 'es13.4', labels%length, name='along'), csv('load'), &
+            column('STIFFNESS', 'es13.4', labels%stiffness, name='stiffness')]
+      case default
+         columns = more_columns(table, labels)
+      end select
+   end function table_columns
+
+   !> The columns of the tables of work, shells and oscillation.
+   function more_columns(table, labels) result(columns)
+      integer, intent(in)            :: table
+      type(label_type), intent(in)   :: labels
+      type(column_type), allocatable :: columns(:)
+
+      select case (table)
+      case (split_table) ! for each body, joint, bar and spring: its share of the work of the stage
+         columns = [csv('stage'), column('GIVES WAY', 'a11', name='kind'), column('NUMBER', 'i11', name='id'), &
+            column([character(8) :: 'SHARE %', 'NORMAL %', 'SHEAR %'], 'f11.4'), &
+            column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i14'), csv(['normal', 'shear ', 'work  '])]
+      case (shell_table) ! forces and moments per length: for the centre of each shell and, in the file, every corner
+         columns = [csv([character(9) :: 'stage', 'increment', 'load']), column('ELEMENT', 'i11', name='element'), &
+            csv([character(4) :: 'node', xyz]), &
+            column(['N X ', 'N Y ', 'N XY'], 'es13.5', labels%stiffness, name=['n_x ', 'n_y ', 'n_xy']), &
+            column(['M X ', 'M Y ', 'M XY'], 'es13.5', labels%force, name=['m_x ', 'm_y ', 'm_xy']), &
+            column(['Q X', 'Q Y'], 'es13.5', labels%stiffness, name=['q_x', 'q_y'])]
+      case (modes_table) ! for each mode; the effective masses have a table of their own in the listing
+         columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('FREQUENCY', 'es15.5', '1/TIME', name='frequency'), &
+            column('OMEGA', 'es15.5', 'RAD/TIME', name='omega'), column('GENERALISED MASS', 'es18.5'), &
+            column('RESIDUAL', 'es12.1', name='residual'), csv('mass_'//xyz), &
+            column('LOSS FACTOR', 'es15.5', name='loss_factor')]
+      case (energy_table) ! for each body, joint and bar: its share of the strain energy; bodies and bars stand under normal
+         columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('PART', 'a8', name='kind'), &
+            column('NUMBER', 'i11', name='id'), column(['ALL   ', 'NORMAL', 'SHEAR '], 'f10.2'), csv(['normal', 'shear '])]
+      case (backbone_table) ! for each amplitude
+         columns = [csv(['stage', 'mode ']), column('AMPLITUDE', 'es14.5', labels%length, name='amplitude'), &
+            column('FREQUENCY', 'es14.5', '1/TIME', name='frequency'), column('SHIFT', 'f10.4', 'PERCENT'), &
+            column('LOSS FACTOR', 'es14.4', name='loss_factor'), csv(['slipping', 'open    ']), &
+            column('SLIPPING', 'f10.2', 'PERCENT'), column('OPEN', 'f8.2', 'PERCENT'), column('CENTRE', 'f9.4'), &
+            column('NOT CLOSED', 'f12.6'), column('DISTORTION', 'f12.5', name='distortion'), column('LOOPS', 'i7')]
+      case (bend_table) ! for each amplitude of the response of the mode alone, ascending; the listing has the resonances only
+         columns = [csv(['stage', 'mode ']), column('AMPLITUDE', 'es14.5', labels%length, name='amplitude'), &
+            column('FREQUENCY', 'es14.5', '1/TIME', name='below'), csv([character(11) :: 'phase_below', 'above', 'phase_above'])]
+      case (loop_table) ! for each point of the last loop of each amplitude, from its upper turning point on
+         columns = csv([character(9) :: 'stage', 'mode', 'amplitude', 'point', 'alpha', 'q'])
+      case default ! the response: for each frequency, node and component
+         columns = csv([character(9) :: 'stage', 'frequency', 'node', 'component', 'amplitude', 'phase'])
+      end select
+   end function more_columns
+
+end module result_page
