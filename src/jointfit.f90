@@ -19,7 +19,7 @@ program jointfit
    integer, parameter :: status_unreadable = 1, status_data = 2, status_unwritten = 4
    type(fit_command_type) :: command
    type(output_file_type) :: out, plot
-   integer :: exit_status, i ! the highest status of all files
+   integer :: i, exit_status ! the highest of all files
    logical :: ok
 
    call read_fit_command(command, exit_status)

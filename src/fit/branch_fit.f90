@@ -72,10 +72,10 @@ module branch_fit
 
 contains
 
-   !> The largest random deviation of a reading in a record in which X and Y rise and fall together, as a share of the range of each:
-   !! sqrt(2 ln N) standard deviations for N readings; two readings may differ by twice as much. The distance of a reading from the chord
-   !! between its neighbours measures the noise: on a smooth curve it is small even for uneven readings. The median is insensitive to
-   !! the turning points; for normal noise it is 0.6745 sqrt(3/2) standard deviations.
+   !> The largest random deviation of a reading in a record in which X and Y rise and fall together, as a share of the range of
+   !! each: sqrt(2 ln N) standard deviations for N readings; two readings may differ by twice as much. The distance of a reading
+   !! from the chord between its neighbours measures the noise: on a smooth curve it is small even for uneven readings. The median
+   !! is insensitive to the turning points; for normal noise it is 0.6745 sqrt(3/2) standard deviations.
    pure real(wp) function scatter_of(x, y) result(scatter)
       real(wp), intent(in) :: x(:), y(:) !! (readings)
       real(wp) :: distance(max(0, size(x) - 2)), a(2), chord(2), range(2), high, low, median
@@ -169,8 +169,8 @@ contains
       if (freedom > 0) fit%error = fit%rms*sqrt(fit%n_points/(freedom*total(1)))*fit%e_u
    end subroutine fit_loops
 
-   !> Fit a branch to test points in two steps, a cubic for each pressure and then the lines of Fig. 2 through the coefficients, and for
-   !! comparison in one step to all points. What the two steps lack is a fault of FIT unless the one-step fit is CHOSEN.
+   !> Fit a branch to test points in two steps, a cubic for each pressure and then the lines of Fig. 2 through the coefficients, and
+   !! for comparison in one step to all points. What the two steps lack is a fault of FIT unless the one-step fit is CHOSEN.
    subroutine fit_points(d, tau, p, run, constant, chosen, fit)
       real(wp), intent(in)               :: d(:), tau(:), p(:) !! (points) [length], [stress], [pressure]
       integer, intent(in)                :: run(:)             !! (points) each run at a pressure starts at a point of its own
@@ -229,8 +229,8 @@ contains
       end associate
    end subroutine fit_points
 
-   !> Group points of equal pressure. In ascending order of p a group extends from its lowest p to (1 + TOLERANCE) times that; its pressure
-   !! is the mean of its points. Groups are numbered in ascending order of p.
+   !> Group points of equal pressure. In ascending order of p a group extends from its lowest p to (1 + TOLERANCE) times that; its
+   !! pressure is the mean of its points. Groups are numbered in ascending order of p.
    pure subroutine group_by_pressure(p, tolerance, group, group_p)
       real(wp), intent(in)               :: p(:)       !! [pressure]; a p below 0, reported elsewhere, forms a group of its own
       real(wp), intent(in)               :: tolerance  !! >= 0 [-]
@@ -301,8 +301,8 @@ contains
       end do
    end subroutine fit_coefficient_lines
 
-   !> Fit tau = START + C(1) d + C(2) d^2 + C(3) d^3 to the points of one pressure, with a START for every curve. OK is false where the
-   !! points do not determine the cubic: fewer than three different nonzero d, or four on one curve with a start.
+   !> Fit tau = START + C(1) d + C(2) d^2 + C(3) d^3 to the points of one pressure, with a START for every curve. OK is false where
+   !! the points do not determine the cubic: fewer than three different nonzero d, or four on one curve with a start.
    subroutine fit_cubic(d, tau, belongs, c, start, ok)
       real(wp), intent(in)  :: d(:), tau(:)          !! (points) [length], [stress]
       logical, intent(in)   :: belongs(:, :)         !! (points, curves); no curves: START is zero, as on the loading branch

@@ -13,8 +13,10 @@ module data_columns
 
    real(wp), parameter :: kgf = 9.80665_wp, inch = 0.0254_wp, lbf = 4.4482216152605_wp
 
-   !> Kinds of units, the units of each kind in the table, and their values in SI units.
-   integer, parameter      :: of_length = 0, of_stress = 1, of_force = 2
+   !> Kinds of units, the units of each kind in the table, and their values in SI units. The kind of a column that is a length or a
+   !! stress is its stress_power.
+   integer, parameter, public :: of_length = 0, of_stress = 1
+   integer, parameter      :: of_force = 2
    integer, parameter      :: first_unit(0:2) = [1, 17, 10], last_unit(0:2) = [9, 23, 16]
    character(6), parameter :: unit_names(23) = [character(6) :: 'M', 'CM', 'MM', 'UM', 'MICRON', 'NM', 'IN', 'MIL', 'FT', &
       'N', 'DAN', 'KN', 'KGF', 'KP', 'LBF', 'KIP', 'PA', 'KPA', 'MPA', 'GPA', 'BAR', 'PSI', 'KSI']
@@ -253,9 +255,9 @@ contains
       words = words(:verify(words, blanks, back=.true.))
    end function data_part
 
-   !> Cut LINE at blanks, tabs, commas and semicolons. Blanks around a separator belong to it. An entry is empty between two separators,
-   !! before the first and after the last one. Text in brackets and the blanks before it do not separate: `lambda [um]` is one entry.
-   !! With DECIMAL_COMMA a comma before a digit does not separate, nor does it in a line with semicolons.
+   !> Cut LINE at blanks, tabs, commas and semicolons. Blanks around a separator belong to it. An entry is empty between two
+   !! separators, before the first and after the last one. Text in brackets and the blanks before it do not separate: `lambda [um]`
+   !! is one entry. With DECIMAL_COMMA a comma before a digit does not separate, nor does it in a line with semicolons.
    pure subroutine split_entries(line, entries, decimal_comma)
       character(*), intent(in)                   :: line
       type(entry_type), allocatable, intent(out) :: entries(:)

@@ -1,9 +1,9 @@
 !> Reads a data file of jointfit: test points or published cubics as plain text.
 module fit_data
-   use data_columns, only: branch_words, column_branch, column_d, column_lambda, column_names, column_p, column_run, column_tau, &
-                           data_cubics, data_part, data_shear, entry_type, has_force, header_type, is_number, known_headers, &
-                           n_columns, read_header, read_number, read_system, reading_type, set_factors, split_entries, &
-                           unit_system, unit_value
+   use data_columns, only: branch_words, column_branch, column_d, column_lambda, column_names, column_p, column_run, &
+                           column_tau, data_cubics, data_part, data_shear, entry_type, has_force, header_type, is_number, &
+                           known_headers, n_columns, of_length, of_stress, read_header, read_number, read_system, &
+                           reading_type, set_factors, split_entries, unit_system, unit_value
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type, read_deck_text
    use kinds, only: wp
@@ -124,7 +124,7 @@ contains
       end if
       length = header%units(merge(column_d, column_lambda, header%kind == data_shear))
       stress = header%units(merge([column_p, column_tau], column_p, header%kind == data_shear))
-      values = [unit_value(trim(length), 0), unit_value(trim(stress(1)), 1)]
+      values = [unit_value(trim(length), of_length), unit_value(trim(stress(1)), of_stress)]
       if (any(values <= 0.0_wp) .or. any(stress == '')) return
       if (stress(1) == stress(2) .and. has_force(values(1), values(2))) return
       if (stress(1) /= stress(2)) length = stress(2)

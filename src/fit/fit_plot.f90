@@ -16,17 +16,20 @@ module fit_plot
 
 contains
 
-   !> Add the plot of surface NUMBER of the command to OUT: p over lambda, tau over d, or for published cubics Fig. 2, their coefficients
-   !! over p.
+   !> Add the plot of surface NUMBER of the command to OUT: p over lambda, tau over d, or for published cubics Fig. 2, their
+   !! coefficients over p. The fit of a normal test is the power law of loading, and lines of the slope E_u; that of a run of shear
+   !! is the law of the card with its best constant; that of the coefficients is their lines.
    subroutine write_plot(command, number, data, fit, out)
       type(fit_command_type), intent(in)    :: command
       integer, intent(in)                   :: number
       type(test_data_type), intent(in)      :: data
       type(surface_fit_type), intent(in)    :: fit
       type(output_file_type), intent(inout) :: out
-      character(:), allocatable :: picture, plots
+      character(:), allocatable :: picture, plots ! arguments of the plot command
+      integer, allocatable  :: rows(:)
+      real(wp), allocatable :: d(:), fitted(:), p(:), tau(:)
       character(32) :: label
-      integer :: axes(2), k
+      integer :: axes(2), b, g, i, k
 
       picture = command%plot
       k = index(picture, '.', back=.true.)
@@ -34,34 +37,8 @@ contains
       if (size(command%files) > 1) picture = picture//'_'//integer_text(command%id + number - 1)
       call out%put('# '//command%files(number)%name//' and its fit by jointfit; gnuplot draws '//picture//'.svg')
       call out%put('reset')
-      call put_fit(data, fit, plots, out)
-      call out%put('set terminal svg size 900,600 noenhanced background "white"')
-      call out%put('set output '//quoted(picture//'.svg'))
-      call out%put('set title '//quoted(command%files(number)%name))
-      axes = [column_p, 0] ! 0: coefficients
-      if (fit%kind == data_normal) axes = [column_lambda, column_p]
-      if (fit%kind == data_shear) axes = [column_d, column_tau]
-      do k = 1, count(axes > 0)
-         label = column_symbols(axes(k))
-         if (data%unit(axes(k)) /= '') label = trim(label)//' ['//trim(data%unit(axes(k)))//']'
-         call out%put('set '//merge('x', 'y', k == 1)//'label '//quoted(label))
-      end do
-      call out%put('set key outside right')
-      call out%put('set grid')
-      call out%put('plot '//plots(3:))
-   end subroutine write_plot
 
-   !> Put the points and the fit: loading with the power law, each line of unloading or reloading with its slope E_u; each run of
-   !! shear with the law of the card and its best constant; the coefficients of published cubics with their lines.
-   subroutine put_fit(data, fit, plots, out)
-      type(test_data_type), intent(in)       :: data
-      type(surface_fit_type), intent(in)     :: fit
-      character(:), allocatable, intent(out) :: plots !! arguments of the plot command
-      type(output_file_type), intent(inout)  :: out
-      integer, allocatable  :: rows(:)
-      real(wp), allocatable :: fitted(:), p(:)
-      integer :: b, g, i, k
-
+      ! blocks of points with the fit at each of them
       plots = ''
       if (fit%kind == data_normal) then
          associate (loops => fit%normal%loops)
@@ -83,12 +60,11 @@ contains
             do k = 1, merge(size(branch%start), 0, fit%kind == data_shear)
                rows = pack(branch%row, branch%curve == k)
                g = branch%group(branch%curve_at(k))
-               associate (d => data%value(column_d, rows), tau => data%value(column_tau, rows))
-                  fitted = cubic_value(cubic(fit%card(:, :, b)), d, branch%group_p(g))
-                  if (branch%constant) fitted = fitted + sum(tau - fitted)/size(rows)
-                  call put_block(out, plots, trim(branch_words(b))//', p = '//real_text(branch%group_p(g)), [b, g], d, tau, d, &
-                                 fitted)
-               end associate
+               d = data%value(column_d, rows)
+               tau = data%value(column_tau, rows)
+               fitted = cubic_value(cubic(fit%card(:, :, b)), d, branch%group_p(g))
+               if (branch%constant) fitted = fitted + sum(tau - fitted)/size(rows)
+               call put_block(out, plots, trim(branch_words(b))//', p = '//real_text(branch%group_p(g)), [b, g], d, tau, d, fitted)
             end do
             do k = 1, merge(0, 3, fit%kind == data_shear)
                call put_block(out, plots, branch_letters(b)//integer_text(k), [b, k], branch%group_p, branch%cubic(k, :), &
@@ -96,10 +72,26 @@ contains
             end do
          end associate
       end do
-   end subroutine put_fit
 
-   !> Add a block of points X, Y with the fit FITTED_X, FITTED_Y at each point, in a LOOK of shape and colour. Consecutive blocks of one
-   !! TITLE share an entry of the key.
+      ! the picture and its axes
+      call out%put('set terminal svg size 900,600 noenhanced background "white"')
+      call out%put('set output '//quoted(picture//'.svg'))
+      call out%put('set title '//quoted(command%files(number)%name))
+      axes = [column_p, 0] ! 0: coefficients
+      if (fit%kind == data_normal) axes = [column_lambda, column_p]
+      if (fit%kind == data_shear) axes = [column_d, column_tau]
+      do k = 1, count(axes > 0)
+         label = column_symbols(axes(k))
+         if (data%unit(axes(k)) /= '') label = trim(label)//' ['//trim(data%unit(axes(k)))//']'
+         call out%put('set '//merge('x', 'y', k == 1)//'label '//quoted(label))
+      end do
+      call out%put('set key outside right')
+      call out%put('set grid')
+      call out%put('plot '//plots(3:))
+   end subroutine write_plot
+
+   !> Add a block of points X, Y with the fit FITTED_X, FITTED_Y at each point, in a LOOK of shape and colour. Consecutive blocks of
+   !! one TITLE share an entry of the key.
    subroutine put_block(out, plots, title, look, x, y, fitted_x, fitted_y)
       type(output_file_type), intent(inout)    :: out
       character(:), allocatable, intent(inout) :: plots !! arguments of the plot command so far

@@ -271,8 +271,8 @@ contains
       lines = card_lines('JNORM', fields, small)
    end function jnorm_card
 
-   !> JSHEAR SID A11 A12 A21 A22 A31 A32, the continuations B11 to B32, C11 to C32, and PMAX DMAX. The continuation of a branch that is
-   !! not GIVEN is blank, which means as loading. A zero D_MAX leaves its field blank.
+   !> JSHEAR SID A11 A12 A21 A22 A31 A32, the continuations B11 to B32, C11 to C32, and PMAX DMAX. The continuation of a branch that
+   !! is not GIVEN is blank, which means as loading. A zero D_MAX leaves its field blank.
    function jshear_card(id, coefficients, given, p_max, d_max, small) result(lines)
       integer, intent(in)  :: id
       real(wp), intent(in) :: coefficients(2, 3, 3) !! (., k, branch): a_k1 and a_k2 for load, unload, reload
@@ -318,8 +318,8 @@ contains
       end do
    end function number_fields
 
-   !> A card NAME (or + for a continuation) with its FIELDS, eight on a line, in large field eight on a pair of lines. Eight blank fields
-   !! are a single +.
+   !> A card NAME (or + for a continuation) with its FIELDS, eight on a line, in large field eight on a pair of lines. Eight blank
+   !! fields are a single +.
    function card_lines(name, fields, small) result(lines)
       character(*), intent(in)  :: name
       character(16), intent(in) :: fields(:) !! (8, 16, ...)
@@ -358,8 +358,8 @@ contains
       write (line, '(9a)') name, fields(:)(:width)
    end function joined
 
-   !> VALUE in at most WIDTH columns as in NASTRAN: the nearest number that fits, as 0.0125, 260.8628 or, where that is nearer, in the
-   !! short form with an exponent, 1.2346-5. It always has a decimal point, and parse_real reads it.
+   !> VALUE in at most WIDTH columns as in NASTRAN: the nearest number that fits, as 0.0125, 260.8628 or, where that is nearer, in
+   !! the short form with an exponent, 1.2346-5. It always has a decimal point, and parse_real reads it.
    function real_field_text(value, width) result(text)
       real(wp), intent(in)      :: value !! |value| below 1E99 and not below 1E-99, or zero
       integer, intent(in)       :: width !! 7 to 16

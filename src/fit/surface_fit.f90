@@ -200,7 +200,8 @@ contains
                          source /= fit_load, command%fit, fit)
       end subroutine fit_rows
 
-      !> Whether reloading returns to point A at row I: it is a point of loading, and also of reloading where reloading has few points.
+      !> Whether reloading returns to point A at row I: it is a point of loading, and also of reloading where reloading has few
+      !! points.
       logical function returns(i)
          integer, intent(in) :: i
          integer :: a
@@ -256,10 +257,10 @@ contains
       end if
    end subroutine fit_normal
 
-   !> The c and m that minimize the sum of (c p^m - lambda)^2. The start is the straight line through ln lambda over ln p. Gauss-Newton
-   !! steps in lambda follow; a step that increases the sum is halved. Points with p <= 0 or lambda <= 0 have no logarithm and are left
-   !! out of the start; for p <= 0 the law is zero for any c and m. OK is false where fewer than two different p > 0 have lambda > 0, or
-   !! the steps do not converge.
+   !> The c and m that minimize the sum of (c p^m - lambda)^2. The start is the straight line through ln lambda over ln p.
+   !! Gauss-Newton steps in lambda follow; a step that increases the sum is halved. Points with p <= 0 or lambda <= 0 have no
+   !! logarithm and are left out of the start; for p <= 0 the law is zero for any c and m. OK is false where fewer than two
+   !! different p > 0 have lambda > 0, or the steps do not converge.
    subroutine fit_power_law(p, lambda, c, m, ok)
       real(wp), intent(in)  :: p(:)      !! [pressure]
       real(wp), intent(in)  :: lambda(:) !! [length]
@@ -320,9 +321,9 @@ contains
       c = dot_product(p, lambda)/dot_product(p, p)
    end function fit_proportional
 
-   !> Check the slope of every fitted branch in the range of its data and, if it is positive there, in the range of the card: p from 0 to
-   !! PMAX, d to DMAX, and d below zero too for unloading and reloading, because these branches extend past zero to the mirror image of
-   !! their point A. A branch is followed as in the joint: unloading with decreasing d, the others with increasing d.
+   !> Check the slope of every fitted branch in the range of its data and, if it is positive there, in the range of the card: p from
+   !! 0 to PMAX, d to DMAX, and d below zero too for unloading and reloading, because these branches extend past zero to the mirror
+   !! image of their point A. A branch is followed as in the joint: unloading with decreasing d, the others with increasing d.
    subroutine check_slopes(fit)
       type(surface_fit_type), intent(inout) :: fit
       character(:), allocatable :: words
@@ -357,8 +358,8 @@ contains
       end do
    end subroutine check_slopes
 
-   !> From d = FROM to d = TO, find the first d at which dtau/dd = sum over k of k (a_k1 + a_k2 p) d^(k-1) is not positive for some p
-   !! between P_LOW and P_HIGH. The slope is linear in p, so its minimum is at P_LOW or P_HIGH: two quadratics in d decide.
+   !> From d = FROM to d = TO, find the first d at which dtau/dd = sum over k of k (a_k1 + a_k2 p) d^(k-1) is not positive for some
+   !! p between P_LOW and P_HIGH. The slope is linear in p, so its minimum is at P_LOW or P_HIGH: two quadratics in d decide.
    pure subroutine find_slope_loss(lines, p_low, p_high, from, to, found, p, d)
       real(wp), intent(in)  :: lines(2, 3)   !! a_k1 and a_k2 for k = 1, 2, 3
       real(wp), intent(in)  :: p_low, p_high !! [pressure]

@@ -26,16 +26,18 @@ module test_branches
 
 contains
 
-   !> Assign a branch and a run to every row of DATA where the file does not give them: by turning points where the rows are in the order
-   !! of time, by the direction of each run where the runs are numbered. A first reading slightly below zero is subtracted from the
-   !! others. Readings too far below zero for noise, and rows without an order, go to ERRORS.
+   !> Assign a branch and a run to every row of DATA where the file does not give them: by turning points where the rows are in the
+   !! order of time, by the direction of each run where the runs are numbered. A first reading slightly below zero is subtracted
+   !! from the others. Readings too far below zero for noise, and rows without an order, go to ERRORS. The notes say how a record
+   !! was split.
    subroutine find_branches(data, command, errors)
       type(test_data_type), intent(inout)  :: data
       type(fit_command_type), intent(in)   :: command
       type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: n_rows
       integer, allocatable :: rows(:)
-      integer :: i, runs, t, test(data%n)
-      logical :: faulty
+      integer :: i, n_tests, runs, t, test(data%n)
+      logical :: faulty, is_noisy
 
       if (data%kind == data_cubics .or. data%n == 0) return
       faulty = errors%any()
@@ -53,17 +55,41 @@ contains
       if (data%has_branch .and. .not. data%has_run) call number_stretches(data, command%fit%p_tolerance, command%noise)
       call separate_tests(data, command%fit%p_tolerance, test)
       runs = 0
-      do t = 1, maxval(test)
+      n_tests = maxval(test)
+      do t = 1, n_tests
          rows = pack([(i, i = 1, data%n)], test == t)
          call take_off_offset(data, rows, command%zero)
          if (data%in_order) call take_branches(data, rows, runs)
       end do
       call check_signs(data, errors)
-      if (.not. faulty .and. data%is_record) call report_record(data, command%fit%p_tolerance, runs, maxval(test), errors)
+      if (faulty .or. .not. data%is_record) return
+
+      ! how the record was split, and an error where it hardly is a record
+      n_rows = plural(data%n, 'row')
+      associate (names => column_symbols(data%columns), band => data%band*data%range)
+         call data%notes%add(0, n_rows//' in the order of time, '//plural(n_tests, 'test')//', '//plural(runs - n_tests, 'turn')// &
+                             '; noise band '//real_text(0.01_wp*anint(1.0e4_wp*data%band))//' % of the range (--noise): '// &
+                             real_text(band(1))//' of '//trim(names(1))//', '//real_text(band(2))//' of '//trim(names(2)))
+      end associate
+      associate (p => data%value(column_p, :data%n - 1), p_next => data%value(column_p, 2:data%n), &
+                 tolerance => command%fit%p_tolerance)
+         is_noisy = data%kind == data_shear .and. n_tests > 1 .and. &
+                    (data%n < few*n_tests .or. any(abs(p_next - p) > tolerance*p .and. abs(p_next - p) < 0.05_wp*p))
+      end associate
+      if (is_noisy) then
+         call errors%add(0, plural(n_tests, 'test')//' in '//n_rows//' by the pressure: expected the rows of a test together; '// &
+                         '--p-tolerance 0.05 counts pressures within 5 % as one')
+      else if (runs > n_tests .and. data%n < few*runs) then
+         call errors%add(0, 'the test turns back '//integer_text(runs - n_tests)//' times in '//n_rows//', too often for '// &
+            'a record in the order of time; --unordered takes all rows as loading, --noise 0.1 ignores smaller turns, a column '// &
+            'branch or run classifies the rows')
+      else if (.not. any(data%branch(:data%n) == fit_load) .and. data%kind == data_normal) then
+         call errors%add(0, 'no loading: p falls from the first row on; --unordered takes all rows as loading')
+      end if
    end subroutine find_branches
 
-   !> The TEST of each row. A header begins a test, and so does another pressure in shear. A row back at the first reading, after a row
-   !! away from it, begins the test of a new specimen. Rows with branches may be in any order, and numbered runs may return to
+   !> The TEST of each row. A header begins a test, and so does another pressure in shear. A row back at the first reading, after a
+   !! row away from it, begins the test of a new specimen. Rows with branches may be in any order, and numbered runs may return to
    !! their pressure.
    subroutine separate_tests(data, p_tolerance, test)
       type(test_data_type), intent(in)  :: data
@@ -136,9 +162,9 @@ contains
    end subroutine take_branches
 
    !> The branch of every point of a test that follows U in straight ways between the points STARTS. The test loads; turned back it
-   !! unloads; turned again it reloads until it meets the loading curve, and then loads. In a test that MIRRORS, unloading that meets
-   !! the loading curve of the other SENSE becomes loading. Without stresses, or without a known curve, the curve is met at point A, the
-   !! deflection at which the last unloading began.
+   !! unloads; turned again it reloads until it meets the loading curve, and then loads. In a test that MIRRORS, unloading that
+   !! meets the loading curve of the other SENSE becomes loading. Without stresses, or without a known curve, the curve is met at
+   !! point A, the deflection at which the last unloading began.
    subroutine follow(forward, u, starts, mirrors, joined, branch, sense, tau)
       real(wp), intent(in) :: forward(:) !! d, or p of a normal test
       real(wp), intent(in) :: u(:)       !! increases where the test loads
@@ -233,8 +259,8 @@ contains
 
    contains
 
-      !> The first point after LAST and before END on the curve. Of points in doubt it is the first one after the intersection of the curve
-      !! with the parabola through the points before that are off the curve.
+      !> The first point after LAST and before END on the curve. Of points in doubt it is the first one after the intersection of
+      !! the curve with the parabola through the points before that are off the curve.
       integer function behind(last, end)
          integer, intent(in) :: last, end
          integer, allocatable :: points(:)
@@ -253,8 +279,9 @@ contains
 
    end subroutine find_meeting
 
-   !> Assign runs to rows that have branches but no runs. Each stretch of one branch at one pressure is a run, up to where d, or p of a
-   !! normal test, turns back. Very short stretches in shear mean rows without an order: those of one branch and pressure form one run.
+   !> Assign runs to rows that have branches but no runs. Each stretch of one branch at one pressure is a run, up to where d, or p
+   !! of a normal test, turns back. Very short stretches in shear mean rows without an order: those of one branch and pressure form
+   !! one run.
    subroutine number_stretches(data, p_tolerance, noise)
       type(test_data_type), intent(inout) :: data
       real(wp), intent(in)                :: p_tolerance
@@ -346,36 +373,5 @@ contains
          end associate
       end do
    end subroutine check_signs
-
-   !> Note how the record was split into TESTS and RUNS, and warn where it hardly is a record.
-   subroutine report_record(data, p_tolerance, runs, tests, errors)
-      type(test_data_type), intent(inout)  :: data
-      real(wp), intent(in)                 :: p_tolerance
-      integer, intent(in)                  :: runs, tests
-      type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: rows
-      logical :: noisy
-
-      rows = plural(data%n, 'row')
-      associate (names => column_symbols(data%columns), band => data%band*data%range)
-         call data%notes%add(0, rows//' in the order of time, '//plural(tests, 'test')//', '//plural(runs - tests, 'turn')// &
-                             '; noise band '//real_text(0.01_wp*anint(1.0e4_wp*data%band))//' % of the range (--noise): '// &
-                             real_text(band(1))//' of '//trim(names(1))//', '//real_text(band(2))//' of '//trim(names(2)))
-      end associate
-      associate (p => data%value(column_p, :data%n - 1), p_next => data%value(column_p, 2:data%n))
-         noisy = data%kind == data_shear .and. tests > 1 .and. &
-                 (data%n < few*tests .or. any(abs(p_next - p) > p_tolerance*p .and. abs(p_next - p) < 0.05_wp*p))
-      end associate
-      if (noisy) then
-         call errors%add(0, plural(tests, 'test')//' in '//rows//' by the pressure: expected the rows of a test together; '// &
-                         '--p-tolerance 0.05 counts pressures within 5 % as one')
-      else if (runs > tests .and. data%n < few*runs) then
-         call errors%add(0, 'the test turns back '//integer_text(runs - tests)//' times in '//rows//', too often for '// &
-            'a record in the order of time; --unordered takes all rows as loading, --noise 0.1 ignores smaller turns, a column '// &
-            'branch or run classifies the rows')
-      else if (.not. any(data%branch(:data%n) == fit_load) .and. data%kind == data_normal) then
-         call errors%add(0, 'no loading: p falls from the first row on; --unordered takes all rows as loading')
-      end if
-   end subroutine report_record
 
 end module test_branches

@@ -26,11 +26,30 @@ contains
       character(*), intent(in)            :: title
       type(model_type), intent(in)        :: model
       type(stage_answer_type), intent(in) :: answer
+      character(31), parameter :: names(3) = [character(31) :: 'LARGEST DISPLACEMENT', 'LARGEST VON MISES, CENTRES', &
+                                              'LARGEST VON MISES, NODES']
+      character(8), parameter  :: kinds(3) = [character(8) :: 'NODE', 'ELEMENT', 'NODE']
+      character(12)    :: units(3)
+      type(peak_type)  :: peaks(3)
       type(table_type) :: table
-      integer :: j
+      integer :: j, k
 
+      ! the largest displacement and stresses
+      units = [character(12) :: page%labels%length, page%labels%pressure, page%labels%pressure]
+      peaks = [answer%displacement, answer%at_centre, answer%at_node]
       call heading(page%screen, title)
-      call print_peaks(page, model, answer)
+      call table%start('', [column('', 'a33'), column('VALUE', 'es13.4'), column('', 'a13'), column('AT', 'a8'), &
+                            column('NUMBER', 'i11'), column(axes(:model%dimension), 'es13.5', page%labels%length)], page%screen)
+      do k = 1, 3
+         if (.not. peaks(k)%is_there) cycle
+         call table%add(names(k), [peaks(k)%value])
+         call table%add(units(k))
+         call table%add(trim(kinds(k)))
+         call table%add([peaks(k)%id], peaks(k)%x(:model%dimension))
+         call table%print_row(page%screen)
+      end do
+
+      ! the joints
       call table%start('', table_columns(stage_table, page%labels, model))
       if (size(answer%joints) == 0) then
          call begin_row(0)
@@ -64,10 +83,7 @@ contains
       !> Add the columns that do not concern a joint.
       subroutine begin_row(joint)
          integer, intent(in) :: joint
-         type(peak_type) :: peaks(3)
-         integer :: k
 
-         peaks = [answer%displacement, answer%at_centre, answer%at_node]
          call table%add([page%stage_id, joint])
          do k = 1, 3
             call table%add([peaks(k)%value], where=[peaks(k)%is_there])
@@ -83,33 +99,6 @@ contains
       end subroutine add_node
 
    end subroutine print_answer
-
-   !> Print displacement and stress.
-   subroutine print_peaks(page, model, answer)
-      type(page_type), intent(inout)      :: page
-      type(model_type), intent(in)        :: model
-      type(stage_answer_type), intent(in) :: answer
-      character(31), parameter :: names(3) = [character(31) :: 'LARGEST DISPLACEMENT', 'LARGEST VON MISES, CENTRES', &
-                                              'LARGEST VON MISES, NODES']
-      character(8), parameter  :: kinds(3) = [character(8) :: 'NODE', 'ELEMENT', 'NODE']
-      character(12)    :: units(3)
-      type(peak_type)  :: peaks(3)
-      type(table_type) :: table
-      integer :: k
-
-      units = [character(12) :: page%labels%length, page%labels%pressure, page%labels%pressure]
-      peaks = [answer%displacement, answer%at_centre, answer%at_node]
-      call table%start('', [column('', 'a33'), column('VALUE', 'es13.4'), column('', 'a13'), column('AT', 'a8'), &
-                            column('NUMBER', 'i11'), column(axes(:model%dimension), 'es13.5', page%labels%length)], page%screen)
-      do k = 1, 3
-         if (.not. peaks(k)%is_there) cycle
-         call table%add(names(k), [peaks(k)%value])
-         call table%add(units(k))
-         call table%add(trim(kinds(k)))
-         call table%add([peaks(k)%id], peaks(k)%x(:model%dimension))
-         call table%print_row(page%screen)
-      end do
-   end subroutine print_peaks
 
    !> Print stiffnesses about the centroids.
    subroutine print_stiffnesses(page, model, answer)

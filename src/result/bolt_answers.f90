@@ -202,7 +202,6 @@ contains
       integer, intent(in)          :: from, stage !! positions; before the first there is no load
       real(wp), intent(in)         :: fraction
       real(wp), allocatable, intent(out) :: force(:, :)
-
       real(wp) :: shares(3)
       integer  :: i, k, stages(3)
 

@@ -156,8 +156,9 @@ contains
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
       class(equation_system), intent(in)    :: system
+      integer(long) :: n(2, size(element_table)) ! body elements of a kind, without and with incompatible modes
       character(:), allocatable :: words
-      integer :: first, i, last
+      integer :: first, i, k, last, m
 
       call heading(file, 'MODEL SUMMARY')
       call count_line(file, 'NODES', int(n_points(model), long))
@@ -166,8 +167,25 @@ contains
       if (model%n_filled > 0) call count_line(file, '   OF THESE MADE AT THE MIDDLE OF EDGES', int(model%n_filled, long))
       if (any(model%duplicate > 0)) &
          call count_line(file, '   OF THESE DOUBLED AT SPLIT SURFACES', count(model%duplicate > 0, kind=long))
+
+      ! the elements, those of bodies by kind and formulation, and the constraints
       call count_line(file, 'BODY ELEMENTS', int(model%n_elements, long))
-      call count_formulations(file, model)
+      n = 0
+      do i = 1, model%n_elements
+         k = model%element_kind(i)
+         associate (property => model%properties(model%element_property(i)))
+            m = merge(2, 1, property%incompatible .and. has_modes(k, property%state))
+         end associate
+         n(m, k) = n(m, k) + 1
+      end do
+      do k = 1, size(element_table)
+         associate (kind => element_table(k))
+            if (n(1, k) > 0) call count_line(file, '   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)//' NODES, '// &
+                                             trim(merge('PLAIN       ', 'SECOND ORDER', kind%linear == k)), n(1, k))
+            if (n(2, k) > 0) call count_line(file, '   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)// &
+                                             ' NODES, INCOMPATIBLE MODES', n(2, k))
+         end associate
+      end do
       associate (n_springs => count(model%bars%kind == a_spring, kind=long))
          if (n_bars(model) > n_springs) call count_line(file, 'BARS, BOLTS INCLUDED', n_bars(model) - n_springs)
          if (n_springs > 0) call count_line(file, 'SPRINGS, ONE A DIRECTION', n_springs)
@@ -185,6 +203,8 @@ contains
             call count_line(file, trim(system%description%words(i)), system%description%numbers(i))
       end do
       call count_line(file, 'STAGES', size(deck%control%stages, kind=long))
+
+      ! the method and the solver, the units, and the entries without effect
       associate (control => deck%control, solver => system%description)
          select case (control%method)
          case (method_step)
@@ -210,31 +230,6 @@ contains
       end do
       if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
    end subroutine write_summary
-
-   !> Count the body elements of each kind and formulation.
-   subroutine count_formulations(file, model)
-      type(output_file_type), intent(inout) :: file
-      type(model_type), intent(in)          :: model
-      integer(long) :: n(2, size(element_table)) ! without and with incompatible modes
-      integer :: e, k, m
-
-      n = 0
-      do e = 1, model%n_elements
-         k = model%element_kind(e)
-         associate (property => model%properties(model%element_property(e)))
-            m = merge(2, 1, property%incompatible .and. has_modes(k, property%state))
-         end associate
-         n(m, k) = n(m, k) + 1
-      end do
-      do k = 1, size(element_table)
-         associate (kind => element_table(k))
-            if (n(1, k) > 0) call count_line(file, '   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)//' NODES, '// &
-                                             trim(merge('PLAIN       ', 'SECOND ORDER', kind%linear == k)), n(1, k))
-            if (n(2, k) > 0) call count_line(file, '   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)// &
-                                             ' NODES, INCOMPATIBLE MODES', n(2, k))
-         end associate
-      end do
-   end subroutine count_formulations
 
    !> The number of a kind of parts of the model.
    subroutine count_line(file, words, number)

@@ -98,7 +98,7 @@ contains
          call page%screen%start('')
       end associate
       if (base == '') return
-      is_asked = .true. ! the CSV files
+      is_asked = .true. ! the other CSV files are always written
       is_asked(bolt_table) = size(results%bolts%before) > 0
       is_asked([modes_table, energy_table]) = plan%has_modes
       is_asked(response_table) = plan%has_responses
@@ -331,10 +331,8 @@ contains
          n_shown = -1
          if (allocated(page%shown)) n_shown = size(page%shown)
          call stream%extent(n_shown, 4)
-         if (.not. stream%writes) then
-            if (allocated(page%shown)) deallocate (page%shown)
-            if (n_shown >= 0) allocate (page%shown(n_shown))
-         end if
+         if (.not. stream%writes .and. allocated(page%shown)) deallocate (page%shown)
+         if (.not. stream%writes .and. n_shown >= 0) allocate (page%shown(n_shown))
          if (n_shown >= 0) call stream%item(page%shown)
          call stream%any_text(page%stage)
          call stream%any_text(page%now)

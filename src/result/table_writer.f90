@@ -332,10 +332,8 @@ contains
       n = -1
       if (allocated(self%columns)) n = size(self%columns)
       call stream%extent(n, 100)
-      if (.not. stream%writes) then
-         if (allocated(self%columns)) deallocate (self%columns)
-         if (n >= 0) allocate (self%columns(n))
-      end if
+      if (.not. stream%writes .and. allocated(self%columns)) deallocate (self%columns)
+      if (.not. stream%writes .and. n >= 0) allocate (self%columns(n))
       if (n >= 0) call stream%item(self%columns)
       if (stream%writes .and. self%n_kept > 0) kept = self%kept(:self%n_kept)
       call stream%any_text(kept)

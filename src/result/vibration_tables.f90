@@ -11,7 +11,7 @@ module vibration_tables
    use result_page, only: backbone_table, bend_table, energy_table, loop_table, modes_table, page_type, response_table, &
                           table_columns, xyz
    use stage_plan, only: vibration_plan_type
-   use table_writer, only: axes, column, noise, table_type
+   use table_writer, only: axes, column, in_form, noise, table_type
    use text_tools, only: above, integer_text, real_text, upper
    implicit none
    private
@@ -26,17 +26,17 @@ module vibration_tables
 
 contains
 
-   !> The search for the modes, mass, frequencies, and shares of strain energy.
+   !> The search for the modes, mass, frequencies, participation, and shares of strain energy.
    subroutine list_modes(page, model, plan, modes)
       type(page_type), intent(inout)        :: page
       type(model_type), intent(in)          :: model
       type(vibration_plan_type), intent(in) :: plan
       type(modes_type), intent(in)          :: modes
       character(4), parameter :: moments(6) = ['I XX', 'I YY', 'I ZZ', 'I XY', 'I YZ', 'I ZX']
-      type(table_type) :: table
+      type(table_type) :: parts, table
       integer, allocatable :: shown(:)
       real(wp) :: extent
-      integer  :: c, d
+      integer  :: c, d, m
 
       call page%file%put('')
       call page%file%put(' NATURAL MODES ABOUT THE END OF '//page%stage//'   '// &
@@ -53,6 +53,7 @@ contains
       end if
       if (modes%n_before > 0) call page%file%put('  BELOW THE RANGE: '//integer_text(modes%n_before))
       if (size(modes%modes) == 0) call page%file%put('  NO MODE IS IN THE RANGE')
+
       ! mass, centre and moments of inertia
       d = model%dimension
       shown = pack([(c, c = 1, 6)], [(d == 3 .or. (c == 3 .and. .not. model%axisymmetric), c = 1, 6)])
@@ -64,20 +65,8 @@ contains
       call table%add(modes%inertia(shown), no_part*modes%mass*extent**2)
       call table%print_row(page%file)
       if (size(modes%modes) == 0) return
-      call list_frequencies(page, model, plan, modes)
-      call list_energies(page, model, modes)
-   end subroutine list_modes
 
-   !> Frequencies, participation and effective masses.
-   subroutine list_frequencies(page, model, plan, modes)
-      type(page_type), intent(inout)        :: page
-      type(model_type), intent(in)          :: model
-      type(vibration_plan_type), intent(in) :: plan
-      type(modes_type), intent(in)          :: modes
-      type(table_type) :: table, parts
-      integer :: c, d, m
-
-      d = model%dimension
+      ! frequencies, participation and effective masses
       call table%start('FREQUENCIES', table_columns(modes_table, page%labels, model), page%file)
       call parts%start('PARTICIPATION AND EFFECTIVE MASS', [column('MODE', 'i6'), column('PARTICIPATION '//axes(:d), 'es18.5'), &
                        column('MASS ALONG '//axes(:d), 'es15.5')])
@@ -106,9 +95,10 @@ contains
       if (plan%has_losses .and. plan%amplitude <= 0.0_wp) call page%file%put( &
          '  LOSS FACTORS OF MATERIALS (GE, PARAM G) ALONE: THE LOSS OF JOINTS NEEDS AN AMPLITUDE')
       call parts%print_kept(page%file)
-   end subroutine list_frequencies
+      call list_energies(page, model, modes)
+   end subroutine list_modes
 
-   !> A rigid-body mode has no rows.
+   !> The shares of strain energy; a rigid-body mode has no rows.
    subroutine list_energies(page, model, modes)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
@@ -242,7 +232,7 @@ contains
       type(response_type), intent(in) :: response
       integer, intent(inout)          :: n_warnings
       type(table_type) :: table
-      character(12) :: amplitude, beside, frequency
+      character(12) :: amplitude
       integer :: at, c, f, i
 
       n_warnings = n_warnings + size(response%missed) + merge(1, 0, size(response%frequency) == 0)
@@ -267,14 +257,12 @@ contains
          '  BY THESE MODES ALONE: AN UNSUPPORTED STRUCTURE HAS NO STATIC RESPONSE')
       do i = 1, size(response%missed)
          associate (peak => response%missed(i))
-            write (frequency, '(es12.5)') peak%frequency
-            write (amplitude, '(es12.5)') peak%amplitude
-            write (beside, '(es12.5)') peak%beside
+            amplitude = in_form(peak%amplitude, '(es12.5)', 12)
             if (peak%amplitude <= 0.0_wp) amplitude = 'NO BOUND'
             call page%file%put('  WARNING: MODE '//integer_text(peak%mode)// &
-               ' HAS ITS PEAK BETWEEN THE REQUESTED FREQUENCIES: AT '//trim(adjustl(frequency))//' NODE '// &
-               integer_text(response%node(peak%node))//' '//axes(peak%component)//' '//trim(adjustl(amplitude))// &
-               ', IN THE TABLE '//trim(adjustl(beside))//'; SEE FREQ4')
+               ' HAS ITS PEAK BETWEEN THE REQUESTED FREQUENCIES: AT '//trim(adjustl(in_form(peak%frequency, '(es12.5)', 12)))// &
+               ' NODE '//integer_text(response%node(peak%node))//' '//axes(peak%component)//' '//trim(adjustl(amplitude))// &
+               ', IN THE TABLE '//trim(adjustl(in_form(peak%beside, '(es12.5)', 12)))//'; SEE FREQ4')
          end associate
       end do
       call table%start('', table_columns(response_table, page%labels, model)) ! in the CSV file only

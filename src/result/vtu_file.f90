@@ -19,7 +19,7 @@
 !! The header contains the offset of every array. It is therefore written last, into the space reserved for it. After COMPLETE the
 !! component FILE is the closed file, not yet named.
 !!
-!! A failed or inconsistent call makes FAILED true. Inconsistent are: a size of an array that differs from that of the points, a
+!! A failed or inconsistent call makes FILE%FAULT true. Inconsistent are: a size of an array that differs from that of the points, a
 !! node number without a point, no points at all, more arrays than the header holds. Later calls do nothing, and FINISH leaves
 !! no file. The compiler copies arrays that are not contiguous.
 module vtu_file
@@ -174,7 +174,8 @@ contains
       self%file%fault = self%file%fault .or. .not. fits
    end subroutine require
 
-   !> Write the header, padded to data_start bytes, and close the file, which has no name yet. FAULT where anything failed.
+   !> Write the header, padded to data_start bytes, and close the file, which has no name yet. FILE%FAULT is true where anything
+   !! failed.
    subroutine complete(self)
       class(vtu_file_type), intent(inout) :: self
       character(*), parameter :: last = '  <AppendedData encoding="raw">'//newline//'_'

@@ -232,7 +232,7 @@ contains
                   if (own(nodes(near(i))) > 0) call take(own(nodes(near(i))), point(nodes(k)), own(nodes(k)) > 0)
                end do
             end do
-            call add_cell(point(nodes), cell_type(surface%corners(f), size(nodes)), grid)
+            call add_cell(point(nodes), surface%corners(f), grid)
          end associate
       end do
       do f = 1, surface%n                                 ! no adjacent element, as at the edge of the other side
@@ -292,7 +292,7 @@ contains
       end associate
       grid%element(grid%n_points) = i
       grid%values(:, grid%n_points) = values_of(model, analysis, i)
-      call add_cell([grid%n_points], vtk_vertex, grid)
+      call add_cell([grid%n_points], 1, grid)
    end subroutine add_element
 
    !> Add a point at X that moves with NODE.
@@ -306,25 +306,18 @@ contains
       grid%node(grid%n_points) = node
    end subroutine add_point
 
-   subroutine add_cell(points, kind, grid)
-      integer, intent(in)            :: points(:)
-      integer(int8), intent(in)      :: kind
+   !> Add a cell with these POINTS: a vertex, line, triangle or quadrangle with so many CORNERS, or one with mid-side points too.
+   pure subroutine add_cell(points, corners, grid)
+      integer, intent(in)            :: points(:), corners
       type(grid_type), intent(inout) :: grid
+      integer, parameter :: linear(4) = [int(vtk_vertex), 3, 5, 9], quadratic(4) = [0, 21, 22, 23] ! the types of VTK
 
       grid%corners(grid%n_corners + 1:grid%n_corners + size(points)) = points
       grid%n_corners = grid%n_corners + size(points)
       grid%n_cells = grid%n_cells + 1
       grid%ends(grid%n_cells) = grid%n_corners
-      grid%types(grid%n_cells) = kind
+      grid%types(grid%n_cells) = int(merge(linear(corners), quadratic(corners), size(points) == corners), int8)
    end subroutine add_cell
-
-   !> VTK's type of a side with the given number of corners and NODES in total.
-   pure integer(int8) function cell_type(corners, nodes)
-      integer, intent(in) :: corners, nodes
-      integer, parameter :: linear(2:4) = [3, 5, 9], quadratic(2:4) = [21, 22, 23]
-
-      cell_type = int(merge(linear(corners), quadratic(corners), nodes == corners), int8)
-   end function cell_type
 
    !> The values at the point of interface element I.
    pure function values_of(model, analysis, i) result(values)

@@ -65,10 +65,7 @@ contains
       results%many = size(plan%stages) > 1 .or. any(plan%stages%output%steps)
       if (allocated(results%subdomains)) deallocate (results%subdomains)
       if (present(subdomains)) call move_alloc(subdomains, results%subdomains)
-      most = 0
-      do s = 1, size(plan%stages)
-         most = most + merge(size(plan%stages(s)%fractions), 1, plan%stages(s)%output%steps)
-      end do
+      most = sum([(merge(size(plan%stages(s)%fractions), 1, plan%stages(s)%output%steps), s = 1, size(plan%stages))])
       if (allocated(results%parts)) deallocate (results%parts)
       allocate (results%parts(2*most + size(plan%stages)))
    end subroutine start_vtu
@@ -235,13 +232,10 @@ contains
       integer :: i
 
       words = ''
-      if (results%many .and. results%n > 0) then
-         words = ', .pvd'
-      else
-         do i = 1, results%n
-            words = words//', '//trim(results%parts(i)%ending)
-         end do
-      end if
+      if (results%many .and. results%n > 0) words = ', .pvd'
+      do i = 1, merge(0, results%n, results%many)
+         words = words//', '//trim(results%parts(i)%ending)
+      end do
    end function vtu_names
 
    !> Discard all files, even those that already have their names.
@@ -295,34 +289,27 @@ contains
       end do
    end subroutine record_vtu
 
-   !> Whether ENDING, behind the name of the deck, is that of a file for ParaView: .vtu, .pvtu and its pieces, .joint.vtu,
-   !! .modes.vtu, all optionally preceded by the number of a stage, or of a stage and an increment; .pvd.
+   !> Whether ENDING, behind the name of the deck, is that of a file for ParaView: .vtu, .pvtu and its pieces .p0.vtu, .p1.vtu and
+   !! so on, .joint.vtu, .modes.vtu, all optionally preceded by the number of a stage, or of a stage and an increment; .pvd.
    pure logical function is_vtu_ending(ending)
-      character(*), intent(in) :: ending
-      integer :: first, k, length
+      character(*), intent(in)  :: ending
+      character(:), allocatable :: pattern ! the ending with 0 for every number
+      integer :: k
 
-      is_vtu_ending = ending == '.pvd'
-      first = 1
-      do k = 0, 2
-         is_vtu_ending = is_vtu_ending .or. is_piece_ending(ending(first:)) .or. &
-                         any(ending(first:) == [character(10) :: '.vtu', '.pvtu', '.joint.vtu', '.modes.vtu'])
-         if (is_vtu_ending .or. len(ending) < first + 2) return
-         length = verify(ending(first + 1:), '0123456789') - 1
-         if (ending(first:first) /= '.' .or. length < 1) return
-         first = first + 1 + length
+      pattern = ''
+      do k = 1, len(ending)
+         if (scan(ending(k:k), '0123456789') == 0) then
+            pattern = pattern//ending(k:k)
+         else if (scan(ending(max(1, k - 1):k - 1), '0123456789') == 0) then
+            pattern = pattern//'0'
+         end if
       end do
+      is_vtu_ending = pattern == '.pvd'
+      do k = 1, 2
+         if (index(pattern, '.0') == 1) pattern = pattern(3:)
+      end do
+      is_vtu_ending = is_vtu_ending .or. any(pattern == [character(10) :: '.vtu', '.pvtu', '.p0.vtu', '.joint.vtu', '.modes.vtu'])
    end function is_vtu_ending
-
-   !> Whether ENDING is that of a piece: .p0.vtu, .p1.vtu and so on.
-   pure logical function is_piece_ending(ending)
-      character(*), intent(in) :: ending
-      integer :: length
-
-      is_piece_ending = .false.
-      if (len(ending) < len('.p0.vtu')) return
-      length = verify(ending(3:), '0123456789') - 1
-      is_piece_ending = ending(:2) == '.p' .and. length >= 1 .and. ending(3 + length:) == '.vtu'
-   end function is_piece_ending
 
    !> Remove the files of an earlier run: those without a number, and those in its lists.
    subroutine remove_old_vtu(name)

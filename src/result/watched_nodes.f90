@@ -104,7 +104,8 @@ contains
       call share_work(model, analysis, change, before, now, answer)
    end subroutine find_watched
 
-   !> The shares of bodies, joints, bars and springs in the work over the stage, in which the nodes moved by CHANGE.
+   !> The shares of bodies, joints, bars and springs in the work over the stage, in which the nodes moved by CHANGE. The work of a
+   !! body is that of its nodal forces less the thermal forces.
    subroutine share_work(model, analysis, change, before, now, answer)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
@@ -112,51 +113,15 @@ contains
       type(watch_state), intent(in)      :: before, now  !! at both ends of the stage
       type(watch_answer), intent(inout)  :: answer
       type(compliance_share), allocatable   :: parts(:)
-      real(wp) :: work(3), all_amounts
-      integer  :: i, n_bodies, n_joints
-
-      call share_of_bodies(model, analysis, change, parts)
-      n_bodies = size(parts)
-      n_joints = size(model%joints)
-      parts = [parts, [(compliance_share('JOINT', model%joints(i)%id), i = 1, n_joints)], &
-               [(compliance_share(merge('SPRING', 'BAR   ', model%bars(i)%kind == a_spring), model%bars(i)%id), &
-                 i = 1, n_bars(model))]]
-      do i = 1, n_bars(model)
-         if (model%bars(i)%bolt > 0) parts(n_bodies + n_joints + i) = compliance_share('BOLT', model%bars(i)%bolt)
-      end do
-      do i = 1, size(model%interface)
-         work = 0.5_wp*(now%force(:, i) - before%force(:, i))*(now%movement(:, i) - before%movement(:, i))
-         associate (part => parts(n_bodies + model%interface(i)%joint))
-            part%share = part%share + [work(3), work(1) + work(2)]
-         end associate
-      end do
-      do i = 1, n_bars(model)
-         parts(n_bodies + n_joints + i)%share(1) = 0.5_wp*(now%tension(i) - before%tension(i))* &
-                                                   bar_elongation(model%bars(i), change(:, bar_nodes(model%bars(i))))
-      end do
-      all_amounts = sum([(sum(abs(parts(i)%share)), i = 1, size(parts))])
-      answer%work = sum([(sum(parts(i)%share), i = 1, size(parts))])
-      if (abs(answer%work) <= cancels*all_amounts .or. &
-          all_amounts <= cancels**2*analysis%largest_load*maxval(abs(analysis%all_u))) parts = parts(:0) ! only rounding
-      do i = 1, size(parts)
-         parts(i)%share = parts(i)%share/answer%work
-      end do
-      call move_alloc(parts, answer%parts)
-   end subroutine share_work
-
-   !> The bodies, as PARTS with their works: nodal forces less thermal forces, times the movements of the nodes.
-   subroutine share_of_bodies(model, analysis, change, parts)
-      type(model_type), intent(in)       :: model
-      type(analysis_type), intent(in)    :: analysis
-      real(wp), intent(in)               :: change(:, :)
-      type(compliance_share), allocatable, intent(out) :: parts(:)
       real(wp), allocatable :: f(:, :), thermal(:, :)
       integer, allocatable  :: of_node(:)
-      integer :: body(model%n_elements), e, n, node
+      integer  :: body(model%n_elements), e, i, n_bodies, n_joints, node
+      real(wp) :: work(3), all_amounts
 
-      call find_bodies(model, body, n)
-      allocate (parts(n), of_node(model%n_nodes))
-      of_node = 0
+      ! the bodies
+      call find_bodies(model, body, n_bodies)
+      allocate (parts(n_bodies))
+      allocate (of_node(model%n_nodes), source=0)
       parts%kind = 'BODY'
       parts%first = huge(1)
       do e = 1, model%n_elements
@@ -184,7 +149,36 @@ contains
             part%share(1) = part%share(1) + 0.5_wp*dot_product(f(:, node), change(:, node))
          end associate
       end do
-   end subroutine share_of_bodies
+
+      ! the joints, bars and springs
+      n_joints = size(model%joints)
+      parts = [parts, [(compliance_share('JOINT', model%joints(i)%id), i = 1, n_joints)], &
+               [(compliance_share(merge('SPRING', 'BAR   ', model%bars(i)%kind == a_spring), model%bars(i)%id), &
+                 i = 1, n_bars(model))]]
+      do i = 1, n_bars(model)
+         if (model%bars(i)%bolt > 0) parts(n_bodies + n_joints + i) = compliance_share('BOLT', model%bars(i)%bolt)
+      end do
+      do i = 1, size(model%interface)
+         work = 0.5_wp*(now%force(:, i) - before%force(:, i))*(now%movement(:, i) - before%movement(:, i))
+         associate (part => parts(n_bodies + model%interface(i)%joint))
+            part%share = part%share + [work(3), work(1) + work(2)]
+         end associate
+      end do
+      do i = 1, n_bars(model)
+         parts(n_bodies + n_joints + i)%share(1) = 0.5_wp*(now%tension(i) - before%tension(i))* &
+                                                   bar_elongation(model%bars(i), change(:, bar_nodes(model%bars(i))))
+      end do
+
+      ! works become shares, unless they are only rounding
+      all_amounts = sum([(sum(abs(parts(i)%share)), i = 1, size(parts))])
+      answer%work = sum([(sum(parts(i)%share), i = 1, size(parts))])
+      if (abs(answer%work) <= cancels*all_amounts .or. &
+          all_amounts <= cancels**2*analysis%largest_load*maxval(abs(analysis%all_u))) parts = parts(:0)
+      do i = 1, size(parts)
+         parts(i)%share = parts(i)%share/answer%work
+      end do
+      call move_alloc(parts, answer%parts)
+   end subroutine share_work
 
    !> Before the first stage all is at rest.
    pure subroutine start_watched(model, before)

@@ -166,9 +166,7 @@ contains
          call complain(program, '--set '//text//': expected NAME=VALUE, or NAME=VALUE,VALUE,... for a run with each')
          return
       end if
-      do k = 1, size(settings)
-         ok = ok .and. settings(k)%name /= text(:equals - 1)
-      end do
+      ok = all([(settings(k)%name /= text(:equals - 1), k = 1, size(settings))])
       if (.not. ok) call complain(program, '--set '//text(:equals)//': given twice')
       settings = [settings, setting_type(text(:equals - 1), values, &
                                          [0, pack([(k, k = 1, len(values))], [(values(k:k) == ',', k = 1, len(values))])])]

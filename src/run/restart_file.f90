@@ -1,10 +1,10 @@
 !> Writes and reads the restart file NAME.restart: the state for the next increments, and the results so far.
 !! RESTART asks for the file, and another run continues from it with --resume.
 !!
-!! The factors of the equations and the earlier solutions are too large for the file. The resumed run computes them anew, and the run
-!! that wrote the file discards them too: both runs then agree to the last digit. The model is built from the deck.
+!! The factors of the equations and the earlier solutions are too large for the file. The resumed run computes them anew, and the
+!! run that wrote the file discards them too: both runs then agree to the last digit. The model is built from the deck.
 module restart_file
-   use analysis_state, only: analysis_type, load_state
+   use analysis_state, only: analysis_type, iteration_record, load_state, slip_record
    use bolt_locking, only: lock_again
    use c_library, only: close_file, is_regular_file, keep_on_disk, read_all_bytes, remove_file
    use case_control, only: no_restart, restart_stages
@@ -137,8 +137,9 @@ contains
       call system%forget_past()
    end subroutine write_restart
 
-   !> Write A, or read it into one that start_analysis has just made for the same model. Two components are left out: condensed, which
-   !! does not change in an increment and which the first increment prints, and goes_on, which is true only while the run resumes.
+   !> Write A, or read it into one that start_analysis has just made for the same model. Two components are left out: condensed,
+   !! which does not change in an increment and which the first increment prints, and goes_on, which is true only while the run
+   !! resumes.
    subroutine record_analysis(stream, a)
       type(restart_stream_type), intent(inout) :: stream
       type(analysis_type), intent(inout)       :: a
@@ -175,14 +176,8 @@ contains
          call stream%extent(record%n_iterations, 32)
          n_slips = size(record%slips)
          call stream%extent(n_slips, 88)
-         if (record%n_iterations > size(record%iterations)) then
-            deallocate (record%iterations)
-            allocate (record%iterations(record%n_iterations))
-         end if
-         if (n_slips /= size(record%slips)) then
-            deallocate (record%slips)
-            allocate (record%slips(n_slips))
-         end if
+         if (record%n_iterations > size(record%iterations)) record%iterations = spread(iteration_record(), 1, record%n_iterations)
+         if (n_slips /= size(record%slips)) record%slips = spread(slip_record(), 1, n_slips)
          call stream%item(record%iterations(:record%n_iterations), record%slips)
       end associate
    end subroutine record_analysis

@@ -46,8 +46,8 @@ module run_boxes
 
 contains
 
-   !> Two boxes that the chart of the paper lacks, between two increments: the natural modes, where the increment completes a stage that
-   !! asks for them, which change nothing in the analysis; and the restart file.
+   !> Two boxes that the chart of the paper lacks, between two increments: the natural modes, where the increment completes a stage
+   !! that asks for them, which change nothing in the analysis; and the restart file.
    subroutine go_on(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(deck_type), intent(in)        :: deck
