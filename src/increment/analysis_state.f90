@@ -56,7 +56,7 @@ module analysis_state
 
    !> The loads and support movements at one instant.
    type, public :: load_state
-      real(wp), allocatable  :: load(:, :)           !! (dimension, n_nodes) with constant parts of bolt forces, thermal forces [force]
+      real(wp), allocatable  :: load(:, :)           !! (dimension, n_nodes) with constant parts of bolt and thermal forces [force]
       real(wp), allocatable  :: moved(:, :)          !! (dimension, n_nodes) displacements of held components [length]
       type(temperature_type) :: temperature
       real(wp), allocatable  :: condensed_load(:, :) !! (dimension, retained) condensed load, with moved supports [force]

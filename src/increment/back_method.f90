@@ -2,10 +2,10 @@
 !! secants p(lambda) a_i/lambda are taken at the last deflections. The iterations oscillate. The average of two consecutive sets
 !! of results damps the oscillation until the results settle.
 !!
-!!     p |                                 *    On the law (*) the load stands at o. The secant 0-1 of a deflection beyond it bears the
-!!       |                              1       load at 2, the secant of the deflection 2 bears it at 1 again: so for m = 1/2, on and
-!!   p_F |- - - - - - - - 2 - - - - o           on; with a smaller m ever farther off, until that of the least p bounds it. The means
-!!       |                      *               of both come near o, and settle for m above 1/4.
+!!     p |                                 * On the law (*) the load stands at o. The secant 0-1 of a deflection beyond it bears the
+!!       |                              1    load at 2, the secant of the deflection 2 bears it at 1 again: so for m = 1/2, on and
+!!   p_F |- - - - - - - - 2 - - - - o        on; with a smaller m ever farther off, until that of the least p bounds it. The means
+!!       |                      *            of both come near o, and settle for m above 1/4.
 !!       |                *
 !!     0 *---*----*------------------ lambda
 module back_method
@@ -34,9 +34,9 @@ module back_method
 
 contains
 
-   !> Apply the whole load: secants and solution in turn until they agree: within TOL of the largest pressure, or within the rounding
-   !! of the deflections times the slope of the law. With AVERAGE = NO agreement is not required: the last iteration that the
-   !! listing shows is the result.
+   !> Apply the whole load: secants and solution in turn until they agree: within TOL of the largest pressure, or within the
+   !! rounding of the deflections times the slope of the law. With AVERAGE = NO agreement is not required: the last iteration that
+   !! the listing shows is the result.
    subroutine back_increment(model, plan, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan

@@ -199,8 +199,7 @@ contains
       integer  :: i, k, n
 
       if (.not. allocated(found%modal)) return
-      if (allocated(vibration%response)) &
-         force = abs(sum(found%modal%phi*vibration%response%force(:model%dimension, :)))
+      if (allocated(vibration%response)) force = abs(sum(found%modal%phi*vibration%response%force(:model%dimension, :)))
       deallocate (found%modal)
       if (.not. allocated(vibration%response)) return
       associate (mode => modes%modes(found%mode - modes%n_before))
