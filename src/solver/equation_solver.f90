@@ -34,9 +34,9 @@ module equation_solver
       character(:), allocatable :: reason            !! why AUTO chose this solver, where the choice needs a reason
       character(40) :: words(3) = ''                 !! what NUMBERS count; '' behind the last of them
       integer(long) :: numbers(3) = 0
-      real(wp) :: static_operations  = 0.0_wp         !! multiplications and additions of the single static factorisation
-      real(wp) :: refactored_operations = 0.0_wp         !! the same of the factorisation in each increment
-      real(wp) :: assembly_time     = 0.0_wp         !! of the elements, all threads together [s]
+      real(wp) :: static_operations = 0.0_wp         !! multiplications and additions of the single static factorisation
+      real(wp) :: refactored_operations = 0.0_wp     !! the same of the factorisation in each increment
+      real(wp) :: assembly_time = 0.0_wp             !! of the elements, all threads together [s]
       integer(long) :: solutions = 0                 !! number of iterative solutions on several processes so far
       integer(long) :: steps = 0                     !! iteration steps of all these solutions
       integer  :: most_steps = 0                     !! most steps of one solution
