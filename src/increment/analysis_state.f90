@@ -17,8 +17,8 @@ module analysis_state
    implicit none
    private
 
-   public :: start_analysis, all_held, interface_stiffness, find_movements, find_unbalanced, subtract_joint_forces, &
-             element_force, tally_work, record_iteration, note_largest, free_norm, force_noise, note_turns
+   public :: start_analysis, all_held, interface_stiffness, find_movements, subtract_joint_forces, element_force, tally_work, &
+             record_iteration, note_largest, free_norm, force_noise, note_turns
 
    real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: the largest rounding error of forces that joints balance
 
@@ -56,7 +56,7 @@ module analysis_state
 
    !> The loads and support movements at one instant.
    type, public :: load_state
-      real(wp), allocatable  :: load(:, :)           !! (dimension, n_nodes) with constant parts of bolt forces, thermal forces [force]
+      real(wp), allocatable  :: load(:, :)           !! (dimension, n_nodes) with constant parts of bolt and thermal forces [force]
       real(wp), allocatable  :: moved(:, :)          !! (dimension, n_nodes) displacements of held components [length]
       type(temperature_type) :: temperature
       real(wp), allocatable  :: condensed_load(:, :) !! (dimension, retained) condensed load, with moved supports [force]
@@ -177,7 +177,8 @@ contains
       end do
    end function all_held
 
-   !> NORM and SHEAR for every interface element: its branches after the last increment and its stiffness for the next one.
+   !> NORM and SHEAR for every interface element: its branches after the last increment and its stiffness for the next one. A
+   !! removed element leaves its force unbalanced.
    subroutine interface_stiffness(model, system, analysis, failure)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -210,7 +211,8 @@ contains
          end associate
       end do
       call note_turns(analysis)
-      call find_unbalanced(system, analysis)
+      analysis%unbalanced = analysis%now%condensed_load - analysis%body
+      call subtract_joint_forces(system%interface, analysis%states, analysis%unbalanced)
    end subroutine interface_stiffness
 
    !> Note the shear branches that began with the last movement. A branch begins at the point before the movement.
@@ -247,15 +249,6 @@ contains
 
       force = matmul(element%axes, [state%shear%tau*element%area, state%normal%sumf])
    end function element_force
-
-   !> The unbalanced forces of the increment: load minus the forces in bodies and joints on retained nodes.
-   subroutine find_unbalanced(system, analysis)
-      class(equation_system), intent(in) :: system
-      type(analysis_type), intent(inout) :: analysis
-
-      analysis%unbalanced = analysis%now%condensed_load - analysis%body
-      call subtract_joint_forces(system%interface, analysis%states, analysis%unbalanced)
-   end subroutine find_unbalanced
 
    !> Subtract the forces of interface ELEMENTS in these STATES from the nodal forces F.
    pure subroutine subtract_joint_forces(elements, states, f)

@@ -2,15 +2,15 @@
 !! secants p(lambda) a_i/lambda are taken at the last deflections. The iterations oscillate. The average of two consecutive sets
 !! of results damps the oscillation until the results settle.
 !!
-!!     p |                                 *    On the law (*) the load stands at o. The secant 0-1 of a deflection beyond it bears the
-!!       |                              1       load at 2, the secant of the deflection 2 bears it at 1 again: so for m = 1/2, on and
-!!   p_F |- - - - - - - - 2 - - - - o           on; with a smaller m ever farther off, until that of the least p bounds it. The means
-!!       |                      *               of both come near o, and settle for m above 1/4.
+!!     p |                                 * On the law (*) the load stands at o. The secant 0-1 of a deflection beyond it bears the
+!!       |                              1    load at 2, the secant of the deflection 2 bears it at 1 again: so for m = 1/2, on and
+!!   p_F |- - - - - - - - 2 - - - - o        on; with a smaller m ever farther off, until that of the least p bounds it. The means
+!!       |                      *            of both come near o, and settle for m above 1/4.
 !!       |                *
 !!     0 *---*----*------------------ lambda
 module back_method
-   use analysis_state, only: analysis_type, find_movements, find_unbalanced, force_noise, no_stiffness, iteration_record, &
-                             record_iteration, secant_stiffness, tally_work
+   use analysis_state, only: analysis_type, find_movements, force_noise, no_stiffness, iteration_record, record_iteration, &
+                             secant_stiffness, subtract_joint_forces, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
@@ -34,9 +34,9 @@ module back_method
 
 contains
 
-   !> Apply the whole load: secants and solution in turn until they agree: within TOL of the largest pressure, or within the rounding
-   !! of the deflections times the slope of the law. With AVERAGE = NO agreement is not required: the last iteration that the
-   !! listing shows is the result.
+   !> Apply the whole load: secants and solution in turn until they agree: within TOL of the largest pressure, or within the
+   !! rounding of the deflections times the slope of the law. With AVERAGE = NO agreement is not required: the last iteration that
+   !! the listing shows is the result.
    subroutine back_increment(model, plan, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
@@ -102,7 +102,8 @@ contains
       call store(model, k, deflection, analysis)
       call forces_in_bodies(system, analysis%u, analysis%body)
       call find_movements(system, analysis)
-      call find_unbalanced(system, analysis)
+      analysis%unbalanced = analysis%now%condensed_load - analysis%body
+      call subtract_joint_forces(system%interface, analysis%states, analysis%unbalanced)
    end subroutine back_increment
 
    !> Store the states of the elements from the last solution, with the secants K and the DEFLECTIONS.

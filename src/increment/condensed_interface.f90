@@ -81,8 +81,9 @@ contains
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       integer, allocatable, intent(out)  :: joints(:), gone(:)
+      integer, allocatable :: equations(:)
       logical :: is_open(system%n) ! solved for and not yet listed
-      integer :: d, end, equation, i, j, k
+      integer :: end, i, j, k
 
       is_open = .false.
       is_open(system%equations) = .true.
@@ -91,16 +92,12 @@ contains
       do j = 1, size(model%joints)
          do end = 1, 2
             do i = model%joints(j)%first, model%joints(j)%last
-               associate (nodes => unknown_nodes(model, nodes_of_end(model%interface(i), end)))
-                  do k = 1, size(nodes)
-                     do d = 1, model%dimension
-                        equation = system%number(d, nodes(k))
-                        if (equation == 0) cycle
-                        if (is_open(equation)) joints = [joints, equation]
-                        is_open(equation) = .false.
-                     end do
-                  end do
-               end associate
+               equations = [system%number(:, unknown_nodes(model, nodes_of_end(model%interface(i), end)))]
+               equations = pack(equations, equations > 0)
+               do k = 1, size(equations)
+                  if (is_open(equations(k))) joints = [joints, equations(k)]
+                  is_open(equations(k)) = .false.
+               end do
             end do
          end do
       end do

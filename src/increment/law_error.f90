@@ -86,11 +86,11 @@ contains
       end associate
    end function shear_distance
 
-   !> Update the largest difference between ACTUAL and BY_LAW, relative to LARGEST if that is above FLOOR. Of values that are
-   !! equal but for rounding the first counts.
+   !> The largest difference between ACTUAL and BY_LAW, relative to LARGEST; there is none where LARGEST is not above FLOOR. Of
+   !! values that are equal but for rounding the first counts.
    pure type(distance_type) function distance_of(actual, by_law, largest, floor) result(farthest)
       real(wp), intent(in) :: actual(:), by_law(:), largest, floor
-      integer  :: i
+      integer :: i
 
       farthest%element = 1
       farthest%is_there = largest > floor

@@ -88,7 +88,7 @@ contains
          attempt%iteration = attempt%iteration + 1
       end do
 
-      ! what is said of an attempt that fails
+      ! for the message about an attempt that fails
       attempt%imprecise = attempt%noise > precise*attempt%load_size .and. .not. attempt%carried
       attempt%loose = loose_joint(model, now%states)
       attempt%slides = attempt%loose > 0 .and. any(now%states%slips)

@@ -32,7 +32,7 @@ contains
    subroutine newton_increment(model, plan, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
-      type(analysis_type), intent(inout)   :: analysis !! applied is the load at the end of the increment
+      type(analysis_type), intent(inout)   :: analysis !! NOW has the loads at the end of the increment
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(attempt_type) :: attempt

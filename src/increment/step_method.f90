@@ -1,17 +1,15 @@
 !> METHOD = STEP, the step-wise tangent-stiffness method: one routine for each box of the flow chart (Fig. 6a).
 module step_method
-   use analysis_state, only: analysis_type, find_movements, iteration_record, joint_energy, record_iteration, &
-                             slip_record, tally_work
+   use analysis_state, only: analysis_type, find_movements, iteration_record, record_iteration, slip_record, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
-   use interface_operator, only: add_force, interface_element, joint_movement
+   use interface_operator, only: add_force, joint_movement
    use joint_laws, only: element_state, exceeds_limit, flag_margin, friction_excess, friction_limit, is_apart, stiffness_matrices
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use newton_method, only: free_idle_joints, newton_increment
    use normal_stiffness, only: pressure_reached
    use numbers, only: first_largest
-   use shear_stiffness, only: shear_state
    use stage_entries, only: output_joint
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
@@ -25,8 +23,8 @@ module step_method
 
 contains
 
-   !> [k_s] = sum [k_b] + sum [k_int], ready to solve. A singular matrix is a failure, unless open gaps leave bodies loose: then this
-   !! increment is iterated across the gaps.
+   !> [k_s] = sum [k_b] + sum [k_int], ready to solve. A singular matrix is a failure, unless open gaps leave bodies loose: then
+   !! this increment is iterated across the gaps.
    subroutine structure_stiffness(model, plan, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
@@ -131,7 +129,7 @@ contains
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: excess(:, :), relief(:, :)
-      real(wp) :: total, total_after
+      real(wp) :: on_friction, slid(2), total, total_after
       integer  :: i, passes(size(model%interface)), reanalysis, worst
       logical  :: is_listed, relieved(size(model%interface))
       type(slip_record) :: record
@@ -156,8 +154,17 @@ contains
                call note_slip(model, analysis%states, 1, record)
                analysis%record%slips = [analysis%record%slips, record]
             end if
-            call relieve(system%interface(i), excess(:, i), analysis%k(:2, i), analysis%states(i)%shear, &
-                         analysis%energy(model%interface(i)%joint), relief)
+            ! the element slides by the excess over its stiffness; part of the work put in by shear becomes work on friction
+            associate (shear => analysis%states(i)%shear, area => model%interface(i)%area, &
+                       put_in => analysis%energy(model%interface(i)%joint)%put_in)
+               slid = 0.0_wp
+               where (analysis%k(:2, i) > 0.0_wp) slid = excess(:, i)/analysis%k(:2, i)
+               shear%tau = shear%tau - excess(:, i)/area
+               shear%slid = shear%slid + slid
+               on_friction = area*sum(shear%tau*slid)
+               put_in = put_in + [-on_friction, 0.0_wp, on_friction]
+            end associate
+            call add_force(system%interface(i), [excess(:, i), 0.0_wp], relief)
          end do
          call solve_equations(model, system, relief, analysis%du, failure)
          if (failure%raised) return
@@ -194,25 +201,6 @@ contains
          end associate
       end do
    end subroutine find_excess
-
-   !> Relieve an ELEMENT of its EXCESS: it slides, and RELIEF gets the resulting nodal forces. Part of the work put in by shear
-   !! becomes work on friction.
-   pure subroutine relieve(element, excess, k, shear, energy, relief)
-      type(interface_element), intent(in) :: element
-      real(wp), intent(in)                :: excess(2), k(2) !! [force], [force/length]
-      type(shear_state), intent(inout)    :: shear(2)
-      type(joint_energy), intent(inout)   :: energy
-      real(wp), intent(inout)             :: relief(:, :)    !! (dimension, retained) [force]
-      real(wp) :: on_friction, slid(2)
-
-      slid = 0.0_wp
-      where (k > 0.0_wp) slid = excess/k
-      shear%tau = shear%tau - excess/element%area
-      shear%slid = shear%slid + slid
-      on_friction = element%area*sum(shear%tau*slid)
-      energy%put_in = energy%put_in + [-on_friction, 0.0_wp, on_friction]
-      call add_force(element, [excess, 0.0_wp], relief)
-   end subroutine relieve
 
    !> Note deflections, stresses and limit of the element of RECORD, WHEN = 1 before a re-analysis, 2 after it.
    pure subroutine note_slip(model, states, when, record)

@@ -14,7 +14,7 @@
 !!                           R  U  U U                                   o, what L has of its path, is 0 where p never changed.
 !!                U  U  U  S         |                                   d and tau count in the sense s of the loading, +1 or -1:
 !! L  L M  U  U  U                   | -tau_r                            d = s (delta - delta_0); slip moves delta_0. A, B, C are
-!!                                                                       cubics, coefficients straight lines in the pressure (Fig. 2).
+!!                                                                       cubics, their coefficients linear in the pressure (Fig. 2).
 !!
 !! U and R end where they meet the loading curve that they approach (M, and A or a point before it). A branch that reaches d_r
 !! without meeting that curve becomes the loading branch where it is above the curve. Below the curve it continues along the

@@ -11,8 +11,8 @@ module distributed_matrix
    implicit none
    private
 
-   public :: start_matrix, reserve_touched, add_blocks, finish_matrix, keep_copy, drop_copy, read_touched, read_diagonal, &
-             write_touched, multiply_by_matrix, free_matrix, put_vector, take_vector, end_at_error
+   public :: start_matrix, add_blocks, finish_matrix, drop_copy, read_touched, read_diagonal, write_touched, multiply_by_matrix, &
+             free_matrix, put_vector, take_vector, end_at_error
 
    type, public :: distributed_matrix_type
       type(tMat) :: matrix                    !! row by row, for the preconditioners
@@ -29,16 +29,18 @@ module distributed_matrix
 
 contains
 
-   !> Create the matrix of the own elements without assembly. reserve_touched follows; then rank 0 may add_blocks.
-   subroutine start_matrix(subdomain, counts, stiffness)
-      type(subdomain_type), intent(in)               :: subdomain
-      integer, intent(in)                        :: counts(:) !! (ranks) blocks of each rank
+   !> Create the matrix of the own elements without assembly; rank 0 may add_blocks to it. WORDS: the number of blocks of each rank,
+   !! the number of touched blocks of each rank, then rows and columns of all touched blocks.
+   subroutine start_matrix(words, subdomain, stiffness)
+      integer, intent(in)                        :: words(:)
+      type(subdomain_type), intent(in)           :: subdomain
       type(distributed_matrix_type), intent(out) :: stiffness
       real(wp), allocatable :: k(:, :)
-      integer  :: d, e, n
+      real(wp) :: nothing(subdomain%dimension**2)
+      integer  :: d, e, first, i, n
 
       d = subdomain%dimension
-      stiffness%counts = d*counts
+      stiffness%counts = d*words(:n_ranks)
       associate (matrix => stiffness%matrix, own => d*subdomain%n_own, all => d*subdomain%n_blocks)
          call MatCreate(PETSC_COMM_WORLD, matrix, code)
          call MatSetSizes(matrix, own, own, all, all, code)
@@ -55,31 +57,25 @@ contains
             call add_blocks(subdomain%block(nodes), subdomain%held(:, nodes), k(:n, :n), stiffness)
          end associate
       end do
-   end subroutine start_matrix
 
-   !> Reserve the touched blocks of the own rows and the diagonal: the assembly would return entries that are empty. WORDS: the
-   !! number of touched blocks of each rank, then rows and columns of all.
-   subroutine reserve_touched(words, subdomain, stiffness)
-      integer, intent(in)                          :: words(:)
-      type(subdomain_type), intent(in)             :: subdomain
-      type(distributed_matrix_type), intent(inout) :: stiffness
-      real(wp) :: nothing(subdomain%dimension**2)
-      integer  :: first, i
-
+      ! reserve the touched blocks of the own rows and the diagonal: the assembly would return entries that are empty
       nothing = 0.0_wp
-      stiffness%touched_counts = subdomain%dimension**2*words(:n_ranks)
-      first = n_ranks + sum(words(:rank))
-      allocate (stiffness%touched(2, words(rank + 1)))
-      do i = 1, words(rank + 1)
-         associate (row => words(first + i), column => words(first + sum(words(:n_ranks)) + i))
-            stiffness%touched(:, i) = [row, column]
-            call MatSetValuesBlocked(stiffness%matrix, 1, [row], 1, [column], nothing, ADD_VALUES, code)
+      associate (touched => words(n_ranks + 1:2*n_ranks))
+         stiffness%touched_counts = d**2*touched
+         first = 2*n_ranks + sum(touched(:rank))
+         allocate (stiffness%touched(2, touched(rank + 1)))
+         stiffness%touched(1, :) = words(first + 1:first + touched(rank + 1))
+         stiffness%touched(2, :) = words(first + sum(touched) + 1:first + sum(touched) + touched(rank + 1))
+      end associate
+      do i = 1, size(stiffness%touched, 2)
+         associate (row => stiffness%touched(1:1, i), column => stiffness%touched(2:2, i))
+            call MatSetValuesBlocked(stiffness%matrix, 1, row, 1, column, nothing, ADD_VALUES, code)
          end associate
       end do
       do i = subdomain%first, subdomain%first + subdomain%n_own - 1
          call MatSetValuesBlocked(stiffness%matrix, 1, [i], 1, [i], nothing, ADD_VALUES, code)
       end do
-   end subroutine reserve_touched
+   end subroutine start_matrix
 
    !> Add the symmetric matrix K between BLOCKS, without the HELD rows and columns.
    subroutine add_blocks(blocks, held, k, stiffness)
@@ -105,7 +101,7 @@ contains
    !> Assemble the matrix. Held components get the identity times STIFFEST, the largest diagonal entry of all processes. Without an
    !! element STIFFEST is zero, and any number will do.
    subroutine finish_matrix(subdomain, stiffness, stiffest)
-      type(subdomain_type), intent(in)                 :: subdomain
+      type(subdomain_type), intent(in)             :: subdomain
       type(distributed_matrix_type), intent(inout) :: stiffness
       real(wp), intent(out)                        :: stiffest !! [force/length]
       real(wp) :: block(subdomain%dimension, subdomain%dimension)
@@ -131,17 +127,6 @@ contains
       stiffness%products = stiffness%matrix
    end subroutine finish_matrix
 
-   !> Keep the blocks on and above the diagonal beside the matrix from now on. They take half its memory and multiply a vector in a
-   !! quarter of the time.
-   subroutine keep_copy(stiffness)
-      type(distributed_matrix_type), intent(inout) :: stiffness
-
-      if (stiffness%has_copy) return
-      call MatConvert(stiffness%matrix, 'sbaij', MAT_INITIAL_MATRIX, stiffness%products, code)
-      call MatSetOption(stiffness%products, MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE, code)
-      stiffness%has_copy = .true.
-   end subroutine keep_copy
-
    !> Multiply by the matrix itself from now on.
    subroutine drop_copy(stiffness)
       type(distributed_matrix_type), intent(inout) :: stiffness
@@ -160,7 +145,7 @@ contains
 
    !> The rigid-body modes, which the coarse levels of the preconditioner have to represent.
    subroutine give_near_null_space(subdomain, stiffness)
-      type(subdomain_type), intent(in)              :: subdomain
+      type(subdomain_type), intent(in)          :: subdomain
       type(distributed_matrix_type), intent(in) :: stiffness
       type(tMatNullSpace) :: null_space
       type(tVec)  :: vectors(size(subdomain%motions, 2))
@@ -293,8 +278,8 @@ contains
       call VecDestroy(stiffness%r, code)
    end subroutine free_matrix
 
-   !> PETSc calls this routine at its first error: an error on one process ends all processes. Its manual page of PetscPushErrorHandler
-   !! prescribes the arguments.
+   !> PETSc calls this routine at its first error: an error on one process ends all processes. Its manual page of
+   !! PetscPushErrorHandler prescribes the arguments.
    subroutine end_at_error(comm, line, routine, file, error, kind, message, context, status)
       integer, intent(in)      :: comm, line, error, kind, context
       character(*), intent(in) :: routine, file, message

@@ -6,9 +6,10 @@ submodule(distribution) mpi_backend
    use distributed_matrix, only: end_at_error
    use distributed_solution, only: by_gamg, by_mumps, set_library_options
    use incomplete_results, only: watch_ends
+   use mpi_f08, only: mpi_finalize
    use petscsys, only: PETSC_NULL_INTEGER, PetscFinalize, PetscInitialize
    use petsc_solver, only: petsc_solver_type
-   use ranks, only: find_ranks, leave_ranks, n_ranks, rank
+   use ranks, only: find_ranks, n_ranks, rank
    use subdomain_output, only: cut_pieces, write_all, writes_by
    use worker_loop, only: broadcast_command, command_cut, command_end, command_memory, command_show, free_worker, serve
    implicit none
@@ -48,7 +49,7 @@ contains
 
       call free_worker()
       call PetscFinalize(code)
-      call leave_ranks()
+      call mpi_finalize()
    end subroutine leave
 
    module procedure choose_distributed

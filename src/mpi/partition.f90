@@ -1,7 +1,7 @@
 !> Partitions the structure: which nodes, elements and equations each process owns.
-!! METIS partitions the nodes so that few elements lie between two parts. An element belongs to the part of its first node. The nodes
-!! with unknowns are the BLOCKS of the equations, the part of rank 0 first. A block has as many rows as there are dimensions; the row
-!! of a held component is that of the identity.
+!! METIS partitions the nodes so that few elements lie between two parts. An element belongs to the part of its first node. The
+!! nodes with unknowns are the BLOCKS of the equations, the part of rank 0 first. A block has as many rows as there are dimensions;
+!! the row of a held component is that of the identity.
 !!
 !! Joints, bars and locked bolt sections change during the run. The blocks that they touch have a list of their own. Rank 0 computes
 !! the values of these touched blocks in all states of the matrix,
@@ -12,7 +12,6 @@
 !! and the processes that own the blocks insert the values.
 module partition
    use body_parts, only: extract, nodes_of_elements
-   use interface_equations, only: interface_equations_type
    use interface_operator, only: interface_element
    use kinds, only: wp
    use lists, only: first_not_below, list_owners, sorted_order
@@ -25,8 +24,7 @@ module partition
    implicit none
    private
 
-   public :: partition_nodes, subdomain_of, is_entangled, pass_subdomain, forget_elements, pass_part, list_touched, &
-             add_touched, structure_values
+   public :: partition_nodes, subdomain_of, is_entangled, pass_subdomain, pass_part, list_touched, add_touched
 
    !> The partition of the nodes, known to rank 0.
    type, public :: partition_type
@@ -63,7 +61,7 @@ contains
    subroutine partition_nodes(model, graph, parts, ok)
       type(model_type), intent(in)      :: model
       type(node_graph_type), intent(in) :: graph
-      type(partition_type), intent(out)      :: parts
+      type(partition_type), intent(out) :: parts
       logical, intent(out)              :: ok
       integer, allocatable :: first(:)
       integer :: i
@@ -81,9 +79,9 @@ contains
    subroutine subdomain_of(model, graph, parts, r, subdomain)
       type(model_type), intent(in)      :: model
       type(node_graph_type), intent(in) :: graph
-      type(partition_type), intent(in)       :: parts
+      type(partition_type), intent(in)  :: parts
       integer, intent(in)               :: r
-      type(subdomain_type), intent(out)     :: subdomain
+      type(subdomain_type), intent(out) :: subdomain
       integer, allocatable :: mine(:), nodes(:)
       integer :: b, e, node
 
@@ -120,15 +118,6 @@ contains
       is_entangled = section_node(model, e) > 0 .or. is_shell(model, e) .or. is_beam(model, e)
       if (.not. is_entangled) is_entangled = is_coupled(model, corners_of(model, e))
    end function is_entangled
-
-   !> Free what only the construction of the matrix needs.
-   subroutine forget_elements(subdomain)
-      type(subdomain_type), intent(inout) :: subdomain
-      type(model_type) :: nothing
-
-      subdomain%model = nothing
-      deallocate (subdomain%block, subdomain%held, subdomain%held_own, subdomain%inside, subdomain%outside, subdomain%motions)
-   end subroutine forget_elements
 
    !> Send SUBDOMAIN from rank 0 to process R.
    subroutine pass_subdomain(r, subdomain)
@@ -168,10 +157,11 @@ contains
    subroutine list_touched(model, graph, parts, elements, touched)
       type(model_type), intent(in)        :: model
       type(node_graph_type), intent(in)   :: graph
-      type(partition_type), intent(in)         :: parts
+      type(partition_type), intent(in)    :: parts
       type(interface_element), intent(in) :: elements(:)
       type(touched_type), intent(out)     :: touched
-      integer, allocatable :: pairs(:, :)
+      integer, allocatable :: by_column(:), by_row(:), pairs(:, :), rows(:)
+      logical, allocatable :: is_new(:)
       integer :: i, k, n, pass
 
       do pass = 1, 2 ! count, then fill
@@ -191,7 +181,17 @@ contains
          end do
          if (pass == 1) allocate (pairs(2, n))
       end do
-      call sort_once(size(parts%order), pairs, touched)
+
+      ! the distinct pairs, sorted by row and then by column
+      call sorted_order(pairs(2, :), by_column)
+      call sorted_order(pairs(1, by_column), by_row)
+      pairs = pairs(:, by_column(by_row))
+      allocate (is_new(size(pairs, 2)), source=.true.)
+      is_new(2:) = any(pairs(:, 2:) /= pairs(:, :size(is_new) - 1), dim=1)
+      touched%n = count(is_new)
+      touched%row = pack(pairs(1, :), is_new)
+      touched%column = pack(pairs(2, :), is_new)
+      call list_owners(size(parts%order), reshape(touched%row + 1, [1, touched%n]), touched%first, rows)
       allocate (touched%counts(size(parts%counts)))
       n = 0
       do i = 1, size(parts%counts)
@@ -216,24 +216,6 @@ contains
 
    end subroutine list_touched
 
-   !> The distinct PAIRS, sorted by row and then by column.
-   subroutine sort_once(n_blocks, pairs, touched)
-      integer, intent(in)               :: n_blocks, pairs(:, :)
-      type(touched_type), intent(inout) :: touched
-      integer, allocatable :: by_column(:), by_row(:), sorted(:, :), rows(:)
-      logical, allocatable :: is_new(:)
-
-      call sorted_order(pairs(2, :), by_column)
-      call sorted_order(pairs(1, by_column), by_row)
-      sorted = pairs(:, by_column(by_row))
-      allocate (is_new(size(pairs, 2)), source=.true.)
-      is_new(2:) = any(sorted(:, 2:) /= sorted(:, :size(is_new) - 1), dim=1)
-      touched%n = count(is_new)
-      touched%row = pack(sorted(1, :), is_new)
-      touched%column = pack(sorted(2, :), is_new)
-      call list_owners(n_blocks, reshape(touched%row + 1, [1, touched%n]), touched%first, rows)
-   end subroutine sort_once
-
    !> Add the symmetric matrix K between ROWS of the matrix to VALUES of the touched blocks.
    pure subroutine add_touched(touched, rows, k, values)
       type(touched_type), intent(in) :: touched
@@ -255,31 +237,5 @@ contains
          end do
       end do
    end subroutine add_touched
-
-   !> Turn VALUES of the bodies into those of the structure: add K_INT of the joints, whose equation i is ROW(i) of the matrix. The LOCKED
-   !! equations get the diagonal UNIT.
-   subroutine structure_values(touched, joints, k_int, row, locked, unit, values)
-      type(touched_type), intent(in)             :: touched
-      type(interface_equations_type), intent(in) :: joints
-      real(wp), intent(in)                       :: k_int(:, :, :)  !! (3, 3, joints%n) [force/length]
-      integer, intent(in)                        :: row(0:)         !! from 1; row(0) is 0
-      integer, intent(in)                        :: locked(:)
-      real(wp), intent(in)                       :: unit            !! [force/length]
-      real(wp), intent(inout)                    :: values(:, :, :) !! (dimension, dimension, n) [force/length]
-      integer :: block, c, i, k
-
-      do i = 1, joints%n
-         call add_touched(touched, row(joints%rows_of(i)), joints%matrix_of(i, k_int(:, :, i)), values)
-      end do
-      do i = 1, size(locked)
-         block = (row(locked(i)) - 1)/size(values, 1)
-         c = row(locked(i)) - size(values, 1)*block
-         do k = 1, touched%n
-            if (touched%row(k) == block) values(c, :, k) = 0.0_wp
-            if (touched%column(k) == block) values(:, c, k) = 0.0_wp
-            if (touched%row(k) == block .and. touched%column(k) == block) values(c, c, k) = unit
-         end do
-      end do
-   end subroutine structure_values
 
 end module partition

@@ -14,8 +14,8 @@ module petsc_solver
    use model_data, only: model_type
    use node_coupling, only: list_on_unknowns, coupled_nodes
    use node_graph, only: node_graph_type
-   use partition, only: add_touched, is_entangled, list_touched, partition_nodes, partition_type, pass_subdomain, &
-                        structure_values, subdomain_of, subdomain_type, touched_type
+   use partition, only: add_touched, is_entangled, list_touched, partition_nodes, partition_type, pass_subdomain, subdomain_of, &
+                        subdomain_type, touched_type
    use ranks, only: n_ranks
    use text_tools, only: integer_text, real_text
    use worker_loop, only: broadcast_command, command_diagonal, command_finish, command_forget, command_multiply, command_read, &
@@ -127,15 +127,30 @@ contains
       self%is_own = .false.
    end subroutine add_to_bodies
 
-   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), in the matrix. An earlier preconditioner is kept while that pays.
+   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), in the matrix; the row and column of a locked equation become those of the identity
+   !! times the UNIT of the matrix. An earlier preconditioner is kept while that pays.
    subroutine form_structure(self, fault)
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(out)                    :: fault
       real(wp), allocatable :: values(:, :, :)
+      integer :: block, c, i, k
       logical :: reuse
 
       allocate (values, source=self%bodies)
-      call structure_values(self%touched, self%joints, self%k_int, self%row, self%locked, stiffness%unit, values)
+      do i = 1, self%joints%n
+         call add_touched(self%touched, self%row(self%joints%rows_of(i)), self%joints%matrix_of(i, self%k_int(:, :, i)), values)
+      end do
+      do i = 1, size(self%locked)
+         block = (self%row(self%locked(i)) - 1)/size(values, 1)
+         c = self%row(self%locked(i)) - size(values, 1)*block
+         do k = 1, self%touched%n
+            associate (in_row => self%touched%row(k) == block, in_column => self%touched%column(k) == block)
+               if (in_row) values(c, :, k) = 0.0_wp
+               if (in_column) values(:, c, k) = 0.0_wp
+               if (in_row .and. in_column) values(c, c, k) = stiffness%unit
+            end associate
+         end do
+      end do
       self%structure = reshape(values, [size(values)])
       call broadcast_command(command_write, values=self%structure)
       call act_on(self, command_diagonal, self%diagonal)
@@ -181,8 +196,8 @@ contains
       end if
    end subroutine solve
 
-   !> Replace the load X by the solution; STEPS is the number of steps. If the preconditioner of an earlier stiffness does not converge, a
-   !! new one is built, and at last the factor of MUMPS.
+   !> Replace the load X by the solution; STEPS is the number of steps. If the preconditioner of an earlier stiffness does not
+   !! converge, a new one is built, and at last the factor of MUMPS.
    subroutine solve_somehow(self, noted, x, steps)
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(in)                     :: noted !! 1: later solutions use this one for their first guess; 0
@@ -222,9 +237,9 @@ contains
       call broadcast_command(command_way, [way])
    end subroutine take_way
 
-   !> Find motions with little or no stiffness, which the loads of the run may not excite: solve for a load that excites every motion.
-   !! FAULT is an equation of such a motion. The load of an equation is irregular and proportional to sqrt(k_ii), so that units do not
-   !! matter. The inverse of the largest displacement, relative to 1/sqrt(k_ii), takes the place of the smallest pivot.
+   !> Find motions with little or no stiffness, which the loads of the run may not excite: solve for a load that excites every
+   !! motion. FAULT is an equation of such a motion. The load of an equation is irregular and proportional to sqrt(k_ii), so that
+   !! units do not matter. The inverse of the largest displacement, relative to 1/sqrt(k_ii), takes the place of the smallest pivot.
    subroutine probe(self, fault)
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(inout)                  :: fault

@@ -2,7 +2,7 @@
 !! Rank 0 reads, steps and writes. The other ranks wait for its commands.
 module ranks
    use mpi_f08, only: mpi_abort, mpi_allreduce, mpi_bcast, mpi_byte, mpi_comm_rank, mpi_comm_size, mpi_comm_world, &
-                      mpi_double_precision, mpi_finalize, mpi_gatherv, mpi_init, mpi_integer, mpi_recv, mpi_scatterv, &
+                      mpi_double_precision, mpi_gatherv, mpi_init, mpi_integer, mpi_recv, mpi_scatterv, &
                       mpi_send, mpi_status_ignore, mpi_sum
    use incomplete_results, only: remove_incomplete
    use kinds, only: long, wp
@@ -10,7 +10,7 @@ module ranks
    implicit none
    private
 
-   public :: find_ranks, leave_ranks, tell, pass, pass_text, scatter, gather, sum_of_all, give_up
+   public :: find_ranks, tell, pass, pass_text, scatter, gather, sum_of_all, give_up
 
    integer, public, protected :: rank = 0, n_ranks = 1
 
@@ -23,10 +23,6 @@ contains
       call mpi_comm_size(mpi_comm_world, n_ranks)
    end subroutine find_ranks
 
-   subroutine leave_ranks()
-      call mpi_finalize()
-   end subroutine leave_ranks
-
    !> Broadcast WORDS of rank 0.
    subroutine tell(words)
       integer, intent(inout) :: words(:)
@@ -34,8 +30,8 @@ contains
       call mpi_bcast(words, size(words), mpi_integer, 0, mpi_comm_world)
    end subroutine tell
 
-   !> Send up to six variables or contiguous arrays of any intrinsic type but character from rank 0 to process R. Both processes call
-   !! this with the same sizes.
+   !> Send up to six variables or contiguous arrays of any intrinsic type but character from rank 0 to process R. Both processes
+   !! call this with the same sizes.
    subroutine pass(r, a, b, c, d, e, f)
       integer, intent(in)               :: r
       class(*), intent(inout)           :: a(..)

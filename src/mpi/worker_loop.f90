@@ -1,16 +1,17 @@
 !> Runs the command loop of all processes: rank 0 broadcasts commands, and every process does its part.
-!! A process has its subdomain, its rows of the matrix and its part of the solution. The loop serves one structure at a time and ends
-!! with the run. The memory for the rows of a process is checked before they are formed, and BLAS takes its buffer in time.
+!! A process has its subdomain, its rows of the matrix and its part of the solution. The loop serves one structure at a time and
+!! ends with the run. The memory for the rows of a process is checked before they are formed, and BLAS takes its buffer in time.
 module worker_loop
    use blas_lapack, only: dpotrf
    use distributed_matrix, only: distributed_matrix_type, finish_matrix, free_matrix, multiply_by_matrix, read_diagonal, &
-                                 read_touched, reserve_touched, start_matrix, write_touched
+                                 read_touched, start_matrix, write_touched
    use distributed_solution, only: distributed_solution_type, forget_vectors, free_solution, renew_preconditioner, solve_distributed
    use kinds, only: wp
    use machine, only: available_memory, peak_memory, return_memory
    use memory_need, only: shortage
-   use partition, only: forget_elements, pass_subdomain, subdomain_type
-   use ranks, only: give_up, n_ranks, rank, sum_of_all, tell
+   use model_data, only: model_type
+   use partition, only: pass_subdomain, subdomain_type
+   use ranks, only: give_up, rank, sum_of_all, tell
    use subdomain_output, only: forget_piece, receive_piece, write_received
    use text_tools, only: integer_text
    implicit none
@@ -91,18 +92,19 @@ contains
             subdomain = subdomain_type()
             call pass_subdomain(rank, subdomain)
          end if
-      case (command_start)                                     ! words: blocks of each rank; see reserve_touched
+      case (command_start)                                     ! words: see start_matrix
          call shortage('the equations of process '//integer_text(rank)//' need about', &
                        entry_bytes*real(subdomain%dimension, wp)**2* &
                        (sum(real(subdomain%inside, wp)) + sum(real(subdomain%outside, wp))), shortfall, part)
          if (shortfall /= '') call give_up(shortfall)
-         call start_matrix(subdomain, words(:n_ranks), stiffness)
+         call start_matrix(words, subdomain, stiffness)
          is_running = .true.
-         call reserve_touched(words(n_ranks + 1:), subdomain, stiffness)
       case (command_finish)                                    ! words: the preconditioner
          call finish_matrix(subdomain, stiffness, stiffest)
          solution = distributed_solution_type(way=words(1))
-         call forget_elements(subdomain)
+         ! free what only the construction of the matrix needs
+         subdomain%model = model_type()
+         deallocate (subdomain%block, subdomain%held, subdomain%held_own, subdomain%inside, subdomain%outside, subdomain%motions)
       case (command_read)
          call read_touched(subdomain%dimension, stiffness, values)
       case (command_write)

@@ -33,9 +33,7 @@ module distribution
          character(*), intent(in)           :: files(:) !! (n) their names
          logical, intent(out)               :: ok
       end subroutine write_pieces
-   end interface
 
-   abstract interface
       !> Write one PIECE into FILE. Every process calls this routine for its own piece.
       subroutine piece_writer(piece, u, temperature, notes, file, ok)
          import :: body_piece_type, temperature_type, wp

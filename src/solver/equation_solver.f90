@@ -34,9 +34,9 @@ module equation_solver
       character(:), allocatable :: reason            !! why AUTO chose this solver, where the choice needs a reason
       character(40) :: words(3) = ''                 !! what NUMBERS count; '' behind the last of them
       integer(long) :: numbers(3) = 0
-      real(wp) :: static_operations  = 0.0_wp         !! multiplications and additions of the single static factorisation
-      real(wp) :: refactored_operations = 0.0_wp         !! the same of the factorisation in each increment
-      real(wp) :: assembly_time     = 0.0_wp         !! of the elements, all threads together [s]
+      real(wp) :: static_operations = 0.0_wp         !! multiplications and additions of the single static factorisation
+      real(wp) :: refactored_operations = 0.0_wp     !! the same of the factorisation in each increment
+      real(wp) :: assembly_time = 0.0_wp             !! of the elements, all threads together [s]
       integer(long) :: solutions = 0                 !! number of iterative solutions on several processes so far
       integer(long) :: steps = 0                     !! iteration steps of all these solutions
       integer  :: most_steps = 0                     !! most steps of one solution
@@ -99,7 +99,7 @@ module equation_solver
       procedure(form_structure), deferred   :: form_structure
       procedure(multiply_vector), deferred  :: multiply
       procedure(use_of_factor), deferred    :: solve_by_factor, multiply_by_factor
-      procedure :: number_unknowns, report_fault, held_now, condense, solve, recover, forget_factors, forget_past
+      procedure :: number_unknowns, report_fault, held_now, gather, put, condense, solve, recover, forget_factors, forget_past
    end type equation_system
 
    abstract interface
@@ -197,6 +197,33 @@ contains
          end associate
       end do
    end function held_now
+
+   !> X(equation), at the EQUATIONS only, from an ARRAY over retained nodes.
+   subroutine gather(self, array, x)
+      class(equation_system), intent(in) :: self
+      real(wp), intent(in)               :: array(:, :) !! (dimension, retained)
+      real(wp), intent(inout)            :: x(:)        !! (n)
+      integer :: i, k
+
+      do i = 1, size(self%equations)
+         k = self%equations(i)
+         x(k) = array(self%direction(k), self%retained_index(self%node(k)))
+      end do
+   end subroutine gather
+
+   !> An ARRAY over retained nodes from X(equation); zero on held components.
+   subroutine put(self, x, array)
+      class(equation_system), intent(in) :: self
+      real(wp), intent(in)               :: x(:)        !! (n)
+      real(wp), intent(out)              :: array(:, :) !! (dimension, retained)
+      integer :: i, k
+
+      array = 0.0_wp
+      do i = 1, size(self%equations)
+         k = self%equations(i)
+         array(self%direction(k), self%retained_index(self%node(k))) = x(k)
+      end do
+   end subroutine put
 
    !> Condense the load F on all equations: X at the EQUATIONS is the condensed load, elsewhere the data for recover. In the
    !! abstract type X is F.

@@ -80,14 +80,12 @@ contains
       if (.not. abs(system%shift) > 0.0_wp) return
       do i = 1, n_bars(model) ! - sigma [m] of bars, and of masses at nodes
          if (.not. model%bars(i)%mass > 0.0_wp) cycle
-         associate (nodes => unknown_nodes(model, bar_nodes(model%bars(i))))
-            call system%add_to_bodies([system%number(:, nodes)], -system%shift*coupled_bar_mass(model, i))
-         end associate
+         call system%add_to_bodies([system%number(:, unknown_nodes(model, bar_nodes(model%bars(i))))], &
+                                   -system%shift*coupled_bar_mass(model, i))
       end do
       do i = 1, n_masses(model)
-         associate (nodes => unknown_nodes(model, mass_nodes(model, model%masses(i))))
-            call system%add_to_bodies([system%number(:, nodes)], -system%shift*coupled_point_mass(model, model%masses(i)))
-         end associate
+         call system%add_to_bodies([system%number(:, unknown_nodes(model, mass_nodes(model, model%masses(i))))], &
+                                   -system%shift*coupled_point_mass(model, model%masses(i)))
       end do
    end subroutine form_body_stiffness
 
@@ -97,10 +95,8 @@ contains
       integer, intent(in)                   :: i
       class(equation_system), intent(inout) :: system
 
-      associate (nodes => unknown_nodes(model, bar_nodes(model%bars(i))))
-         call system%add_to_bodies([system%number(:, nodes)], &
-                                   between_unknowns(model, bar_nodes(model%bars(i)), bar_stiffness(model, i)))
-      end associate
+      call system%add_to_bodies([system%number(:, unknown_nodes(model, bar_nodes(model%bars(i))))], &
+                                between_unknowns(model, bar_nodes(model%bars(i)), bar_stiffness(model, i)))
       system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
       call system%forget_factors()
    end subroutine add_bar
@@ -125,7 +121,7 @@ contains
 
       allocate (felt(system%n))
       call system%condense([(f(system%direction(k), system%node(k)), k = 1, system%n)], felt)
-      call put(system, felt, g)
+      call system%put(felt, g)
    end subroutine condense_load
 
    !> Form [k_s] = [k_b] + sum of [k_int], Eq. (8), ready to solve; ONE_SOLUTION: to be solved only once. A direction without
@@ -175,7 +171,7 @@ contains
          end associate
       end do
       allocate (x(system%n))
-      call gather(system, less, x)
+      call system%gather(less, x)
       system%options%digits = exact_digits
       if (present(digits)) system%options%digits = digits
       call system%solve(x, fault)
@@ -188,7 +184,7 @@ contains
                             ' is '//real_text(x(i))//', too large; are loads and stiffnesses in consistent units?')
          return
       end if
-      call put(system, x, u)
+      call system%put(x, u)
       if (moves) u = u + moved
    end subroutine solve_equations
 
@@ -200,9 +196,9 @@ contains
       real(wp), allocatable :: x(:), y(:)
 
       allocate (x(system%n), y(system%n))
-      call gather(system, u, x)
+      call system%gather(u, x)
       call system%multiply(x, y)
-      call put(system, y, f)
+      call system%put(y, f)
    end subroutine forces_in_bodies
 
    !> Displacements of all nodes from those of the retained ones and the forces F on all nodes; held components are zero.
@@ -216,40 +212,13 @@ contains
 
       allocate (x(system%n), at_retained(system%n))
       call system%condense([(f(system%direction(k), system%node(k)), k = 1, system%n)], x)
-      call gather(system, u, at_retained)
+      call system%gather(u, at_retained)
       call system%recover(at_retained, x)
       all_u = 0.0_wp
       do k = 1, system%n
          all_u(system%direction(k), system%node(k)) = x(k)
       end do
    end subroutine recover_displacements
-
-   !> X(equation), at the EQUATIONS only, from an ARRAY over retained nodes.
-   subroutine gather(system, array, x)
-      class(equation_system), intent(in) :: system
-      real(wp), intent(in)               :: array(:, :)
-      real(wp), intent(inout)            :: x(:)
-      integer :: i, k
-
-      do i = 1, size(system%equations)
-         k = system%equations(i)
-         x(k) = array(system%direction(k), system%retained_index(system%node(k)))
-      end do
-   end subroutine gather
-
-   !> An ARRAY over retained nodes from X(equation); zero on held components.
-   subroutine put(system, x, array)
-      class(equation_system), intent(in) :: system
-      real(wp), intent(in)               :: x(:)
-      real(wp), intent(out)              :: array(:, :)
-      integer :: i, k
-
-      array = 0.0_wp
-      do i = 1, size(system%equations)
-         k = system%equations(i)
-         array(system%direction(k), system%retained_index(system%node(k))) = x(k)
-      end do
-   end subroutine put
 
    !> Replace the forces U on the retained nodes by the displacements with ([k_b] + sum of (K_INT + REST)) u = f on the free
    !! components, K_INT symmetric, by conjugate residuals with a factor as preconditioner. The present factor is kept while two

@@ -3,9 +3,9 @@
 module front_factor
    use equation_solver, only: no_memory, pivot_tolerance
    use front_kernel, only: eliminate, large, top_row
-   use front_tree, only: add_to_block, front_of, front_tree_type, front_type, keep_block, restore_block, task_work
+   use front_tree, only: add_to_block, front_of, front_tree_type, front_type, keep_block, place_in, restore_block, task_work
    use kinds, only: long, wp
-   use lists, only: first_not_below, sorted_order
+   use lists, only: sorted_order
    use machine, only: give_back
    use mass_matrix, only: coupled_dynamic_stiffness
    use model_data, only: model_type
@@ -46,17 +46,6 @@ contains
          end if
       end do
    end subroutine add_matrix
-
-   !> Row of EQUATION in FRONT, 0 for equation 0.
-   elemental integer function place_in(front, equation) result(place)
-      type(front_type), intent(in) :: front
-      integer, intent(in)          :: equation
-
-      place = 0
-      if (equation == 0) return
-      place = equation - front%first + 1
-      if (place > front%p) place = front%p + first_not_below(front%rows, equation)
-   end function place_in
 
    !> Add columns FROM to UNTIL of the update matrix of CHILD to FRONT.
    pure subroutine add_update(child, front, from, until)

@@ -24,15 +24,15 @@ module front_layout
       integer, allocatable :: first_row(:)      !! (n + 1) its rows beyond the pivots begin here
       integer, allocatable :: rows(:)           !! rows(first_row(f):first_row(f+1)-1), ascending places in order
       integer, allocatable :: parent(:)         !! (n) 0: none
-      logical, allocatable :: is_refactored(:)          !! (n) whether a node of a joint is eliminated in its subtree
-      real(wp) :: static_operations  = 0.0_wp    !! of one factorisation of the static fronts
-      real(wp) :: refactored_operations = 0.0_wp    !! of one factorisation of the refactored fronts
+      logical, allocatable :: is_refactored(:)  !! (n) whether a node of a joint is eliminated in its subtree
+      real(wp) :: static_operations = 0.0_wp    !! of one factorisation of the static fronts
+      real(wp) :: refactored_operations = 0.0_wp !! of one factorisation of the refactored fronts
       real(wp) :: factor_entries = 0.0_wp       !! entries of all panels in full
-      real(wp) :: refactored_entries = 0.0_wp       !! entries of the refactored fronts, whole lower triangles
-      real(wp) :: solved_entries = 0.0_wp           !! of these, entries of the factor, which a solution uses
-      real(wp) :: kept_entries   = 0.0_wp       !! lower triangles that static fronts leave to refactored fronts
-      real(wp) :: peak_entries   = 0.0_wp       !! peak of update matrices, subtrees one after the other
-      real(wp) :: most_entries   = 0.0_wp       !! peak of panels, update matrices and initial contents of refactored fronts
+      real(wp) :: refactored_entries = 0.0_wp   !! entries of the refactored fronts, whole lower triangles
+      real(wp) :: solved_entries = 0.0_wp       !! of these, entries of the factor, which a solution uses
+      real(wp) :: kept_entries = 0.0_wp         !! lower triangles that static fronts leave to refactored fronts
+      real(wp) :: peak_entries = 0.0_wp         !! peak of update matrices, subtrees one after the other
+      real(wp) :: most_entries = 0.0_wp         !! peak of panels, update matrices and initial contents of refactored fronts
    end type front_layout_type
 
 contains

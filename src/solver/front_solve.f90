@@ -47,7 +47,7 @@ contains
       !$omp end parallel
       if (refactored .or. .not. up) return
       do f = 1, size(tree%fronts)
-         if (.not. tree%fronts(f)%is_top .or. (tree%fronts(f)%is_refactored .neqv. refactored)) cycle
+         if (.not. tree%fronts(f)%is_top .or. tree%fronts(f)%is_refactored) cycle
          associate (front => tree%fronts(f))
             x(front%rows) = x(front%rows) + left(front%left + 1:front%left + front%r)
          end associate

@@ -8,13 +8,13 @@ module front_tree
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
    use kinds, only: long, wp
-   use lists, only: list_owners, sorted_order
+   use lists, only: first_not_below, list_owners, sorted_order
    use model_data, only: model_type
    use node_coupling, only: list_on_unknowns, coupled_nodes
    implicit none
    private
 
-   public :: keep_block, restore_block, add_to_block, block_times_vector, start_front_tree, front_of
+   public :: keep_block, restore_block, add_to_block, block_times_vector, start_front_tree, front_of, place_in
 
    !> A block with N_ROWS rows; its first N_COLUMNS rows are a lower triangle.
    type, public :: kept_block
@@ -64,7 +64,7 @@ module front_tree
       real(wp), allocatable :: diagonal(:)        !! (n) of the factorised matrix
       logical, allocatable :: locked(:)           !! (n) locked unknowns, of refactored fronts only
       type(front_type), allocatable :: fronts(:)  !! children before parents
-      integer, allocatable :: refactored(:)           !! refactored ones, ascending
+      integer, allocatable :: refactored(:)       !! refactored ones, ascending
       integer, allocatable :: equations(:)        !! that they eliminate, ascending
       integer :: most_rows = 0                    !! most rows of a front, pivots included
       integer :: n_left = 0                       !! rows beyond the pivots of all fronts together
@@ -248,25 +248,13 @@ contains
       end do
       !$omp end parallel do
       call list_owners(layout%n, reshape(layout%parent, [1, layout%n]), first_child, children)
-      !$omp parallel do schedule(dynamic, 64) default(shared) private(i, k) if(tree%is_parallel)
+      !$omp parallel do schedule(dynamic, 64) default(shared) private(i) if(tree%is_parallel)
       do f = 1, layout%n
          tree%fronts(f)%children = children(first_child(f):first_child(f + 1) - 1)
          if (tree%fronts(f)%parent == 0) cycle
          associate (front => tree%fronts(f), parent => tree%fronts(tree%fronts(f)%parent))
             front%is_top = front%is_refactored .neqv. parent%is_refactored
-            allocate (front%in_parent(front%r))
-            k = 0
-            do i = 1, front%r
-               if (front%rows(i) < parent%first + parent%p) then
-                  front%in_parent(i) = front%rows(i) - parent%first + 1
-               else
-                  do
-                     k = k + 1
-                     if (parent%rows(k) == front%rows(i)) exit
-                  end do
-                  front%in_parent(i) = parent%p + k
-               end if
-            end do
+            front%in_parent = place_in(parent, front%rows)
             ! a run ends where the next place in the parent is not consecutive, or is the first beyond the pivots of the parent
             front%run = [pack([(i, i=1, front%r)], front%in_parent /= [0, front%in_parent(:front%r - 1) + 1] .or. &
                                                    front%in_parent == parent%p + 1), front%r + 1]
@@ -323,5 +311,16 @@ contains
       f = minval(equations, mask=equations > 0)
       f = merge(0, tree%of_equation(min(f, tree%n)), f > tree%n)
    end function front_of
+
+   !> Row of EQUATION, one of its pivots or rows, in FRONT; 0 for equation 0.
+   elemental integer function place_in(front, equation) result(place)
+      type(front_type), intent(in) :: front
+      integer, intent(in)          :: equation
+
+      place = 0
+      if (equation == 0) return
+      place = equation - front%first + 1
+      if (place > front%p) place = front%p + first_not_below(front%rows, equation)
+   end function place_in
 
 end module front_tree

@@ -93,32 +93,32 @@ contains
       real(wp), intent(in)                       :: x(:)       !! by equation [length]
       real(wp), intent(inout)                    :: y(:)       !! likewise [force]
       real(wp) :: between(3), force(3)
-      integer  :: a, c, d, i
+      integer  :: a, c, d, e, i
 
       d = size(equations%equation, 1)
       do i = 1, equations%n
          between = 0.0_wp
          do a = equations%first(i), equations%first(i + 1) - 1
             do c = 1, d
-               if (equations%equation(c, a) == 0) cycle
+               e = equations%equation(c, a)
+               if (e == 0) cycle
                if (equations%is_mapped(i)) then
-                  between(:d) = between(:d) + equations%map(:, c, a)*x(equations%equation(c, a))
+                  between(:d) = between(:d) + equations%map(:, c, a)*x(e)
                else
-                  between(c) = between(c) + equations%weight(a)*x(equations%equation(c, a))
+                  between(c) = between(c) + equations%weight(a)*x(e)
                end if
             end do
          end do
          force(:d) = matmul(k(:d, :d, i), between(:d))
          do a = equations%first(i), equations%first(i + 1) - 1
             do c = 1, d
-               if (equations%equation(c, a) == 0) cycle
-               associate (at => y(equations%equation(c, a)))
-                  if (equations%is_mapped(i)) then
-                     at = at + dot_product(equations%map(:, c, a), force(:d))
-                  else
-                     at = at + equations%weight(a)*force(c)
-                  end if
-               end associate
+               e = equations%equation(c, a)
+               if (e == 0) cycle
+               if (equations%is_mapped(i)) then
+                  y(e) = y(e) + dot_product(equations%map(:, c, a), force(:d))
+               else
+                  y(e) = y(e) + equations%weight(a)*force(c)
+               end if
             end do
          end do
       end do

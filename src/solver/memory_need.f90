@@ -63,20 +63,15 @@ contains
       character(:), allocatable, intent(out) :: words
       real(wp), intent(out)                  :: share !! [-]
       real(wp) :: there
+      integer  :: mebibytes(2)
 
       there = real(memory_for(bytes), wp)
       words = ''
       share = 1.0_wp
       if (bytes <= there) return
       share = there/bytes
-      words = needs//' '//mebibytes(bytes)//' MiB, and '//mebibytes(there)//' MiB are available'
+      mebibytes = int(min([bytes, there]/1048576.0_wp, real(huge(1), wp)))
+      words = needs//' '//integer_text(mebibytes(1))//' MiB, and '//integer_text(mebibytes(2))//' MiB are available'
    end subroutine shortage
-
-   pure function mebibytes(bytes) result(text)
-      real(wp), intent(in)      :: bytes
-      character(:), allocatable :: text
-
-      text = integer_text(int(min(bytes/1048576.0_wp, real(huge(1), wp))))
-   end function mebibytes
 
 end module memory_need

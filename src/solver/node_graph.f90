@@ -28,7 +28,7 @@ contains
       type(node_graph_type), intent(out) :: graph
       logical, intent(in), optional :: with_masses !! false
       integer, allocatable :: mark(:), joined(:, :), first_list(:), lists_at(:)
-      integer :: e, i, k, node, other, pass, n
+      integer :: e, i, k, node, pass, n
 
       graph%n = model%n_nodes
       if (present(with_masses)) graph%with_masses = with_masses
@@ -73,10 +73,9 @@ contains
          end do
       end subroutine visit_rotations
 
-      subroutine visit(candidate)
-         integer, intent(in) :: candidate
+      subroutine visit(other)
+         integer, intent(in) :: other
 
-         other = candidate
          if (other == 0) return ! end of a list, or no section
          if (mark(other) == node) return
          mark(other) = node

@@ -84,14 +84,13 @@ contains
       class(equation_system), intent(in) :: numbers
       integer, allocatable, intent(out)  :: first_row(:)
       integer(long), intent(out)         :: profile
-      integer :: j
+      integer :: i, j
 
       allocate (first_row(numbers%n))
       do j = 1, numbers%n
-         associate (i => numbers%node(j))
-            associate (rows => numbers%number(:, [i, graph%neighbours(graph%first(i):graph%first(i + 1) - 1)]))
-               first_row(j) = minval(rows, mask=rows > 0)
-            end associate
+         i = numbers%node(j)
+         associate (rows => numbers%number(:, [i, graph%neighbours(graph%first(i):graph%first(i + 1) - 1)]))
+            first_row(j) = minval(rows, mask=rows > 0)
          end associate
       end do
       profile = sum([(int(j - first_row(j) + 1, long), j = 1, numbers%n)])
@@ -110,9 +109,7 @@ contains
       allocate (rows(0))
       do e = 1, model%n_elements
          call coupled_dynamic_stiffness(model, e, self%shift, k)
-         associate (nodes => coupled_nodes(model, e))
-            rows = [self%number(:, nodes)]
-         end associate
+         rows = [self%number(:, coupled_nodes(model, e))]
          call scatter(self%body, rows, k(:size(rows), :size(rows)))
       end do
       self%stiffest = maxval(self%body%values(self%body%diagonal(1:)))

@@ -33,7 +33,7 @@ module tree_solver
 
    type, extends(equation_system), public :: tree_solver_type
       type(front_tree_type) :: fronts
-      type(interface_factor_type) :: factor          !! factor of the stiffness with the joints, and its state
+      type(interface_factor_type) :: factor       !! factor of the stiffness with the joints, and its state
       character(:), allocatable :: way            !! layout of the joints, in words
       real(wp) :: bytes = 0.0_wp                  !! memory needed
       logical  :: is_laid_out = .false.

@@ -199,8 +199,7 @@ contains
       integer  :: i, k, n
 
       if (.not. allocated(found%modal)) return
-      if (allocated(vibration%response)) &
-         force = abs(sum(found%modal%phi*vibration%response%force(:model%dimension, :)))
+      if (allocated(vibration%response)) force = abs(sum(found%modal%phi*vibration%response%force(:model%dimension, :)))
       deallocate (found%modal)
       if (.not. allocated(vibration%response)) return
       associate (mode => modes%modes(found%mode - modes%n_before))
@@ -214,7 +213,7 @@ contains
          do k = 1, n
             w = real(k, wp)/n
             call answer(w)
-            if (i > 1 .and. before*excess < 0.0_wp) then
+            if (i > 1 .and. before*excess < 0.0_wp) then ! resonance lies between this amplitude and the one before: bisection
                low = w - 1.0_wp/n
                high = w
                do while (high - low > same)

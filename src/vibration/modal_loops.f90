@@ -9,9 +9,9 @@
 !! left out: it is zero over a closed loop, but preloads times the remaining gap of rounding would exceed small loops. Unknowns
 !! inside condensed bodies contribute to q: K_gg^-1 of their forces, which is linear in alpha, so that an increment costs no
 !! recovery.
-!! Source: H. Festjens, G. Chevallier, J.-L. Dion, A numerical quasi-static method for the identification of frictional dissipation in
-!! bolted joints, ASME DETC 2012-70583 and Int. J. Solids Struct. 2013; R. M. Lacayo, M. S. Allen, Mech. Syst. Signal Process. 118 (2019)
-!! 133-157; E. Jewell, M. S. Allen, I. Zare, M. Wall, J. Sound Vib. 479 (2020) 115376.
+!! Source: H. Festjens, G. Chevallier, J.-L. Dion, A numerical quasi-static method for the identification of frictional dissipation
+!! in bolted joints, ASME DETC 2012-70583 and Int. J. Solids Struct. 2013; R. M. Lacayo, M. S. Allen, Mech. Syst. Signal Process.
+!! 118 (2019) 133-157; E. Jewell, M. S. Allen, I. Zare, M. Wall, J. Sound Vib. 479 (2020) 115376.
 module modal_loops
    use analysis_state, only: analysis_type, free_norm
    use element_mapping, only: two_pi
@@ -79,7 +79,7 @@ contains
       type(analysis_type), intent(in)    :: analysis
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: phi(:, :) !! generalised mass 1
-      type(modal_load_type), intent(out)       :: modal
+      type(modal_load_type), intent(out) :: modal
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: inside(:, :), felt(:, :)
       real(wp) :: work(size(model%interface))
@@ -113,13 +113,13 @@ contains
 
    !> Go from alpha = ENDS(1) to ENDS(2) in N increments; LOOP collects the work of the joints.
    subroutine follow_path(model, modal, ends, n, now, loop, failure)
-      type(model_type), intent(in)       :: model
-      type(modal_load_type), intent(inout)     :: modal
-      real(wp), intent(in)               :: ends(2)
-      integer, intent(in)                :: n
-      type(analysis_type), intent(inout) :: now
-      type(loop_type), intent(inout)     :: loop
-      type(failure_type), intent(inout)  :: failure
+      type(model_type), intent(in)         :: model
+      type(modal_load_type), intent(inout) :: modal
+      real(wp), intent(in)                 :: ends(2)
+      integer, intent(in)                  :: n
+      type(analysis_type), intent(inout)   :: now
+      type(loop_type), intent(inout)       :: loop
+      type(failure_type), intent(inout)    :: failure
       type(analysis_type), allocatable :: straight
       real(wp) :: at(2), work(size(model%interface))
       integer  :: i
@@ -143,13 +143,13 @@ contains
    !! increment is halved until halving has no effect. The remaining error falls by four in each halving; a third of the last
    !! difference is subtracted.
    recursive subroutine refine_increment(model, modal, ends, whole, now, loop, failure)
-      type(model_type), intent(in)       :: model
-      type(modal_load_type), intent(inout)     :: modal
-      real(wp), intent(in)               :: ends(2)
-      real(wp), intent(in)               :: whole(:) !! (elements) [force x length]
-      type(analysis_type), intent(inout) :: now
-      type(loop_type), intent(inout)     :: loop
-      type(failure_type), intent(inout)  :: failure
+      type(model_type), intent(in)         :: model
+      type(modal_load_type), intent(inout) :: modal
+      real(wp), intent(in)                 :: ends(2)
+      real(wp), intent(in)                 :: whole(:) !! (elements) [force x length]
+      type(analysis_type), intent(inout)   :: now
+      type(loop_type), intent(inout)       :: loop
+      type(failure_type), intent(inout)    :: failure
       type(analysis_type), allocatable :: half, end
       real(wp) :: first(size(whole)), second(size(whole)), middle, change, step
 
@@ -198,12 +198,12 @@ contains
    !> One increment from alpha = ENDS(1) to ENDS(2), and the WORK of the joints on the straight path of each element, without
    !! that of the forces at rest.
    subroutine load_increment(model, modal, ends, now, work, failure)
-      type(model_type), intent(in)       :: model
-      type(modal_load_type), intent(inout)     :: modal
-      real(wp), intent(in)               :: ends(2)
-      type(analysis_type), intent(inout) :: now
-      real(wp), intent(out)              :: work(:) !! (elements) [force x length]
-      type(failure_type), intent(inout)  :: failure
+      type(model_type), intent(in)         :: model
+      type(modal_load_type), intent(inout) :: modal
+      real(wp), intent(in)                 :: ends(2)
+      type(analysis_type), intent(inout)   :: now
+      real(wp), intent(out)                :: work(:) !! (elements) [force x length]
+      type(failure_type), intent(inout)    :: failure
       type(element_state) :: before(size(now%states))
       real(wp) :: from(3, size(now%states))
       integer  :: e
@@ -234,9 +234,9 @@ contains
 
    !> q of the state NOW, under ALPHA.
    pure real(wp) function coordinate(modal, now, alpha) result(q)
-      type(modal_load_type), intent(in)     :: modal
-      type(analysis_type), intent(in) :: now
-      real(wp), intent(in)            :: alpha
+      type(modal_load_type), intent(in) :: modal
+      type(analysis_type), intent(in)   :: now
+      real(wp), intent(in)              :: alpha
 
       q = sum(modal%condensed*(now%u - modal%rest%u)) + alpha*modal%inside
    end function coordinate
@@ -245,13 +245,13 @@ contains
    !! If MEASURED, the last loop is followed again with its loss to the tolerance of WANTED. FAILURE where the structure does
    !! not carry ALPHA.
    subroutine run_loops(model, modal, wanted, alpha, measured, loop, failure)
-      type(model_type), intent(in)       :: model
-      type(modal_load_type), intent(inout)     :: modal
-      type(backbone_plan), intent(in)    :: wanted
-      real(wp), intent(in)               :: alpha
-      logical, intent(in)                :: measured
-      type(loop_type), intent(out)       :: loop
-      type(failure_type), intent(inout)  :: failure
+      type(model_type), intent(in)         :: model
+      type(modal_load_type), intent(inout) :: modal
+      type(backbone_plan), intent(in)      :: wanted
+      real(wp), intent(in)                 :: alpha
+      logical, intent(in)                  :: measured
+      type(loop_type), intent(out)         :: loop
+      type(failure_type), intent(inout)    :: failure
       type(analysis_type), allocatable :: now, start
       real(wp) :: area, area_before, held
 
@@ -283,12 +283,12 @@ contains
 
    !> One more loop from NOW, the upper turning point.
    subroutine run_loop(model, modal, increments, now, loop, failure)
-      type(model_type), intent(in)       :: model
-      type(modal_load_type), intent(inout)     :: modal
-      integer, intent(in)                :: increments !! from rest to alpha
-      type(analysis_type), intent(inout) :: now
-      type(loop_type), intent(inout)     :: loop
-      type(failure_type), intent(inout)  :: failure
+      type(model_type), intent(in)         :: model
+      type(modal_load_type), intent(inout) :: modal
+      integer, intent(in)                  :: increments !! from rest to alpha
+      type(analysis_type), intent(inout)   :: now
+      type(loop_type), intent(inout)       :: loop
+      type(failure_type), intent(inout)    :: failure
       real(wp), allocatable :: u_low(:, :), d(:, :), f(:, :), other(:, :)
       real(wp) :: area, high, low, top, share
       integer  :: j

@@ -165,9 +165,10 @@ contains
          end associate
       end do
 
+      ! u_rest: the static response, which exists for a supported structure, less that of the modes
       if (allocated(spectrum%at_rest)) then
          x = spectrum%at_rest
-      else if (system%shift >= 0.0_wp) then   ! static load on a supported structure
+      else if (system%shift >= 0.0_wp) then
          call factorise_at(model, structure, 0.0_wp, unshifted, loose)
          if (.not. loose%raised) then
             x = spectrum%load
