@@ -5,7 +5,7 @@ module constraint_equations
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: a_rotation, model_type, node_kind, point_of
-   use node_coupling, only: component_place, couple_node, node_axes, rotation_at
+   use node_coupling, only: component_place, couple_node, node_axes
    use numbers, only: by_rotation, identity
    use text_tools, only: integer_text
    implicit none

@@ -34,6 +34,7 @@ contains
       base = model%n_parts + 1
       allocate (group(base), grounded(base), on_side(base, 2))
       call list_pairs(model, pair)
+      ! the components of parts that supports and grounded springs hold
       allocate (held(model%dimension, model%n_parts), source=.false.)
       do node = 1, n_points(model)
          if (is_coupled(model, [node])) cycle ! its unknowns have other directions: see below
@@ -53,6 +54,7 @@ contains
             joint%determinate = .false.
             if (norm2(joint%normal) <= 0.0_wp) cycle
             if (model%axisymmetric .and. abs(joint%normal(1)) > 1.0e-9_wp) cycle ! hoop stresses carry the rest
+            ! cut the joint: groups of parts that all other joints connect, and groups that are held along the normal
             group = [(k, k = 1, base)]
             do i = 1, size(pair, 2)
                if (pair(3, i) /= j) call join(group, pair(1, i), pair(2, i))
@@ -77,6 +79,7 @@ contains
                   end do
                end associate
             end do
+            ! the groups on each side of the joint; where none of them is held, the joint carries their load
             on_side = .false.
             do i = 1, size(pair, 2)
                if (pair(3, i) == j) on_side(root_of(group, pair(2, i)), pair(4, i)) = .true.
@@ -101,16 +104,14 @@ contains
       integer, allocatable, intent(out) :: pair(:, :) !! (4, pairs)
       integer :: i, k, n, side, this(4)
 
-      allocate (pair(4, 2*size(model%interface)))
+      allocate (pair(4, 2*size(model%interface)), source=0)
       n = 0
       do side = 1, 2
          do i = 1, size(model%interface)
             associate (first => parts_at(model, i, 1), parts => parts_at(model, i, side))
                do k = 1, size(parts)
                   this = [first(1), parts(k), model%interface(i)%joint, side]
-                  if (n > 0) then
-                     if (all(this == pair(:, n))) cycle
-                  end if
+                  if (all(this == pair(:, max(n, 1)))) cycle
                   if (n == size(pair, 2)) pair = reshape([pair, pair], [4, 2*n])
                   n = n + 1
                   pair(:, n) = this

@@ -2,7 +2,7 @@
 module element_build
    use bulk_data, only: element_card, grid_card, property_card
    use deck_check, only: checked_deck
-   use elasticity, only: axisymmetric, beam, plane_stress, shell, solid
+   use elasticity, only: axisymmetric, beam, shell, solid
    use element_kinds, only: element_table, kind_edge2, kind_quad4, kind_quad8, kind_tria3, kind_tria6
    use element_mapping, only: smallest_jacobian
    use kinds, only: wp

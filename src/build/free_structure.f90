@@ -36,6 +36,7 @@ contains
          if (named_node(model%interface(i), 2) == 0) return                               ! a rigid base
       end do
       if (model%n_elements == 0) return
+      ! the nodes of the largest body that may be held
       call find_bodies(model, body, n)
       body_of = 0
       do e = 1, model%n_elements
@@ -66,6 +67,7 @@ contains
          call hold(model, a, 2)
          return
       end if
+      ! the node b farthest from a, and in space the node c farthest from the line through both
       call hold(model, a, merge(123, 12, model%dimension == 3))
       off = [(norm2(model%x(:, i) - model%x(:, a)), i = 1, size(off))]
       b = first_largest(off, may_be)

@@ -1,6 +1,6 @@
 !> The interface elements of a JOINT card and their axes, and the axes and centroid of a joint.
 !! Sides with matching meshes are connected by pairs of nodes, other sides by lists of nodes with weights; one side alone is connected to
-!! its twin or to a rigid base. The normal points from node 1 to node 2.
+!! its duplicate or to a rigid base. The normal points from node 1 to node 2.
 module joint_sides
    use bulk_data, only: fit_no, fit_yes
    use deck_check, only: checked_deck
@@ -25,7 +25,7 @@ module joint_sides
 contains
 
    !> The elements between two sides: pairs if every node has a partner and the card does not request a projection; the coverage of
-   !! projected sides is stored in joint J of MODEL. SURFACE(2) = 0: the elements between a surface and its twin, if the surface was
+   !! projected sides is stored in joint J of MODEL. SURFACE(2) = 0: the elements between a surface and its duplicate, if the surface was
    !! split, or a rigid base.
    subroutine join_sides(deck, j, model, surface, elements)
       type(checked_deck), intent(in)                       :: deck

@@ -76,7 +76,7 @@ contains
       if (found > 1) problem = 'bodies lie on both sides of the face'//words//': the loaded body is ambiguous'
    end subroutine find_face
 
-   !> Side S of element E if the nodes with the numbers ID, or their twins, are its corners in cyclic order, else none.
+   !> Side S of element E if the nodes with the numbers ID, or their duplicates, are its corners in cyclic order, else none.
    pure subroutine compare_corners(model, e, s, id, face)
       type(model_type), intent(in)  :: model
       integer, intent(in)           :: e, s, id(:)
@@ -94,7 +94,7 @@ contains
       face = named_face(e, s, place(1), outward)
    end subroutine compare_corners
 
-   !> The place of the node with number ID, or of its twin, among CORNERS; 0: none.
+   !> The place of the node with number ID, or of its duplicate, among CORNERS; 0: none.
    pure integer function place_of(model, id, corners) result(place)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: id, corners(:)

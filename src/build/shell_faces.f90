@@ -6,9 +6,7 @@
 module shell_faces
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
-   use element_kinds, only: element_table
    use kinds, only: wp
-   use lists, only: id_table_type
    use model_data, only: corners_of, face_node_type, is_shell, model_type, surface_type
    use node_build, only: append_nodes
    use node_coupling, only: couple_node, third_axis, transformation, unknown_nodes

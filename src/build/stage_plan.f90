@@ -175,10 +175,7 @@ contains
       integer, intent(in)               :: method !! of case control
       integer :: s
 
-      n = 0
-      do s = 1, size(plan%stages)
-         n = n + size(plan%stages(s)%fractions)
-      end do
+      n = sum([(size(plan%stages(s)%fractions), s = 1, size(plan%stages))])
       if (method == method_newton) n = 6*n
       if (method == method_back) n = 40*n
       do s = 1, size(plan%stages) ! two loops and the start, about three iterations per increment, three trials per amplitude
@@ -195,11 +192,9 @@ contains
       type(stage_plan_type), intent(in) :: plan
       integer, intent(in)               :: stage, increment
 
-      associate (planned => plan%stages(stage))
-         associate (asked => planned%output)
-            shows_bodies = asked%level == output_all .or. asked%steps
-            if (increment == size(planned%fractions)) shows_bodies = shows_bodies .or. asked%level == output_last .or. asked%vtu
-         end associate
+      associate (planned => plan%stages(stage), asked => plan%stages(stage)%output)
+         shows_bodies = asked%level == output_all .or. asked%steps
+         if (increment == size(planned%fractions)) shows_bodies = shows_bodies .or. asked%level == output_last .or. asked%vtu
       end associate
    end function shows_bodies
 

@@ -9,7 +9,7 @@ module structural_build
    use lists, only: id_table_type
    use model_data, only: corners_of, is_beam, is_shell, model_type, n_rotations, rotation_type
    use node_build, only: append_unknowns
-   use node_coupling, only: couple_node, node_axes
+   use node_coupling, only: node_axes
    use shell_membrane, only: shell_law
    use text_tools, only: integer_text
    implicit none
@@ -44,7 +44,7 @@ contains
       allocate (rotations(size(deck%rigid) + model%n_nodes))
       allocate (model%rotation_of(model%n_nodes), source=0)
       n = 0
-      do i = 1, size(deck%rigid)
+      do i = 1, size(deck%rigid) ! reference nodes
          associate (card => deck%rigid(i))
             node = model%node_table%find(card%node)
             if (node == 0) cycle
@@ -67,6 +67,7 @@ contains
             model%rotation_of(node) = n
          end associate
       end do
+      ! nodes of shells and beams; their arm is the root mean square of the distances to the other nodes of their elements
       square = 0.0_wp
       count_of = 0
       do e = 1, model%n_elements

@@ -87,10 +87,7 @@ contains
             call deck%errors%add(card%line, 'JAMPL: mode '//integer_text(card%mode)//' is not among the '// &
                                  integer_text(vibration%most)//' lowest that EIGRL '//integer_text(vibration%id)//' asks for')
          if (card%node > 0) then
-            backbone%node = findloc(model%node_id, card%node, dim=1)
-            if (backbone%node > 0) then
-               if (.not. model%used(backbone%node)) backbone%node = 0
-            end if
+            backbone%node = findloc(model%node_id == card%node .and. model%used, .true., dim=1)
             if (backbone%node == 0 .and. .not. deck%errors%any()) call deck%errors%add(card%line, &
                'JAMPL: GID '//integer_text(card%node)//' is not a node of an element')
          end if

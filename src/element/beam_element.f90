@@ -12,7 +12,7 @@ module beam_element
    implicit none
    private
 
-   public :: beam_axes, beam_length, beam_shapes, beam_stiffness, beam_mass, beam_line_load, beam_point_load, beam_end_forces, &
+   public :: beam_axes, beam_length, beam_stiffness, beam_mass, beam_line_load, beam_point_load, beam_end_forces, &
              beam_nodal_forces, beam_thermal_load
 
    !> A beam: its section and its connection to its nodes. Plane 1 contains the axis and the direction y of the beam (ORIENTATION).

@@ -90,12 +90,14 @@ contains
       flat = frame%x(:, :size(x, 2))
    end function flat_coordinates
 
+   !> The linear kind of an element with N corners.
    pure integer function corner_kind(n)
       integer, intent(in) :: n
 
       corner_kind = merge(kind_quad4, kind_tria3, n == 4)
    end function corner_kind
 
+   !> The thickness at a POINT, given in local coordinates [length].
    pure real(wp) function thickness_at(law, frame, point) result(t)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
