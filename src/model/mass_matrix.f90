@@ -12,11 +12,12 @@ module mass_matrix
    use node_coupling, only: between_unknowns, extend_stiffness, participating_nodes, onto_unknowns, rotation_at, section_node, &
                             unknown_nodes
    use numbers, only: identity
-   use structural_elements, only: between_own, shell_mass
+   use shell_element, only: shell_products
+   use structural_elements, only: between_own
    implicit none
    private
 
-   public :: scalar_mass, whole_mass, bar_mass, inertia_at_rotation, n_masses, form_mass, mass_times, total_mass
+   public :: scalar_mass, n_masses, form_mass, mass_times, total_mass
    public :: coupled_dynamic_stiffness, coupled_bar_mass, coupled_point_mass, mass_nodes
 
    integer, parameter :: worth_threads = 10000 ! number of nodes from which on threads are used
@@ -40,19 +41,33 @@ contains
       if (allocated(model%masses)) n_masses = size(model%masses)
    end function n_masses
 
-   !> Mass between the own_nodes of element E (no beam), the same for every component of their displacements [force time^2/length].
+   !> Mass between the own_nodes of element E (no beam), the same for every component of their displacements [force time^2/length]. Of
+   !! a shell: between its corners, and between its rotations the rotary inertia of the thickness, divided by the arms; the drilling
+   !! rotation has this inertia too.
    pure subroutine scalar_mass(model, e, m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(inout)      :: m(:, :) !! (nodes, nodes), set here
+      integer :: i
 
-      associate (corners => corners_of(model, e), n => element_table(model%element_kind(e))%n_nodes)
+      associate (corners => corners_of(model, e), n => element_table(model%element_kind(e))%n_nodes, &
+                 property => model%properties(model%element_property(e)))
          if (is_shell(model, e)) then
-            call shell_mass(model, e, m(:2*n, :2*n))
+            associate (x => model%x(:, corners), t => model%structural%shells(model%structural%place(e))%thickness)
+               m(:2*n, :2*n) = 0.0_wp
+               call shell_products(x, property%rho*t(:n) + property%extra_mass, m(:n, :n))
+               call shell_products(x, property%rho*t(:n)**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
+            end associate
+            do i = n + 1, 2*n
+               associate (arm => model%rotations(model%rotation_of(corners(i - n)))%arm)
+                  m(i, n + 1:2*n) = m(i, n + 1:2*n)/arm
+                  m(n + 1:2*n, i) = m(n + 1:2*n, i)/arm
+               end associate
+            end do
             if (model%lumped) call lump(m(n + 1:2*n, n + 1:2*n))
          else
             call shape_products(law_of(model, e), model%x(:model%dimension, corners), m)
-            m(:n, :n) = model%properties(model%element_property(e))%rho*m(:n, :n)
+            m(:n, :n) = property%rho*m(:n, :n)
          end if
          if (model%lumped) call lump(m(:n, :n))
       end associate
@@ -109,7 +124,7 @@ contains
       if (model%lumped) call lump(m)
    end function bar_mass
 
-   !> [m] of bar I between the unknowns of the unknown_nodes of its nodes, as coupled_bar_stiffness.
+   !> [m] of bar I between the unknowns of the unknown_nodes of its nodes.
    pure function coupled_bar_mass(model, i) result(m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i

@@ -50,7 +50,7 @@ module model_data
       integer, allocatable :: nodes(:, :)    !! (largest number, n) its corners, then its mid-side nodes as in element_kinds, 0 behind
       integer, allocatable :: element(:)     !! (n) the body element that the side belongs to
       integer, allocatable :: other(:)       !! (n) a body element behind the side, 0: none
-      logical :: was_split = .false.         !! a joint split the surface: the other body has the twins of its nodes
+      logical :: was_split = .false.         !! a joint split the surface: the other body has duplicates of its nodes
       integer, allocatable :: line(:)        !! (n) of its card in the deck text
    end type surface_type
 
@@ -210,7 +210,7 @@ module model_data
       integer :: first_filled = 0            !! position of the first of these nodes
       integer, allocatable  :: node_id(:)    !! ascending; 0 for the nodes of rotations and of sections, which follow
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
-      integer, allocatable  :: duplicate(:)  !! (n_nodes) the twin of a node on a split surface, 0: none
+      integer, allocatable  :: duplicate(:)  !! (n_nodes) the duplicate of a node on a split surface, 0: none
       logical, allocatable  :: used(:)       !! (n_nodes) whether any element has the node
       logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported unknowns
       type(support_group), allocatable :: support_groups(:)
