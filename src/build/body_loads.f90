@@ -21,8 +21,8 @@ module body_loads
 
    public :: add_gravity, add_to_beam, check_plane, find_beam_loads, find_fields
 
-   !> The acceleration of all masses by a card, with the sign of its force: uniform (gravity), or linear in the distance from an axis
-   !! (rotation), a(x) = UNIFORM + GRADIENT (x - ORIGIN).
+   !> The acceleration of all masses by a card, with the sign of its force: uniform (gravity), or linear in the distance from an
+   !! axis (rotation), a(x) = UNIFORM + GRADIENT (x - ORIGIN).
    type, extends(gravity_card), public :: acceleration_field
       real(wp) :: uniform(3) = 0.0_wp        !! [length/time^2]
       real(wp) :: gradient(3, 3) = 0.0_wp    !! [1/time^2]

@@ -11,8 +11,8 @@ module connected_bodies
 
 contains
 
-   !> The BODY of each element, numbered in the order of their first elements. Elements that share nodes, and the halves of a solid bolt,
-   !! form one body.
+   !> The BODY of each element, numbered in the order of their first elements. Elements that share nodes, and the halves of a solid
+   !! bolt, form one body.
    pure subroutine find_bodies(model, body, n_bodies)
       type(model_type), intent(in) :: model
       integer, intent(out)         :: body(:) !! (n_elements)
@@ -68,8 +68,8 @@ contains
       end do
    end subroutine find_parts
 
-   !> Join the nodes of every element, and WITH_BOLTS the halves of each solid bolt. For an element behind a pretension section the section
-   !! node replaces the nodes that are cut.
+   !> Join the nodes of every element, and WITH_BOLTS the halves of each solid bolt. For an element behind a pretension section the
+   !! section node replaces the nodes that are cut.
    pure subroutine join_elements(model, with_bolts, parent)
       type(model_type), intent(in) :: model
       logical, intent(in)          :: with_bolts

@@ -233,8 +233,8 @@ contains
       end do
    end subroutine find_facing
 
-   !> Distance of the centre of SIDE from OTHER along its normal, gap or overlap [length]; huge where OTHER does not face SIDE there, or
-   !! is farther away than the reach of the search.
+   !> Distance of the centre of SIDE from OTHER along its normal, gap or overlap [length]; huge where OTHER does not face SIDE
+   !! there, or is farther away than the reach of the search.
    pure real(wp) function distance_over(model, side, other) result(distance)
       type(model_type), intent(in) :: model
       type(outer_side), intent(in) :: side, other
@@ -266,8 +266,8 @@ contains
       if (.not. lies_over) distance = huge(1.0_wp)
    end function distance_over
 
-   !> Text that lists the unsupported bodies of MODEL; '' where elements, bars, rigid elements and joints (open or closed) connect every
-   !! body to a support, a rigid base or a grounded spring.
+   !> Text that lists the unsupported bodies of MODEL; '' where elements, bars, rigid elements and joints (open or closed) connect
+   !! every body to a support, a rigid base or a grounded spring.
    function loose_words(model) result(words)
       type(model_type), intent(in) :: model
       character(:), allocatable    :: words

@@ -36,8 +36,8 @@ module load_build
 
 contains
 
-   !> Nodal forces of the cards: FORCE(:, i) of card I in global axes acts on NODE(i); of a moment on the node of rotations [force]. It is
-   !! zero where the card is in error.
+   !> Nodal forces of the cards: FORCE(:, i) of card I in global axes acts on NODE(i); of a moment on the node of rotations [force].
+   !! It is zero where the card is in error.
    subroutine find_nodal_forces(deck, model, node, force)
       type(checked_deck), intent(in)     :: deck
       type(model_type), intent(in)       :: model
@@ -104,8 +104,8 @@ contains
       call check_movable(deck, model, card, node, axes, force)
    end subroutine onto_rotations
 
-   !> Error: a FORCE on a reference NODE along a component that was left out and depends on nothing: the node has no movement along it for
-   !! any value of the unknowns.
+   !> Error: a FORCE on a reference NODE along a component that was left out and depends on nothing: the node has no movement along
+   !! it for any value of the unknowns.
    subroutine check_movable(deck, model, card, node, axes, force)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -155,8 +155,8 @@ contains
       end if
    end subroutine along_lines
 
-   !> Errors of load cards. PLOADM and FORCEM: missing surfaces, and a pressure on a surface with bodies on both sides. SPCD: a component
-   !! that is not supported. LOAD: missing sets.
+   !> Errors of load cards. PLOADM and FORCEM: missing surfaces, and a pressure on a surface with bodies on both sides. SPCD: a
+   !! component that is not supported. LOAD: missing sets.
    subroutine check_cards(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -345,7 +345,8 @@ contains
       loads%force(:, loads%n) = force
    end subroutine add_force
 
-   !> Nodal forces of CARD on SURFACE, times FACTOR: a pressure, positive into the body, or a total force distributed uniformly over the area.
+   !> Nodal forces of CARD on SURFACE, times FACTOR: a pressure, positive into the body, or a total force distributed uniformly over
+   !! the area.
    pure subroutine add_surface_load(model, surface, card, factor, force)
       type(model_type), intent(in)        :: model
       type(surface_type), intent(in)      :: surface

@@ -39,8 +39,8 @@ module pressure_loads
 
 contains
 
-   !> The FACE whose corners have the numbers ID, in either sense. There is none, and a PROBLEM, where the face is missing, or where bodies
-   !! lie on both sides, because forces on its nodes would act on both.
+   !> The FACE whose corners have the numbers ID, in either sense. There is none, and a PROBLEM, where the face is missing, or where
+   !! bodies lie on both sides, because forces on its nodes would act on both.
    subroutine find_face(model, id, face, problem)
       type(model_type), intent(in)           :: model
       integer, intent(in)                    :: id(:)  !! 3 or 4 corners in cyclic order
@@ -173,8 +173,9 @@ contains
       pressed%side(pressed%n) = side
    end subroutine append
 
-   !> The PLOAD4 or PLOAD2 of NEW on the shells with numbers from RANGE(1) to RANGE(2), and on the faces that elements with these numbers,
-   !! in data field AT, mark. The pressure acts along the right-hand normals of these elements, or along the direction of the card.
+   !> The PLOAD4 or PLOAD2 of NEW on the shells with numbers from RANGE(1) to RANGE(2), and on the faces that elements with these
+   !! numbers, in data field AT, mark. The pressure acts along the right-hand normals of these elements, or along the direction of
+   !! the card.
    subroutine press_on_marked(deck, model, new, at, range, pressed)
       type(checked_deck), intent(in)    :: deck
       type(model_type), intent(in)      :: model

@@ -102,12 +102,10 @@ contains
       do i = 1, model%surfaces(s)%n
          call side_influence(model, model%surfaces(s), i, area, normal)
          own = sum(normal, dim=2)
-         associate (surface => model%surfaces(s))
-            if (dot_product(own, total) < 0.0_wp) then
-               call reverse_side(surface, i)
-               own = -own
-            end if
-         end associate
+         if (dot_product(own, total) < 0.0_wp) then
+            call reverse_side(model%surfaces(s), i)
+            own = -own
+         end if
          total = total + own
          section%area = section%area + sum(area)
       end do

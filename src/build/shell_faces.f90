@@ -1,8 +1,8 @@
 !> Nodes on the faces and edges of shells, at rigid levers from the nodes of the shells.
-!! A marked surface of shells lies half a thickness off their mean plane, on the side to which the normals of the marking elements point.
-!! A marked edge of shells is as wide as the thickness and is cut into strips. The nodes of such sides have rigid levers r from the nodes of
-!! the shells and no unknowns of their own: u + theta x r. Joints, gaps and pressure use them as they use other nodes. Masses with an offset
-!! have such nodes too.
+!! A marked surface of shells lies half a thickness off their mean plane, on the side to which the normals of the marking elements
+!! point. A marked edge of shells is as wide as the thickness and is cut into strips. The nodes of such sides have rigid levers r
+!! from the nodes of the shells and no unknowns of their own: u + theta x r. Joints, gaps and pressure use them as they use other
+!! nodes. Masses with an offset have such nodes too.
 module shell_faces
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions

@@ -28,8 +28,8 @@ contains
                      .and. all(deck%bulk%pmark%id /= edge%property)
    end function is_beam_edge
 
-   !> Give a node of rotations, behind the nodes of the deck, to each node of shells and beams and each reference node of rigid elements.
-   !! An axisymmetric model has none. Missing nodes are reported elsewhere.
+   !> Give a node of rotations, behind the nodes of the deck, to each node of shells and beams and each reference node of rigid
+   !! elements. An axisymmetric model has none. Missing nodes are reported elsewhere.
    subroutine build_rotations(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -166,7 +166,7 @@ contains
       allocate (model%structural%place(model%n_elements), source=0)
       allocate (of_property(size(model%properties)))
       do i = 1, size(deck%bulk%pshell)
-         if (model%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! shell properties come first
+         if (model%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! they come first
       end do
       call plates%build([(deck%bulk%element(deck%bulk%plate(i)%element)%id, i = 1, size(deck%bulk%plate))])
       n = 0

@@ -155,8 +155,8 @@ contains
       end do
    end subroutine move
 
-   !> Add D of SPC cards to LOADS, the end of a stage with load set SET and no displacements so far. A component that an SPCD of these loads
-   !! names is left out.
+   !> Add D of SPC cards to LOADS, the end of a stage with load set SET and no displacements so far. A component that an SPCD of
+   !! these loads names is left out.
    subroutine keep_moved(deck, model, set, loads)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
@@ -257,8 +257,8 @@ contains
       if (i > 0 .and. set > 0) sets = sums(i)%sets
    end function summed_sets
 
-   !> Errors of SUMS, cards called NAME: missing sets, and a number that is also one of a set. OWN are the sets of the cards CALLED so
-   !! that may be combined.
+   !> Errors of SUMS, cards called NAME: missing sets, and a number that is also one of a set. OWN are the sets of the cards CALLED
+   !! so that may be combined.
    subroutine check_sums(deck, name, sums, own, called)
       type(checked_deck), intent(in) :: deck
       character(*), intent(in)       :: name, called

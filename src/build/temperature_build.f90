@@ -112,8 +112,8 @@ contains
       end do
    end subroutine check_cards
 
-   !> The temperatures AT all nodes in SET, and whether they are GIVEN: by TEMP, else by TEMPD. The duplicate of a node and the face node of
-   !! a shell have the temperature of their node, an added mid-edge node has the mean of the ends.
+   !> The temperatures AT all nodes in SET, and whether they are GIVEN: by TEMP, else by TEMPD. The duplicate of a node and the face
+   !! node of a shell have the temperature of their node, an added mid-edge node has the mean of the ends.
    subroutine fill_in(deck, model, set, at, given)
       type(checked_deck), intent(in)    :: deck
       type(model_type), intent(in)      :: model
@@ -182,7 +182,8 @@ contains
       named = pack(named, [(is_shell(model, named(e)), e = 1, size(named))])
    end function plates_of
 
-   !> Temperatures of the shells of SET from TEMPP1. Nodes that have no other temperature get that of these shells, and are then GIVEN.
+   !> Temperatures of the shells of SET from TEMPP1. Nodes that have no other temperature get that of these shells, and are then
+   !! GIVEN.
    subroutine set_plate_temperatures(deck, model, set, temperature, given)
       type(checked_deck), intent(in)        :: deck
       type(model_type), intent(in)          :: model

@@ -1,6 +1,6 @@
 !> Requests of case control for the vibration after each stage, and the nodes to which tables are limited.
-!! Requests are the range of EIGRL, the frequencies of FREQ1 and FREQ4, load, damping and nodes. OUTPUT may limit the tables of a stage
-!! to sets of nodes or marked surfaces.
+!! Requests are the range of EIGRL, the frequencies of FREQ1 and FREQ4, load, damping and nodes. OUTPUT may limit the tables of a
+!! stage to sets of nodes or marked surfaces.
 module vibration_build
    use case_entries, only: limit_type, number_set, numbers_in_set
    use deck_check, only: checked_deck

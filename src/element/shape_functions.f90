@@ -18,9 +18,9 @@ module shape_functions
 
 contains
 
-   !> Shape functions N of the quadrilateral and the hexahedron, and their derivatives DN. At a corner: the product of the linear functions
-   !! of all coordinates and a factor that vanishes at the adjacent mid-edge nodes. On an edge: a parabola along it times linear functions
-   !! of the other coordinates.
+   !> Shape functions N of the quadrilateral and the hexahedron, and their derivatives DN. At a corner: the product of the linear
+   !! functions of all coordinates and a factor that vanishes at the adjacent mid-edge nodes. On an edge: a parabola along it times
+   !! linear functions of the other coordinates.
    pure subroutine serendipity(kind, point, n, dn)
       integer, intent(in)     :: kind
       real(wp), intent(in)    :: point(3)

@@ -19,8 +19,8 @@ module body_elements
    public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, whole_stress
    public :: element_stiffness, internal_forces, element_thermal_forces, add_thermal_forces, law_of
 
-   ! Element contributions to nodal sums are computed in parallel, block by block, if there are more than a few; they are added in the
-   ! order of the elements, so that the sum does not depend on the number of threads.
+   ! Element contributions to nodal sums are computed in parallel, block by block, if there are more than a few; they are added in
+   ! the order of the elements, so that the sum does not depend on the number of threads.
    integer, parameter :: block = 8192, few = 512
 
 contains
@@ -205,7 +205,7 @@ contains
       integer :: e, first, i, last
 
       f = 0.0_wp
-      allocate (p(model%dimension, max(8, size(model%element_nodes, 1)) + 1, min(block, model%n_elements))) ! 8: shells with rotations
+      allocate (p(model%dimension, max(8, size(model%element_nodes, 1)) + 1, min(block, model%n_elements))) ! 8: with rotations
       do first = 1, model%n_elements, block
          last = min(model%n_elements, first + block - 1)
          !$omp parallel do schedule(dynamic, 128) default(shared) if(last - first > few)

@@ -41,9 +41,9 @@ contains
       if (allocated(model%masses)) n_masses = size(model%masses)
    end function n_masses
 
-   !> Mass between the own_nodes of element E (no beam), the same for every component of their displacements [force time^2/length]. Of
-   !! a shell: between its corners, and between its rotations the rotary inertia of the thickness, divided by the arms; the drilling
-   !! rotation has this inertia too.
+   !> Mass between the own_nodes of element E (no beam), the same for every component of their displacements [force time^2/length].
+   !! Of a shell: between its corners, and between its rotations the rotary inertia of the thickness, divided by the arms; the
+   !! drilling rotation has this inertia too.
    pure subroutine scalar_mass(model, e, m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -150,8 +150,8 @@ contains
       if (rotation_at(model, mass%node) > 0) nodes = [nodes, model%rotations(rotation_at(model, mass%node))%node]
    end function mass_nodes
 
-   !> The inertia of MASS with respect to the node of its rotations, whose components are rotations times an arm: in space about x, y
-   !! and z, in the plane about z alone [force time^2/length].
+   !> The inertia of MASS with respect to the node of its rotations, whose components are rotations times an arm: in space about x,
+   !! y and z, in the plane about z alone [force time^2/length].
    pure function inertia_at_rotation(model, mass) result(m)
       type(model_type), intent(in)      :: model
       type(point_mass_type), intent(in) :: mass
@@ -327,8 +327,8 @@ contains
       end do
    end subroutine mass_times
 
-   !> Total mass, centre of mass, and moments and products of inertia about the axes through the centre, (I_xx, I_yy, I_zz, I_xy, I_yz,
-   !! I_zx), products as the integral of x y dm; all from [m] alone. In a plane model I_zz is that of the plane bodies. In an
+   !> Total mass, centre of mass, and moments and products of inertia about the axes through the centre, (I_xx, I_yy, I_zz, I_xy,
+   !! I_yz, I_zx), products as the integral of x y dm; all from [m] alone. In a plane model I_zz is that of the plane bodies. In an
    !! axisymmetric model the moments are zero, because those of its plane are not the moments of a body in space.
    subroutine total_mass(model, mass, total, centre, inertia)
       type(model_type), intent(in)       :: model

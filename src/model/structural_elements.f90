@@ -1,7 +1,7 @@
 !> Shells and beams in terms of the unknowns of nodes and rotation nodes; stiffness and nodal forces of bars and springs.
-!! Matrices, forces and displacements of shells and beams are transformed. The components of a node of rotations are rotations times an
-!! arm; in the plane only the first one, about z, is used. Springs are bars with directions of their own; where a spring has one node, its
-!! second node is the ground.
+!! Matrices, forces and displacements of shells and beams are transformed. The components of a node of rotations are rotations times
+!! an arm; in the plane only the first one, about z, is used. Springs are bars with directions of their own; where a spring has one
+!! node, its second node is the ground.
 module structural_elements
    use kinds, only: wp
    use model_data, only: a_spring, bar_nodes, bar_type, corners_of, model_type, temperature_type
@@ -77,8 +77,8 @@ contains
       end associate
    end function nodal_values
 
-   !> Stresses of shell E in global axes, (xx, yy, zz, xy, yz, zx), at the heights Z above its mean plane, at its corners and then at its
-   !! centre, under displacements U of its own nodes.
+   !> Stresses of shell E in global axes, (xx, yy, zz, xy, yz, zx), at the heights Z above its mean plane, at its corners and then
+   !! at its centre, under displacements U of its own nodes.
    pure subroutine structural_stress(model, e, u, temperature, z, stress)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -106,8 +106,8 @@ contains
       end associate
    end function bar_elongation
 
-   !> Tension of BAR at constant length and at this TEMPERATURE: compression where the mean temperature along the bar rises above TREF;
-   !! zero for a spring [force].
+   !> Tension of BAR at constant length and at this TEMPERATURE: compression where the mean temperature along the bar rises above
+   !! TREF; zero for a spring [force].
    pure real(wp) function thermal_pull(bar, temperature) result(tension)
       type(bar_type), intent(in)         :: bar
       type(temperature_type), intent(in) :: temperature
