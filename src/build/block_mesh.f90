@@ -16,7 +16,7 @@ module block_mesh
    type, public :: block_type
       integer, allocatable  :: node_id(:)
       real(wp), allocatable :: x(:, :)                !! (3, nodes) [length]
-      type(element_card), allocatable :: element(:)   !! corners alone: mid-edge nodes are added later, like those that cards leave blank
+      type(element_card), allocatable :: element(:)   !! corners alone: mid-edge nodes are added later, like blank ones on cards
       integer :: n_sides = 0
       type(element_card), allocatable :: side(:)      !! (n_sides) the property is a PMARK, the id is -k for side Sk of the card
    end type block_type
@@ -117,8 +117,8 @@ contains
       nodes = pack([(k, k = 1, size(x, 2))], is_near)
    end subroutine nodes_near
 
-   !> The nodes, elements and marked sides of a CARD. Node (i, j, k) has the number N1 + (i (NY + 1) + j)(NZ + 1) + k, where i counts
-   !! along x or side 1-2, j along y or side 1-4 and k along z, all from 0. Element numbers also run up each column, from E1.
+   !> The nodes, elements and marked sides of a CARD. Node (i, j, k) has the number N1 + (i (NY + 1) + j)(NZ + 1) + k, where i
+   !! counts along x or side 1-2, j along y or side 1-4 and k along z, all from 0. Element numbers also run up each column, from E1.
    pure subroutine generate_block(card, block)
       type(block_card), intent(in)  :: card
       type(block_type), intent(out) :: block
@@ -176,8 +176,8 @@ contains
       end do
    end subroutine generate_block
 
-   !> Position of the node of a block with the graded coordinates R, S, T in the unit square or cube: bilinear interpolation of the corners,
-   !! in a box linear interpolation between its two corners.
+   !> Position of the node of a block with the graded coordinates R, S, T in the unit square or cube: bilinear interpolation of the
+   !! corners, in a box linear interpolation between its two corners.
    pure function point(card, r, s, t) result(x)
       type(block_card), intent(in) :: card
       real(wp), intent(in)         :: r, s, t
@@ -212,9 +212,9 @@ contains
       s = s/s(n)
    end subroutine graded_places
 
-   !> The marked sides on side NUMBER of a block. Edges of a quadrilateral (1: corners 1-2, 2: 2-3, 3: 3-4, 4: 4-1) follow in this order.
-   !! Faces of a box (x low, x high, y low and so on) have their corners counter-clockwise as seen from outside. The edges are those of
-   !! the faces at z low: of the faces y low, x high, y high and x low.
+   !> The marked sides on side NUMBER of a block. Edges of a quadrilateral (1: corners 1-2, 2: 2-3, 3: 3-4, 4: 4-1) follow in this
+   !! order. Faces of a box (x low, x high, y low and so on) have their corners counter-clockwise as seen from outside. The edges
+   !! are those of the faces at z low: of the faces y low, x high, y high and x low.
    pure subroutine mark_side(card, number, step, block)
       type(block_card), intent(in)    :: card
       integer, intent(in)             :: number

@@ -7,7 +7,7 @@ module body_loads
    use bulk_data, only: beam_load_card, gravity_card
    use deck_check, only: checked_deck
    use displacement_systems, only: rectangular_axes
-   use element_kinds, only: max_nodes
+   use element_kinds, only: kind_edge2, max_nodes
    use isoparametric, only: body_forces
    use kinds, only: wp
    use mass_matrix, only: scalar_mass
@@ -21,8 +21,8 @@ module body_loads
 
    public :: add_gravity, add_to_beam, check_plane, find_beam_loads, find_fields
 
-   !> The acceleration of all masses by a card, with the sign of its force: uniform (gravity), or linear in the distance from an axis
-   !! (rotation), a(x) = UNIFORM + GRADIENT (x - ORIGIN).
+   !> The acceleration of all masses by a card, with the sign of its force: uniform (gravity), or linear in the distance from an
+   !! axis (rotation), a(x) = UNIFORM + GRADIENT (x - ORIGIN).
    type, extends(gravity_card), public :: acceleration_field
       real(wp) :: uniform(3) = 0.0_wp        !! [length/time^2]
       real(wp) :: gradient(3, 3) = 0.0_wp    !! [1/time^2]
@@ -225,10 +225,7 @@ contains
       allocate (f(12, size(beam)), source=0.0_wp)
       do i = 1, size(beam)
          associate (card => deck%bulk%beam_load(i))
-            e = findloc(model%element_id, card%element, dim=1)
-            if (e > 0) then
-               if (.not. is_beam(model, e)) e = 0
-            end if
+            e = findloc(model%element_id == card%element .and. model%element_kind == kind_edge2, .true., dim=1)
             if (card%element > 0 .and. e == 0) call deck%field_error(card%line, 'EID', 'there is no beam '// &
                integer_text(card%element)//': no CBAR or CBEAM with a PBAR, PBARL, PBEAM or PBEAML')
             if (e == 0 .or. deck%errors%any()) cycle

@@ -11,8 +11,8 @@ module connected_bodies
 
 contains
 
-   !> The BODY of each element, numbered in the order of their first elements. Elements that share nodes, and the halves of a solid bolt,
-   !! form one body.
+   !> The BODY of each element, numbered in the order of their first elements. Elements that share nodes, and the halves of a solid
+   !! bolt, form one body.
    pure subroutine find_bodies(model, body, n_bodies)
       type(model_type), intent(in) :: model
       integer, intent(out)         :: body(:) !! (n_elements)
@@ -20,10 +20,7 @@ contains
       integer :: parent(model%n_nodes), number(model%n_nodes), e, k, root
 
       parent = [(k, k = 1, model%n_nodes)]
-      call join_elements(model, parent)
-      do k = 1, n_sections(model)
-         call join(parent, model%sections(k)%node, model%sections(k)%point)
-      end do
+      call join_elements(model, .true., parent)
       number = 0
       n_bodies = 0
       do e = 1, model%n_elements
@@ -43,9 +40,8 @@ contains
       integer, allocatable :: parent(:)
       integer :: k, node, root
 
-      allocate (parent(model%n_nodes))
-      parent = [(node, node = 1, model%n_nodes)]
-      call join_elements(model, parent)
+      allocate (parent, source=[(node, node = 1, model%n_nodes)])
+      call join_elements(model, with_bolts, parent)
       do k = 1, n_bars(model)
          if (model%bars(k)%nodes(2) == 0) cycle ! the ground
          if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
@@ -60,13 +56,7 @@ contains
       do k = 1, n_rotations(model)
          call join(parent, model%rotations(k)%point, model%rotations(k)%node)
       end do
-      if (with_bolts) then
-         do k = 1, n_sections(model)
-            call join(parent, model%sections(k)%node, model%sections(k)%point)
-         end do
-      end if
-      if (allocated(model%part)) deallocate (model%part)
-      allocate (model%part(model%n_nodes), source=0)
+      model%part = spread(0, 1, model%n_nodes)
       model%n_parts = 0
       do node = 1, model%n_nodes
          root = root_of(parent, node)
@@ -78,9 +68,11 @@ contains
       end do
    end subroutine find_parts
 
-   !> Join the nodes of every element. For an element behind a pretension section the section node replaces the nodes that are cut.
-   pure subroutine join_elements(model, parent)
+   !> Join the nodes of every element, and WITH_BOLTS the halves of each solid bolt. For an element behind a pretension section the
+   !! section node replaces the nodes that are cut.
+   pure subroutine join_elements(model, with_bolts, parent)
       type(model_type), intent(in) :: model
+      logical, intent(in)          :: with_bolts
       integer, intent(inout)       :: parent(:)
       integer :: e, first, k
 
@@ -89,6 +81,9 @@ contains
          do k = 2, size(model%element_nodes, 1)
             call join(parent, first, uncut(model, e, k))
          end do
+      end do
+      do k = 1, merge(n_sections(model), 0, with_bolts)
+         call join(parent, model%sections(k)%node, model%sections(k)%point)
       end do
    end subroutine join_elements
 

@@ -5,7 +5,7 @@ module constraint_equations
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: a_rotation, model_type, node_kind, point_of
-   use node_coupling, only: component_place, couple_node, node_axes, rotation_at
+   use node_coupling, only: component_place, couple_node, node_axes
    use numbers, only: by_rotation, identity
    use text_tools, only: integer_text
    implicit none
@@ -137,9 +137,9 @@ contains
       words = 'component '//integer_text(digit)//' of node '//integer_text(model%node_id(point_of(model, node)))
    end function component_text
 
-   !> Couple the nodes of LIST, whose cards have no errors: their dependent components lose their unknowns and follow the equations, their
-   !! other components keep theirs. Components (rotations too) of reference nodes without elements that no equation uses lose their
-   !! unknowns too.
+   !> Couple the nodes of LIST, whose cards have no errors: their dependent components lose their unknowns and follow the equations,
+   !! their other components keep theirs. Components (rotations too) of reference nodes without elements that no equation uses lose
+   !! their unknowns too.
    subroutine eliminate(list, model)
       type(dependence_list), intent(in) :: list
       type(model_type), intent(inout)   :: model
@@ -207,9 +207,9 @@ contains
 
    end subroutine eliminate
 
-   !> Rewrite the equations c_j = sum of factor c_k of LIST, from FIRST on, as equations of the components at PLACES (as many), named in
-   !! data fields AT. With [A] the coefficients of these components in c_j - sum of factor c_k = 0, they are -[A]^-1 times the other
-   !! terms. OK is false where [A] is singular.
+   !> Rewrite the equations c_j = sum of factor c_k of LIST, from FIRST on, as equations of the components at PLACES (as many),
+   !! named in data fields AT. With [A] the coefficients of these components in c_j - sum of factor c_k = 0, they are -[A]^-1 times
+   !! the other terms. OK is false where [A] is singular.
    subroutine solve_for(list, first, places, at, ok)
       type(dependence_list), intent(inout) :: list
       integer, intent(in)                  :: first
@@ -266,7 +266,8 @@ contains
 
    end subroutine solve_for
 
-   !> Transform A = [M 1] to [1 M^-1] by row operations with the largest pivot of each column. OK is false where M is singular to rounding.
+   !> Transform A = [M 1] to [1 M^-1] by row operations with the largest pivot of each column. OK is false where M is singular to
+   !! rounding.
    pure subroutine reduce(a, ok)
       real(wp), intent(inout) :: a(:, :) !! (n, 2 n)
       logical, intent(out)    :: ok
@@ -289,12 +290,12 @@ contains
       end do
    end subroutine reduce
 
-   !> [T] of RBE3, {u, theta} = sum of T(:, :, i) {c_i}: the rigid-body motion, displacement and rotation at the reference point, that
-   !! fits the measured displacements in the sense of least squares. Point i lies at the arm R(:, i) from the reference point; c_i are
-   !! its displacements along the directions AXES(:, 1 to 3, i), of which those USED count, with WEIGHT(i).
+   !> [T] of RBE3, {u, theta} = sum of T(:, :, i) {c_i}: the rigid-body motion, displacement and rotation at the reference point,
+   !! that fits the measured displacements in the sense of least squares. Point i lies at the arm R(:, i) from the reference point;
+   !! c_i are its displacements along the directions AXES(:, 1 to 3, i), of which those USED count, with WEIGHT(i).
    !!    sum of w G^T (G {u, theta} - c) = 0,  G = directions^T [1 W]
-   !! A component that this equation does not determine is not DETERMINED, and its row is zero: for collinear points the rotation about
-   !! their line.
+   !! A component that this equation does not determine is not DETERMINED, and its row is zero: for collinear points the rotation
+   !! about their line.
    pure subroutine mean_motion(r, axes, used, weight, t, determined)
       real(wp), intent(in)  :: r(:, :)       !! (3, points) [length]
       real(wp), intent(in)  :: axes(:, :, :) !! (3, 3, points), unit
@@ -323,8 +324,8 @@ contains
       end do
    end subroutine mean_motion
 
-   !> Rows of the INVERSE of A, symmetric and positive semidefinite, for the components of x that A x = b determines; the other rows are
-   !! zero. Row j is the solution y of A y = e_j where it exists. Elimination takes the largest remaining pivot.
+   !> Rows of the INVERSE of A, symmetric and positive semidefinite, for the components of x that A x = b determines; the other rows
+   !! are zero. Row j is the solution y of A y = e_j where it exists. Elimination takes the largest remaining pivot.
    pure subroutine invert_where_determined(a, inverse, determined)
       real(wp), intent(in)  :: a(6, 6)
       real(wp), intent(out) :: inverse(6, 6)

@@ -1,6 +1,6 @@
 !> The pressure of the first increment of each joint, Eq. (9): from the user, from statics, or a guess.
-!! Statics determines it where no other support or joint takes part of the load. The guess is for methods whose result does not depend
-!! on it.
+!! Statics determines it where no other support or joint takes part of the load. The guess is for methods whose result does not
+!! depend on it.
 module determinate_joints
    use deck_errors, only: deck_error_list
    use interface_operator, only: nodes_of_end
@@ -22,8 +22,8 @@ module determinate_joints
 
 contains
 
-   !> Cut joint J. Where one of its sides then has no support along the normal of the joint, the joint alone carries the load of this
-   !! side.
+   !> Cut joint J. Where one of its sides then has no support along the normal of the joint, the joint alone carries the load of
+   !! this side.
    pure subroutine find_determinate_joints(model)
       type(model_type), intent(inout) :: model
       integer, allocatable :: group(:)              ! parts connected by all other joints; the base is the last one
@@ -34,6 +34,7 @@ contains
       base = model%n_parts + 1
       allocate (group(base), grounded(base), on_side(base, 2))
       call list_pairs(model, pair)
+      ! the components of parts that supports and grounded springs hold
       allocate (held(model%dimension, model%n_parts), source=.false.)
       do node = 1, n_points(model)
          if (is_coupled(model, [node])) cycle ! its unknowns have other directions: see below
@@ -53,6 +54,7 @@ contains
             joint%determinate = .false.
             if (norm2(joint%normal) <= 0.0_wp) cycle
             if (model%axisymmetric .and. abs(joint%normal(1)) > 1.0e-9_wp) cycle ! hoop stresses carry the rest
+            ! cut the joint: groups of parts that all other joints connect, and groups that are held along the normal
             group = [(k, k = 1, base)]
             do i = 1, size(pair, 2)
                if (pair(3, i) /= j) call join(group, pair(1, i), pair(2, i))
@@ -77,6 +79,7 @@ contains
                   end do
                end associate
             end do
+            ! the groups on each side of the joint; where none of them is held, the joint carries their load
             on_side = .false.
             do i = 1, size(pair, 2)
                if (pair(3, i) == j) on_side(root_of(group, pair(2, i)), pair(4, i)) = .true.
@@ -93,24 +96,22 @@ contains
       end do
    end subroutine find_determinate_joints
 
-   !> The parts that joints connect: PAIR(:, i) are two parts, or one part and the base (the last number), the joint, and the end on which
-   !! the second part lies. The first part of end 1 is connected to itself and to all others. Most neighbouring interface elements
-   !! connect the same parts; such a pair is listed once.
+   !> The parts that joints connect: PAIR(:, i) are two parts, or one part and the base (the last number), the joint, and the end on
+   !! which the second part lies. The first part of end 1 is connected to itself and to all others. Most neighbouring interface
+   !! elements connect the same parts; such a pair is listed once.
    pure subroutine list_pairs(model, pair)
       type(model_type), intent(in)      :: model
       integer, allocatable, intent(out) :: pair(:, :) !! (4, pairs)
       integer :: i, k, n, side, this(4)
 
-      allocate (pair(4, 2*size(model%interface)))
+      allocate (pair(4, 2*size(model%interface)), source=0)
       n = 0
       do side = 1, 2
          do i = 1, size(model%interface)
             associate (first => parts_at(model, i, 1), parts => parts_at(model, i, side))
                do k = 1, size(parts)
                   this = [first(1), parts(k), model%interface(i)%joint, side]
-                  if (n > 0) then
-                     if (all(this == pair(:, n))) cycle
-                  end if
+                  if (all(this == pair(:, max(n, 1)))) cycle
                   if (n == size(pair, 2)) pair = reshape([pair, pair], [4, 2*n])
                   n = n + 1
                   pair(:, n) = this
@@ -168,8 +169,8 @@ contains
 
    end function carried_resultant
 
-   !> p_av of every joint: P0 of the user, else the resultant of the first increment (FIRST_SHARE of the load of the first stage) over
-   !! A_int. Where neither gives a compression the pressure is guessed; where a guess is not allowed, the deck is in error.
+   !> p_av of every joint: P0 of the user, else the resultant of the first increment (FIRST_SHARE of the load of the first stage)
+   !! over A_int. Where neither gives a compression the pressure is guessed; where a guess is not allowed, the deck is in error.
    subroutine find_first_pressures(first_share, guess_will_do, model, errors)
       real(wp), intent(in)                 :: first_share
       logical, intent(in)                  :: guess_will_do !! the result of the method does not depend on the guess
@@ -222,8 +223,8 @@ contains
       end do
    end subroutine find_first_pressures
 
-   !> Reverse the normals of joint J, and the y axes, so that the axes stay right-handed, where the first stage that loads the joint opens
-   !! it and none of its nodes belongs to a body: then only the load shows which sense of the normal closes the joint.
+   !> Reverse the normals of joint J, and the y axes, so that the axes stay right-handed, where the first stage that loads the joint
+   !! opens it and none of its nodes belongs to a body: then only the load shows which sense of the normal closes the joint.
    pure subroutine orient_by_load(model, first_loads, j)
       type(model_type), intent(inout)   :: model
       type(stage_load_type), intent(in) :: first_loads !! of the first stage, with its bolts
@@ -253,8 +254,9 @@ contains
       end associate
    end subroutine orient_by_load
 
-   !> A guess of the pressure in JOINT: the largest total load of a stage over the joint area, or the pressure that its law gives for the
-   !! largest prescribed displacement or interference; where none of these exists, a small fraction of the modulus of the bodies.
+   !> A guess of the pressure in JOINT: the largest total load of a stage over the joint area, or the pressure that its law gives
+   !! for the largest prescribed displacement or interference; where none of these exists, a small fraction of the modulus of the
+   !! bodies.
    pure real(wp) function guessed_pressure(model, joint) result(p)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint

@@ -1,6 +1,6 @@
 !> Coordinate systems of CORD cards in global axes, and the vectors and nodes that are given in them.
-!! A system may depend on other systems in any order. Nodes with CD have their unknowns along the directions of their system, so that
-!! supports and prescribed displacements act along these directions.
+!! A system may depend on other systems in any order. Nodes with CD have their unknowns along the directions of their system, so
+!! that supports and prescribed displacements act along these directions.
 module displacement_systems
    use coordinate_systems, only: coordinate_system, directions_at, make_system, position_in, rectangular
    use deck_check, only: checked_deck
@@ -17,8 +17,8 @@ module displacement_systems
 
 contains
 
-   !> The SYSTEMS of all CORD cards, in their order. CORD2 may refer to any other system, CORD1 to nodes given in any other system. A
-   !! circular reference is an error.
+   !> The SYSTEMS of all CORD cards, in their order. CORD2 may refer to any other system, CORD1 to nodes given in any other system.
+   !! A circular reference is an error.
    subroutine build_systems(deck, systems)
       type(checked_deck), intent(in)                    :: deck
       type(coordinate_system), allocatable, intent(out) :: systems(:)
@@ -106,8 +106,8 @@ contains
       if (system > size(systems)) system = 0
    end subroutine find_system
 
-   !> The directions, columns, of the system CID of the card on LINE at the point X; global axes for CID 0. OK is false, with an error,
-   !! for a missing system, and on the axis of a cylindrical or spherical one.
+   !> The directions, columns, of the system CID of the card on LINE at the point X; global axes for CID 0. OK is false, with an
+   !! error, for a missing system, and on the axis of a cylindrical or spherical one.
    subroutine find_directions(deck, systems, line, cid, x, directions, ok, field, point)
       type(checked_deck), intent(in)      :: deck
       type(coordinate_system), intent(in) :: systems(:)
@@ -133,8 +133,8 @@ contains
                                           ', where its first two directions are not defined')
    end subroutine find_directions
 
-   !> The axes, columns, of the rectangular system CID of the card on LINE; global axes for CID 0. Errors: no such system; a system of
-   !! another kind. BUT is the end of this message: what the system is for.
+   !> The axes, columns, of the rectangular system CID of the card on LINE; global axes for CID 0. Errors: no such system; a system
+   !! of another kind. BUT is the end of this message: what the system is for.
    subroutine rectangular_axes(deck, systems, line, cid, but, axes)
       type(checked_deck), intent(in)      :: deck
       type(coordinate_system), intent(in) :: systems(:)
@@ -151,7 +151,7 @@ contains
       axes = systems(system)%axes
    end subroutine rectangular_axes
 
-   !> Couple the nodes of MODEL that have a CD, and their twins of split surfaces, to unknowns along its directions; in space the rotations
+   !> Couple the nodes of MODEL that have a CD, and their duplicates, to unknowns along its directions; in space the rotations
    !! of these nodes too are about these directions. Errors: no such system; a node on the axis of a cylindrical or spherical one;
    !! directions out of the plane of a plane model.
    subroutine build_frames(deck, model)

@@ -2,7 +2,7 @@
 module element_build
    use bulk_data, only: element_card, grid_card, property_card
    use deck_check, only: checked_deck
-   use elasticity, only: axisymmetric, beam, plane_stress, shell, solid
+   use elasticity, only: axisymmetric, beam, shell, solid
    use element_kinds, only: element_table, kind_edge2, kind_quad4, kind_quad8, kind_tria3, kind_tria6
    use element_mapping, only: smallest_jacobian
    use kinds, only: wp
@@ -20,8 +20,8 @@ module element_build
 
    public :: resolve_properties, collect_elements, collect_sides, check_elements, is_face
 
-   !> A marked side, before it is sorted into a surface: its card with the PMARK as its property and positions of nodes (0 for a mid-side
-   !! node left blank). The id is -k for side Sk of a block.
+   !> A marked side, before it is sorted into a surface: its card with the PMARK as its property and positions of nodes (0 for a
+   !! mid-side node left blank). The id is -k for side Sk of a block.
    type, extends(element_card), public :: marked_side
       integer :: corners = 0               !! 2, 3 or 4
       integer :: n_nodes = 0               !! corners, and mid-side nodes if the mark is second-order
@@ -80,7 +80,8 @@ contains
       end do
    end subroutine resolve_properties
 
-   !> The elements of CARDS, blocks included, and the beams, in ascending order of their numbers; blank mid-side nodes become blank_node.
+   !> The elements of CARDS, blocks included, and the beams, in ascending order of their numbers; blank mid-side nodes become
+   !! blank_node.
    subroutine collect_elements(deck, cards, model)
       type(checked_deck), intent(in)  :: deck
       type(element_card), intent(in)  :: cards(:)
@@ -125,8 +126,8 @@ contains
       model%element_property = property(order)
    end subroutine collect_elements
 
-   !> The property of the element CARD must be one for its kind; PROPERTY is its position, 0 for a missing property or one for another
-   !! kind.
+   !> The property of the element CARD must be one for its kind; PROPERTY is its position, 0 for a missing property or one for
+   !! another kind.
    subroutine check_property(deck, model, card, property)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -217,7 +218,8 @@ contains
       do i = 1, size(nodes)
          node = model%node_table%find(nodes(i)%id)
          doubtful(node) = doubtful(node) .or. nodes(i)%doubtful
-         if (i > size(deck%bulk%grid)) doubtful(node) = doubtful(node) .or. any(abs(nodes(i)%x - model%x(:, node)) > 0.0_wp) ! repeated
+         if (i > size(deck%bulk%grid)) & ! of a block: a number that another node has too
+            doubtful(node) = doubtful(node) .or. any(abs(nodes(i)%x - model%x(:, node)) > 0.0_wp)
       end do
       allocate (sound(model%n_elements))
       !$omp parallel do schedule(dynamic, 512) default(shared) if(model%n_elements > few)

@@ -1,6 +1,7 @@
 !> The overlap of two faces of a joint, as integration points in the plane of the first face.
-!! This plane goes through the centre of the first face, perpendicular to its normal there; the opposite face is projected onto it along
-!! the normal. Faces are divided into parts with straight edges; the overlap of two parts is a polygon, of two edges an interval.
+!! This plane goes through the centre of the first face, perpendicular to its normal there; the opposite face is projected onto it
+!! along the normal. Faces are divided into parts with straight edges; the overlap of two parts is a polygon, of two edges an
+!! interval.
 module face_overlap
    use element_kinds, only: centre_point, max_nodes, max_side_nodes, side_kind
    use kinds, only: wp
@@ -41,7 +42,7 @@ module face_overlap
    integer, parameter  :: corner_numbers(4) = [1, 2, 3, 4]
    real(wp), parameter :: least_piece = 1.0e-10_wp   ! of the area of the first face: a smaller overlap is dropped
 
-   real(wp), parameter :: straight = 1.0e-3_wp       ! of least_piece: area of the triangle at a corner where the polygon does not turn
+   real(wp), parameter :: straight = 1.0e-3_wp       ! of least_piece: area of the triangle at a corner without a turn
 
    ! Gauss, five points. Source: Abramowitz, Stegun, Handbook of Mathematical Functions, Table 25.4.
    real(wp), parameter :: r = sqrt(10.0_wp/7.0_wp), q = sqrt(70.0_wp)
@@ -139,8 +140,8 @@ contains
       x = matmul(face%x(:, :face%n), n(:face%n))
    end subroutine map_point
 
-   !> The outward area vector of FACE at a POINT, in the frame, divided by the projected area (of an edge, length); 0 where the projected
-   !! area is zero.
+   !> The outward area vector of FACE at a POINT, in the frame, divided by the projected area (of an edge, length); 0 where the
+   !! projected area is zero.
    pure function surface_vector(face, point) result(vector)
       type(seen_face), intent(in) :: face
       real(wp), intent(in)        :: point(3)
@@ -201,8 +202,8 @@ contains
 
    end subroutine clip_polygon
 
-   !> Drop the corners of POLYGON at which it does not turn. Clipping leaves some, by rounding, where sides of both polygons coincide.
-   !! A corner is dropped if its triangle with both neighbours has at most the area LEAST.
+   !> Drop the corners of POLYGON at which it does not turn. Clipping leaves some, by rounding, where sides of both polygons
+   !! coincide. A corner is dropped if its triangle with both neighbours has at most the area LEAST.
    pure subroutine drop_straight_corners(least, n, polygon)
       real(wp), intent(in)    :: least         !! [length^2]
       integer, intent(inout)  :: n             !! number of corners
@@ -328,8 +329,8 @@ contains
       rim = face%x(:2, part(:size(rim, 2)))
    end function corners
 
-   !> Add the points of the intersection of the polygons A and B: the RULE over each triangle of a fan from the centroid, so that the
-   !! result does not depend on the first corner. A triangle is not divided.
+   !> Add the points of the intersection of the polygons A and B: the RULE over each triangle of a fan from the centroid, so that
+   !! the result does not depend on the first corner. A triangle is not divided.
    pure subroutine add_polygon(a, b, rule, smallest, points)
       real(wp), intent(in)               :: a(:, :), b(:, :) !! (2, corners), either sense; A convex
       type(integration_rule), intent(in) :: rule

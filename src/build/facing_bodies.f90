@@ -233,8 +233,8 @@ contains
       end do
    end subroutine find_facing
 
-   !> Distance of the centre of SIDE from OTHER along its normal, gap or overlap [length]; huge where OTHER does not face SIDE there, or
-   !! is farther away than the reach of the search.
+   !> Distance of the centre of SIDE from OTHER along its normal, gap or overlap [length]; huge where OTHER does not face SIDE
+   !! there, or is farther away than the reach of the search.
    pure real(wp) function distance_over(model, side, other) result(distance)
       type(model_type), intent(in) :: model
       type(outer_side), intent(in) :: side, other
@@ -266,24 +266,41 @@ contains
       if (.not. lies_over) distance = huge(1.0_wp)
    end function distance_over
 
-   !> Text that lists the unsupported bodies of MODEL; '' where elements, bars, rigid elements and joints (open or closed) connect every
-   !! body to a support, a rigid base or a grounded spring.
+   !> Text that lists the unsupported bodies of MODEL; '' where elements, bars, rigid elements and joints (open or closed) connect
+   !! every body to a support, a rigid base or a grounded spring.
    function loose_words(model) result(words)
       type(model_type), intent(in) :: model
       character(:), allocatable    :: words
       type(body_type), allocatable :: bodies(:)
-      integer :: body(model%n_elements), e, i, k, said
+      integer :: body(model%n_elements), parent(model%n_parts + 1), e, ground, i, k, said
       integer, allocatable :: part(:) ! of each body; of connected parts the first, 0: connected to the ground
 
       words = ''
       if (model%n_elements == 0) return
       call list_bodies(model, body, bodies)
       allocate (part(size(bodies)))
-      associate (root => connected_parts(model))
-         do e = model%n_elements, 1, -1
-            part(body(e)) = root(model%part(model%element_nodes(1, e)))
-         end do
-      end associate
+      ! join the parts that joints connect, and those that a support, a grounded spring or a rigid base holds to the ground
+      ground = model%n_parts + 1
+      parent = [(i, i = 1, ground)]
+      do i = 1, n_points(model)
+         if (any(supported(model, i))) call join(parent, model%part(i), ground)
+      end do
+      do i = 1, n_bars(model)
+         if (model%bars(i)%nodes(2) == 0) call join(parent, model%part(model%bars(i)%nodes(1)), ground)
+      end do
+      do i = 1, size(model%interface)
+         associate (parts => model%part(model%interface(i)%node))
+            do k = 2, size(parts)
+               call join(parent, parts(1), parts(k))
+            end do
+            if (named_node(model%interface(i), 2) == 0) call join(parent, parts(1), ground)
+         end associate
+      end do
+      do e = model%n_elements, 1, -1
+         part(body(e)) = root_of(parent, model%part(model%element_nodes(1, e)))
+      end do
+      where (part == root_of(parent, ground)) part = 0
+
       said = 0
       do i = 1, size(bodies)
          if (part(i) == 0 .or. any(part(:i - 1) == part(i))) cycle
@@ -302,31 +319,6 @@ contains
       if (said > most_said) words = words//'; and others'
    end function loose_words
 
-   !> For each part of MODEL the first of the parts to which joints connect it; 0: supports, grounded springs or rigid bases hold them.
-   pure function connected_parts(model) result(root)
-      type(model_type), intent(in) :: model
-      integer :: root(model%n_parts), parent(model%n_parts + 1), ground, i, k, node
-
-      ground = model%n_parts + 1
-      parent = [(i, i = 1, ground)]
-      do node = 1, n_points(model)
-         if (any(supported(model, node))) call join(parent, model%part(node), ground)
-      end do
-      do i = 1, n_bars(model)
-         if (model%bars(i)%nodes(2) == 0) call join(parent, model%part(model%bars(i)%nodes(1)), ground)
-      end do
-      do i = 1, size(model%interface)
-         associate (parts => model%part(model%interface(i)%node))
-            do k = 2, size(parts)
-               call join(parent, parts(1), parts(k))
-            end do
-            if (named_node(model%interface(i), 2) == 0) call join(parent, parts(1), ground)
-         end associate
-      end do
-      root = [(root_of(parent, i), i = 1, model%n_parts)]
-      where (root == root_of(parent, ground)) root = 0
-   end function connected_parts
-
    !> Text about the body next to body I, ', 0 from body 1 over an area of about 1250: a JOINT?'; '' where there is none.
    function neighbour_words(model, body, i) result(words)
       type(model_type), intent(in) :: model
@@ -343,21 +335,20 @@ contains
       words = ''
       call list_outer_sides(model, body, sides)
       call find_facing(model, sides, pairs, sees)
-      p = maxloc([(merge(maxval(pairs(k)%n), 0, any(pairs(k)%body == i)), k = 1, size(pairs))], dim=1)
+      pairs = pack(pairs, [(any(pairs(k)%body == i), k = 1, size(pairs))])
       if (size(pairs) > 0) then
-         associate (pair => pairs(p))
-            if (any(pair%body == i)) then
-               words = '; it lies '//real_text(rounded(pair%gap(1)))
-               if (pair%gap(2) - pair%gap(1) > 0.01_wp*pair%gap(2)) words = words//' to '//real_text(rounded(pair%gap(2)))
-               words = words//' from body '//integer_text(sum(pair%body) - i)//' over an area of about '// &
-                       real_text(rounded(pair%area(1)))//'; is a JOINT missing?'
-            end if
+         associate (pair => pairs(maxloc([(maxval(pairs(k)%n), k = 1, size(pairs))], dim=1)))
+            words = '; it lies '//real_text(rounded(pair%gap(1)))
+            if (pair%gap(2) - pair%gap(1) > 0.01_wp*pair%gap(2)) words = words//' to '//real_text(rounded(pair%gap(2)))
+            words = words//' from body '//integer_text(sum(pair%body) - i)//' over an area of about '// &
+                    real_text(rounded(pair%area(1)))//'; is a JOINT missing?'
          end associate
       end if
       if (words /= '' .or. all(sides%body == i)) return
       own = pack([(k, k = 1, size(sides))], sides%body == i)
       others = pack([(k, k = 1, size(sides))], sides%body /= i)
       call search%build(model%x(:, sides(others)%corners(1)))
+      p = others(1)
       nearest = huge(1.0_wp)
       do k = 1, size(own)
          call search%nearest(model%x(:, sides(own(k))%corners(1)), huge(1.0_wp), point, distance)

@@ -19,8 +19,8 @@ module free_structure
 
 contains
 
-   !> Support the structure of MODEL if it has no supports and some stage has MODES(FREE): all components of a node with rotations, else 3,
-   !! 2 and 1 components of three distant nodes of the largest body. Dependent nodes and nodes with CD are skipped.
+   !> Support the structure of MODEL if it has no supports and some stage has MODES(FREE): all components of a node with rotations,
+   !! else 3, 2 and 1 components of three distant nodes of the largest body. Dependent nodes and nodes with CD are skipped.
    subroutine hold_free_structure(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -36,6 +36,7 @@ contains
          if (named_node(model%interface(i), 2) == 0) return                               ! a rigid base
       end do
       if (model%n_elements == 0) return
+      ! the nodes of the largest body that may be held
       call find_bodies(model, body, n)
       body_of = 0
       do e = 1, model%n_elements
@@ -66,6 +67,7 @@ contains
          call hold(model, a, 2)
          return
       end if
+      ! the node b farthest from a, and in space the node c farthest from the line through both
       call hold(model, a, merge(123, 12, model%dimension == 3))
       off = [(norm2(model%x(:, i) - model%x(:, a)), i = 1, size(off))]
       b = first_largest(off, may_be)

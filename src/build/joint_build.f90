@@ -56,8 +56,8 @@ contains
    end subroutine resolve_laws
 
    !> Values of JOINT that depend on E of the adjacent bodies. A blank unloading slope becomes the equivalent E of both bodies,
-   !! 2 E1 E2/(E1 + E2), per unit length; on a rigid base E of the body. A P0 above E is an error: the bodies could not bear it, and the
-   !! rounding tolerance of the joint laws, which scales with P0, would hide the tension of an element.
+   !! 2 E1 E2/(E1 + E2), per unit length; on a rigid base E of the body. A P0 above E is an error: the bodies could not bear it, and
+   !! the rounding tolerance of the joint laws, which scales with P0, would hide the tension of an element.
    subroutine compare_with_bodies(deck, model, joint)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(in)    :: model

@@ -3,12 +3,13 @@
 !! collinear points along their line. Outside the convex hull the value at the nearest point of the hull holds. The interpolation is
 !! continuous and exact for linear values.
 !!
-!! The triangle around a place is found without the triangulation. With all points lifted onto the paraboloid z = x**2 + y**2, it is the
-!! lowest triangle above the place. Starting from any triangle around the place, the point farthest below its plane replaces one of
-!! the corners until no point is below (simplex method). For points on a grid both diagonals of a square are equally low. Therefore the
-!! paraboloid is slightly tilted, in a direction that no grid is likely to have, and one diagonal is lower everywhere. For squares for
-!! which the tilt makes no difference (turned by half a radian) points are lowered by infinitesimal amounts, the first by most, each
-!! next one by much less (simulation of simplicity: Edelsbrunner and Muecke, ACM Transactions on Graphics 9 (1990) 66).
+!! The triangle around a place is found without the triangulation. With all points lifted onto the paraboloid z = x**2 + y**2, it is
+!! the lowest triangle above the place. Starting from any triangle around the place, the point farthest below its plane replaces one
+!! of the corners until no point is below (simplex method). For points on a grid both diagonals of a square are equally low.
+!! Therefore the paraboloid is slightly tilted, in a direction that no grid is likely to have, and one diagonal is lower everywhere.
+!! For squares for which the tilt makes no difference (turned by half a radian) points are lowered by infinitesimal amounts, the
+!! first by most, each next one by much less (simulation of simplicity: Edelsbrunner and Muecke, ACM Transactions on Graphics 9
+!! (1990) 66).
 module joint_gaps
    use bulk_data, only: jgap_card
    use deck_check, only: checked_deck
@@ -166,8 +167,8 @@ contains
             share = shares(self%x(:, corners), self%x(:, i))
             above = self%height(i) - dot_product(share, self%height(corners))
             if (abs(above) <= flat) then
-               ! in the plane, the first of the four points decides, because it is lowered most: it is point i itself, or a corner with
-               ! which the plane at i falls or rises
+               ! in the plane, the first of the four points decides, because it is lowered most: it is point i itself, or a corner
+               ! with which the plane at i falls or rises
                k = minloc(corners, mask=abs(share) > rounding, dim=1)
                above = merge(-flat, 0.0_wp, i < corners(k) .or. share(k) < 0.0_wp)
             end if
@@ -292,7 +293,8 @@ contains
    end subroutine gaps_by_place
 
    !> NODES: gaps of nodes of SIDE1, zero for a node that is not given. An element on several nodes has their mean. A node without
-   !! elements, such as a corner of a six-node face, is a node of SIDE1 too. For the face of a shell the card names the nodes of the shell.
+   !! elements, such as a corner of a six-node face, is a node of SIDE1 too. For the face of a shell the card names the nodes of the
+   !! shell.
    subroutine gaps_by_node(deck, card, joint, model)
       type(checked_deck), intent(in)  :: deck
       type(jgap_card), intent(in)     :: card

@@ -1,6 +1,6 @@
 !> The interface elements of a JOINT card and their axes, and the axes and centroid of a joint.
-!! Sides with matching meshes are connected by pairs of nodes, other sides by lists of nodes with weights; one side alone is connected to
-!! its twin or to a rigid base. The normal points from node 1 to node 2.
+!! Sides with matching meshes are connected by pairs of nodes, other sides by lists of nodes with weights; one side alone is
+!! connected to its duplicate or to a rigid base. The normal points from node 1 to node 2.
 module joint_sides
    use bulk_data, only: fit_no, fit_yes
    use deck_check, only: checked_deck
@@ -25,8 +25,8 @@ module joint_sides
 contains
 
    !> The elements between two sides: pairs if every node has a partner and the card does not request a projection; the coverage of
-   !! projected sides is stored in joint J of MODEL. SURFACE(2) = 0: the elements between a surface and its twin, if the surface was
-   !! split, or a rigid base.
+   !! projected sides is stored in joint J of MODEL. SURFACE(2) = 0: the elements between a surface and its duplicate, if the
+   !! surface was split, or a rigid base.
    subroutine join_sides(deck, j, model, surface, elements)
       type(checked_deck), intent(in)                       :: deck
       integer, intent(in)                                  :: j, surface(2)
@@ -88,7 +88,7 @@ contains
       type(surface_node_list), intent(in)                 :: side
       integer, intent(in)                                 :: partner(:) !! (nodes of SIDE)
       type(interface_element), allocatable, intent(inout) :: elements(:)
-      character(:), allocatable, intent(inout)            :: lack !! of area: the node and the reason, set where there is such a node
+      character(:), allocatable, intent(inout)            :: lack !! of area: the node and the reason, set if there is such a node
       type(interface_sums_type) :: sums
       type(id_table_type) :: place
       type(face_part)     :: part
@@ -161,9 +161,9 @@ contains
       end do
    end subroutine summed_elements
 
-   !> Axes of an interface element with normal Z (unit): columns x, y, z, right-handed. In the plane x is tangential to the joint and y is
-   !! normal to the plane; x points towards +X (+Y where the joint is vertical). In space x is the projection of +X onto the joint, or of
-   !! +Y where the normal is within 25 degrees of X.
+   !> Axes of an interface element with normal Z (unit): columns x, y, z, right-handed. In the plane x is tangential to the joint
+   !! and y is normal to the plane; x points towards +X (+Y where the joint is vertical). In space x is the projection of +X onto
+   !! the joint, or of +Y where the normal is within 25 degrees of X.
    pure function joint_axes(model, z) result(axes)
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: z(3)

@@ -36,8 +36,8 @@ module load_build
 
 contains
 
-   !> Nodal forces of the cards: FORCE(:, i) of card I in global axes acts on NODE(i); of a moment on the node of rotations [force]. It is
-   !! zero where the card is in error.
+   !> Nodal forces of the cards: FORCE(:, i) of card I in global axes acts on NODE(i); of a moment on the node of rotations [force].
+   !! It is zero where the card is in error.
    subroutine find_nodal_forces(deck, model, node, force)
       type(checked_deck), intent(in)     :: deck
       type(model_type), intent(in)       :: model
@@ -104,8 +104,8 @@ contains
       call check_movable(deck, model, card, node, axes, force)
    end subroutine onto_rotations
 
-   !> Error: a FORCE on a reference NODE along a component that was left out and depends on nothing: the node has no movement along it for
-   !! any value of the unknowns.
+   !> Error: a FORCE on a reference NODE along a component that was left out and depends on nothing: the node has no movement along
+   !! it for any value of the unknowns.
    subroutine check_movable(deck, model, card, node, axes, force)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
@@ -155,12 +155,16 @@ contains
       end if
    end subroutine along_lines
 
-   !> Errors of PLOADM and FORCEM: missing surfaces, and a pressure on a surface with bodies on both sides.
-   subroutine check_surface_loads(deck, model)
+   !> Errors of load cards. PLOADM and FORCEM: missing surfaces, and a pressure on a surface with bodies on both sides. SPCD: a
+   !! component that is not supported. LOAD: missing sets.
+   subroutine check_cards(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
-      integer :: i, s
+      character(:), allocatable :: words
+      logical :: held(model%dimension)
+      integer :: d, i, k, node, s
 
+      ! PLOADM and FORCEM
       do i = 1, size(deck%bulk%surface_load)
          associate (card => deck%bulk%surface_load(i))
             if (card%surface == 0) cycle
@@ -177,16 +181,8 @@ contains
             call check_plane(deck, model, card%line, card%force, 'N3')
          end associate
       end do
-   end subroutine check_surface_loads
 
-   !> Error: an SPCD on a component that is not supported.
-   subroutine check_displacements(deck, model)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      character(:), allocatable :: words
-      logical :: held(model%dimension)
-      integer :: d, i, node
-
+      ! SPCD
       do i = 1, size(deck%bulk%displacement)
          associate (card => deck%bulk%displacement(i))
             node = model%node_table%find(card%node)
@@ -208,15 +204,8 @@ contains
             end do
          end associate
       end do
-   end subroutine check_displacements
 
-   !> Error: a LOAD card that combines missing sets.
-   subroutine check_combinations(deck)
-      type(checked_deck), intent(in) :: deck
-      character(:), allocatable :: name
-      integer :: i, k
-
-      name = ''
+      ! LOAD, which combines sets
       do i = 1, size(deck%bulk%load)
          associate (card => deck%bulk%load(i))
             do k = 1, size(card%sets)
@@ -230,13 +219,13 @@ contains
                end if
             end do
             if (.not. has_set(deck%bulk, card%set)) cycle
-            name = others
-            if (any(deck%bulk%force%set == card%set)) name = 'FORCE'
-            call deck%field_error(card%line, 'SID', 'set '//integer_text(card%set)//' is that of a '//name// &
+            words = others
+            if (any(deck%bulk%force%set == card%set)) words = 'FORCE'
+            call deck%field_error(card%line, 'SID', 'set '//integer_text(card%set)//' is that of a '//words// &
                                   ' too: case control is ambiguous')
          end associate
       end do
-   end subroutine check_combinations
+   end subroutine check_cards
 
    !> Whether any load card belongs to SET.
    pure logical function has_set(bulk, set)
@@ -256,9 +245,7 @@ contains
       integer :: s
 
       call find_nodal_forces(deck, model, cards%node, cards%force)
-      call check_surface_loads(deck, model)
-      call check_displacements(deck, model)
-      call check_combinations(deck)
+      call check_cards(deck, model)
       call find_fields(deck, model, cards%fields)
       call find_beam_loads(deck, model, cards%beam, cards%end_force)
       call check_kept(deck, model)
@@ -358,7 +345,8 @@ contains
       loads%force(:, loads%n) = force
    end subroutine add_force
 
-   !> Nodal forces of CARD on SURFACE, times FACTOR: a pressure, positive into the body, or a total force distributed uniformly over the area.
+   !> Nodal forces of CARD on SURFACE, times FACTOR: a pressure, positive into the body, or a total force distributed uniformly over
+   !! the area.
    pure subroutine add_surface_load(model, surface, card, factor, force)
       type(model_type), intent(in)        :: model
       type(surface_type), intent(in)      :: surface

@@ -13,8 +13,9 @@ module mass_build
 
 contains
 
-   !> Fill the nodal masses of MODEL, times PARAM WTMASS, and set lumped or consistent element masses. The node of a card must belong to
-   !! an element. A CONM2 with an offset has its mass at a node of its own, at the offset, and its inertia about its centre of mass.
+   !> Fill the nodal masses of MODEL, times PARAM WTMASS, and set lumped or consistent element masses. The node of a card must
+   !! belong to an element. A CONM2 with an offset has its mass at a node of its own, at the offset, and its inertia about its
+   !! centre of mass.
    subroutine build_masses(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model

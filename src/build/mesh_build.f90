@@ -1,7 +1,7 @@
 !> The mesh of the model: nodes, bodies and marked sides, from mesh cards and block generators to positions.
-!! A new reference node of RBE2M and RBE3M lies at the centroid of its marked surface. NODEAT is another number for the node nearest to a
-!! position. The nodes that cards of loads, supports and masses name are checked before anything else is built from these cards, so that missing
-!! nodes are reported for a deck with mesh errors too.
+!! A new reference node of RBE2M and RBE3M lies at the centroid of its marked surface. NODEAT is another number of the node nearest
+!! to a position. The nodes that loads, supports and masses name are checked first, so that missing nodes are reported for a deck
+!! with mesh errors too.
 module mesh_build
    use block_mesh, only: collect_cards, mesh_card_type
    use bulk_data, only: element_card
@@ -91,9 +91,9 @@ contains
       call collect_sides(deck, cards%side, model, sides)
    end subroutine build_mesh
 
-   !> Append the reference nodes of RBE2M and RBE3M that name none: each at the centroid of its surface, numbered from the highest node
-   !! number of the deck on. Find the nodes of NODEAT cards: the number of a card becomes a number of the node nearest to its position. Of
-   !! equally near nodes the new reference node of an RBE2M or RBE3M is taken, else the node with the lowest number.
+   !> Append the reference nodes of RBE2M and RBE3M that name none: each at the centroid of its surface, numbered from the highest
+   !! node number of the deck on. Find the nodes of NODEAT cards: the number of a card becomes a number of the node nearest to its
+   !! position. Of equally near nodes the new reference node of an RBE2M or RBE3M is taken, else the node with the lowest number.
    subroutine place_nodes(deck, sides, model)
       type(checked_deck), intent(inout) :: deck
       type(element_card), intent(in)    :: sides(:) !! of blocks
@@ -107,6 +107,7 @@ contains
       n_given = model%n_nodes
       allocate (model%placed(size(deck%bulk%place)))
       model%placed%id = deck%bulk%place%id ! reference nodes get higher numbers
+      ! the new reference nodes
       allocate (x(3, merge(count(deck%rigid%surface > 0 .and. deck%rigid%node == 0), 0, n_given > 0)))
       if (size(x, 2) > 0) then
          highest = highest_number(model)
@@ -133,6 +134,7 @@ contains
                                                                             node=model%node_table%find(card%node))]
          end associate
       end do
+      ! the nodes nearest to the positions of NODEAT, on their surfaces if they name one
       if (size(deck%bulk%place) == 0 .or. model%n_nodes == 0) return
       rounding = 1.0e-9_wp*maxval(maxval(model%x, dim=2) - minval(model%x, dim=2))
       do i = 1, size(deck%bulk%place)
@@ -193,7 +195,8 @@ contains
       nodes = pack(nodes, nodes > 0)
    end function nodes_on
 
-   !> The centroid of the sides on CARDS, weighted by length of edges or area of faces; the mean of the nodes where the total is zero.
+   !> The centroid of the sides on CARDS, weighted by length of edges or area of faces; the mean of the nodes where the total is
+   !! zero.
    pure function centroid(model, cards)
       type(model_type), intent(in)   :: model
       type(element_card), intent(in) :: cards(:)

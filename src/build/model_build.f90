@@ -36,8 +36,8 @@ module model_build
 contains
 
    !> Build MODEL and the PLAN of its stages from DECK; inconsistencies are added to ERRORS, and then neither may be solved. After
-   !! mesh errors nothing else is built, because areas, projections and loads would rest on wrong numbers. Errors that do not depend on
-   !! each other are found together.
+   !! mesh errors nothing else is built, because areas, projections and loads would rest on wrong numbers. Errors that do not depend
+   !! on each other are found together.
    subroutine build_model(deck, model, plan, errors)
       type(deck_type), intent(in), target          :: deck
       type(model_type), intent(out)                :: model

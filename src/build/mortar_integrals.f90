@@ -1,9 +1,9 @@
 !> Mortar projection for faces that do not match: tributary areas, nodes and weights of the interface elements.
-!! Integrals of shape functions over the covered part of each face of SIDE1 give the weights on the nodes of both sides. They are summed
-!! over the faces at a node, weighted with the area of the face. The tributary areas of the nodes of a face, the integrals of the N_k,
-!! are divided among its elements. Edges and linear faces have an element at every node. Faces with mid-side nodes have elements at these
-!! nodes only, because the tributary areas of the corners are zero or negative (0 and 1/3 of the triangle with 6 nodes; -1/12 and 1/3 of
-!! the quadrilateral with 8).
+!! Integrals of shape functions over the covered part of each face of SIDE1 give the weights on the nodes of both sides. They are
+!! summed over the faces at a node, weighted with the area of the face. The tributary areas of the nodes of a face, the integrals of
+!! the N_k, are divided among its elements. Edges and linear faces have an element at every node. Faces with mid-side nodes have
+!! elements at these nodes only, because the tributary areas of the corners are zero or negative (0 and 1/3 of the triangle with 6
+!! nodes; -1/12 and 1/3 of the quadrilateral with 8).
 module mortar_integrals
    use element_kinds, only: max_nodes, max_side_nodes
    use element_mapping, only: two_pi
@@ -70,8 +70,8 @@ module mortar_integrals
 
 contains
 
-   !> Add the integrals over the part of FACE that the face OPPOSITE, given in the frame of FACE, covers. A point is covered where the
-   !! distance of the faces along the normal of FACE is at most the reach.
+   !> Add the integrals over the part of FACE that the face OPPOSITE, given in the frame of FACE, covers. A point is covered where
+   !! the distance of the faces along the normal of FACE is at most the reach.
    pure subroutine add_overlap(face, opposite, nodes, points, integrals)
       type(own_face), intent(in)           :: face
       type(seen_face), intent(in)          :: opposite
@@ -119,10 +119,10 @@ contains
       end associate
    end subroutine add_overlap
 
-   !> PART from the INTEGRALS over a face with N nodes. A fully covered face: the displacements u2 of SIDE2 are fitted by least squares,
-   !! u2_k = sum of (M^-1)_kl times the integral of N_l u2, where M is the integral of N_k N_l. The fit is exact where the shape functions
-   !! of the face represent u2, and a node opposite its partner is connected to the partner only. A partly covered face: the displacements
-   !! of both sides are averaged over the covered part, with the functions phi_i of the elements as weights.
+   !> PART from the INTEGRALS over a face with N nodes. A fully covered face: the displacements u2 of SIDE2 are fitted by least
+   !! squares, u2_k = sum of (M^-1)_kl times the integral of N_l u2, where M is the integral of N_k N_l. The fit is exact where the
+   !! shape functions of the face represent u2, and a node opposite its partner is connected to the partner only. A partly covered
+   !! face: the displacements of both sides are averaged over the covered part, with the functions phi_i of the elements as weights.
    pure subroutine fit_face(dimension, n, is_whole, integrals, part)
       integer, intent(in)               :: dimension, n
       logical, intent(in)               :: is_whole
@@ -193,10 +193,10 @@ contains
       end do
    end function whole_shares
 
-   !> Shares of a partly covered face: the element at node i has the function phi_i = sum of SHARE(i, k) N_k, which is nowhere negative on
-   !! the face: N_i itself on a linear face; ((1-s)/2)^2, ((1+s)/2)^2 and (1-s^2)/2 on an edge with three nodes; (L1+L2)/2 for the sides of
-   !! a triangle, (1-eta)/4 and so on for a quadrilateral. The N_k represent these polynomials exactly; the shares are the values at the
-   !! nodes.
+   !> Shares of a partly covered face: the element at node i has the function phi_i = sum of SHARE(i, k) N_k, which is nowhere
+   !! negative on the face: N_i itself on a linear face; ((1-s)/2)^2, ((1+s)/2)^2 and (1-s^2)/2 on an edge with three nodes;
+   !! (L1+L2)/2 for the sides of a triangle, (1-eta)/4 and so on for a quadrilateral. The N_k represent these polynomials exactly;
+   !! the shares are the values at the nodes.
    pure function partial_shares(dimension, n) result(share)
       integer, intent(in) :: dimension, n !! as above
       real(wp) :: share(max_side_nodes, max_side_nodes)

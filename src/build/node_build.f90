@@ -1,7 +1,7 @@
 !> Nodes of GRID cards and blocks in ascending order, mid-side nodes, and nodes for other unknowns.
-!! A mid-side node that cards leave blank is placed at the middle of its edge, one for all elements that share the edge. All elements at
-!! an edge must have the same mid-side node, or none. Nodes that no card gives follow the nodes of the deck; their unknowns are
-!! not displacements of points.
+!! A mid-side node that cards leave blank is placed at the middle of its edge, one for all elements that share the edge. All
+!! elements at an edge must have the same mid-side node, or none. Nodes that no card gives follow the nodes of the deck; their
+!! unknowns are not displacements of points.
 module node_build
    use bulk_data, only: grid_card
    use coordinate_systems, only: position_in
@@ -31,7 +31,8 @@ module node_build
 
 contains
 
-   !> The nodes of the GRID cards of DECK and its blocks, in ascending order of their numbers; CARDS get their coordinates in global axes.
+   !> The nodes of the GRID cards of DECK and its blocks, in ascending order of their numbers; CARDS get their coordinates in global
+   !! axes.
    subroutine build_nodes(deck, cards, model)
       type(checked_deck), intent(in)  :: deck
       type(grid_card), intent(inout)  :: cards(:) !! those of blocks last
@@ -87,8 +88,8 @@ contains
       if (allocated(model%placed)) highest_number = max(highest_number, maxval([0, model%placed%id]))
    end function highest_number
 
-   !> The NODES with the numbers ID, which an element, edge or interface element card names from data field FIRST on; 0, and an error,
-   !! for a missing node. An ID of 0 is a field that is blank or could not be read; it gives 0 without an error.
+   !> The NODES with the numbers ID, which an element, edge or interface element card names from data field FIRST on; 0, and an
+   !! error, for a missing node. An ID of 0 is a field that is blank or could not be read; it gives 0 without an error.
    subroutine find_nodes(deck, line, id, model, nodes, first)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line     !! of the card
@@ -245,8 +246,8 @@ contains
       end do
    end subroutine check_orders
 
-   !> Append nodes for unknowns that are not displacements of points, one at each of POINTS: N_ELEMENTS of the ELEMENTS in turn belong to
-   !! each node, and components that are no unknowns are HELD. The number of these nodes is 0.
+   !> Append nodes for unknowns that are not displacements of points, one at each of POINTS: N_ELEMENTS of the ELEMENTS in turn
+   !! belong to each node, and components that are no unknowns are HELD. The number of these nodes is 0.
    subroutine append_unknowns(model, points, n_elements, elements, held)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: points(:), n_elements(:), elements(:)

@@ -165,6 +165,7 @@ contains
             cover%share = cover%share + merge(1.0_wp, share, share >= whole_share)*sum(area)
             cover%farthest = max(cover%farthest, integrals%farthest)
          end do
+         ! coverage and mean sizes of the faces; faults
          call sums%finish()
          cover%share = cover%share/max(all_area, tiny(1.0_wp))
          cover%spacing(1) = cover%spacing(1)/max(1, own_parts)

@@ -39,8 +39,8 @@ module pressure_loads
 
 contains
 
-   !> The FACE whose corners have the numbers ID, in either sense. There is none, and a PROBLEM, where the face is missing, or where bodies
-   !! lie on both sides, because forces on its nodes would act on both.
+   !> The FACE whose corners have the numbers ID, in either sense. There is none, and a PROBLEM, where the face is missing, or where
+   !! bodies lie on both sides, because forces on its nodes would act on both.
    subroutine find_face(model, id, face, problem)
       type(model_type), intent(in)           :: model
       integer, intent(in)                    :: id(:)  !! 3 or 4 corners in cyclic order
@@ -76,7 +76,7 @@ contains
       if (found > 1) problem = 'bodies lie on both sides of the face'//words//': the loaded body is ambiguous'
    end subroutine find_face
 
-   !> Side S of element E if the nodes with the numbers ID, or their twins, are its corners in cyclic order, else none.
+   !> Side S of element E if the nodes with the numbers ID, or their duplicates, are its corners in cyclic order, else none.
    pure subroutine compare_corners(model, e, s, id, face)
       type(model_type), intent(in)  :: model
       integer, intent(in)           :: e, s, id(:)
@@ -94,7 +94,7 @@ contains
       face = named_face(e, s, place(1), outward)
    end subroutine compare_corners
 
-   !> The place of the node with number ID, or of its twin, among CORNERS; 0: none.
+   !> The place of the node with number ID, or of its duplicate, among CORNERS; 0: none.
    pure integer function place_of(model, id, corners) result(place)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: id, corners(:)
@@ -173,8 +173,9 @@ contains
       pressed%side(pressed%n) = side
    end subroutine append
 
-   !> The PLOAD4 or PLOAD2 of NEW on the shells with numbers from RANGE(1) to RANGE(2), and on the faces that elements with these numbers,
-   !! in data field AT, mark. The pressure acts along the right-hand normals of these elements, or along the direction of the card.
+   !> The PLOAD4 or PLOAD2 of NEW on the shells with numbers from RANGE(1) to RANGE(2), and on the faces that elements with these
+   !! numbers, in data field AT, mark. The pressure acts along the right-hand normals of these elements, or along the direction of
+   !! the card.
    subroutine press_on_marked(deck, model, new, at, range, pressed)
       type(checked_deck), intent(in)    :: deck
       type(model_type), intent(in)      :: model

@@ -54,7 +54,8 @@ contains
       type(surface_node_list) :: list
       real(wp), allocatable   :: centroid(:)
       character(:), allocatable :: fault
-      integer :: s
+      real(wp) :: extent
+      integer  :: i, s
 
       model%sections(k)%bolt = card%id
       model%sections(k)%surface = card%surface
@@ -74,7 +75,15 @@ contains
          model%sections(k)%strength = model%properties(model%element_property(model%surfaces(s)%element(1)))%strength
          call surface_nodes(model, model%surfaces(s), list)
          allocate (centroid, source=matmul(model%x(:, list%node), list%area)/sum(list%area))
-         fault = plane_fault(model, model%sections(k), list, centroid)
+         ! the surface must be plane, and in an axisymmetric model across the axis
+         if (model%axisymmetric .and. abs(model%sections(k)%direction(1)) > even) then
+            fault = 'is not across the axis: in an axisymmetric model a bolt is cut at a plane y = constant'
+         else
+            extent = maxval([(norm2(model%x(:, list%node(i)) - centroid), i = 1, list%n)])
+            i = findloc([(abs(dot_product(model%x(:, list%node(i)) - centroid, model%sections(k)%direction)) > even*extent, &
+                          i = 1, list%n)], .true., dim=1)
+            if (i > 0) fault = 'is not plane: node '//integer_text(model%node_id(list%node(i)))//' lies out of its mean plane'
+         end if
       end if
       if (fault == '') call find_elements_behind(model, s, k, fault)
       if (fault /= '') call deck%field_error(card%line, 'PMARK', 'surface '//integer_text(card%surface)//' '//fault)
@@ -93,41 +102,15 @@ contains
       do i = 1, model%surfaces(s)%n
          call side_influence(model, model%surfaces(s), i, area, normal)
          own = sum(normal, dim=2)
-         associate (surface => model%surfaces(s))
-            if (dot_product(own, total) < 0.0_wp) then
-               call reverse_side(surface, i)
-               own = -own
-            end if
-         end associate
+         if (dot_product(own, total) < 0.0_wp) then
+            call reverse_side(model%surfaces(s), i)
+            own = -own
+         end if
          total = total + own
          section%area = section%area + sum(area)
       end do
       section%direction = -total/max(norm2(total), tiny(1.0_wp))
    end subroutine orient_as_first_side
-
-   !> The reason why a surface with the nodes of LIST is no plane section; empty where it is plane.
-   pure function plane_fault(model, section, list, centroid) result(fault)
-      type(model_type), intent(in)        :: model
-      type(section_type), intent(in)      :: section
-      type(surface_node_list), intent(in) :: list
-      real(wp), intent(in)                :: centroid(3)
-      character(:), allocatable           :: fault
-      real(wp) :: out, extent
-      integer  :: i
-
-      fault = ''
-      if (model%axisymmetric .and. abs(section%direction(1)) > even) then
-         fault = 'is not across the axis: in an axisymmetric model a bolt is cut at a plane y = constant'
-         return
-      end if
-      extent = maxval([(norm2(model%x(:, list%node(i)) - centroid), i = 1, list%n)])
-      do i = 1, list%n
-         out = abs(dot_product(model%x(:, list%node(i)) - centroid, section%direction))
-         if (out <= even*extent) cycle
-         fault = 'is not plane: node '//integer_text(model%node_id(list%node(i)))//' lies out of its mean plane'
-         return
-      end do
-   end function plane_fault
 
    !> The elements behind section K, which is surface S: at each node the elements that are connected to the
    !! back of a side without crossing the surface.

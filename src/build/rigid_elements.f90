@@ -1,6 +1,6 @@
 !> Constraint equations of rigid elements (RBE2, RBAR, RBE3, RBE2M, RBE3M) and of the MPC of case control.
-!! Reference nodes of RBE2 have rotations, and those of RBE3 if the card names rotations. An axisymmetric model has none, because the
-!! rigid-body motion of a ring is axial only.
+!! Reference nodes of RBE2 have rotations, and those of RBE3 if the card names rotations. An axisymmetric model has none, because
+!! the rigid-body motion of a ring is axial only.
 module rigid_elements
    use bulk_data, only: equation_card, has_component, rigid_card
    use constraint_equations, only: add_dependence, add_term, check_dependences, dependence_list, eliminate, mean_motion, solve_for
@@ -61,8 +61,8 @@ contains
       if (.not. deck%errors%any()) call eliminate(list, model)
    end subroutine build_dependents
 
-   !> The nodes of RBE2M and RBE3M from their surface. RBE3M uses the tributary areas as weights, so that a load on the reference node is
-   !! distributed uniformly over the area. RBE2M excludes GN, which may lie on the surface.
+   !> The nodes of RBE2M and RBE3M from their surface. RBE3M uses the tributary areas as weights, so that a load on the reference
+   !! node is distributed uniformly over the area. RBE2M excludes GN, which may lie on the surface.
    subroutine name_surface_nodes(deck, model)
       type(checked_deck), intent(inout) :: deck
       type(model_type), intent(in)      :: model
@@ -89,7 +89,8 @@ contains
       end do
    end subroutine name_surface_nodes
 
-   !> The constraint equations of an RBE2: components CM of its nodes follow the rigid-body motion of GN, {u} + theta x arm and theta.
+   !> The constraint equations of an RBE2: components CM of its nodes follow the rigid-body motion of GN, {u} + theta x arm and
+   !! theta.
    subroutine add_rigid(deck, card, model, list)
       type(checked_deck), intent(in)       :: deck
       type(rigid_card), intent(in)         :: card
@@ -157,11 +158,8 @@ contains
          if (place(k)%node == place(1)%node .and. place(k)%d == place(1)%d) call deck%field_error(card%line, card%at(k), &
             'this is the dependent component of the first term', called='G')
       end do
-      if (.not. active) then
-         list%without = without
-         return
-      end if
-      if (any(place%node == 0) .or. deck%errors%any()) return
+      if (.not. active) list%without = without
+      if (.not. active .or. any(place%node == 0) .or. deck%errors%any()) return
       call add_dependence(list, place(1), card%line, card%at(1))
       do k = 2, size(place)
          call add_term(list, place(k), -card%factor(k)/card%factor(1)*place(1)%scale/place(k)%scale)
@@ -302,8 +300,8 @@ contains
       if (model%axisymmetric) direction([1, 3, 4, 5, 6]) = 0.0_wp
    end function direction_of
 
-   !> Error: C without a displacement, because the mean is one of displacements. Rotations in C are ignored, as nodes of bodies have none;
-   !! a rotation that a node has is an error.
+   !> Error: C without a displacement, because the mean is one of displacements. Rotations in C are ignored, as nodes of bodies have
+   !! none; a rotation that a node has is an error.
    subroutine check_directions(deck, card, model)
       type(checked_deck), intent(in) :: deck
       type(rigid_card), intent(in)   :: card

@@ -1,14 +1,12 @@
 !> Nodes on the faces and edges of shells, at rigid levers from the nodes of the shells.
-!! A marked surface of shells lies half a thickness off their mean plane, on the side to which the normals of the marking elements point.
-!! A marked edge of shells is as wide as the thickness and is cut into strips. The nodes of such sides have rigid levers r from the nodes of
-!! the shells and no unknowns of their own: u + theta x r. Joints, gaps and pressure use them as they use other nodes. Masses with an offset
-!! have such nodes too.
+!! A marked surface of shells lies half a thickness off their mean plane, on the side to which the normals of the marking elements
+!! point. A marked edge of shells is as wide as the thickness and is cut into strips. The nodes of such sides have rigid levers r
+!! from the nodes of the shells and no unknowns of their own: u + theta x r. Joints, gaps and pressure use them as they use other
+!! nodes. Masses with an offset have such nodes too.
 module shell_faces
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
-   use element_kinds, only: element_table
    use kinds, only: wp
-   use lists, only: id_table_type
    use model_data, only: corners_of, face_node_type, is_shell, model_type, surface_type
    use node_build, only: append_nodes
    use node_coupling, only: couple_node, third_axis, transformation, unknown_nodes

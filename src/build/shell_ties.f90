@@ -1,9 +1,9 @@
 !> Shells tied to solids without a joint, SHELLTO: the nodes of a marked edge of shells move with a marked face.
 !!
-!! Each side of the edge gives its two nodes three points of the footprint of the shell on the face: half a thickness above and below the
-!! node, and as far along the edge. The shape functions of the face move these points; the node has the rigid-body motion that fits them
-!! best (mean_motion). Its rotations are therefore those of the face over the thickness, and its forces and moments act on the face in
-!! equilibrium.
+!! Each side of the edge gives its two nodes three points of the footprint of the shell on the face: half a thickness above and
+!! below the node, and as far along the edge. The shape functions of the face move these points; the node has the rigid-body motion
+!! that fits them best (mean_motion). Its rotations are therefore those of the face over the thickness, and its forces and moments
+!! act on the face in equilibrium.
 module shell_ties
    use constraint_equations, only: add_dependence, add_term, dependence_list, mean_motion
    use deck_check, only: checked_deck
@@ -34,8 +34,8 @@ module shell_ties
 
 contains
 
-   !> The TIES of all SHELLTO cards, before edges of shells are cut into strips. Errors: surfaces that are not an edge of shells and a face
-   !! of solids, or whose distance exceeds the thickness of the shell.
+   !> The TIES of all SHELLTO cards, before edges of shells are cut into strips. Errors: surfaces that are not an edge of shells and
+   !! a face of solids, or whose distance exceeds the thickness of the shell.
    subroutine find_ties(deck, model, ties)
       type(checked_deck), intent(in)           :: deck
       type(model_type), intent(in)             :: model

@@ -1,6 +1,6 @@
 !> Search of points and boxes by position in a tree of bounding volumes, in log n steps.
-!! Each section of the tree is halved along the axis of its largest extent of points or box centres. The box around a section is stored
-!! with its middle.
+!! Each section of the tree is halved along the axis of its largest extent of points or box centres. The box around a section is
+!! stored with its middle.
 !! Source: Bentley, Multidimensional binary search trees used for associative searching, Comm. ACM 18 (1975) 509-517; Clark,
 !! Hierarchical geometric models for visible surface algorithms, Comm. ACM 19 (1976) 547-554.
 module spatial_search
@@ -45,8 +45,8 @@ contains
       if (size(self%number) > 0) call surround(self, 1, size(self%number), whole)
    end subroutine build
 
-   !> Sort a section of POINTS, with their NUMBERs, into the order of the tree: points are exchanged until none before the middle has a
-   !! larger coordinate along the axis of the largest extent, and none behind it a smaller one; then each half likewise.
+   !> Sort a section of POINTS, with their NUMBERs, into the order of the tree: points are exchanged until none before the middle
+   !! has a larger coordinate along the axis of the largest extent, and none behind it a smaller one; then each half likewise.
    !! Source: Hoare's FIND; Wirth, Algorithms + Data Structures = Programs, section 2.3.4.
    pure recursive subroutine divide(points, number)
       real(wp), intent(inout) :: points(:, :) !! (3, n)

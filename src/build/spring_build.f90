@@ -206,7 +206,8 @@ contains
 
    contains
 
-      !> A spring along AXES, unit, or between rotations about them: the nodes of rotations have rotations times an arm as components.
+      !> A spring along AXES, unit, or between rotations about them: the nodes of rotations have rotations times an arm as
+      !! components.
       subroutine add(component, k_axis, axes)
          integer, intent(in)  :: component
          real(wp), intent(in) :: k_axis, axes(3, 2)
@@ -243,8 +244,8 @@ contains
    end subroutine build_spring
 
    !> The axes of a CBUSH at its first node: those of its system; without a system, the line between its nodes if it has K1 and K4
-   !! alone, and global axes if the nodes coincide. Error: a force between nodes apart that have rotations has a lever; the springs of this
-   !! program apply no moments to their nodes.
+   !! alone, and global axes if the nodes coincide. Error: a force between nodes apart that have rotations has a lever; the springs
+   !! of this program apply no moments to their nodes.
    subroutine find_axes(deck, card, model, nodes, stiffness, directions, ok)
       type(checked_deck), intent(in) :: deck
       type(spring_card), intent(in)  :: card

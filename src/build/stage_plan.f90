@@ -26,15 +26,15 @@ module stage_plan
       logical :: is_structural = .false.      !! KDAMP = -1: as structural damping
    end type response_plan
 
-   !> BACKBONE of a stage: one mode is followed through loops of increasing amplitude, as its JAMPL says. NODE is the position of the node
-   !! whose displacement is the amplitude, 0: the node that moves most.
+   !> BACKBONE of a stage: one mode is followed through loops of increasing amplitude, as its JAMPL says. NODE is the position of
+   !! the node whose displacement is the amplitude, 0: the node that moves most.
    type, extends(jampl_card), public :: backbone_plan
       real(wp), allocatable :: amplitudes(:)  !! ascending [length]
    end type backbone_plan
 
    !> MODES of a stage.
-   !! The range of its EIGRL: MOST is the number of modes from the lowest of the range on (0: all up to its end); LOWEST > 0 where the
-   !! range has a beginning. UNIT_MASS: shapes have generalised mass 1; else their largest component is 1.
+   !! The range of its EIGRL: MOST is the number of modes from the lowest of the range on (0: all up to its end); LOWEST > 0 where
+   !! the range has a beginning. UNIT_MASS: shapes have generalised mass 1; else their largest component is 1.
    type, extends(eigrl_card), public :: vibration_plan_type
       logical  :: free = .false.              !! without supports
       logical  :: on_loading = .false.        !! STIFFNESS = LOAD
@@ -67,9 +67,9 @@ module stage_plan
 
 contains
 
-   !> Structural damping g [-] at FREQUENCY, by the rules of NASTRAN for TABDMP1: linear interpolation, extrapolation of the first and the
-   !! last line, the mean at a jump. G: g = value; CRIT: g = 2 value; Q: g = 1/value. An extrapolated line is limited at zero damping (G,
-   !! CRIT), or at critical damping or the smallest Q given (Q), because damping must not be negative.
+   !> Structural damping g [-] at FREQUENCY, by the rules of NASTRAN for TABDMP1: linear interpolation, extrapolation of the first
+   !! and the last line, the mean at a jump. G: g = value; CRIT: g = 2 value; Q: g = 1/value. An extrapolated line is limited at
+   !! zero damping (G, CRIT), or at critical damping or the smallest Q given (Q), because damping must not be negative.
    !! Source: MSC Nastran Quick Reference Guide, TABDMP1, remarks.
    pure real(wp) function loss_at(table, frequency) result(g)
       type(tabdmp1_card), intent(in) :: table !! two points or more; the value jumps at a repeated frequency
@@ -97,8 +97,8 @@ contains
       end associate
    end function loss_at
 
-   !> The frequencies of PLAN, with those spread about the MODES (ascending frequencies): ascending, each once [1/time]. A rigid-body
-   !! mode has no spread.
+   !> The frequencies of PLAN, with those spread about the MODES (ascending frequencies): ascending, each once [1/time]. A
+   !! rigid-body mode has no spread.
    pure function asked_frequencies(plan, modes) result(f)
       type(response_plan), intent(in) :: plan
       real(wp), intent(in)            :: modes(:) !! [1/time]
@@ -175,10 +175,7 @@ contains
       integer, intent(in)               :: method !! of case control
       integer :: s
 
-      n = 0
-      do s = 1, size(plan%stages)
-         n = n + size(plan%stages(s)%fractions)
-      end do
+      n = sum([(size(plan%stages(s)%fractions), s = 1, size(plan%stages))])
       if (method == method_newton) n = 6*n
       if (method == method_back) n = 40*n
       do s = 1, size(plan%stages) ! two loops and the start, about three iterations per increment, three trials per amplitude
@@ -195,11 +192,9 @@ contains
       type(stage_plan_type), intent(in) :: plan
       integer, intent(in)               :: stage, increment
 
-      associate (planned => plan%stages(stage))
-         associate (asked => planned%output)
-            shows_bodies = asked%level == output_all .or. asked%steps
-            if (increment == size(planned%fractions)) shows_bodies = shows_bodies .or. asked%level == output_last .or. asked%vtu
-         end associate
+      associate (planned => plan%stages(stage), asked => plan%stages(stage)%output)
+         shows_bodies = asked%level == output_all .or. asked%steps
+         if (increment == size(planned%fractions)) shows_bodies = shows_bodies .or. asked%level == output_last .or. asked%vtu
       end associate
    end function shows_bodies
 

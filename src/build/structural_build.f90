@@ -9,7 +9,7 @@ module structural_build
    use lists, only: id_table_type
    use model_data, only: corners_of, is_beam, is_shell, model_type, n_rotations, rotation_type
    use node_build, only: append_unknowns
-   use node_coupling, only: couple_node, node_axes
+   use node_coupling, only: node_axes
    use shell_membrane, only: shell_law
    use text_tools, only: integer_text
    implicit none
@@ -28,8 +28,8 @@ contains
                      .and. all(deck%bulk%pmark%id /= edge%property)
    end function is_beam_edge
 
-   !> Give a node of rotations, behind the nodes of the deck, to each node of shells and beams and each reference node of rigid elements.
-   !! An axisymmetric model has none. Missing nodes are reported elsewhere.
+   !> Give a node of rotations, behind the nodes of the deck, to each node of shells and beams and each reference node of rigid
+   !! elements. An axisymmetric model has none. Missing nodes are reported elsewhere.
    subroutine build_rotations(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -44,7 +44,7 @@ contains
       allocate (rotations(size(deck%rigid) + model%n_nodes))
       allocate (model%rotation_of(model%n_nodes), source=0)
       n = 0
-      do i = 1, size(deck%rigid)
+      do i = 1, size(deck%rigid) ! reference nodes
          associate (card => deck%rigid(i))
             node = model%node_table%find(card%node)
             if (node == 0) cycle
@@ -67,6 +67,7 @@ contains
             model%rotation_of(node) = n
          end associate
       end do
+      ! nodes of shells and beams; their arm is the root mean square of the distances to the other nodes of their elements
       square = 0.0_wp
       count_of = 0
       do e = 1, model%n_elements
@@ -165,7 +166,7 @@ contains
       allocate (model%structural%place(model%n_elements), source=0)
       allocate (of_property(size(model%properties)))
       do i = 1, size(deck%bulk%pshell)
-         if (model%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! shell properties come first
+         if (model%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! they come first
       end do
       call plates%build([(deck%bulk%element(deck%bulk%plate(i)%element)%id, i = 1, size(deck%bulk%plate))])
       n = 0

@@ -31,7 +31,6 @@ contains
       allocate (model%held(model%dimension, model%n_nodes), source=.false.)
       allocate (model%support_of(model%dimension, model%n_nodes), source=0)
       allocate (model%support_groups(0))
-      allocate (model%used(model%n_nodes))
       model%used = model%first_at(2:) > model%first_at(:model%n_nodes)
       do i = 1, size(model%interface)
          model%used(model%interface(i)%node) = .true.
@@ -100,8 +99,7 @@ contains
          ! G1 THRU G2 means the nodes that exist, as in NASTRAN; at least one must exist
          any_node = support%last(k) < support%first(k) ! reported already
          do node = first_not_below(model%node_id(:n_points(model)), support%first(k)), n_points(model)
-            if (model%node_id(node) < support%first(k)) exit ! the last node
-            if (model%node_id(node) > support%last(k)) exit
+            if (model%node_id(node) < support%first(k) .or. model%node_id(node) > support%last(k)) exit ! lower: the last node
             any_node = .true.
             if (active) call hold(model, node, support%components)
          end do
@@ -157,8 +155,8 @@ contains
       end do
    end subroutine move
 
-   !> Add D of SPC cards to LOADS, the end of a stage with load set SET and no displacements so far. A component that an SPCD of these loads
-   !! names is left out.
+   !> Add D of SPC cards to LOADS, the end of a stage with load set SET and no displacements so far. A component that an SPCD of
+   !! these loads names is left out.
    subroutine keep_moved(deck, model, set, loads)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
@@ -191,12 +189,14 @@ contains
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
       type(component_place) :: places(most_places)
+      character(:), allocatable :: words
       integer, allocatable :: holding(:), by(:, :) ! the card that moves a component, 0: none
       integer :: d, i, node, other
 
       if (all(abs(deck%bulk%support%value) <= 0.0_wp)) return
       allocate (holding, source=support_sets(deck))
       allocate (by(model%dimension, model%n_nodes), source=0)
+      words = ''
       do i = 1, size(deck%bulk%support)
          associate (card => deck%bulk%support(i))
             if (abs(card%value) <= 0.0_wp) cycle
@@ -205,33 +205,24 @@ contains
             do d = 1, 6
                if (.not. has_component(card%components, d)) cycle
                places = places_of(model, node, d)
+               words = 'component '//integer_text(d)//' of node '//integer_text(card%first(1))
                if (places(1)%node == 0) then
-                  call deck%field_error(card%line, card%at(1) + 1, named(d, card%first(1))// &
+                  call deck%field_error(card%line, card%at(1) + 1, words// &
                      ' does not exist, so that D cannot move it; expected 1 to '//integer_text(model%dimension), called='C')
                else if (any(holding == card%set)) then
-                  other = by(places(1)%d, places(1)%node) ! a twin has the same components
+                  other = by(places(1)%d, places(1)%node) ! a duplicate has the same components
                   by(places(1)%d, places(1)%node) = i
                   if (other == 0) cycle
                   if (abs(deck%bulk%support(other)%value - card%value) > 0.0_wp) call deck%field_error(card%line, &
-                     card%at(1) + 2, named(d, card%first(1))//' has another prescribed displacement by the SPC of '// &
+                     card%at(1) + 2, words//' has another prescribed displacement by the SPC of '// &
                      deck%text%place(deck%bulk%support(other)%line), called='D')
                end if
             end do
          end associate
       end do
-
-   contains
-
-      function named(d, id) result(words)
-         integer, intent(in) :: d, id
-         character(:), allocatable :: words
-
-         words = 'component '//integer_text(d)//' of node '//integer_text(id)
-      end function named
-
    end subroutine check_kept
 
-   !> The places of COMPONENTS of NODE, existing ones first, then places of node 0; for a split node also those of its twin.
+   !> The places of COMPONENTS of NODE, existing ones first, then places of node 0; for a split node also those of its duplicate.
    pure function places_of(model, node, components) result(places)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node, components
@@ -262,13 +253,12 @@ contains
       integer :: i
 
       sets = [set]
-      do i = 1, size(sums)
-         if (sums(i)%set == set .and. set > 0) sets = sums(i)%sets
-      end do
+      i = findloc(sums%set, set, dim=1, back=.true.)
+      if (i > 0 .and. set > 0) sets = sums(i)%sets
    end function summed_sets
 
-   !> Errors of SUMS, cards called NAME: missing sets, and a number that is also one of a set. OWN are the sets of the cards CALLED so
-   !! that may be combined.
+   !> Errors of SUMS, cards called NAME: missing sets, and a number that is also one of a set. OWN are the sets of the cards CALLED
+   !! so that may be combined.
    subroutine check_sums(deck, name, sums, own, called)
       type(checked_deck), intent(in) :: deck
       character(*), intent(in)       :: name, called

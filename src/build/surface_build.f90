@@ -90,8 +90,8 @@ contains
       if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id))
    end subroutine find_surface
 
-   !> Add SIDE to its surface, in the node order of its element. Of two elements the side belongs to the one with the order of the card; the
-   !! other element is behind it.
+   !> Add SIDE to its surface, in the node order of its element. Of two elements the side belongs to the one with the order of the
+   !! card; the other element is behind it.
    subroutine add_side(deck, side, model, surface)
       type(checked_deck), intent(in)    :: deck
       type(marked_side), intent(in)     :: side
@@ -142,8 +142,8 @@ contains
       surface%other(surface%n) = other
    end subroutine add_side
 
-   !> Error: mid-side nodes of SIDE other than OWN, those of the side of element E. Gmsh writes the mid-side node of an edge as X1 of a
-   !! CBAR.
+   !> Error: mid-side nodes of SIDE other than OWN, those of the side of element E. Gmsh writes the mid-side node of an edge as X1
+   !! of a CBAR.
    subroutine check_mark(deck, side, model, e, own)
       type(checked_deck), intent(in) :: deck
       type(marked_side), intent(in)  :: side
@@ -193,8 +193,8 @@ contains
       end do
    end function side_name
 
-   !> The SIDE of element E with the corners NODES, in any order; 0: the face of a shell; -1: none. SAME_SENSE: NODES have the cyclic order
-   !! of the element.
+   !> The SIDE of element E with the corners NODES, in any order; 0: the face of a shell; -1: none. SAME_SENSE: NODES have the
+   !! cyclic order of the element.
    pure subroutine side_of_element(model, e, nodes, side, same_sense)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e, nodes(:)

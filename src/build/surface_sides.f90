@@ -1,9 +1,8 @@
-!> Topology of sides and marked surfaces: corners of a side, sides at each node, consistent orientation, elements behind, and split surfaces.
+!> Topology of sides and marked surfaces: corners, sides at each node, orientation, elements behind, and split surfaces.
 !! If bodies on both sides of a surface with a joint share its nodes, the nodes are doubled to make room for interface elements.
 module surface_sides
    use deck_check, only: checked_deck
    use element_kinds, only: element_table
-   use kinds, only: wp
    use lists, only: distinct, id_table_type, join, list_owners, root_of
    use model_data, only: model_type, surface_type
    use node_build, only: append_nodes
@@ -189,12 +188,14 @@ contains
    end function common_side
 
    !> Split the shared surfaces that JOINT cards name as SIDE1 without a SIDE2. The elements on the left of the
-   !! edges, or inside the faces, keep the nodes; those behind get the twins, numbered from the highest node number on.
+   !! edges, or inside the faces, keep the nodes; those behind get the duplicates, numbered from the highest node number on.
    subroutine split_shared_surfaces(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: surfaces
-      integer, allocatable :: twins(:)
+      type(side_list)      :: at
+      integer, allocatable :: behind(:), element_nodes(:, :)
+      integer, allocatable :: split(:) ! nodes with a duplicate
       integer :: j, k, n_duplicates, node, s
 
       allocate (model%duplicate(model%n_nodes), source=0)
@@ -219,15 +220,28 @@ contains
                cycle
             end if
          end associate
-         call split_surface(model, s, n_duplicates)
+         ! the elements behind the surface get duplicates of its nodes; the model keeps its nodes until all these elements are known
+         call list_sides(model%surfaces(s), at)
+         call orient_sides(model%surfaces(s), at)
+         allocate (element_nodes, source=model%element_nodes)
+         do k = 1, at%n
+            call elements_behind(model, s, at, k, behind)
+            if (size(behind) == 0) cycle ! the edge of the surface inside a body is not split
+            n_duplicates = n_duplicates + 1
+            model%duplicate(at%node(k)) = model%n_nodes + n_duplicates
+            where (element_nodes(:, behind) == at%node(k)) element_nodes(:, behind) = model%n_nodes + n_duplicates
+         end do
+         call move_alloc(element_nodes, model%element_nodes)
+         model%surfaces(s)%other = 0
+         model%surfaces(s)%was_split = .true.
       end do
       if (n_duplicates == 0) return
       if (model%node_id(model%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, 'the doubled nodes of split surfaces '// &
          'get numbers above node '//integer_text(model%node_id(model%n_nodes))// &
          ', and their numbers would exceed 2147483647')
-      twins = pack([(k, k = 1, model%n_nodes)], model%duplicate > 0)
-      twins(model%duplicate(twins) - model%n_nodes) = twins ! in the order of their numbers
-      call append_nodes(model, model%x(:, twins))
+      split = pack([(k, k = 1, model%n_nodes)], model%duplicate > 0)
+      split(model%duplicate(split) - model%n_nodes) = split ! in the order of the duplicates
+      call append_nodes(model, model%x(:, split))
       call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
       do s = 1, size(model%surfaces) ! the sides of surfaces that were not split follow their elements
          associate (surface => model%surfaces(s))
@@ -241,33 +255,5 @@ contains
          end associate
       end do
    end subroutine split_shared_surfaces
-
-   !> Give the elements behind surface S twins of its nodes, numbered behind N_DUPLICATES earlier twins. The model gets these nodes later.
-   subroutine split_surface(model, s, n_duplicates)
-      type(model_type), intent(inout) :: model
-      integer, intent(in)             :: s
-      integer, intent(inout)          :: n_duplicates
-      type(side_list) :: at
-      integer, allocatable :: behind(:), element_nodes(:, :)
-      integer :: i, k
-
-      call list_sides(model%surfaces(s), at)
-      call orient_sides(model%surfaces(s), at)
-      allocate (element_nodes, source=model%element_nodes) ! the model keeps its nodes until all elements behind are known
-      do k = 1, at%n
-         call elements_behind(model, s, at, k, behind)
-         if (size(behind) == 0) cycle         ! the edge of the surface inside a body is not split
-         n_duplicates = n_duplicates + 1
-         model%duplicate(at%node(k)) = model%n_nodes + n_duplicates
-         do i = 1, size(behind)
-            associate (nodes => element_nodes(:, behind(i)))
-               where (nodes == at%node(k)) nodes = model%n_nodes + n_duplicates
-            end associate
-         end do
-      end do
-      call move_alloc(element_nodes, model%element_nodes)
-      model%surfaces(s)%other = 0
-      model%surfaces(s)%was_split = .true.
-   end subroutine split_surface
 
 end module surface_sides

@@ -21,8 +21,7 @@ contains
       logical :: needs_one(model%n_nodes) ! nodes of bodies and bars
       integer :: before, i, s
 
-      call check_nodes(deck, model)
-      call check_plates(deck, model)
+      call check_cards(deck, model)
       do s = 1, size(deck%control%stages)
          associate (reference => deck%control%stages(s)%temperature, stages => deck%control%stages)
             if (reference%id == 0) cycle
@@ -58,12 +57,13 @@ contains
       end do
    end subroutine build_temperatures
 
-   !> Errors of TEMP: missing nodes, a node named twice in a set; and two TEMPD of one set.
-   subroutine check_nodes(deck, model)
+   !> Errors of TEMP and TEMPP1: missing nodes or shells, a node or shell named twice in a set; of TEMPD: two of one set.
+   subroutine check_cards(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
-      integer :: i, k, node
-      integer, allocatable :: last(:) ! (nodes) last card that named the node
+      integer :: i, k, node, twice
+      integer, allocatable :: last(:)   ! (nodes) last card that named the node
+      integer, allocatable :: set_of(:) ! (elements) set of the last TEMPP1 that named the element
 
       allocate (last(model%n_nodes), source=0)
       do i = 1, size(deck%bulk%temperature)
@@ -89,10 +89,31 @@ contains
                deck%text%place(deck%bulk%temperature(k)%line))
          end associate
       end do
-   end subroutine check_nodes
 
-   !> The temperatures AT all nodes in SET, and whether they are GIVEN: by TEMP, else by TEMPD. The twin of a node of a split surface and
-   !! the face node of a shell have the temperature of their node, an added mid-edge node has the mean of the ends.
+      allocate (set_of(model%n_elements), source=0)
+      do i = 1, size(deck%bulk%plate_temperature)
+         associate (card => deck%bulk%plate_temperature(i))
+            do k = 1, size(card%ranges%first)
+               if (card%ranges%first(k) == 0) cycle ! reported already
+               associate (named => plates_of(model, card%ranges%first(k), card%ranges%last(k)))
+                  twice = findloc(set_of(named), card%set, dim=1)
+                  if (size(named) == 0) then
+                     call deck%field_error(card%line, card%ranges%at(k), 'there is no shell with this number; expected '// &
+                                           'CQUAD4 or CTRIA3 with a PSHELL in a model of space', called='EID')
+                  else if (twice > 0) then
+                     call deck%field_error(card%line, card%ranges%at(k), 'element '// &
+                                           integer_text(model%element_id(named(twice)))//' has a TEMPP1 in set '// &
+                                           integer_text(card%set)//' already', called='EID')
+                  end if
+                  set_of(named) = card%set
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine check_cards
+
+   !> The temperatures AT all nodes in SET, and whether they are GIVEN: by TEMP, else by TEMPD. The duplicate of a node and the face
+   !! node of a shell have the temperature of their node, an added mid-edge node has the mean of the ends.
    subroutine fill_in(deck, model, set, at, given)
       type(checked_deck), intent(in)    :: deck
       type(model_type), intent(in)      :: model
@@ -116,10 +137,10 @@ contains
       is_filled(model%first_filled:model%first_filled + model%n_filled - 1) = .true.
       do i = 1, n_points(model)
          if (model%duplicate(i) == 0) cycle
-         associate (twin => model%duplicate(i))
-            if (given(i) .and. .not. given(twin)) at(twin) = at(i)
-            given(twin) = given(twin) .or. given(i)
-            is_filled(twin) = is_filled(i)
+         associate (duplicate => model%duplicate(i))
+            if (given(i) .and. .not. given(duplicate)) at(duplicate) = at(i)
+            given(duplicate) = given(duplicate) .or. given(i)
+            is_filled(duplicate) = is_filled(i)
          end associate
       end do
       i = findloc(deck%bulk%temperature%is_default .and. deck%bulk%temperature%set == set, .true., dim=1)
@@ -147,35 +168,6 @@ contains
       end do
    end subroutine fill_in
 
-   !> Errors of TEMPP1: missing shells, and a shell named twice in a set.
-   subroutine check_plates(deck, model)
-      type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(in)    :: model
-      integer :: i, k, twice
-      integer, allocatable :: set_of(:) ! (elements) set of the last card that named the element
-
-      allocate (set_of(model%n_elements), source=0)
-      do i = 1, size(deck%bulk%plate_temperature)
-         associate (card => deck%bulk%plate_temperature(i))
-            do k = 1, size(card%ranges%first)
-               if (card%ranges%first(k) == 0) cycle ! reported already
-               associate (named => plates_of(model, card%ranges%first(k), card%ranges%last(k)))
-                  twice = findloc(set_of(named), card%set, dim=1)
-                  if (size(named) == 0) then
-                     call deck%field_error(card%line, card%ranges%at(k), 'there is no shell with this number; expected '// &
-                                           'CQUAD4 or CTRIA3 with a PSHELL in a model of space', called='EID')
-                  else if (twice > 0) then
-                     call deck%field_error(card%line, card%ranges%at(k), 'element '// &
-                                           integer_text(model%element_id(named(twice)))//' has a TEMPP1 in set '// &
-                                           integer_text(card%set)//' already', called='EID')
-                  end if
-                  set_of(named) = card%set
-               end associate
-            end do
-         end associate
-      end do
-   end subroutine check_plates
-
    !> The shells with numbers from FIRST to LAST.
    pure function plates_of(model, first, last) result(named)
       type(model_type), intent(in) :: model
@@ -190,7 +182,8 @@ contains
       named = pack(named, [(is_shell(model, named(e)), e = 1, size(named))])
    end function plates_of
 
-   !> Temperatures of the shells of SET from TEMPP1. Nodes that have no other temperature get that of these shells, and are then GIVEN.
+   !> Temperatures of the shells of SET from TEMPP1. Nodes that have no other temperature get that of these shells, and are then
+   !! GIVEN.
    subroutine set_plate_temperatures(deck, model, set, temperature, given)
       type(checked_deck), intent(in)        :: deck
       type(model_type), intent(in)          :: model

@@ -1,6 +1,6 @@
 !> Checks for mixed units: by the wave speed of materials, by gravity, and by the largest stress.
-!! The wave speed of a rod, sqrt(E/RHO), is of the order of 1000 m/s in every solid; gravity is 9.81 m/s2; no solid bears a stress of
-!! E/50.
+!! The wave speed of a rod, sqrt(E/RHO), is of the order of 1000 m/s in every solid; gravity is 9.81 m/s2; no solid bears a stress
+!! of E/50.
 module unit_watch
    use deck_input, only: deck_type
    use kinds, only: wp
@@ -13,7 +13,7 @@ module unit_watch
    real(wp), parameter :: slowest = 100.0_wp, fastest = 20000.0_wp ! of waves in solids, rubber to diamond [m/s]
    real(wp), parameter :: usual = 5000.0_wp                        ! of metals [m/s]
    character(2), parameter :: lengths(3) = ['MM', 'M ', 'IN']
-   real(wp), parameter :: metres(3) = [1.0e-3_wp, 1.0_wp, 0.0254_wp] ! of these units; time is in seconds, or in milliseconds with mm
+   real(wp), parameter :: metres(3) = [1.0e-3_wp, 1.0_wp, 0.0254_wp] ! of these units; time in seconds, or in milliseconds with mm
    real(wp), parameter :: gravity(4) = [9810.0_wp, 9.81_wp, 386.1_wp, 0.00981_wp] ! in these units, and in mm and milliseconds
    integer, parameter  :: gravity_unit(4) = [1, 2, 3, 1]
    real(wp), parameter :: least_g = 0.5_wp, most_g = 10.0_wp       ! of gravity: range of GRAV

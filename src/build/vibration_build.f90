@@ -1,6 +1,6 @@
 !> Requests of case control for the vibration after each stage, and the nodes to which tables are limited.
-!! Requests are the range of EIGRL, the frequencies of FREQ1 and FREQ4, load, damping and nodes. OUTPUT may limit the tables of a stage
-!! to sets of nodes or marked surfaces.
+!! Requests are the range of EIGRL, the frequencies of FREQ1 and FREQ4, load, damping and nodes. OUTPUT may limit the tables of a
+!! stage to sets of nodes or marked surfaces.
 module vibration_build
    use case_entries, only: limit_type, number_set, numbers_in_set
    use deck_check, only: checked_deck
@@ -87,10 +87,7 @@ contains
             call deck%errors%add(card%line, 'JAMPL: mode '//integer_text(card%mode)//' is not among the '// &
                                  integer_text(vibration%most)//' lowest that EIGRL '//integer_text(vibration%id)//' asks for')
          if (card%node > 0) then
-            backbone%node = findloc(model%node_id, card%node, dim=1)
-            if (backbone%node > 0) then
-               if (.not. model%used(backbone%node)) backbone%node = 0
-            end if
+            backbone%node = findloc(model%node_id == card%node .and. model%used, .true., dim=1)
             if (backbone%node == 0 .and. .not. deck%errors%any()) call deck%errors%add(card%line, &
                'JAMPL: GID '//integer_text(card%node)//' is not a node of an element')
          end if

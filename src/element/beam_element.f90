@@ -1,10 +1,10 @@
 !> Beams of constant section with 12 dofs: axial force, bending in two planes with shear (Timoshenko), torsion.
-!! Torsion is that of Saint-Venant. The shape functions are the deflections of a beam that is loaded at its ends alone; therefore the
-!! stiffness and the nodal forces of loads along the beam are exact.
+!! Torsion is that of Saint-Venant. The shape functions are the deflections of a beam that is loaded at its ends alone; therefore
+!! the stiffness and the nodal forces of loads along the beam are exact.
 !! Source: J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, sections 5.6 and 11.6.
 !!
-!! End values, in the axes of the beam: u, v, w, theta_x, theta_y, theta_z of end A, then of end B. Nodal values, (3, 4), in global axes:
-!! displacements of both nodes [length], then their rotations [rad]; nodal forces likewise, then moments.
+!! End values, in the axes of the beam: u, v, w, theta_x, theta_y, theta_z of end A, then of end B. Nodal values, (3, 4), in global
+!! axes: displacements of both nodes [length], then their rotations [rad]; nodal forces likewise, then moments.
 module beam_element
    use beam_sections, only: beam_section
    use kinds, only: wp
@@ -12,7 +12,7 @@ module beam_element
    implicit none
    private
 
-   public :: beam_axes, beam_length, beam_shapes, beam_stiffness, beam_mass, beam_line_load, beam_point_load, beam_end_forces, &
+   public :: beam_axes, beam_length, beam_stiffness, beam_mass, beam_line_load, beam_point_load, beam_end_forces, &
              beam_nodal_forces, beam_thermal_load
 
    !> A beam: its section and its connection to its nodes. Plane 1 contains the axis and the direction y of the beam (ORIENTATION).
@@ -42,8 +42,8 @@ contains
       length = norm2(x(:, 2) + law%offset(:, 2) - x(:, 1) - law%offset(:, 1))
    end function beam_length
 
-   !> The directions x, y, z of a beam, columns: z = x cross orientation. They are zero where the beam has no length or is parallel to its
-   !! orientation vector.
+   !> The directions x, y, z of a beam, columns: z = x cross orientation. They are zero where the beam has no length or is parallel
+   !! to its orientation vector.
    pure function beam_axes(law, x) result(axes)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)    !! [length]
@@ -171,7 +171,7 @@ contains
       do r = 1, 12
          if (.not. law%released(r)) cycle
          ratio = 0.0_wp
-         if (k(r, r) > rounding*whole(r)) ratio = k(r, :)/k(r, r) ! an end value that an earlier release has made free has no stiffness left
+         if (k(r, r) > rounding*whole(r)) ratio = k(r, :)/k(r, r) ! an earlier release may leave none
          ratio(r) = 1.0_wp
          if (present(f)) f = f - ratio*f(r)
          if (present(m)) then
@@ -234,8 +234,8 @@ contains
       m = matmul(transpose(t), matmul(m, t))
    end function beam_mass
 
-   !> End forces that are equivalent to a distributed force and moment: Q(:, 1) per unit length at S = FROM, Q(:, 2) at S = TO, linear
-   !! between them, zero elsewhere; in global axes [force], [force length].
+   !> End forces that are equivalent to a distributed force and moment: Q(:, 1) per unit length at S = FROM, Q(:, 2) at S = TO,
+   !! linear between them, zero elsewhere; in global axes [force], [force length].
    pure function beam_line_load(law, x, q, from, to) result(f)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)    !! [length]

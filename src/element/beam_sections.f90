@@ -1,10 +1,10 @@
 !> Section constants of beams whose dimensions are given by PBARL and PBEAML.
 !! y is the direction of plane 1, z is perpendicular to it; both start at the centroid. Area and moments of inertia are exact: round
-!! sections in closed form, other sections as sums of rectangles. Torsion: exact for solid and round sections (Saint-Venant's series for
-!! the rectangle), Bredt's formula for the closed box, sum of b t^3/3 for thin-walled open sections. Shear: 5/6 for a rectangle, 0.9
-!! for a circle, 0.5 for a tube; for the other sections the area of the walls parallel to the force.
-!! Source: Timoshenko, Goodier, Theory of Elasticity, 3rd ed., sections 109, 112 and 116; dimensions as in the MSC Nastran Quick Reference
-!! Guide, PBARL and PBEAML.
+!! sections in closed form, other sections as sums of rectangles. Torsion: exact for solid and round sections (Saint-Venant's series
+!! for the rectangle), Bredt's formula for the closed box, sum of b t^3/3 for thin-walled open sections. Shear: 5/6 for a rectangle,
+!! 0.9 for a circle, 0.5 for a tube; for the other sections the area of the walls parallel to the force.
+!! Source: Timoshenko, Goodier, Theory of Elasticity, 3rd ed., sections 109, 112 and 116; dimensions as in the MSC Nastran Quick
+!! Reference Guide, PBARL and PBEAML.
 module beam_sections
    use kinds, only: wp
    implicit none
@@ -108,8 +108,8 @@ contains
       if (name /= 'BAR') section%shear = section%shear/section%area
    end subroutine section_of
 
-   !> Area, moments of inertia and stress points of rectangles R: height (negative: subtracted), width, y and z of the centre. C and E are
-   !! the top and bottom corners of the outline at its largest z, D and F those at its smallest z.
+   !> Area, moments of inertia and stress points of rectangles R: height (negative: subtracted), width, y and z of the centre. C and
+   !! E are the top and bottom corners of the outline at its largest z, D and F those at its smallest z.
    pure subroutine add_up(r, section)
       real(wp), intent(in)              :: r(:, :)
       type(beam_section), intent(inout) :: section

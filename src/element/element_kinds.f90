@@ -33,16 +33,16 @@ module element_kinds
       integer :: dimension                                          !! of the element: 1 a beam, 2 plane or a shell, 3 a solid
       integer :: n_nodes
       integer :: n_corners
-      integer :: linear                                             !! the linear kind with the same corners; its own of a linear kind
+      integer :: linear                                             !! the linear kind with the same corners; itself if linear
       integer :: jacobian_scale                                     !! 1/det J of an element with edges of length 1 at right angles
       integer :: n_sides
       integer :: n_edges
       integer :: vtk_type                                           !! cell type; VTK orients the linear wedge in the opposite sense
       integer :: vtk_nodes(max_nodes)                               !! the nodes in the order of VTK, 0 beyond n_nodes
-      integer :: edges(2, max_edges)                                !! the two corners between which mid-edge node n_corners + k lies
+      integer :: edges(2, max_edges)                                !! the two corners beside mid-edge node n_corners + k
       integer :: side_corners(max_sides)                            !! number of corners of every side, 0 beyond n_sides
       integer :: side_size(max_sides)                               !! number of nodes of every side, 0 beyond n_sides
-      integer :: side_nodes(max_side_nodes, max_sides)              !! corners of the side in order, then its mid-edge nodes, from the edge
+      integer :: side_nodes(max_side_nodes, max_sides)              !! corners of the side, then its mid-edge nodes from the edge
                                                                     !! between corners 1 and 2 on; 0 beyond side_size
    end type element_kind
 
@@ -121,8 +121,8 @@ module element_kinds
 
 contains
 
-   !> The kind of a side from its dimension and number of nodes: an edge in the plane, a face in space; 0: no such side exists. A side of
-   !! three nodes is a second-order edge in the plane and a triangle in space.
+   !> The kind of a side from its dimension and number of nodes: an edge in the plane, a face in space; 0: no such side exists. A
+   !! side of three nodes is a second-order edge in the plane and a triangle in space.
    pure integer function side_kind(dimension, n_nodes)
       integer, intent(in) :: dimension                              !! of the space, 2 or 3
       integer, intent(in) :: n_nodes                                !! of the side

@@ -16,7 +16,8 @@ module element_mapping
    integer, parameter, public  :: max_shapes = max_nodes     !! shape functions of an element, incompatible modes included
    real(wp), parameter, public :: two_pi = 2.0_wp*acos(-1.0_wp)
 
-   !> What elements of one kind, property and material have in common. The arrays have no default, because one is made for every element.
+   !> What elements of one kind, property and material have in common. The arrays have no default, because one is made for every
+   !! element.
    type, public :: element_law
       integer  :: kind = 0                                !! kind_tria3 ... kind_hexa20
       integer  :: state = 0                               !! plane_stress ... solid
@@ -35,12 +36,12 @@ module element_mapping
       real(wp) :: jacobian = 0.0_wp                       !! det J at the centre, with modes
    end type element_map
 
-   real(wp), parameter :: flat = 1.0e-12_wp               ! of the longest edge to the power of the dimension: a smaller det J is rounding
+   real(wp), parameter :: flat = 1.0e-12_wp               ! of (longest edge)**dimension: a smaller det J is rounding
 
 contains
 
-   !> The law of an element of isotropic material. In plane strain the suppressed expansion alpha normal to the plane adds nu alpha to the
-   !! free thermal strains in the plane.
+   !> The law of an element of isotropic material. In plane strain the suppressed expansion alpha normal to the plane adds nu alpha
+   !! to the free thermal strains in the plane.
    pure type(element_law) function make_element_law(kind, state, e, nu, thickness, incompatible, alpha) result(law)
       integer, intent(in)  :: kind, state                 !! kind_tria3 ... kind_hexa20; plane_stress ... solid
       real(wp), intent(in) :: e, nu                       !! [pressure], > 0; [-], -1 < nu < 0.5
@@ -59,9 +60,9 @@ contains
       if (state == axisymmetric .or. state == solid) law%expansion(3) = alpha
    end function make_element_law
 
-   !> Whether elements of a KIND in a STATE of stress can have incompatible modes. Linear quadrilaterals, hexahedra and wedges can: they
-   !! represent bending poorly. Linear triangles and tetrahedra have constant strain, which the modes cannot improve. In an axisymmetric
-   !! element the modes of the quadrilateral have a hoop strain that fails the patch test.
+   !> Whether elements of a KIND in a STATE of stress can have incompatible modes. Linear quadrilaterals, hexahedra and wedges can:
+   !! they represent bending poorly. Linear triangles and tetrahedra have constant strain, which the modes cannot improve. In an
+   !! axisymmetric element the modes of the quadrilateral have a hoop strain that fails the patch test.
    pure logical function has_modes(kind, state)
       integer, intent(in) :: kind, state
 
@@ -86,9 +87,9 @@ contains
    end subroutine map_element
 
    !> Gradients at a point and the volume per unit of weight there. The first components are d/dx, d/dy, d/dz; in an axisymmetric
-   !! body the third is N/r, which gives the hoop strain. The incompatible modes follow the nodes. Their gradients are formed with J at
-   !! the centre and the ratio of the determinants, so that their integral over an element of any shape is zero: this satisfies the
-   !! patch test.
+   !! body the third is N/r, which gives the hoop strain. The incompatible modes follow the nodes. Their gradients are formed with J
+   !! at the centre and the ratio of the determinants, so that their integral over an element of any shape is zero: this satisfies
+   !! the patch test.
    pure subroutine map_point(law, map, point, g, volume)
       type(element_law), intent(in) :: law
       type(element_map), intent(in) :: map
@@ -123,9 +124,9 @@ contains
       end if
       if (map%n_modes == 0) return
       d = element_table(law%kind)%dimension
-      ! dm(j, i), the derivatives of mode i, are zero at the centre, and their integrals over the element are zero. Quadrilateral and
-      ! hexahedron: 1 - r**2, 1 - s**2, 1 - t**2. Wedge: 1 - t**2, and the three quadratic functions of the triangle without their mean
-      ! linear part; all three are used, so that no corner is preferred
+      ! dm(j, i), the derivatives of mode i, are zero at the centre, and their integrals over the element are zero. Quadrilateral
+      ! and hexahedron: 1 - r**2, 1 - s**2, 1 - t**2. Wedge: 1 - t**2, and the three quadratic functions of the triangle without
+      ! their mean linear part; all three are used, so that no corner is preferred
       dm = 0.0_wp
       if (law%kind == kind_penta6) then
          from_mean = point(:2) - 1.0_wp/3.0_wp
@@ -191,12 +192,12 @@ contains
       end if
    end subroutine jacobian_matrix
 
-   !> The smallest det J over the integration points and, of a linear element, the corners. It is divided by the longest edge to the power
-   !! of the dimension and scaled so that a square or cube has 1 [-]. It is zero or negative for an element that is inverted, folded, or
-   !! flat to 1E-12. In a linear solid the test at the corners is stricter than any integral over its volume or sides requires: one
-   !! hexahedron of the patch of MacNeal and Harder has -0.0127 there. Where det J at the corners is not positive, the integration points
-   !! of the sides are tested instead, and no two corners may coincide. In a second-order element the sides are always tested and
-   !! the corners never: mid-edge nodes at the quarter points, as at a crack tip, are allowed.
+   !> The smallest det J over the integration points and, of a linear element, the corners. It is divided by the longest edge to the
+   !! power of the dimension and scaled so that a square or cube has 1 [-]. It is zero or negative for an element that is inverted,
+   !! folded, or flat to 1E-12. In a linear solid the test at the corners is stricter than any integral over its volume or sides
+   !! requires: one hexahedron of the patch of MacNeal and Harder has -0.0127 there. Where det J at the corners is not positive, the
+   !! integration points of the sides are tested instead, and no two corners may coincide. In a second-order element the sides are
+   !! always tested and the corners never: mid-edge nodes at the quarter points, as at a crack tip, are allowed.
    pure real(wp) function smallest_jacobian(kind, x) result(smallest)
       integer, intent(in)  :: kind                        !! kind_tria3 ... kind_hexa20
       real(wp), intent(in) :: x(:, :)                     !! nodes (dimension, nodes) [length]

@@ -1,12 +1,12 @@
 !> Isoparametric elements, plane, axisymmetric and solid: stiffness, mass and nodal forces of loads.
-!! Linear elements have incompatible modes on request. The consistent mass is the integral of N_i N_j over the body, the same for every
-!! component of the displacements; the lumped mass is diagonal. Nodal forces are consistent: body forces over an element, pressures over
-!! its sides; a tributary area is the nodal force of a unit pressure. The temperature is interpolated by the shape functions from nodal
-!! values. Thermal loads are integrated with the rule of the stiffness, so that an unconstrained element of any shape has no stress under
-!! a uniform temperature.
-!! Sources: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., chapters 2, 5 and 6, initial strains in section 2.2; Taylor,
-!! Beresford, Wilson 1976; consistent mass: Archer, J. Struct. Div. ASCE 89 (1963) 161-178; lumped mass, positive for second-order
-!! elements too: Hinton, Rock, Zienkiewicz, Earthquake Engng Struct. Dyn. 4 (1976) 245-249.
+!! Linear elements have incompatible modes on request. The consistent mass is the integral of N_i N_j over the body, the same for
+!! every component of the displacements; the lumped mass is diagonal. Nodal forces are consistent: body forces over an element,
+!! pressures over its sides; a tributary area is the nodal force of a unit pressure. The temperature is interpolated by the shape
+!! functions from nodal values. Thermal loads are integrated with the rule of the stiffness, so that an unconstrained element of any
+!! shape has no stress under a uniform temperature.
+!! Sources: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., chapters 2, 5 and 6, initial strains in section 2.2;
+!! Taylor, Beresford, Wilson 1976; consistent mass: Archer, J. Struct. Div. ASCE 89 (1963) 161-178; lumped mass, positive for
+!! second-order elements too: Hinton, Rock, Zienkiewicz, Earthquake Engng Struct. Dyn. 4 (1976) 245-249.
 module isoparametric
    use elasticity, only: axisymmetric, solid
    use element_kinds, only: element_table, max_nodes, max_side_nodes, side_kind
@@ -57,8 +57,8 @@ contains
       integer  :: i, j, k, p, pair, shapes
       logical  :: has_three
 
-      ! integrals of g_a(i) g_b(j) in (a, b) for all pairs of shape functions i <= j, (1,1), (1,2), (2,2), (1,3), ...; for a plane body
-      ! of two components
+      ! integrals of g_a(i) g_b(j) in (a, b) for all pairs of shape functions i <= j, (1,1), (1,2), (2,2), (1,3), ...; for a plane
+      ! body of two components
       call map_element(law, x, map)
       has_three = law%state == solid .or. law%state == axisymmetric
       shapes = map%n + map%n_modes

@@ -59,7 +59,8 @@ module quadrature
                  -1, -1, 1, 0, -1, 1, 1, -1, 1, -1, 0, 1, 0, 0, 1, 1, 0, 1, -1, 1, 1, 0, 1, 1, 1, 1, 1], [3, 27]), &
       [we*quadrilateral_9%weight(:9), wm*quadrilateral_9%weight(:9), we*quadrilateral_9%weight(:9)])
 
-   ! seven points of a triangle: the centre, (a, a) and its symmetric images near the corners, and those near the middle of the sides
+   ! seven points of a triangle: the centre, (a, a) and its symmetric images near the corners, and those near the middle of the
+   ! sides
    real(wp), parameter :: s15 = sqrt(15.0_wp)
    real(wp), parameter :: a1 = (6.0_wp - s15)/21.0_wp, b1 = 1.0_wp - 2.0_wp*a1, w1 = (155.0_wp - s15)/2400.0_wp
    real(wp), parameter :: a2 = (6.0_wp + s15)/21.0_wp, b2 = 1.0_wp - 2.0_wp*a2, w2 = (155.0_wp + s15)/2400.0_wp, w0 = 9.0_wp/80.0_wp
@@ -105,9 +106,9 @@ module quadrature
 
 contains
 
-   !> The rule for the stiffness of an element. It is exact for an undistorted element, whose nodes lie at the middle of straight edges,
-   !! except for the hoop strain of an axisymmetric model. For a linear element it also integrates the volume and the nodal forces of a
-   !! constant body force exactly.
+   !> The rule for the stiffness of an element. It is exact for an undistorted element, whose nodes lie at the middle of straight
+   !! edges, except for the hoop strain of an axisymmetric model. For a linear element it also integrates the volume and the nodal
+   !! forces of a constant body force exactly.
    pure subroutine body_rule(kind, axisymmetric, rule)
       integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa20; 0: no points
       logical, intent(in) :: axisymmetric    !! a triangle then needs more points, because the integrand contains r
@@ -132,8 +133,8 @@ contains
       rule%weight(:table%n) = table%weight(:table%n)
    end subroutine take
 
-   !> The rule for integrals of shape functions over the body of an element, forces and masses. For an undistorted second-order element
-   !! it integrates products of two shape functions exactly.
+   !> The rule for integrals of shape functions over the body of an element, forces and masses. For an undistorted second-order
+   !! element it integrates products of two shape functions exactly.
    pure subroutine volume_rule(kind, axisymmetric, rule)
       integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa20
       logical, intent(in) :: axisymmetric
@@ -152,9 +153,9 @@ contains
       call volume_rule(merge(kind + n_linear_kinds, kind, kind <= n_linear_kinds), .false., rule)
    end subroutine mass_rule
 
-   !> The points at which stresses are evaluated for extrapolation to the nodes, one per corner or one alone: there second-order elements
-   !! have their most accurate strains. Source: Barlow, Optimal stress locations in finite element models, Int. J. Numer. Meth. Engng 10
-   !! (1976) 243-251.
+   !> The points at which stresses are evaluated for extrapolation to the nodes, one per corner or one alone: there second-order
+   !! elements have their most accurate strains. Source: Barlow, Optimal stress locations in finite element models, Int. J. Numer.
+   !! Meth. Engng 10 (1976) 243-251.
    pure subroutine stress_rule(kind, axisymmetric, rule)
       integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa20
       logical, intent(in) :: axisymmetric    !! a triangle then has three points
@@ -172,8 +173,8 @@ contains
       call take(of_side(kind), rule)
    end subroutine side_rule
 
-   !> The rule over the triangles of a subdivided face, for products of two shape functions: of degree 4 for faces with up to four nodes
-   !! (MOST_NODES), of degree 6 for faces with eight.
+   !> The rule over the triangles of a subdivided face, for products of two shape functions: of degree 4 for faces with up to four
+   !! nodes (MOST_NODES), of degree 6 for faces with eight.
    pure subroutine side_product_rule(most_nodes, rule)
       integer, intent(in) :: most_nodes
       type(integration_rule), intent(out) :: rule

@@ -18,36 +18,9 @@ module shape_functions
 
 contains
 
-   !> Derivatives of the shape functions of the wedge: products of functions of L(r, s) and of t.
-   pure subroutine wedge_derivatives(point, dn)
-      real(wp), intent(in)    :: point(3)
-      real(wp), intent(inout) :: dn(3, max_nodes)
-      real(wp) :: bubble, dbubble, down, l(4), up
-      integer  :: i, k
-
-      l = barycentric(3, point)
-      down = 1.0_wp - point(3)
-      up = 1.0_wp + point(3)
-      bubble = down*up
-      dbubble = -2.0_wp*point(3)
-      do i = 1, 3
-         k = next(i)
-         dn(:2, i) = 0.5_wp*((4.0_wp*l(i) - 1.0_wp)*down - bubble)*gradient(:2, i)
-         dn(3, i) = 0.5_wp*l(i)*(1.0_wp - 2.0_wp*l(i) - dbubble)
-         dn(:2, i + 3) = 0.5_wp*((4.0_wp*l(i) - 1.0_wp)*up - bubble)*gradient(:2, i)
-         dn(3, i + 3) = 0.5_wp*l(i)*(2.0_wp*l(i) - 1.0_wp - dbubble)
-         dn(:2, i + 6) = 2.0_wp*down*(l(i)*gradient(:2, k) + l(k)*gradient(:2, i))
-         dn(3, i + 6) = -2.0_wp*l(i)*l(k)
-         dn(:2, i + 9) = bubble*gradient(:2, i)
-         dn(3, i + 9) = l(i)*dbubble
-         dn(:2, i + 12) = 2.0_wp*up*(l(i)*gradient(:2, k) + l(k)*gradient(:2, i))
-         dn(3, i + 12) = 2.0_wp*l(i)*l(k)
-      end do
-   end subroutine wedge_derivatives
-
-   !> Shape functions N of the quadrilateral and the hexahedron, and their derivatives DN. At a corner: the product of the linear functions
-   !! of all coordinates and a factor that vanishes at the adjacent mid-edge nodes. On an edge: a parabola along it times linear functions
-   !! of the other coordinates.
+   !> Shape functions N of the quadrilateral and the hexahedron, and their derivatives DN. At a corner: the product of the linear
+   !! functions of all coordinates and a factor that vanishes at the adjacent mid-edge nodes. On an edge: a parabola along it times
+   !! linear functions of the other coordinates.
    pure subroutine serendipity(kind, point, n, dn)
       integer, intent(in)     :: kind
       real(wp), intent(in)    :: point(3)
@@ -154,8 +127,8 @@ contains
       integer, intent(in)     :: kind                 !! kind_tria3 ... kind_edge3
       real(wp), intent(in)    :: point(3)             !! local coordinates
       real(wp), intent(inout) :: dn(3, max_nodes)     !! dN_i/d(local j) in dn(j, i) [-]
-      real(wp) :: a, b, c, l(4)
-      integer  :: corners, d, i
+      real(wp) :: a, b, bubble, c, dbubble, down, l(4), up
+      integer  :: corners, d, i, k
 
       associate (r => point(1), s => point(2), t => point(3))
          select case (kind)
@@ -204,8 +177,25 @@ contains
             end do
          case (kind_quad8, kind_hexa20)
             call serendipity(kind, point, dn=dn)
-         case (kind_penta15)
-            call wedge_derivatives(point, dn)
+         case (kind_penta15) ! products of functions of L(r, s) and of t
+            l = barycentric(3, point)
+            down = 1.0_wp - t
+            up = 1.0_wp + t
+            bubble = down*up
+            dbubble = -2.0_wp*t
+            do i = 1, 3
+               k = next(i)
+               dn(:2, i) = 0.5_wp*((4.0_wp*l(i) - 1.0_wp)*down - bubble)*gradient(:2, i)
+               dn(3, i) = 0.5_wp*l(i)*(1.0_wp - 2.0_wp*l(i) - dbubble)
+               dn(:2, i + 3) = 0.5_wp*((4.0_wp*l(i) - 1.0_wp)*up - bubble)*gradient(:2, i)
+               dn(3, i + 3) = 0.5_wp*l(i)*(2.0_wp*l(i) - 1.0_wp - dbubble)
+               dn(:2, i + 6) = 2.0_wp*down*(l(i)*gradient(:2, k) + l(k)*gradient(:2, i))
+               dn(3, i + 6) = -2.0_wp*l(i)*l(k)
+               dn(:2, i + 9) = bubble*gradient(:2, i)
+               dn(3, i + 9) = l(i)*dbubble
+               dn(:2, i + 12) = 2.0_wp*up*(l(i)*gradient(:2, k) + l(k)*gradient(:2, i))
+               dn(3, i + 12) = 2.0_wp*l(i)*l(k)
+            end do
          end select
       end associate
    end subroutine shape_derivatives

@@ -1,10 +1,10 @@
 !> Flat shell elements in space with three or four corners of six dofs: membrane, bending and transverse shear.
 !! The membrane and the geometry are those of shell_membrane.
 !!
-!! Bending and transverse shear: the discrete Kirchhoff-Mindlin triangle and quadrilateral (I. Katili, A new discrete Kirchhoff-Mindlin
-!! element based on Mindlin-Reissner plate theory and assumed shear strain fields, Parts I and II, Int. J. Numer. Meth. Engng 36
-!! (1993) 1859-1908). The rotation of a fibre, {beta} = (theta_y, -theta_x), is interpolated linearly from the corners; a quadratic term
-!! along each edge is added, whose amplitude follows from the equilibrium of a beam along the edge.
+!! Bending and transverse shear: the discrete Kirchhoff-Mindlin triangle and quadrilateral (I. Katili, A new discrete
+!! Kirchhoff-Mindlin element based on Mindlin-Reissner plate theory and assumed shear strain fields, Parts I and II, Int. J. Numer.
+!! Meth. Engng 36 (1993) 1859-1908). The rotation of a fibre, {beta} = (theta_y, -theta_x), is interpolated linearly from the
+!! corners; a quadratic term along each edge is added, whose amplitude follows from the equilibrium of a beam along the edge.
 !!
 !! Nodal values of an element are (3, 2 n): displacements of the n corners, then their rotations [rad], in global axes; nodal forces
 !! likewise, then moments.
@@ -55,8 +55,8 @@ contains
       end associate
    end subroutine shell_stiffness
 
-   !> The matrix that gives the values in the axes of the element, u, v, w and rotations of corner 1 first, from nodal values. At the
-   !! mean plane the displacements are u + lever theta_y, v - lever theta_x.
+   !> The matrix that gives the values in the axes of the element, u, v, w and rotations of corner 1 first, from nodal values. At
+   !! the mean plane the displacements are u + lever theta_y, v - lever theta_x.
    pure function from_nodes(frame) result(t)
       type(shell_frame), intent(in) :: frame
       real(wp) :: t(6*frame%n, 6*frame%n)
@@ -119,9 +119,9 @@ contains
       end do
    end subroutine plate_strains
 
-   !> For every edge, from corner i to the next: the amplitude of its quadratic rotation, EDGE times w, theta_x, theta_y of the corners;
-   !! the shear strain per unit of this amplitude; its direction AXIS. Along an edge of length L, with phi = 12 D/(G_s L^2):
-   !! amplitude = -3/2/(1 + phi) ((w_j - w_i)/L + (beta_i + beta_j)/2), shear strain = -2/3 phi amplitude.
+   !> For every edge, from corner i to the next: the amplitude of its quadratic rotation, EDGE times w, theta_x, theta_y of the
+   !! corners; the shear strain per unit of this amplitude; its direction AXIS. Along an edge of length L, with phi = 12 D/(G_s
+   !! L^2): amplitude = -3/2/(1 + phi) ((w_j - w_i)/L + (beta_i + beta_j)/2), shear strain = -2/3 phi amplitude.
    pure subroutine find_edges(law, frame, edge, edge_shear, axis)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
@@ -175,8 +175,8 @@ contains
       end do
    end subroutine find_strains
 
-   !> Stresses (xx, yy, zz, xy, yz, zx) in global axes at the heights Z above the mean plane, at the corners and then at the centre, under
-   !! the nodal values U and a thermal load: T - TREF is RISE at the mean plane and grows by SLOPE per unit height.
+   !> Stresses (xx, yy, zz, xy, yz, zx) in global axes at the heights Z above the mean plane, at the corners and then at the centre,
+   !! under the nodal values U and a thermal load: T - TREF is RISE at the mean plane and grows by SLOPE per unit height.
    pure subroutine shell_stresses(law, x, u, rise, slope, z, stress)
       type(shell_law), intent(in) :: law
       real(wp), intent(in)        :: x(:, :)         !! (3, corners) [length]
@@ -200,9 +200,9 @@ contains
       end do
    end subroutine shell_stresses
 
-   !> Forces and moments per length, N_x, N_y, N_xy, M_x, M_y, M_xy, Q_x, Q_y, at the corners and then at the centre, for nodal values
-   !! and a thermal load as in shell_stresses: the integrals over the thickness of sigma, of sigma z and of tau_xz, tau_yz. The
-   !! direction x is ALONG, y is normal cross x.
+   !> Forces and moments per length, N_x, N_y, N_xy, M_x, M_y, M_xy, Q_x, Q_y, at the corners and then at the centre, for nodal
+   !! values and a thermal load as in shell_stresses: the integrals over the thickness of sigma, of sigma z and of tau_xz, tau_yz.
+   !! The direction x is ALONG, y is normal cross x.
    pure subroutine shell_forces(law, x, u, rise, slope, along, force)
       type(shell_law), intent(in) :: law
       real(wp), intent(in)        :: x(:, :)         !! (3, corners) [length]
@@ -244,7 +244,8 @@ contains
 
    end subroutine shell_forces
 
-   !> Nodal forces and moments F of a thermal load: T - TREF is RISE at the corners of the mean plane and grows by SLOPE per unit height.
+   !> Nodal forces and moments F of a thermal load: T - TREF is RISE at the corners of the mean plane and grows by SLOPE per unit
+   !! height.
    pure subroutine shell_thermal_forces(law, x, rise, slope, f)
       type(shell_law), intent(in) :: law
       real(wp), intent(in)        :: x(:, :)         !! (3, corners) [length]

@@ -1,12 +1,12 @@
 !> Shell elements in their plane: property, geometry, and the membrane with drilling rotations theta_z.
-!! An element is flat: its corners are projected onto its mean plane. The distance of a corner from this plane is a rigid lever, as is
-!! the offset of the plate (ZOFFS). Values of a corner are u, v, w and the rotations, in the axes of the element.
+!! An element is flat: its corners are projected onto its mean plane. The distance of a corner from this plane is a rigid lever, as
+!! is the offset of the plate (ZOFFS). Values of a corner are u, v, w and the rotations, in the axes of the element.
 !!
-!! Triangle: the optimal triangle with drilling rotations (C. A. Felippa, A study of optimal membrane triangles with drilling freedoms,
-!! Comput. Methods Appl. Mech. Engrg. 192 (2003) 2125-2168).
-!! Quadrilateral: with the modes of Wilson and Taylor. A penalty ties the drilling rotation to the rotation of the membrane (T. J. R.
-!! Hughes, F. Brezzi, On drilling degrees of freedom, Comput. Methods Appl. Mech. Engrg. 72 (1989) 105-121). The penalty is of the size of
-!! the bending stiffness: a larger one would lock curved shells, a smaller one would make twisted shells too flexible.
+!! Triangle: the optimal triangle with drilling rotations (C. A. Felippa, A study of optimal membrane triangles with drilling
+!! freedoms, Comput. Methods Appl. Mech. Engrg. 192 (2003) 2125-2168).
+!! Quadrilateral: with the modes of Wilson and Taylor. A penalty ties the drilling rotation to the rotation of the membrane (T. J.
+!! R. Hughes, F. Brezzi, On drilling degrees of freedom, Comput. Methods Appl. Mech. Engrg. 72 (1989) 105-121). The penalty is of
+!! the size of the bending stiffness: a larger one would lock curved shells, a smaller one would make twisted shells too flexible.
 module shell_membrane
    use elasticity, only: plane_stress
    use element_kinds, only: centre_point, kind_quad4, kind_tria3, max_nodes, node_point
@@ -36,13 +36,13 @@ module shell_membrane
       integer  :: n = 0                       !! number of corners
       real(wp) :: axes(3, 3) = 0.0_wp         !! columns: two directions in the plane, the normal, right-handed with the corners
       real(wp) :: x(2, 4) = 0.0_wp            !! corners in the plane [length]
-      real(wp) :: lever(4) = 0.0_wp           !! height of the mean plane above the nodes, along the normal, offset included [length]
+      real(wp) :: lever(4) = 0.0_wp           !! height of the mean plane above the nodes, along the normal, with offset [length]
    end type shell_frame
 
    real(wp), parameter :: drilling = 1.0_wp ! penalty of the drilling rotation of a quadrilateral: this times G t^2/area, at most G
 
-   ! extrapolation of strains from the integration points of a quadrilateral to its corners: TO_CORNERS(i, j) is the weight of the point
-   ! next to corner i at corner j
+   ! extrapolation of strains from the integration points of a quadrilateral to its corners: TO_CORNERS(i, j) is the weight of the
+   ! point next to corner i at corner j
    real(wp), parameter :: near = 1.0_wp + 0.5_wp*sqrt(3.0_wp), far = 1.0_wp - 0.5_wp*sqrt(3.0_wp)
    real(wp), parameter :: to_corners(4, 4) = reshape([near, -0.5_wp, far, -0.5_wp, -0.5_wp, near, -0.5_wp, far, &
                                                       far, -0.5_wp, near, -0.5_wp, -0.5_wp, far, -0.5_wp, near], [4, 4])
@@ -90,12 +90,14 @@ contains
       flat = frame%x(:, :size(x, 2))
    end function flat_coordinates
 
+   !> The linear kind of an element with N corners.
    pure integer function corner_kind(n)
       integer, intent(in) :: n
 
       corner_kind = merge(kind_quad4, kind_tria3, n == 4)
    end function corner_kind
 
+   !> The thickness at a POINT, given in local coordinates [length].
    pure real(wp) function thickness_at(law, frame, point) result(t)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
@@ -132,9 +134,9 @@ contains
       end do
    end subroutine add_membrane
 
-   !> [K] between u, v, theta_z of the corners of a quadrilateral and the parameters of the four modes, and the thermal forces F on them,
-   !! with the modes condensed: the first twelve rows are the condensed ones; the rows of the modes keep what gives their parameters.
-   !! [K] is formed with the mean thickness, for which the modes are orthogonal to constant strain.
+   !> [K] between u, v, theta_z of the corners of a quadrilateral and the parameters of the four modes, and the thermal forces F on
+   !! them, with the modes condensed: the first twelve rows are the condensed ones; the rows of the modes keep what gives their
+   !! parameters. [K] is formed with the mean thickness, for which the modes are orthogonal to constant strain.
    pure subroutine condensed_quadrilateral(law, frame, rise, k, f)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
@@ -170,8 +172,8 @@ contains
       end do
    end subroutine condensed_quadrilateral
 
-   !> Strains xx, yy, xy at a POINT of a quadrilateral from u, v, theta_z of the corners and the four modes. TWIST is the difference between
-   !! the drilling rotation and the rotation of the membrane.
+   !> Strains xx, yy, xy at a POINT of a quadrilateral from u, v, theta_z of the corners and the four modes. TWIST is the difference
+   !! between the drilling rotation and the rotation of the membrane.
    pure subroutine mode_strains(frame, point, b, twist, volume)
       type(shell_frame), intent(in) :: frame
       real(wp), intent(in)          :: point(3)
@@ -198,8 +200,9 @@ contains
       twist(3:12:3) = n(:4)
    end subroutine mode_strains
 
-   !> The strains xx, yy, xy of a membrane triangle from its nine values, u, v, theta_z of corner 1 first: the BASIC strains, which are
-   !! constant, and the higher-order strains AT_CORNER i, whose mean is zero. Felippa 2003, Eqs. (11) to (32), with the parameters of OPT.
+   !> The strains xx, yy, xy of a membrane triangle from its nine values, u, v, theta_z of corner 1 first: the BASIC strains, which
+   !! are constant, and the higher-order strains AT_CORNER i, whose mean is zero. Felippa 2003, Eqs. (11) to (32), with the
+   !! parameters of OPT.
    pure subroutine membrane_strains(nu, x, area, basic, at_corner)
       real(wp), intent(in)  :: nu             !! [-]
       real(wp), intent(in)  :: x(2, 3)        !! [length]
@@ -231,7 +234,8 @@ contains
          end do
          basic = basic/area
       end associate
-      ! xx, yy, xy from the strains along the edges: the inverse of e = c^2 xx + s^2 yy + c s xy, whose columns are cross products of rows
+      ! xx, yy, xy from the strains along the edges: the inverse of e = c^2 xx + s^2 yy + c s xy, whose columns are cross products
+      ! of rows
       squares = sum((to - from)**2, dim=1)
       direction = (to - from)/spread(sqrt(squares), 1, 2)
       a(:, 1) = direction(1, :)**2
@@ -253,8 +257,8 @@ contains
       end do
    end subroutine membrane_strains
 
-   !> Strains of the mean plane at the corners and at the centre from OWN, the values u, v, w and rotations of every corner in the axes of
-   !! the element. Only a thermal load acts on the modes of a quadrilateral.
+   !> Strains of the mean plane at the corners and at the centre from OWN, the values u, v, w and rotations of every corner in the
+   !! axes of the element. Only a thermal load acts on the modes of a quadrilateral.
    pure subroutine find_membrane(law, frame, rise, own, strain)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame

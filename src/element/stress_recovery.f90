@@ -33,8 +33,8 @@ contains
    end subroutine centre_stress
 
    !> Stresses at the nodes, extrapolated from the points of stress_rule; the parameters of the incompatible modes are included. The
-   !! extrapolation uses the linear shape functions of the element whose corners are these points. Where the element has one such point,
-   !! the stress of this point holds at all nodes.
+   !! extrapolation uses the linear shape functions of the element whose corners are these points. Where the element has one such
+   !! point, the stress of this point holds at all nodes.
    pure subroutine nodal_stress(law, x, u, stress, rise)
       type(element_law), intent(in) :: law
       real(wp), intent(in)    :: x(:, :)         !! nodes (dimension, nodes) [length]

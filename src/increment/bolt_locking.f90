@@ -4,11 +4,11 @@
 !! g at its pretension section. From the end of that stage on g is held.
 module bolt_locking
    use analysis_state, only: analysis_type
-   use bar_elements, only: add_pull, bar_elongation, thermal_pull
    use equations, only: add_bar, equation_system, lock_unknown
    use kinds, only: wp
    use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use node_coupling, only: displacements_at
+   use structural_elements, only: add_pull, bar_elongation, thermal_pull
    implicit none
    private
 

@@ -1,7 +1,6 @@
 !> The load path over stages and increments, and the recovery of displacements and forces of the bodies.
 module load_path
    use analysis_state, only: all_held, analysis_type, joint_energy, load_state, subtract_joint_forces
-   use bar_elements, only: add_bar_forces, add_pull, thermal_pull
    use body_elements, only: add_thermal_forces, internal_forces
    use bolt_locking, only: lock_bolts
    use equations, only: condense_load, equation_system, forces_in_bodies, recover_displacements
@@ -9,6 +8,7 @@ module load_path
    use model_data, only: model_type, n_bars, n_sections
    use node_coupling, only: displacements, forces_on_unknowns
    use stage_plan, only: stage_plan_type
+   use structural_elements, only: add_bar_forces, add_pull, thermal_pull
    use temperatures, only: temperature_between
    implicit none
    private

@@ -19,8 +19,8 @@ module body_elements
    public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, whole_stress
    public :: element_stiffness, internal_forces, element_thermal_forces, add_thermal_forces, law_of
 
-   ! Element contributions to nodal sums are computed in parallel, block by block, if there are more than a few; they are added in the
-   ! order of the elements, so that the sum does not depend on the number of threads.
+   ! Element contributions to nodal sums are computed in parallel, block by block, if there are more than a few; they are added in
+   ! the order of the elements, so that the sum does not depend on the number of threads.
    integer, parameter :: block = 8192, few = 512
 
 contains
@@ -84,18 +84,15 @@ contains
 
       if (is_beam(model, e)) then
          stress = 0.0_wp
-         return
       else if (is_shell(model, e)) then
          associate (n => element_table(model%element_kind(e))%n_nodes)
             call structural_stress(model, e, u(:, own_nodes(model, e)), temperature, [0.0_wp], at_corners(:, :n + 1, :))
             stress = at_corners(:, n + 1, 1)
          end associate
-         return
+      else
+         call centre_stress(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), corner_displacements(model, e, u), &
+                            stress, element_rise(model, e, temperature))
       end if
-      associate (nodes => corners_of(model, e))
-         call centre_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress, &
-                            element_rise(model, e, temperature))
-      end associate
    end function element_stress
 
    !> Stresses at the nodes of element E (no shell or beam), with the components of element_stress.
@@ -157,8 +154,7 @@ contains
             rise(:size(nodes)) = element_rise(model, e, temperature)
             call element_nodal_stress(model, e, u, temperature, own(:c, :size(nodes)))
             do i = 1, size(nodes)
-               share(:, i) = full_stress(model, e, own(:c, i), rise(i))/ &
-                             real(n_at(nodes(i)), wp)
+               share(:, i) = full_stress(model, e, own(:c, i), rise(i))/real(n_at(nodes(i)), wp)
             end do
          end associate
       end subroutine find_shares
@@ -209,7 +205,7 @@ contains
       integer :: e, first, i, last
 
       f = 0.0_wp
-      allocate (p(model%dimension, max(8, size(model%element_nodes, 1)) + 1, min(block, model%n_elements))) ! 8: shells with rotations
+      allocate (p(model%dimension, max(8, size(model%element_nodes, 1)) + 1, min(block, model%n_elements))) ! 8: with rotations
       do first = 1, model%n_elements, block
          last = min(model%n_elements, first + block - 1)
          !$omp parallel do schedule(dynamic, 128) default(shared) if(last - first > few)

@@ -17,8 +17,8 @@ module body_parts
       logical :: is_warm = .false. !! with temperatures
    end type shown_type
 
-   !> A piece: a model of the shown elements and of all other elements at the shown nodes, so that nodal means equal those of the whole
-   !! structure. The model contains elements, nodes, properties, sections and the connectivity.
+   !> A piece: a model of the shown elements and of all other elements at the shown nodes, so that nodal means equal those of the
+   !! whole structure. The model contains elements, nodes, properties, sections and the connectivity.
    type, public :: body_piece_type
       type(model_type) :: model
       type(shown_type) :: shown
@@ -37,7 +37,8 @@ contains
       shown%is_warm = has_temperatures(model)
    end function all_shown
 
-   !> PART: these ELEMENTS of MODEL on these NODES, which must include all of theirs; only kinds, properties and coordinates are set.
+   !> PART: these ELEMENTS of MODEL on these NODES, which must include all of theirs; only kinds, properties and coordinates are
+   !! set.
    pure subroutine extract(model, elements, nodes, part)
       type(model_type), intent(in)  :: model
       integer, intent(in)           :: elements(:), nodes(:)
@@ -75,8 +76,8 @@ contains
       nodes = pack([(i, i = 1, model%n_nodes)], has)
    end function nodes_of_elements
 
-   !> The PIECE number R: the elements whose first node belongs to part R, and the points of this part without elements. NODES are its
-   !! nodes in the numbering of MODEL, shown nodes first. Elements and points of no part belong to piece 0.
+   !> The PIECE number R: the elements whose first node belongs to part R, and the points of this part without elements. NODES are
+   !! its nodes in the numbering of MODEL, shown nodes first. Elements and points of no part belong to piece 0.
    pure subroutine cut_piece(model, owner, r, piece, nodes)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: owner(:) !! (n_nodes) the part of each node, from 0 on; -1: none

@@ -1,6 +1,6 @@
 !> Rectangular, cylindrical and spherical coordinate systems: position of a point, and directions at it.
-!! Conventions of NASTRAN: z from A to B, x in the half-plane of C, y across both; cylindrical coordinates are r, theta (degrees from
-!! x), z, spherical ones r, theta (degrees from z), phi (degrees from x about z).
+!! Conventions of NASTRAN: z from A to B, x in the half-plane of C, y across both; cylindrical coordinates are r, theta (degrees
+!! from x), z, spherical ones r, theta (degrees from z), phi (degrees from x about z).
 module coordinate_systems
    use kinds, only: wp
    use numbers, only: cross, identity

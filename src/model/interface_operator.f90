@@ -119,8 +119,8 @@ contains
       movement = matmul(between, element%axes)
    end function joint_movement
 
-   !> Add FORCE, in the axes of the element, to the nodal forces F: with its sign at end 1, with the opposite sign at end 2. The nodal
-   !! force of an element is minus that of its stresses.
+   !> Add FORCE, in the axes of the element, to the nodal forces F: with its sign at end 1, with the opposite sign at end 2. The
+   !! nodal force of an element is minus that of its stresses.
    pure subroutine add_force(element, force, f)
       type(interface_element), intent(in) :: element
       real(wp), intent(in)                :: force(3) !! [force]

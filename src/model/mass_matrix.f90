@@ -12,11 +12,12 @@ module mass_matrix
    use node_coupling, only: between_unknowns, extend_stiffness, participating_nodes, onto_unknowns, rotation_at, section_node, &
                             unknown_nodes
    use numbers, only: identity
-   use structural_elements, only: between_own, shell_mass
+   use shell_element, only: shell_products
+   use structural_elements, only: between_own
    implicit none
    private
 
-   public :: scalar_mass, whole_mass, bar_mass, inertia_at_rotation, n_masses, form_mass, mass_times, total_mass
+   public :: scalar_mass, n_masses, form_mass, mass_times, total_mass
    public :: coupled_dynamic_stiffness, coupled_bar_mass, coupled_point_mass, mass_nodes
 
    integer, parameter :: worth_threads = 10000 ! number of nodes from which on threads are used
@@ -41,18 +42,32 @@ contains
    end function n_masses
 
    !> Mass between the own_nodes of element E (no beam), the same for every component of their displacements [force time^2/length].
+   !! Of a shell: between its corners, and between its rotations the rotary inertia of the thickness, divided by the arms; the
+   !! drilling rotation has this inertia too.
    pure subroutine scalar_mass(model, e, m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(inout)      :: m(:, :) !! (nodes, nodes), set here
+      integer :: i
 
-      associate (corners => corners_of(model, e), n => element_table(model%element_kind(e))%n_nodes)
+      associate (corners => corners_of(model, e), n => element_table(model%element_kind(e))%n_nodes, &
+                 property => model%properties(model%element_property(e)))
          if (is_shell(model, e)) then
-            call shell_mass(model, e, m(:2*n, :2*n))
+            associate (x => model%x(:, corners), t => model%structural%shells(model%structural%place(e))%thickness)
+               m(:2*n, :2*n) = 0.0_wp
+               call shell_products(x, property%rho*t(:n) + property%extra_mass, m(:n, :n))
+               call shell_products(x, property%rho*t(:n)**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
+            end associate
+            do i = n + 1, 2*n
+               associate (arm => model%rotations(model%rotation_of(corners(i - n)))%arm)
+                  m(i, n + 1:2*n) = m(i, n + 1:2*n)/arm
+                  m(n + 1:2*n, i) = m(n + 1:2*n, i)/arm
+               end associate
+            end do
             if (model%lumped) call lump(m(n + 1:2*n, n + 1:2*n))
          else
             call shape_products(law_of(model, e), model%x(:model%dimension, corners), m)
-            m(:n, :n) = model%properties(model%element_property(e))%rho*m(:n, :n)
+            m(:n, :n) = property%rho*m(:n, :n)
          end if
          if (model%lumped) call lump(m(:n, :n))
       end associate
@@ -109,7 +124,7 @@ contains
       if (model%lumped) call lump(m)
    end function bar_mass
 
-   !> [m] of bar I between the unknowns of the unknown_nodes of its nodes, as coupled_bar_stiffness.
+   !> [m] of bar I between the unknowns of the unknown_nodes of its nodes.
    pure function coupled_bar_mass(model, i) result(m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i
@@ -135,8 +150,8 @@ contains
       if (rotation_at(model, mass%node) > 0) nodes = [nodes, model%rotations(rotation_at(model, mass%node))%node]
    end function mass_nodes
 
-   !> The inertia of MASS with respect to the node of its rotations, whose components are rotations times an arm: in space about x, y
-   !! and z, in the plane about z alone [force time^2/length].
+   !> The inertia of MASS with respect to the node of its rotations, whose components are rotations times an arm: in space about x,
+   !! y and z, in the plane about z alone [force time^2/length].
    pure function inertia_at_rotation(model, mass) result(m)
       type(model_type), intent(in)      :: model
       type(point_mass_type), intent(in) :: mass
@@ -312,8 +327,8 @@ contains
       end do
    end subroutine mass_times
 
-   !> Total mass, centre of mass, and moments and products of inertia about the axes through the centre, (I_xx, I_yy, I_zz, I_xy, I_yz,
-   !! I_zx), products as the integral of x y dm; all from [m] alone. In a plane model I_zz is that of the plane bodies. In an
+   !> Total mass, centre of mass, and moments and products of inertia about the axes through the centre, (I_xx, I_yy, I_zz, I_xy,
+   !! I_yz, I_zx), products as the integral of x y dm; all from [m] alone. In a plane model I_zz is that of the plane bodies. In an
    !! axisymmetric model the moments are zero, because those of its plane are not the moments of a body in space.
    subroutine total_mass(model, mass, total, centre, inertia)
       type(model_type), intent(in)       :: model

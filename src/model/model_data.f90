@@ -29,28 +29,28 @@ module model_data
       real(wp) :: strength = 0.0_wp          !! ST, 0: not given [pressure]
       logical  :: incompatible = .false.     !! modes of Wilson and Taylor
       real(wp) :: extra_mass = 0.0_wp        !! NSM of a shell, mass per unit area [force x time^2/length^3]
-      real(wp) :: fibre(2) = 0.0_wp          !! Z1, Z2 of a shell: heights above its mean plane at which stresses are reported [length]
+      real(wp) :: fibre(2) = 0.0_wp          !! Z1, Z2 of a shell: heights above its mean plane where stresses are reported [length]
    end type property_type
 
-   !> Laws of shells and beams, in addition to the data of all elements. PLACE is the position of a law: in SHELLS for a plane element in
-   !! space, in BEAMS for a line.
+   !> Laws of shells and beams, in addition to the data of all elements. PLACE is the position of a law: in SHELLS for a plane
+   !! element in space, in BEAMS for a line.
    type, public :: structural_type
       integer, allocatable :: place(:)       !! (n_elements) 0: a body
       type(shell_law), allocatable :: shells(:)
       type(beam_law), allocatable  :: beams(:)
    end type structural_type
 
-   !> A marked surface: sides of elements, edges in the plane and faces of solids. Each side has the node order of its element: a plane
-   !! body lies on the left of an edge, the right-hand normal of a face points out of the solid.
+   !> A marked surface: sides of elements, edges in the plane and faces of solids. Each side has the node order of its element: a
+   !! plane body lies on the left of an edge, the right-hand normal of a face points out of the solid.
    type, public :: surface_type
       integer :: id = 0
       integer :: n  = 0                      !! number of sides
       integer, allocatable :: corners(:)     !! (n) 2, 3 or 4
       integer, allocatable :: n_nodes(:)     !! (n) corners, and as many mid-side nodes if the side is second-order; of an edge 1
-      integer, allocatable :: nodes(:, :)    !! (largest number, n) its corners, then its mid-side nodes as in element_kinds, 0 behind
+      integer, allocatable :: nodes(:, :)    !! (largest number, n) its corners, then mid-side nodes as in element_kinds, 0 behind
       integer, allocatable :: element(:)     !! (n) the body element that the side belongs to
       integer, allocatable :: other(:)       !! (n) a body element behind the side, 0: none
-      logical :: was_split = .false.         !! a joint split the surface: the other body has the twins of its nodes
+      logical :: was_split = .false.         !! a joint split the surface: the other body has duplicates of its nodes
       integer, allocatable :: line(:)        !! (n) of its card in the deck text
    end type surface_type
 
@@ -67,7 +67,7 @@ module model_data
    !> Axes and centroid of a joint.
    type, public :: joint_frame
       logical  :: faces_all_ways = .false.  !! the mean normal is no direction of the joint, as for a pin in its bore
-      logical  :: closed = .false.          !! the same, for a ring with the axial part of the normal: the axes are those of the model
+      logical  :: closed = .false.          !! the same, for a ring with the axial part of the normal: axes of the model
       logical  :: exists(6) = .false.       !! movements that the model and the positions of the elements permit
       real(wp) :: axes(3, 3) = 0.0_wp       !! columns x, y, z
       real(wp) :: centroid(3) = 0.0_wp      !! of the area [length]
@@ -95,12 +95,12 @@ module model_data
       real(wp) :: direction = 1.0_wp         !! +1: these parts are on side 1; -1: on side 2
    end type joint_type
 
-   !> Temperatures of the model. T - TREF of a material is AT - REFERENCE_SHARE TREF. The share is 1 where the deck gives temperatures and
-   !! 0 where it gives none (the structure is at TREF then); it varies linearly over a stage between the two.
+   !> Temperatures of the model. T - TREF of a material is AT - REFERENCE_SHARE TREF. The share is 1 where the deck gives
+   !! temperatures and 0 where it gives none (the structure is at TREF then); it varies linearly over a stage between the two.
    type, public :: temperature_type
       real(wp), allocatable :: at(:)         !! (n_nodes) [temperature]; not allocated: none are given
       real(wp) :: reference_share = 0.0_wp   !! [-]
-      real(wp), allocatable :: plate(:, :)   !! (5, shells) corner temperatures relative to AT [temperature], and the gradient over the
+      real(wp), allocatable :: plate(:, :)   !! (5, shells) corner temperatures relative to AT [temperature], and gradient over the
                                              !! thickness [temperature/length]; not allocated: no shell has temperatures of its own
    end type temperature_type
 
@@ -130,7 +130,7 @@ module model_data
       real(wp) :: preload = 0.0_wp           !! of a bolt [force]
       real(wp) :: area = 0.0_wp              !! of a bar [length^2]
       real(wp) :: strength = 0.0_wp          !! ST of its material, 0: not given [pressure]
-      integer  :: stage = 0                  !! position of the stage that tightens the bolt; from the end of this stage on it is elastic
+      integer  :: stage = 0                  !! position of the stage that tightens the bolt; elastic from its end on
       real(wp) :: mass = 0.0_wp              !! (rho A + NSM) L of a bar [force x time^2/length]
       real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
       real(wp) :: reference = 0.0_wp         !! TREF [temperature]
@@ -145,8 +145,8 @@ module model_data
       real(wp) :: inertia(3, 3) = 0.0_wp     !! about the node, in global axes; acts on rotations [force x time^2 x length]
    end type point_mass_type
 
-   !> A pretension section, at which a solid bolt is cut. The nodes of the section move with the marked side. Elements behind the section
-   !! have these nodes displaced by the overlap g along DIRECTION: u + g direction. g is component 1 of a separate node.
+   !> A pretension section, at which a solid bolt is cut. The nodes of the section move with the marked side. Elements behind the
+   !! section have these nodes displaced by the overlap g along DIRECTION: u + g direction. g is component 1 of a separate node.
    type, public :: section_type
       integer  :: bolt = 0                   !! BOLT id
       integer  :: surface = 0                !! PMARK id
@@ -159,9 +159,9 @@ module model_data
       integer  :: stage = 0                  !! position of the stage that tightens it; from the end of this stage on g is held
    end type section_type
 
-   !> The rotations of a node of shells or beams, or of a reference node, which moves with others as a rigid body. They are the components
-   !! of a separate node: x, y, z in space, the first component (about z) in the plane. The unknown is the rotation times an arm, a
-   !! displacement, so that all unknowns have one unit; the conjugate force is the moment divided by the arm.
+   !> The rotations of a node of shells or beams, or of a reference node, which moves with others as a rigid body. They are the
+   !! components of a separate node: x, y, z in space, the first component (about z) in the plane. The unknown is the rotation times
+   !! an arm, a displacement, so that all unknowns have one unit; the conjugate force is the moment divided by the arm.
    type, public :: rotation_type
       integer  :: point = 0                  !! the node
       integer  :: node = 0                   !! the node of its rotations
@@ -196,7 +196,7 @@ module model_data
    !> Nodes whose displacements are not their own unknowns in global axes, see node_coupling.
    type, public :: node_coupling_type
       integer :: n = 0                       !! number of coupled nodes
-      integer, allocatable  :: of_node(:)    !! (n_nodes) position among the coupled nodes, 0: none; not allocated: no node is coupled
+      integer, allocatable  :: of_node(:)    !! (n_nodes) position among the coupled nodes, 0: none; not allocated: none is coupled
       integer, allocatable  :: first(:)      !! (at least n + 1) parts first(k) to first(k + 1) - 1 are of coupled node k:
       integer, allocatable  :: node(:)       !! (at least parts) the unknowns of this node
       real(wp), allocatable :: t(:, :, :)    !! (dimension, dimension, likewise) by this matrix [-]
@@ -210,7 +210,7 @@ module model_data
       integer :: first_filled = 0            !! position of the first of these nodes
       integer, allocatable  :: node_id(:)    !! ascending; 0 for the nodes of rotations and of sections, which follow
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
-      integer, allocatable  :: duplicate(:)  !! (n_nodes) the twin of a node on a split surface, 0: none
+      integer, allocatable  :: duplicate(:)  !! (n_nodes) the duplicate of a node on a split surface, 0: none
       logical, allocatable  :: used(:)       !! (n_nodes) whether any element has the node
       logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported unknowns
       type(support_group), allocatable :: support_groups(:)

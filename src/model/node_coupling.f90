@@ -1,8 +1,8 @@
 !> Coupling of nodal displacements with the unknowns of the equations, and places of nodal components 1 to 6.
-!! An ordinary node has its own unknowns, its displacements in global axes. The displacements of a coupled node are a sum over parts,
-!! {u} = sum of [T] {q}, with the unknowns q of the node or of other nodes. A node with a displacement system CD has one part: its own
-!! unknowns along the directions of the system. Elements, loads, interface elements and results use displacements; this module
-!! transforms them to and from the unknowns of the equations:
+!! An ordinary node has its own unknowns, its displacements in global axes. The displacements of a coupled node are a sum over
+!! parts, {u} = sum of [T] {q}, with the unknowns q of the node or of other nodes. A node with a displacement system CD has one
+!! part: its own unknowns along the directions of the system. Elements, loads, interface elements and results use displacements;
+!! this module transforms them to and from the unknowns of the equations:
 !!
 !!      {u} = [T] {q}      {f_q} = [T]^T {f}      [k_q] = [T]^T [k] [T]
 !!
@@ -127,12 +127,12 @@ contains
       end do
    end function transformation
 
-   !> [T]^T [k] [T]: transform the stiffness K between the displacements of NODES to the unknowns of unknown_nodes. Entries that are only
-   !! rounding become zero: a bar has no stiffness normal to its axis, and the check for unsupported nodes relies on the zero.
+   !> [T]^T [k] [T]: transform the stiffness K between the displacements of NODES to the unknowns of unknown_nodes. Entries that are
+   !! only rounding become zero: a bar has no stiffness normal to its axis, and the check for unsupported nodes relies on the zero.
    pure subroutine onto_unknowns(model, nodes, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
-      real(wp), allocatable, intent(inout) :: k(:, :) !! at least as many rows and columns as NODES have components; enlarged where the
+      real(wp), allocatable, intent(inout) :: k(:, :) !! at least one row and column per component of NODES; enlarged where the
                                                       !! unknowns need more [force/length]
       real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp) ! of the largest entry
       real(wp), allocatable :: t(:, :), wider(:, :)
@@ -313,8 +313,8 @@ contains
       end associate
    end function corner_displacements
 
-   !> [T]^T [k] [T]: transform the stiffness K of element E from its corners to its participating_nodes, components of node 1 first. Only
-   !! the first component of the section node has stiffness.
+   !> [T]^T [k] [T]: transform the stiffness K of element E from its corners to its participating_nodes, components of node 1 first.
+   !! Only the first component of the section node has stiffness.
    pure subroutine extend_stiffness(model, e, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e

@@ -1,15 +1,17 @@
-!> Shells and beams in terms of the unknowns of nodes and rotation nodes: the transformation of their matrices, forces and displacements,
-!! the stresses and the mass of shells.
-!! The components of a node of rotations are rotations times an arm; in the plane only the first one, about z, is used.
+!> Shells and beams in terms of the unknowns of nodes and rotation nodes; stiffness and nodal forces of bars and springs.
+!! Matrices, forces and displacements of shells and beams are transformed. The components of a node of rotations are rotations times
+!! an arm; in the plane only the first one, about z, is used. Springs are bars with directions of their own; where a spring has one
+!! node, its second node is the ground.
 module structural_elements
    use kinds, only: wp
-   use model_data, only: corners_of, model_type, temperature_type
-   use shell_element, only: shell_products, shell_stresses
+   use model_data, only: a_spring, bar_nodes, bar_type, corners_of, model_type, temperature_type
+   use shell_element, only: shell_stresses
    use temperatures, only: element_rise, element_slope
    implicit none
    private
 
-   public :: structural_stress, shell_mass, nodal_values, between_own, onto_own
+   public :: structural_stress, nodal_values, between_own, onto_own
+   public :: bar_elongation, thermal_pull, add_pull, add_bar_forces, bar_stiffness
 
    integer, parameter, public :: most_own = 8 !! own nodes of an element: corners and their rotations
 
@@ -75,8 +77,8 @@ contains
       end associate
    end function nodal_values
 
-   !> Stresses of shell E in global axes, (xx, yy, zz, xy, yz, zx), at the heights Z above its mean plane, at its corners and then at its
-   !! centre, under displacements U of its own nodes.
+   !> Stresses of shell E in global axes, (xx, yy, zz, xy, yz, zx), at the heights Z above its mean plane, at its corners and then
+   !! at its centre, under displacements U of its own nodes.
    pure subroutine structural_stress(model, e, u, temperature, z, stress)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -90,27 +92,71 @@ contains
                           element_slope(model, e, temperature), z, stress)
    end subroutine structural_stress
 
-   !> Mass between the own nodes of shell E, the same for every component: between its corners, and between its rotations the rotary
-   !! inertia of the thickness, divided by the arms and used for the drilling rotation too [force time^2/length].
-   pure subroutine shell_mass(model, e, m)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      real(wp), intent(out)        :: m(:, :)     !! (own nodes, own nodes)
-      integer :: i, n
+   !> Elongation of BAR under the displacements U of its bar_nodes [length].
+   pure real(wp) function bar_elongation(bar, u) result(elongation)
+      type(bar_type), intent(in) :: bar
+      real(wp), intent(in)       :: u(:, :) !! (dimension, bar_nodes) [length]
+      real(wp) :: second(size(u, 1))
 
-      m = 0.0_wp
-      associate (nodes => corners_of(model, e), law => model%structural%shells(model%structural%place(e)), &
-                 property => model%properties(model%element_property(e)))
-         n = size(nodes)
-         call shell_products(model%x(:, nodes), property%rho*law%thickness(:n) + property%extra_mass, m(:n, :n))
-         call shell_products(model%x(:, nodes), property%rho*law%thickness(:n)**3/12.0_wp, m(n + 1:, n + 1:))
-         do i = 1, n
-            associate (arm => model%rotations(model%rotation_of(nodes(i)))%arm)
-               m(n + i, n + 1:) = m(n + i, n + 1:)/arm
-               m(n + 1:, n + i) = m(n + 1:, n + i)/arm
-            end associate
-         end do
+      associate (d => size(u, 1))
+         second = 0.0_wp
+         if (size(u, 2) == 2) second = u(:, 2)
+         elongation = dot_product(second - u(:, 1), bar%direction(:d, 2)) + &
+                      dot_product(u(:, 1), bar%direction(:d, 2) - bar%direction(:d, 1))
       end associate
-   end subroutine shell_mass
+   end function bar_elongation
+
+   !> Tension of BAR at constant length and at this TEMPERATURE: compression where the mean temperature along the bar rises above
+   !! TREF; zero for a spring [force].
+   pure real(wp) function thermal_pull(bar, temperature) result(tension)
+      type(bar_type), intent(in)         :: bar
+      type(temperature_type), intent(in) :: temperature
+
+      tension = 0.0_wp
+      if (bar%kind == a_spring .or. .not. allocated(temperature%at)) return
+      tension = -bar%stiffness*bar%expansion* &
+                (0.5_wp*sum(temperature%at(bar%nodes)) - temperature%reference_share*bar%reference)
+   end function thermal_pull
+
+   !> Add to F the nodal forces of bar I under a tension N.
+   pure subroutine add_pull(model, i, n, f)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i
+      real(wp), intent(in)         :: n       !! [force]
+      real(wp), intent(inout)      :: f(:, :) !! (dimension, n_nodes) [force]
+
+      associate (bar => model%bars(i), d => model%dimension)
+         f(:, bar%nodes(1)) = f(:, bar%nodes(1)) + n*bar%direction(:d, 1)
+         if (bar%nodes(2) > 0) f(:, bar%nodes(2)) = f(:, bar%nodes(2)) - n*bar%direction(:d, 2)
+      end associate
+   end subroutine add_pull
+
+   !> Add to F the internal forces of the elastic bars under the displacements U.
+   pure subroutine add_bar_forces(model, is_elastic, u, f)
+      type(model_type), intent(in) :: model
+      logical, intent(in)          :: is_elastic(:) !! (bars)
+      real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
+      real(wp), intent(inout)      :: f(:, :) !! (dimension, n_nodes) [force]
+      integer :: i
+
+      do i = 1, size(is_elastic)
+         associate (bar => model%bars(i))
+            if (is_elastic(i)) call add_pull(model, i, -bar%stiffness*bar_elongation(bar, u(:, bar_nodes(bar))), f)
+         end associate
+      end do
+   end subroutine add_bar_forces
+
+   !> [k] of bar I between its nodes, components of node 1 first; zero for the ground [force/length].
+   pure function bar_stiffness(model, i) result(k)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i
+      real(wp) :: k(2*model%dimension, 2*model%dimension), between(2*model%dimension)
+
+      associate (bar => model%bars(i), d => model%dimension)
+         between = [-bar%direction(:d, 1), bar%direction(:d, 2)]
+         if (bar%nodes(2) == 0) between(d + 1:) = 0.0_wp
+         k = spread(bar%stiffness*between, 2, 2*d)*spread(between, 1, 2*d)
+      end associate
+   end function bar_stiffness
 
 end module structural_elements

@@ -43,8 +43,8 @@ contains
       has_temperatures = any([(allocated(model%stage_loads(s)%temperature%at), s = 1, size(model%stage_loads))])
    end function has_temperatures
 
-   !> Nodal temperatures [temperature]. Where the deck gives none they are TREF; at a node between materials, the mean over its elements.
-   !! During a stage that begins or ends without temperatures, TREF counts with the remaining share.
+   !> Nodal temperatures [temperature]. Where the deck gives none they are TREF; at a node between materials, the mean over its
+   !! elements. During a stage that begins or ends without temperatures, TREF counts with the remaining share.
    pure function node_temperatures(model, temperature) result(t)
       type(model_type), intent(in)       :: model
       type(temperature_type), intent(in) :: temperature

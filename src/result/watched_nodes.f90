@@ -10,12 +10,12 @@
 !! side is F . u at the node: the share of a component is its share of the compliance there.
 module watched_nodes
    use analysis_state, only: analysis_type
-   use bar_elements, only: bar_elongation
    use body_elements, only: add_thermal_forces, internal_forces
    use bolt_locking, only: bar_tension
    use kinds, only: wp
    use connected_bodies, only: find_bodies
    use model_data, only: a_spring, bar_nodes, corners_of, model_type, n_bars, n_points
+   use structural_elements, only: bar_elongation
    implicit none
    private
 

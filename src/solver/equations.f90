@@ -2,7 +2,6 @@
 !! displacements of the retained nodes: with SKYLINE all nodes, with TREE the nodes that remain after condensation of the
 !! bodies. Arrays over retained nodes are (dimension, retained), those over all nodes (dimension, n_nodes).
 module equations
-   use bar_elements, only: bar_stiffness
    use case_control, only: solver_auto
    use equation_solver, only: equation_system, exact_digits, failure_type, solver_direction, solver_options
    use interface_operator, only: add_global_force, global_stiffness, relative_movement
@@ -13,6 +12,7 @@ module equations
    use node_graph, only: build_node_graph, node_graph_type
    use numbers, only: is_measure
    use solver_choice, only: choose_solver
+   use structural_elements, only: bar_stiffness
    use text_tools, only: real_text
    use unknowns, only: unknown_name
    implicit none

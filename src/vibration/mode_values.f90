@@ -16,7 +16,6 @@
 !! nodes, in their order.
 module mode_values
    use analysis_state, only: analysis_type
-   use bar_elements, only: add_pull, bar_elongation
    use body_elements, only: element_stiffness
    use eigenpairs, only: all_displacements, on_equations
    use element_kinds, only: max_felt_dofs
@@ -33,6 +32,7 @@ module mode_values
    use normal_stiffness, only: branch_open
    use shear_loops, only: loop_loss, no_limit
    use stage_plan, only: vibration_plan_type
+   use structural_elements, only: add_pull, bar_elongation
    implicit none
    private
 
