@@ -6,16 +6,16 @@ module c_library
    implicit none
    private
 
-   public :: keep_on_disk, open_standard_outputs
-   public :: read_all_bytes, create_unique, open_to_write, write_bytes, close_file, rename_file, remove_file, &
-             true_path, kind_of_file, is_regular_file, is_same_file, tell_failed_writes, at_signals, lock_folder, end_run
-   public :: c_isatty, c_raise, c_unlink
+   public :: open_standard_outputs, read_all_bytes, create_unique, open_to_write, write_bytes, close_file, rename_file, &
+             remove_file, true_path, kind_of_file, is_regular_file, is_same_file, tell_failed_writes, at_signals, lock_folder, &
+             end_run, c_fsync, c_isatty, c_raise, c_unlink
 
    !> Kinds of file that a path may lead to.
    integer, parameter, public :: no_file = 0, pipe_file = 1, device_file = 2, folder_file = 4, block_file = 6, regular_file = 8, &
                                  link_file = 10, socket_file = 12 !! S_IFMT of Linux, by 4096
 
-   integer(c_intptr_t), parameter :: ignored = 1 ! SIG_IGN
+   integer(c_int), parameter :: to_read = 0, to_write = 1 ! O_RDONLY, O_WRONLY of open
+   integer(c_intptr_t), parameter :: ignored = 1          ! SIG_IGN
 
    logical, public, protected :: has_ended = .false. !! set by end_run
 
@@ -59,6 +59,7 @@ module c_library
          integer(c_size_t), value           :: count
       end function c_write
 
+      !> Forces the bytes written to DESCRIPTOR from memory to the disk; 0 on success.
       integer(c_int) function c_fsync(descriptor) bind(c, name='fsync')
          import :: c_int
          integer(c_int), value :: descriptor
@@ -121,11 +122,6 @@ module c_library
          import :: c_int
          integer(c_int), value :: descriptor
       end function c_isatty
-
-      subroutine c_exit(status) bind(c, name='exit')
-         import :: c_int
-         integer(c_int), value :: status
-      end subroutine c_exit
    end interface
 
 contains
@@ -137,7 +133,6 @@ contains
       character(:), allocatable, intent(out) :: bytes
       logical, intent(out)                   :: ok
       integer(c_size_t), parameter :: first_room = 1048576 ! where the size of the file is unknown
-      integer(c_int), parameter    :: to_read = 0          ! O_RDONLY
       character(:), allocatable :: wider
       character(1)      :: next
       integer(c_size_t) :: used, got, room
@@ -197,7 +192,6 @@ contains
    subroutine open_to_write(path, descriptor)
       character(*), intent(in) :: path
       integer, intent(out)     :: descriptor
-      integer(c_int), parameter :: to_write = 1 ! O_WRONLY
 
       descriptor = int(c_open(path//c_null_char, to_write))
    end subroutine open_to_write
@@ -228,18 +222,9 @@ contains
       ok = c_close(int(descriptor, c_int)) == 0
    end subroutine close_file
 
-   !> Force the bytes written to DESCRIPTOR from memory to the disk. OK is false on failure.
-   subroutine keep_on_disk(descriptor, ok)
-      integer, intent(in)  :: descriptor
-      logical, intent(out) :: ok
-
-      ok = c_fsync(int(descriptor, c_int)) == 0
-   end subroutine keep_on_disk
-
    !> A closed standard output gets a descriptor that cannot be written. Otherwise a result file would get its number, and the
    !! screen lines with it. A closed standard input stays closed: it cannot be read.
    subroutine open_standard_outputs()
-      integer(c_int), parameter :: to_read = 0 ! O_RDONLY
       integer(c_int) :: descriptor, status
       logical :: input_is_closed
 
@@ -336,8 +321,8 @@ contains
    subroutine lock_folder(folder, descriptor)
       character(*), intent(in) :: folder
       integer, intent(out)     :: descriptor
-      integer(c_int), parameter :: to_read = 0, alone = 2 + 4 ! O_RDONLY; LOCK_EX, LOCK_NB
-      integer, parameter        :: tries = 200                ! of 50 ms
+      integer(c_int), parameter :: alone = 2 + 4 ! LOCK_EX, LOCK_NB
+      integer, parameter        :: tries = 200   ! of 50 ms
       integer(c_int) :: status
       integer :: i
 
@@ -355,7 +340,7 @@ contains
       integer, intent(in) :: status
 
       has_ended = .true.
-      call c_exit(int(status, c_int))
+      stop status, quiet=.true.
    end subroutine end_run
 
 end module c_library

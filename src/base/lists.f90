@@ -96,15 +96,8 @@ contains
    pure subroutine list_repeated(self, positions)
       class(id_table_type), intent(in)  :: self
       integer, allocatable, intent(out) :: positions(:)
-      integer :: k, n
 
-      allocate (positions(count(self%ids(2:) == self%ids(:size(self%ids) - 1))))
-      n = 0
-      do k = 2, size(self%ids)
-         if (self%ids(k) /= self%ids(k - 1)) cycle
-         n = n + 1
-         positions(n) = self%positions(k)
-      end do
+      positions = pack(self%positions(2:), self%ids(2:) == self%ids(:size(self%ids) - 1))
    end subroutine list_repeated
 
    !> The permutation that puts KEYS(n) in ascending order; equal keys keep their order.

@@ -202,9 +202,9 @@ contains
       close (unit)
    end function kernel_figure
 
-   !> The least rest, the limit less the memory of the members, of all control groups of this program, from its own group up to the root
-   !! [bytes]; huge where no group has a limit. ROOT is the prefix of /proc and /sys, empty except in tests. A line of the group file is
-   !! `number:controllers:path`: version 2 has number 0 and no controllers, version 1 names its controllers.
+   !> The memory left in the control groups of this program, from its own group up to the root: the least of their limits less the
+   !! memory in use [bytes]; huge where no group has a limit. ROOT is the prefix of /proc and /sys, empty except in tests. A line of
+   !! the group file is `number:controllers:path`: version 2 has number 0 and no controllers, version 1 names its controllers.
    function memory_left_by_groups(root) result(bytes)
       character(*), intent(in) :: root
       integer(long)   :: bytes, limit, reclaimable, used

@@ -169,10 +169,8 @@ contains
       if (.not. ieee_is_finite(value)) then
          write (buffer, '(f24.1)') value ! NaN, Infinity
          text = trim(adjustl(buffer))
-         return
       else if (abs(value) < tiny(1.0_wp)) then
          text = '0'
-         return
       else if (abs(value) >= 1.0e-3_wp .and. abs(value) < 1.0e6_wp) then
          write (buffer, '(f24.6)') value
          if (abs(value) >= 10.0_wp) write (buffer, '(f24.4)') value
@@ -180,9 +178,9 @@ contains
          last = verify(buffer, '0', back=.true.)
          if (buffer(last:last) == '.') last = last - 1
          text = trim(adjustl(buffer(:last)))
-         return
+      else
+         text = scientific(value, 5)
       end if
-      text = scientific(value, 5)
    end function real_text
 
    !> A finite VALUE as 1.5E-7, with at most DECIMALS decimals.

@@ -2,11 +2,12 @@
 !! FORCE, FORCE1 and FORCE2 are vectors in global axes; MOMENT acts on rotations.
 module load_build
    use body_loads, only: acceleration_field, add_gravity, add_to_beam, check_plane, find_beam_loads, find_fields
-   use bulk_data, only: bulk_data_type, force_card, has_component, surface_load_card
+   use bulk_data, only: bulk_data_type, force_card, surface_load_card
    use case_entries, only: set_reference
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use element_kinds, only: max_side_nodes
+   use field_rules, only: has_component
    use kinds, only: wp
    use model_data, only: model_type, stage_load_type, supported, surface_type
    use node_coupling, only: coupling_parts, add_section_share, node_axes, place_of_component, rotation_at, rotation_component

@@ -2,9 +2,10 @@
 !! Reference nodes of RBE2 have rotations, and those of RBE3 if the card names rotations. An axisymmetric model has none, because
 !! the rigid-body motion of a ring is axial only.
 module rigid_elements
-   use bulk_data, only: equation_card, has_component, rigid_card
+   use bulk_data, only: equation_card, rigid_card
    use constraint_equations, only: add_dependence, add_term, check_dependences, dependence_list, eliminate, mean_motion, solve_for
    use deck_check, only: checked_deck
+   use field_rules, only: has_component
    use kinds, only: wp
    use model_data, only: model_type, n_rotations
    use node_coupling, only: component_place, node_axes, place_of_component, rotation_at, third_axis

@@ -1,7 +1,7 @@
 !> Stages of the load history, fractions of their increments, and requests for the vibration after a stage.
 !! Case control and JINCR cards give them: modes, response to an oscillating load, and the damping of a table.
 module stage_plan
-   use bulk_data, only: eigrl_card, freq4_card, jampl_card, tabdmp1_card
+   use bulk_data, only: eigrl_card, frequency_card, jampl_card, tabdmp1_card
    use case_control, only: method_back, method_newton
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
@@ -19,7 +19,7 @@ module stage_plan
    !> The response to an oscillating load by modal superposition.
    type, public :: response_plan
       real(wp), allocatable :: frequencies(:) !! ascending, those of FREQ1 [1/time]
-      type(freq4_card), allocatable :: spreads(:) !! n odd, spread = 0 where it is 1
+      type(frequency_card), allocatable :: spreads(:) !! FREQ4: n is odd
       integer, allocatable  :: nodes(:)       !! positions of the nodes whose amplitude and phase are requested
       real(wp), allocatable :: force(:, :)    !! (3, n_nodes) amplitude of the load [force]
       type(tabdmp1_card), allocatable :: damping !! not allocated: the loss factors of the joints
@@ -109,7 +109,7 @@ contains
       do i = 1, size(plan%spreads)
          associate (spread => plan%spreads(i))
             do m = 1, size(modes)
-               if (modes(m) <= 0.0_wp .or. modes(m) < spread%lowest .or. modes(m) > spread%highest) cycle
+               if (modes(m) <= 0.0_wp .or. modes(m) < spread%first .or. modes(m) > spread%last) cycle
                if (spread%n == 1) f = merged(f, [modes(m)])
                if (spread%n > 1) f = merged(f, [(modes(m)*(1.0_wp + spread%spread*real(2*k - spread%n + 1, wp)/ &
                                                            real(spread%n - 1, wp)), k = 0, spread%n - 1)])

@@ -2,9 +2,10 @@
 !! Nodes of shells and beams and reference nodes have rotations.
 module structural_build
    use beam_element, only: beam_axes, beam_length
-   use bulk_data, only: edge_card, edge_crod, has_component, property_card, rigid_card
+   use bulk_data, only: edge_card, edge_crod, property_card, rigid_card
    use deck_check, only: checked_deck
    use elasticity, only: beam, elasticity_matrix, max_stresses, plane_stress, shell
+   use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: id_table_type
    use model_data, only: corners_of, is_beam, is_shell, model_type, n_rotations, rotation_type

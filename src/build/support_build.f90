@@ -2,9 +2,10 @@
 !! SPCD gives a total at the end of a stage, among its loads. D of SPC holds from the end of the first stage on. SPCADD and
 !! MPCADD combine sets.
 module support_build
-   use bulk_data, only: has_component, set_sum_card, support_card
+   use bulk_data, only: set_sum_card, support_card
    use deck_cards, only: card_name
    use deck_check, only: checked_deck
+   use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: first_not_below
    use model_data, only: is_face_node, model_type, n_bars, n_points, stage_load_type, support_group

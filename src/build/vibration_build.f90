@@ -106,9 +106,9 @@ contains
       integer :: i, k
 
       allocate (response%frequencies(0))
-      do i = 1, size(deck%bulk%freq1)
-         associate (card => deck%bulk%freq1(i))
-            if (card%set /= asked%frequency%id) cycle
+      do i = 1, size(deck%bulk%frequency)
+         associate (card => deck%bulk%frequency(i))
+            if (card%set /= asked%frequency%id .or. card%spread > 0.0_wp) cycle
             if (card%last > 0.0_wp) then
                response%frequencies = merged(response%frequencies, &
                                              [(card%first*(card%last/card%first)**(real(k, wp)/card%n), k = 0, card%n)])
@@ -117,7 +117,8 @@ contains
             end if
          end associate
       end do
-      response%spreads = pack(deck%bulk%freq4, deck%bulk%freq4%set == asked%frequency%id)
+      response%spreads = pack(deck%bulk%frequency, deck%bulk%frequency%set == asked%frequency%id .and. &
+                                                   deck%bulk%frequency%spread > 0.0_wp) ! FREQ4
       if (size(response%frequencies) + size(response%spreads) == 0) call deck%errors%add(asked%frequency%line, &
          'FREQUENCY: there is no FREQ1, FREQ2 or FREQ4 with set '//integer_text(asked%frequency%id))
       response%is_structural = deck%bulk%parameters%is_structural

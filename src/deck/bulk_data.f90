@@ -12,8 +12,6 @@ module bulk_data
    implicit none
    private
 
-   public :: has_component
-
    type, public :: grid_card
       integer  :: line = 0, id = 0, ps = 0
       integer  :: cp = 0, cd = 0                        ! systems of the coordinates X and of displacements, 0: global axes
@@ -40,8 +38,7 @@ module bulk_data
       integer :: nodes(max_nodes) = 0                   ! corners, then mid-side nodes; 0 where the field is blank
    end type element_card
 
-   !> The edges CBAR, CBEAM and CROD: marks, beams, or a CROD that is a bolt. NODES are its ends; the third node, G0 of a CBAR, may be
-   !! the mid-side node of a marked edge.
+   !> CBAR, CBEAM, CROD: a mark, a beam or a bolt. NODES(:2) are its ends; NODES(3), G0, may be the mid-side node of a marked edge.
    type, extends(element_card), public :: edge_card
       real(wp) :: orientation(3) = 0.0_wp               ! X1, X2, X3 where there is no G0
       integer  :: pins(2) = 0                           ! PA, PB
@@ -185,8 +182,7 @@ module bulk_data
    integer, parameter, public :: of_edge = 1, of_face = 2, of_nodes = 3, of_marks = 4 !! kinds of pressure card, by the entity named
 
    !> PLOADE: the edge of element FIRST between its corners G1 and G2. PLOAD4: the face of element FIRST at G1 and G3 or G4, or the
-   !! faces marked by the elements FIRST to LAST. PLOAD2: the faces marked by the elements of several RANGES. PLOAD: the face with the
-   !! given corners.
+   !! faces marked by the elements FIRST to LAST. PLOAD2: the faces marked by the elements in RANGES. PLOAD: the face at CORNERS.
    type, public :: pressure_card
       integer  :: line = 0, set = 0, first = 0, last = 0, kind = of_edge, corners(4) = 0
       type(id_ranges) :: ranges
@@ -242,8 +238,7 @@ module bulk_data
       real(wp) :: mean = 0.0_wp, slope = 0.0_wp
    end type plate_temperature_card
 
-   !> BOLT: a bolt tightened to PRELOAD in the stage of SUBCASE STAGE, locked afterwards: the CROD ELEMENT, or a solid cut at
-   !! the marked SURFACE.
+   !> BOLT: the CROD ELEMENT, or a solid cut at the marked SURFACE, tightened to PRELOAD in SUBCASE STAGE and locked afterwards.
    type, public :: bolt_card
       integer  :: line = 0, id = 0, element = 0, stage = 0, surface = 0
       real(wp) :: preload = 0.0_wp
@@ -273,8 +268,7 @@ module bulk_data
       integer :: line = 0, id = 0
    end type pmark_card
 
-   integer, parameter, public :: fit_auto = 1, fit_yes = 2, fit_no = 3 !! where faces are fitted: where nodes do not match, always,
-                                                                       !! never
+   integer, parameter, public :: fit_auto = 1, fit_yes = 2, fit_no = 3 !! faces are fitted: where nodes do not match, always, never
    type, public :: joint_card
       integer  :: line = 0, id = 0, law = 0, sides(2) = 0, fit = fit_auto
       real(wp) :: tolerance = 0.0_wp                    ! 0: default
@@ -338,18 +332,13 @@ module bulk_data
       real(wp) :: tolerance = 0.0_wp                    ! of the loss factor
    end type jampl_card
 
-   !> FREQ4: N frequencies from 1 - SPREAD to 1 + SPREAD times the frequency of every mode from LOWEST to HIGHEST.
-   type, public :: freq4_card
+   !> FREQ1: frequencies FIRST + k STEP, k = 0 to N; FREQ2: FIRST (LAST/FIRST)**(k/N). FREQ4: N frequencies from 1 - SPREAD to
+   !! 1 + SPREAD times the frequency of every mode from FIRST to LAST.
+   type, public :: frequency_card
       integer  :: line = 0, set = 0, n = 0
-      real(wp) :: lowest = 0.0_wp, highest = 0.0_wp, spread = 0.0_wp
-   end type freq4_card
-
-   !> FREQ1: frequencies FIRST + k STEP, k = 0 to N; FREQ2: FIRST (LAST/FIRST)**(k/N).
-   type, public :: freq1_card
-      integer  :: line = 0, set = 0, n = 0
-      real(wp) :: first = 0.0_wp, step = 0.0_wp
-      real(wp) :: last = 0.0_wp                         ! of a FREQ2; 0: a FREQ1
-   end type freq1_card
+      real(wp) :: first = 0.0_wp, last = 0.0_wp         ! LAST is 0: a FREQ1
+      real(wp) :: step = 0.0_wp, spread = 0.0_wp        ! of a FREQ1; of a FREQ4, 0: a FREQ1 or FREQ2
+   end type frequency_card
 
    !> TABDMP1: damping as a function of frequency, in ascending order.
    type, public :: tabdmp1_card
@@ -361,7 +350,7 @@ module bulk_data
    !> All cards of a deck.
    type, public :: bulk_data_type
       integer :: n_cards = 0                               !! number of cards of all kinds
-      type(ignored_entries_type) :: ignored                       !! entries without effect, also of case control
+      type(ignored_entries_type) :: ignored                !! entries without effect, also of case control
       type(parameters_type) :: parameters
       type(grid_card), allocatable         :: grid(:)
       type(grid_card)                      :: grid_defaults !! CP, CD and PS of GRDSET
@@ -404,19 +393,8 @@ module bulk_data
       type(jincr_card), allocatable        :: jincr(:)
       type(eigrl_card), allocatable        :: eigrl(:)
       type(jampl_card), allocatable        :: jampl(:)
-      type(freq1_card), allocatable        :: freq1(:)
-      type(freq4_card), allocatable        :: freq4(:)
+      type(frequency_card), allocatable    :: frequency(:)
       type(tabdmp1_card), allocatable      :: tabdmp1(:)
    end type bulk_data_type
-
-contains
-
-   !> Whether digit D, 1 to 6, is among COMPONENTS.
-   elemental logical function has_component(components, d)
-      integer, intent(in) :: components, d
-      integer :: k
-
-      has_component = any([(modulo(components/10**k, 10) == d, k = 0, 5)])
-   end function has_component
 
 end module bulk_data

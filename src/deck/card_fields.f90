@@ -4,10 +4,10 @@
 module card_fields
    use deck_cards, only: card_type
    use deck_errors, only: deck_error_list
-   use field_rules, only: any_real, blank_words, component_words, in_range, integer_words, is_component_list, largest_size, &
-                          list_of, parse_integer, parse_real, real_range, real_words, smallest_size
+   use field_rules, only: any_real, component_words, in_range, integer_fault, is_component_list, largest_size, &
+                          list_of, parse_integer, parse_real, real_fault, real_range, real_words, smallest_size
    use kinds, only: wp
-   use text_tools, only: integer_text, real_text
+   use text_tools, only: integer_text
    implicit none
    private
 
@@ -113,9 +113,7 @@ contains
       call go_on(self, name, is_given)
       ok = .false.
       if (is_given .and. present(whole)) then
-         associate (field => self%fields(self%k))
-            call parse_integer(field%text(:field%length), number, ok)
-         end associate
+         call parse_integer(self%fields(self%k)%text, number, ok)
          value = real(number, wp)
       end if
       if (.not. ok .and. (is_given .or. .not. present(default))) &
@@ -208,22 +206,18 @@ contains
       integer, intent(out)                   :: line
 
       line = self%line
-      call self%must_be_blank(self%k + 1, self%n)
+      call self%must_be_blank(self%k + 1, self%n, '')
    end subroutine finish
 
    !> The data fields FIRST to LAST must be blank; WHY ends the message.
    subroutine must_be_blank(self, first, last, why)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: first, last
-      character(*), intent(in), optional     :: why
-      character(:), allocatable :: words
+      character(*), intent(in)               :: why
       integer :: k
 
-      words = ''
-      if (present(why)) words = why
       do k = first, min(last, self%n)
-         if (self%fields(k)%length > 0) &
-            call self%error_at(k, ''''//self%text_at(k)//''' where the field must be blank'//words)
+         if (self%fields(k)%length > 0) call self%error_at(k, ''''//self%text_at(k)//''' where the field must be blank'//why)
       end do
    end subroutine must_be_blank
 
@@ -282,7 +276,7 @@ contains
    end subroutine wrong_entry
 
    !> The integer in data field K, NAME, from LEAST to MOST. If there is none, VALUE is 0, OK is false, and an error says what was
-   !! EXPECTED, COMPONENT_WORDS: a list of components.
+   !! EXPECTED. Where this is COMPONENT_WORDS the integer must be a list of components.
    subroutine integer_at(self, k, name, value, ok, least, most, or_blank, expected)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: k
@@ -290,9 +284,9 @@ contains
       integer, intent(out)                   :: value
       logical, intent(out)                   :: ok
       integer, intent(in), optional          :: least, most !! default: any
-      logical, intent(in), optional          :: or_blank    !! ends the words for what is expected; default: false
+      logical, intent(in), optional          :: or_blank    !! the error adds that the field may be blank; default: false
       character(*), intent(in), optional     :: expected    !! default: LEAST and MOST in words
-      character(:), allocatable :: text, words
+      character(:), allocatable :: words
       logical :: is_integer
 
       value = 0
@@ -306,22 +300,15 @@ contains
       end if
       if (ok) return
       value = 0
-      text = self%text_at(k)
-      if (text == '') then
-         words = 'blank'
-      else if (is_integer) then
-         words = ''''//text//''' is out of range'
-      else if (is_number_shape(text, '0123456789+-') .and. scan(text(2:), '+-') == 0) then
-         words = ''''//text//''' is too large for an integer'
-      else
-         words = ''''//text//''' is not an integer'
-      end if
       if (present(expected)) then
-         words = words//', expected '//expected
+         words = expected
+      else if (present(most)) then
+         words = 'an integer from '//integer_text(least)//' to '//integer_text(most)
       else
-         words = words//', expected '//integer_words(least, most)
+         words = 'an integer of '//integer_text(least)//' or more'
       end if
-      call self%error_at(k, trim(name)//': '//words//blank_words(or_blank))
+      if (present(or_blank)) words = words//trim(merge(', or blank', repeat(' ', 10), or_blank))
+      call self%error_at(k, trim(name)//': '//integer_fault(self%text_at(k), is_integer, words))
    end subroutine integer_at
 
    !> The real in data field K, NAME, in RANGE. It must not be so large that a stiffness, area or volume overflows, nor, where it must be
@@ -333,12 +320,11 @@ contains
       real(wp), intent(out)                  :: value
       logical, intent(out)                   :: ok
       type(real_range), intent(in), optional :: range    !! default: any
-      logical, intent(in), optional          :: or_blank !! ends the words for what is expected; default: false
+      logical, intent(in), optional          :: or_blank !! the error adds that the field may be blank; default: false
       character(*), intent(in), optional     :: expected !! default: RANGE in words
       type(real_range) :: within
-      character(:), allocatable :: text, words
-      integer :: whole
-      logical :: is_integer, is_real
+      character(:), allocatable :: words
+      logical :: is_real
 
       within = any_real
       if (present(range)) within = range
@@ -350,25 +336,8 @@ contains
       if (ok) return
       words = real_words(within)
       if (present(expected)) words = expected
-      words = words//blank_words(or_blank)
-      text = self%text_at(k)
-      call parse_integer(text, whole, is_integer)
-      if (text == '') then
-         words = 'blank, expected '//words
-      else if (is_real .and. .not. in_range(within, value)) then
-         words = ''''//text//''' is out of range, expected '//words
-      else if (is_real .and. abs(value) > largest_size) then
-         words = ''''//text//''' is too large to compute with, expected no more than '//real_text(largest_size)
-      else if (is_real) then
-         words = ''''//text//''' is too small to compute with, expected at least '//real_text(smallest_size)
-      else if (is_number_shape(text, '0123456789.+-ED') .and. scan(text, '.ED') > 0) then
-         words = ''''//text//''' is too large or too small for a real number, or not one, expected '//words
-      else if (is_integer) then
-         words = ''''//text//''' is an integer, expected '//words//': write it with a decimal point'
-      else
-         words = ''''//text//''' is not a real number, expected '//words
-      end if
-      call self%error_at(k, trim(name)//': '//words)
+      if (present(or_blank)) words = words//trim(merge(', or blank', repeat(' ', 10), or_blank))
+      call self%error_at(k, trim(name)//': '//real_fault(self%text_at(k), value, is_real, within, words))
       value = 0.0_wp
    end subroutine real_at
 
@@ -413,15 +382,6 @@ contains
       ranges%last = ranges%last(:n)
       ranges%at = ranges%at(:n)
    end subroutine list_ranges
-
-   !> Whether TEXT consists of LETTERS only and begins and ends like a number.
-   pure logical function is_number_shape(text, letters)
-      character(*), intent(in) :: text, letters
-
-      is_number_shape = index(text, '.') == index(text, '.', back=.true.) .and. &
-                        verify(trim(text), letters) == 0 .and. scan(text(1:1), '0123456789+-.') == 1 .and. &
-                        scan(text(len_trim(text):len_trim(text)), '0123456789.') == 1
-   end function is_number_shape
 
    !> The direction of WHAT, in three fields from FIRST on, must not be zero.
    subroutine check_direction(self, first, what, direction)

@@ -142,26 +142,20 @@ contains
    !> Note the sets that no OUTPUT, WATCH or RESPONSE names as entries without effect.
    pure subroutine note_idle_sets(control)
       type(case_control_type), intent(inout) :: control
-      integer :: i, s
+      type(limit_type), allocatable :: named(:)
+      integer :: i
 
-      do i = 1, size(control%sets)
-         associate (stages => control%stages, id => control%sets(i)%id)
-            if (.not. any([(names(stages(s)%only, id) .or. names(stages(s)%watch, id) .or. &
-                            names(stages(s)%vibration%response, id), s = 1, size(stages))])) call control%ignored%add('SET')
+      allocate (named(0))
+      do i = 1, size(control%stages)
+         associate (stage => control%stages(i))
+            if (allocated(stage%only)) named = [named, stage%only]
+            if (allocated(stage%watch)) named = [named, stage%watch]
+            if (allocated(stage%vibration%response)) named = [named, stage%vibration%response]
          end associate
       end do
-
-   contains
-
-      !> Whether LIMITS name the set ID.
-      pure logical function names(limits, id)
-         type(limit_type), intent(in), optional :: limits(:)
-         integer, intent(in)                    :: id
-
-         names = .false.
-         if (present(limits)) names = any(limits%id == id .and. .not. limits%is_mark)
-      end function names
-
+      do i = 1, size(control%sets)
+         if (all(named%is_mark .or. named%id /= control%sets(i)%id)) call control%ignored%add('SET')
+      end do
    end subroutine note_idle_sets
 
    !> Interpret one line of case control.

@@ -2,10 +2,10 @@
 module deck_check
    use bulk_data, only: bulk_data_type, rigid_card
    use card_fields, only: number_of
-   use deck_input, only: card_kind, deck_type
    use case_control, only: case_control_type
    use deck_cards, only: add_field_error, card_name
    use deck_errors, only: deck_error_list
+   use deck_input, only: card_kind, deck_type
    use deck_text, only: deck_text_type
    use lists, only: id_table_type, sorted_order
    use text_tools, only: integer_text
@@ -87,7 +87,7 @@ contains
       call add_field_error(self%text, line, k, name, message, self%errors)
    end subroutine numbered_field_error
 
-   !> Find repeated ids of the kinds with few cards. Properties and PMARK share their ids, as properties do in NASTRAN.
+   !> Find repeated ids of the kinds with few cards, and missing laws of joints. Properties and PMARK share their ids.
    subroutine check_ids(self)
       class(checked_deck), intent(in) :: self
       integer :: before, i
@@ -115,7 +115,7 @@ contains
          do i = 1, size(bulk%joint)
             call check_reference(bulk%joint(i)%line, 'PJID', bulk%joint(i)%law, 'PJOINT', bulk%pjoint%id)
          end do
-         before = 0 ! once for neighbours with one law
+         before = 0 ! neighbours with the same law give one error
          do i = 1, size(bulk%cjoint)
             if (bulk%cjoint(i)%law /= before) &
                call check_reference(bulk%cjoint(i)%line, 'PJID', bulk%cjoint(i)%law, 'PJOINT', bulk%pjoint%id)

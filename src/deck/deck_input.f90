@@ -20,7 +20,7 @@ module deck_input
                              read_pshell, read_rod
    use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
    use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, read_support
-   use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_jampl, read_tabdmp1
+   use vibration_cards, only: read_eigrl, read_frequencies, read_jampl, read_tabdmp1
    implicit none
    private
 
@@ -105,8 +105,7 @@ contains
       call add(['JINCR'], read_jincr)
       call add(['EIGRL'], read_eigrl)
       call add(['JAMPL'], read_jampl)
-      call add(['FREQ1', 'FREQ2'], read_freq1)
-      call add(['FREQ4'], read_freq4)
+      call add(['FREQ1', 'FREQ2', 'FREQ4'], read_frequencies)
       call add(['TABDMP1'], read_tabdmp1)
       call add(['PARAM'], read_parameter)
 
@@ -144,8 +143,8 @@ contains
          bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
          bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
          bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
-         bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), bulk%freq1(n('FREQ1')), &
-         bulk%freq4(n('FREQ4')), bulk%tabdmp1(n('TABDMP1')))
+         bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
+         bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')))
 
    contains
 
@@ -211,21 +210,19 @@ contains
       call find_cards(deck%text, cursor, deck%kinds, kind_at, deck%bulk, errors)
       call make_room(deck%kinds, deck%bulk)
       call read_all(deck%text, kind_at, deck%kinds, deck%bulk, errors)
-      associate (bulk => deck%bulk) ! the arrays whose cards may fill one entry or several are cut to the filled entries
+      associate (bulk => deck%bulk, defaults => deck%bulk%grid_defaults, asked => deck%control%stages%vibration)
+         ! the arrays whose cards may fill one entry or several are cut to the filled entries
          bulk%system = bulk%system(:count(bulk%system%line > 0))
          bulk%spring_property = bulk%spring_property(:count(bulk%spring_property%line > 0))
          bulk%support = bulk%support(:count(bulk%support%line > 0))
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
-      end associate
-      associate (defaults => deck%bulk%grid_defaults, grid => deck%bulk%grid) ! those of GRDSET fill the blank fields of GRID
-         where (grid%cp < 0) grid%cp = defaults%cp
-         where (grid%cd < 0) grid%cd = defaults%cd
-         where (grid%ps == 0) grid%ps = defaults%ps
-      end associate
-      call count_unused(deck%bulk)
-      associate (asked => deck%control%stages%vibration)
-         call deck%bulk%ignored%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), errors)
+         ! GRDSET fills the blank fields of GRID
+         where (bulk%grid%cp < 0) bulk%grid%cp = defaults%cp
+         where (bulk%grid%cd < 0) bulk%grid%cd = defaults%cd
+         where (bulk%grid%ps == 0) bulk%grid%ps = defaults%ps
+         call count_unused(bulk)
+         call bulk%ignored%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), errors)
       end associate
       deck%is_whole = is_whole
    end subroutine read_lines
@@ -331,9 +328,7 @@ contains
       end do
       !$omp end parallel sections
       do k = 1, others%n
-         associate (error => others%items(k))
-            call errors%add(error%line, error%message, error%first, error%last)
-         end associate
+         call errors%add(others%items(k)%line, others%items(k)%message, others%items(k)%first, others%items(k)%last)
       end do
 
    contains
@@ -345,12 +340,11 @@ contains
          type(card_fields_type) :: card
          integer :: behind, left, line
 
-         if (cards(routine)%routine /= routine) return
+         if (cards(routine)%routine /= routine) return ! another name in the line of a routine
          left = sum(cards%n, mask=cards%routine == routine)
          card%errors => errors
-         line = 0
-         do while (left > 0)
-            line = line + 1
+         do line = 1, size(kind_at)
+            if (left == 0) exit
             if (kind_at(line) == 0) cycle
             associate (kind => cards(kind_at(line)))
                if (kind%routine /= routine) cycle
@@ -375,8 +369,7 @@ contains
                  springs => bulk%spring_property, is_bush => bulk%spring%is_bush, system => bulk%system)
          call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%beam_property%id], properties, &
             [spread('PSHELL', 1, size(bulk%pshell)), spread('PAXIS ', 1, size(bulk%paxis)), &
-             spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod)), &
-             bulk%beam_property%name])
+             spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod)), bulk%beam_property%name])
          call count_unnamed(pack(springs%id, .not. springs%is_bush), pack(bulk%spring%property, .not. is_bush), &
                             spread('PELAS ', 1, count(.not. springs%is_bush)))
          call count_unnamed(pack(springs%id, springs%is_bush), pack(bulk%spring%property, is_bush), &

@@ -120,7 +120,6 @@ contains
       class(deck_text_type), intent(in) :: self
       integer, intent(in)               :: i
       character(:), allocatable         :: line
-
       integer(long) :: finish, next
       integer :: file
 

@@ -1,6 +1,7 @@
 !> Reads numbers as NASTRAN writes them (12, 1., -.5, 7.0E+1, 1.D-3, 1.5-3) and applies the rules of fields.
 !!
-!! A rule is a range of numbers, a list of words or a list of components. Each rule can be put into words.
+!! A rule is a range of numbers, a list of words or a list of components. Each rule, and each fault of an entry, can be put into
+!! words.
 module field_rules
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char, c_null_ptr, c_ptr
@@ -9,7 +10,8 @@ module field_rules
    implicit none
    private
 
-   public :: parse_integer, parse_real, integer_words, real_words, blank_words, in_range, is_component_list, list_of
+   public :: parse_integer, parse_real, integer_fault, real_fault, real_words, in_range, is_component_list, has_component, &
+             list_of
 
    integer, parameter :: most_digits = 15, max_exact = 22 ! numbers of so many digits, and 10**22, are exact in real(wp)
    integer :: k
@@ -129,15 +131,60 @@ contains
       ok = ieee_is_finite(value) .and. .not. (abs(value) < tiny(value) .and. digits > 0)
    end subroutine parse_real
 
-   !> The words for an integer from LEAST to MOST.
-   pure function integer_words(least, most) result(words)
-      integer, intent(in)           :: least
-      integer, intent(in), optional :: most !! default: no limit
-      character(:), allocatable     :: words
+   !> Why TEXT is not the EXPECTED integer.
+   pure function integer_fault(text, is_integer, expected) result(words)
+      character(*), intent(in)  :: text, expected
+      logical, intent(in)       :: is_integer !! but not the expected one
+      character(:), allocatable :: words
 
-      words = 'an integer of '//integer_text(least)//' or more'
-      if (present(most)) words = 'an integer from '//integer_text(least)//' to '//integer_text(most)
-   end function integer_words
+      if (text == '') then
+         words = 'blank'
+      else if (is_integer) then
+         words = ''''//text//''' is out of range'
+      else if (is_number_shape(text, '0123456789+-') .and. scan(text(2:), '+-') == 0) then
+         words = ''''//text//''' is too large for an integer'
+      else
+         words = ''''//text//''' is not an integer'
+      end if
+      words = words//', expected '//expected
+   end function integer_fault
+
+   !> Why TEXT is not the EXPECTED real number, or not one of a size to compute with.
+   pure function real_fault(text, value, is_real, range, expected) result(words)
+      character(*), intent(in)     :: text, expected
+      real(wp), intent(in)         :: value   !! of TEXT
+      logical, intent(in)          :: is_real !! TEXT is a real number
+      type(real_range), intent(in) :: range
+      character(:), allocatable    :: words
+      integer :: whole
+      logical :: is_integer
+
+      call parse_integer(text, whole, is_integer)
+      if (text == '') then
+         words = 'blank, expected '//expected
+      else if (is_real .and. .not. in_range(range, value)) then
+         words = ''''//text//''' is out of range, expected '//expected
+      else if (is_real .and. abs(value) > largest_size) then
+         words = ''''//text//''' is too large to compute with, expected no more than '//real_text(largest_size)
+      else if (is_real) then
+         words = ''''//text//''' is too small to compute with, expected at least '//real_text(smallest_size)
+      else if (is_number_shape(text, '0123456789.+-ED') .and. scan(text, '.ED') > 0) then
+         words = ''''//text//''' is too large or too small for a real number, or not one, expected '//expected
+      else if (is_integer) then
+         words = ''''//text//''' is an integer, expected '//expected//': write it with a decimal point'
+      else
+         words = ''''//text//''' is not a real number, expected '//expected
+      end if
+   end function real_fault
+
+   !> Whether TEXT consists of LETTERS only and begins and ends like a number.
+   pure logical function is_number_shape(text, letters)
+      character(*), intent(in) :: text, letters
+
+      is_number_shape = index(text, '.') == index(text, '.', back=.true.) .and. &
+                        verify(trim(text), letters) == 0 .and. scan(text(1:1), '0123456789+-.') == 1 .and. &
+                        scan(text(len_trim(text):len_trim(text)), '0123456789.') == 1
+   end function is_number_shape
 
    !> The words for a real in RANGE.
    pure function real_words(range) result(words)
@@ -151,15 +198,6 @@ contains
          if (has_most) words = words//trim(merge(' below  ', ' at most', range%below))//' '//real_text(range%most)
       end associate
    end function real_words
-
-   !> The end of the words for what is expected where the field may be empty.
-   pure function blank_words(or_blank) result(words)
-      logical, intent(in), optional :: or_blank !! default: false
-      character(:), allocatable     :: words
-
-      words = ''
-      if (present(or_blank)) words = trim(merge(', or blank', repeat(' ', 10), or_blank))
-   end function blank_words
 
    !> Whether VALUE is in RANGE.
    pure logical function in_range(range, value)
@@ -196,5 +234,13 @@ contains
       digits = integer_text(components)
       is_component_list = verify(digits, '123456') == 0 .and. all([(index(digits, digits(i:i)) == i, i = 1, len(digits))])
    end function is_component_list
+
+   !> Whether digit D, 1 to 6, is among COMPONENTS.
+   elemental logical function has_component(components, d)
+      integer, intent(in) :: components, d
+      integer :: k
+
+      has_component = any([(modulo(components/10**k, 10) == d, k = 0, 5)])
+   end function has_component
 
 end module field_rules

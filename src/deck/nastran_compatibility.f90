@@ -74,10 +74,8 @@ contains
       integer :: i
 
       word = ''
-      do i = 1, size(control_words)
-         if (control_words(i) == key .or. (len(key) >= 4 .and. index(control_words(i), key) == 1)) exit
-      end do
-      if (i <= size(control_words)) word = trim(control_words(i))
+      i = findloc(control_words == key .or. (len(key) >= 4 .and. index(control_words, key) == 1), .true., dim=1)
+      if (i > 0) word = trim(control_words(i))
    end function control_habit
 
    !> Whether a card of bulk data has no effect, by its NAME.

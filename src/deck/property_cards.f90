@@ -31,7 +31,6 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       character(8) :: modes
       real(wp) :: number
-      integer  :: k
       logical  :: is_number
 
       associate (property => bulk%pshell(card%i))
@@ -55,9 +54,7 @@ contains
          call card%blank(['MID4'])
          call card%finish(property%line)
          property%fibre_given = [is_number, card%text_at(10) /= '']
-         do k = 1, 2
-            if (.not. property%fibre_given(k)) property%fibre(k) = (k - 1.5_wp)*property%thickness
-         end do
+         where (.not. property%fibre_given) property%fibre = [-0.5_wp, 0.5_wp]*property%thickness
          property%state = merge(plane_strain, plane_stress, property%bending == -1)
          property%incompatible = modes == 'YES'
       end associate

@@ -2,9 +2,9 @@
 !! RBE2: nodes that move with one node as a rigid body. RBE3: a node that moves as the weighted mean of others. Both list their nodes
 !! or name a marked surface. MPC: a constraint equation between components. NODEAT: a node given by its place.
 module rigid_cards
-   use bulk_data, only: bulk_data_type, has_component, rigid_card
+   use bulk_data, only: bulk_data_type, rigid_card
    use card_fields, only: card_fields_type
-   use field_rules, only: component_words, parse_integer, positive
+   use field_rules, only: component_words, has_component, parse_integer, positive
    use kinds, only: wp
    implicit none
    private
@@ -55,7 +55,7 @@ contains
                last = first - 1
             end if
             call read_list(card, 4, last, rigid%components, 1.0_wp, rigid)
-         case default ! the nodes are added by name_surface_nodes
+         case default ! rigid_elements adds the nodes of the surface
             call card%field(trim(merge('REFGRID', 'GN     ', rigid%is_mean)), rigid%node, default=0, least=0)
             call card%components(trim(merge('REFC', 'CM  ', rigid%is_mean)), rigid%components)
             directions = rigid%components
@@ -252,7 +252,7 @@ contains
          if (.not. card%is_faulty() .and. abs(equation%factor(1)) <= 0.0_wp) &
             call card%error('A1', 'zero, expected a coefficient that is not zero: the first term is the dependent one')
          do k = 8, card%n
-            if (modulo(k, 8) <= 1) call card%must_be_blank(k, k)
+            if (modulo(k, 8) <= 1) call card%must_be_blank(k, k, '')
             if (modulo(k, 8) /= 2 .and. modulo(k, 8) /= 5) cycle ! no term begins here
             if (card%text_at(k)//card%text_at(k + 1)//card%text_at(k + 2) == '') cycle
             if (card%text_at(k) == '') then

@@ -2,7 +2,7 @@
 !! Supports: SPC, SPC1, SPCM and their sum SPCADD; MPCADD combines constraint equations likewise. Prescribed displacements: SPCD.
 !! Springs: CELAS1, CELAS2, CBUSH, PELAS, PBUSH. Masses: CONM2.
 module support_cards
-   use bulk_data, only: bulk_data_type, displacement_card, set_sum_card, spring_card, spring_property_card, support_card
+   use bulk_data, only: bulk_data_type, displacement_card, set_sum_card, spring_property_card, support_card
    use card_fields, only: card_fields_type
    use field_rules, only: not_negative
    use kinds, only: wp
@@ -19,18 +19,9 @@ contains
    subroutine read_support(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(displacement_card) :: moved(2)
-      integer :: k, n
 
       if (card%name == 'SPC') then
-         call read_moved(card, moved, n)
-         do k = 1, n
-            associate (this => moved(k))
-               bulk%support(card%i + k - 1) = support_card(line=this%line, set=this%set, components=this%components, &
-                  value=this%value, first=[this%node], last=[this%node], at=[this%field])
-            end associate
-         end do
-         card%i = card%i + n - 1
+         call read_displacement(card, bulk)
          return
       end if
       associate (support => bulk%support(card%i))
@@ -75,23 +66,13 @@ contains
       end if
    end subroutine read_sum
 
-   !> SPCD: displacements of held components in a load set; as for forces, the total at the end of the stage.
+   !> SPCD: displacements of held components in a load set; as for forces, the total at the end of the stage. SPC: supports with the
+   !! same fields.
    subroutine read_displacement(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       type(displacement_card) :: moved(2)
-      integer :: n
-
-      call read_moved(card, moved, n)
-      bulk%displacement(card%i:card%i + n - 1) = moved(:n)
-      card%i = card%i + n - 1
-   end subroutine read_displacement
-
-   !> The fields of SPC and SPCD: N nodes, one or two.
-   subroutine read_moved(card, moved, n)
-      type(card_fields_type), intent(inout) :: card
-      type(displacement_card), intent(out)  :: moved(2)
-      integer, intent(out)                  :: n
+      integer :: k, n
 
       call card%field('SID', moved(1)%set)
       call card%field('G1', moved(1)%node)
@@ -111,7 +92,18 @@ contains
       n = merge(2, 1, card%given('G2'))
       if (any(card%given(['G2', 'C2', 'D2'])) .and. .not. all(card%given(['G2', 'C2']))) &
          call card%error('G2', 'node, components C2 and displacement D2 go together')
-   end subroutine read_moved
+      do k = 1, n
+         associate (this => moved(k), at => card%i + k - 1)
+            if (card%name == 'SPC') then
+               bulk%support(at) = support_card(line=this%line, set=this%set, components=this%components, value=this%value, &
+                                               first=[this%node], last=[this%node], at=[this%field])
+            else
+               bulk%displacement(at) = this
+            end if
+         end associate
+      end do
+      card%i = card%i + n - 1
+   end subroutine read_displacement
 
    !> CELAS1: a spring between component C1 of node G1 and C2 of G2, with a PELAS; CELAS2: with K. A blank node is the ground. CBUSH:
    !! springs along the three axes of system CID between GA and GB or the ground, with a PBUSH. The position S on the line between the
@@ -119,7 +111,8 @@ contains
    subroutine read_spring(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      integer :: offset
+      character(2) :: field
+      integer :: c, k, offset
 
       associate (spring => bulk%spring(card%i))
          spring%is_bush = card%name == 'CBUSH'
@@ -151,39 +144,27 @@ contains
          end if
          call card%finish(spring%line)
          if (spring%damping > 0.0_wp) call bulk%ignored%wait('GE of CELAS2', card%line, needs_response=.false.)
-         if (.not. card%is_faulty()) call check_ends(card, spring)
-      end associate
-   end subroutine read_spring
-
-   !> A CELAS must have a node, and a component at every node.
-   subroutine check_ends(card, spring)
-      type(card_fields_type), intent(inout) :: card
-      type(spring_card), intent(in)         :: spring
-      character(2) :: field
-      integer :: k
-
-      if (all(spring%nodes == 0)) call card%error('G1', 'blank, as is G2; expected a node at one end or at both')
-      if (all(spring%nodes == 0)) return
-      do k = 1, 2
-         field = 'C'//integer_text(k)
-         associate (c => spring%components(k))
+         if (card%is_faulty()) return
+         if (all(spring%nodes == 0)) call card%error('G1', 'blank, as is G2; expected a node at one end or at both')
+         if (all(spring%nodes == 0)) return
+         do k = 1, 2 ! every node needs a component
+            field = 'C'//integer_text(k)
+            c = spring%components(k)
             if (c < 0 .or. c > 6) then
                call card%error(field, 'there is no component '//integer_text(c)//'; expected 1 to 6, blank or 0 at the ground')
-            else if (spring%nodes(k) == 0) then
-               cycle
-            else if (c == 0) then
+            else if (spring%nodes(k) > 0 .and. c == 0) then
                call card%error(field, 'blank or 0, expected the component at G'//integer_text(k))
-            else if (k == 1 .and. all(spring%components > 0) .and. (c > 3 .neqv. spring%components(3 - k) > 3)) then
+            else if (k == 1 .and. all([spring%nodes(1), spring%components] > 0) .and. (c > 3 .neqv. spring%components(2) > 3)) then
                call card%error(field, 'a displacement at one end and a rotation at the other; expected two '// &
                                'displacements or two rotations')
             end if
-         end associate
-      end do
-   end subroutine check_ends
+         end do
+      end associate
+   end subroutine read_spring
 
    !> PELAS: the stiffnesses K of one or two springs. PBUSH: K1, K2, K3 of a CBUSH along its axes, K4, K5, K6 about them; lines of
-   !! damping (B, GE), stress recovery (RCV) and mass (M, which counts) may follow. Stress factors have no effect. Damping of a
-   !! CBUSH is not supported and is an error in a stage with FREQUENCY.
+   !! damping (B, GE) and stress recovery (RCV) may follow. Mass (M) would change the answer and is an error. Stress factors have no
+   !! effect. Damping of a CBUSH is not supported and is an error in a stage with FREQUENCY.
    subroutine read_spring_property(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk

@@ -8,7 +8,7 @@ module vibration_cards
    implicit none
    private
 
-   public :: read_eigrl, read_jampl, read_freq1, read_freq4, read_tabdmp1
+   public :: read_eigrl, read_jampl, read_frequencies, read_tabdmp1
 
    integer, parameter :: most_frequencies = 100000 ! of one FREQ1, and of one mode of a FREQ4
    integer, parameter :: most_amplitudes = 1000    ! of one JAMPL, and increments to one amplitude
@@ -67,44 +67,34 @@ contains
          name//'1, '//real_text(lowest)//'; expected the end of the range')
    end subroutine check_range
 
-   !> FREQ1: the frequencies F1 + k DF, k = 0 to NDF. FREQ2: NF logarithmic intervals from F1 to F2. A set may have several.
-   subroutine read_freq1(card, bulk)
+   !> FREQ1: the frequencies F1 + k DF, k = 0 to NDF. FREQ2: NF logarithmic intervals from F1 to F2. FREQ4: NFM frequencies, an odd
+   !! number so that the natural frequency is one of them, within FSPD of every mode from F1 to F2. A set may have several cards.
+   subroutine read_frequencies(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
 
-      associate (freq1 => bulk%freq1(card%i))
-         call card%field('SID', freq1%set)
-         if (card%name == 'FREQ2') then
-            call card%field('F1', freq1%first, positive)
-            call card%field('F2', freq1%last, positive)
-            call card%field('NF', freq1%n, default=1, most=most_frequencies)
-            call card%finish(freq1%line)
-            call check_range(card, freq1%first, freq1%last, 'F')
-            return
-         end if
-         call card%field('F1', freq1%first, not_negative)
-         call card%field('DF', freq1%step, positive)
-         call card%field('NDF', freq1%n, default=1, most=most_frequencies)
-         call card%finish(freq1%line)
+      associate (range => bulk%frequency(card%i))
+         call card%field('SID', range%set)
+         select case (card%name)
+         case ('FREQ1')
+            call card%field('F1', range%first, not_negative)
+            call card%field('DF', range%step, positive)
+            call card%field('NDF', range%n, default=1, most=most_frequencies)
+         case ('FREQ2')
+            call card%field('F1', range%first, positive)
+            call card%field('F2', range%last, positive)
+            call card%field('NF', range%n, default=1, most=most_frequencies)
+         case default
+            call card%field('F1', range%first, not_negative, default=0.0_wp)
+            call card%field('F2', range%last, positive, default=1.0e20_wp)
+            call card%field('FSPD', range%spread, real_range(0.0_wp, 1.0_wp, above=.true., below=.true.), default=0.1_wp)
+            call card%field('NFM', range%n, default=3, most=most_frequencies)
+            range%n = range%n + modulo(range%n + 1, 2)
+         end select
+         call card%finish(range%line)
+         if (card%name /= 'FREQ1') call check_range(card, range%first, range%last, 'F')
       end associate
-   end subroutine read_freq1
-
-   !> FREQ4: NFM frequencies, an odd number so that the natural frequency is one of them, within FSPD of every mode from F1 to F2.
-   subroutine read_freq4(card, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(bulk_data_type), intent(inout)   :: bulk
-
-      associate (freq4 => bulk%freq4(card%i))
-         call card%field('SID', freq4%set)
-         call card%field('F1', freq4%lowest, not_negative, default=0.0_wp)
-         call card%field('F2', freq4%highest, positive, default=1.0e20_wp)
-         call card%field('FSPD', freq4%spread, real_range(0.0_wp, 1.0_wp, above=.true., below=.true.), default=0.1_wp)
-         call card%field('NFM', freq4%n, default=3, most=most_frequencies)
-         call card%finish(freq4%line)
-         freq4%n = freq4%n + modulo(freq4%n + 1, 2)
-         call check_range(card, freq4%lowest, freq4%highest, 'F')
-      end associate
-   end subroutine read_freq4
+   end subroutine read_frequencies
 
    !> TABDMP1: pairs of frequency and damping, ended by ENDT. TYPE is the kind of damping. A pair with SKIP or with two blank
    !! fields does not count. There must be at least two points, in ascending or descending order; descending points are reversed.
@@ -124,7 +114,7 @@ contains
          call card%blank(['blank', 'blank', 'blank', 'blank', 'blank', 'blank'])
          allocate (table%frequency(0), table%value(0))
          if (card%is_faulty()) return
-         last = list_from
+         last = list_from ! becomes the field of ENDT
          do while (last <= card%n .and. card%text_at(last) /= 'ENDT')
             last = last + 1
          end do

@@ -6,7 +6,7 @@
 module restart_file
    use analysis_state, only: analysis_type, iteration_record, load_state, slip_record
    use bolt_locking, only: lock_again
-   use c_library, only: close_file, is_regular_file, keep_on_disk, read_all_bytes, remove_file
+   use c_library, only: c_fsync, close_file, is_regular_file, read_all_bytes, remove_file
    use case_control, only: no_restart, restart_stages
    use deck_input, only: deck_type
    use deck_text, only: checksum_of
@@ -118,7 +118,7 @@ contains
          call record_analysis(stream, analysis)
          call record_results(stream, run%results)
          call stream%complete(ok)
-         if (ok) call keep_on_disk(descriptor, ok) ! before the older one is replaced: a power failure leaves one of the two
+         if (ok) ok = c_fsync(descriptor) == 0 ! before the older one is replaced: a power failure leaves one of the two
          call close_file(descriptor, closed)
          ok = ok .and. closed
          if (ok) then
