@@ -108,29 +108,26 @@ contains
 
    !> The directions, columns, of the system CID of the card on LINE at the point X; global axes for CID 0. OK is false, with an
    !! error, for a missing system, and on the axis of a cylindrical or spherical one.
-   subroutine find_directions(deck, systems, line, cid, x, directions, ok, field, point)
+   subroutine find_directions(deck, systems, line, cid, x, directions, ok, names)
       type(checked_deck), intent(in)      :: deck
       type(coordinate_system), intent(in) :: systems(:)
       integer, intent(in)                 :: line, cid
       real(wp), intent(in)                :: x(3)      !! global axes [length]
       real(wp), intent(out)               :: directions(3, 3)
       logical, intent(out)                :: ok
-      character(*), intent(in), optional  :: field     !! of the system; default 'CID'
-      character(*), intent(in), optional  :: point     !! the name of the point on the card; default 'the node'
-      character(:), allocatable :: at, name
-      integer :: system
+      character(*), intent(in), optional  :: names(2)  !! of the field and of the point; default 'CID' and 'the node'
+      character(8) :: called(2)
+      integer      :: system
 
-      at = 'CID'
-      if (present(field)) at = field
-      name = 'the node'
-      if (present(point)) name = point
+      called = [character(8) :: 'CID', 'the node']
+      if (present(names)) called = names
       directions = identity
-      call find_system(deck, line, at, cid, systems, system)
+      call find_system(deck, line, trim(called(1)), cid, systems, system)
       ok = system > 0 .or. cid <= 0
       if (system == 0) return
       call directions_at(systems(system), x, directions, ok)
-      if (.not. ok) call deck%field_error(line, at, name//' lies on the axis of system '//integer_text(cid)// &
-                                          ', where its first two directions are not defined')
+      if (.not. ok) call deck%field_error(line, trim(called(1)), trim(called(2))//' lies on the axis of system '// &
+                                          integer_text(cid)//', where its first two directions are not defined')
    end subroutine find_directions
 
    !> The axes, columns, of the rectangular system CID of the card on LINE; global axes for CID 0. Errors: no such system; a system
@@ -166,7 +163,8 @@ contains
             if (grid%cd <= 0) cycle
             node = model%node_table%find(grid%id)
             if (node == 0) cycle
-            call find_directions(deck, model%systems, grid%line, grid%cd, model%x(:, node), directions, ok, 'CD')
+            call find_directions(deck, model%systems, grid%line, grid%cd, model%x(:, node), directions, ok, &
+                                 ['CD      ', 'the node'])
             if (.not. ok) cycle
             if (d == 2 .and. any(abs(directions(3, :2)) > 1.0e-10_wp)) then
                call deck%field_error(grid%line, 'CD', 'the first two directions of the system do not lie in the plane of the '// &

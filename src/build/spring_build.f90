@@ -261,7 +261,7 @@ contains
       ok = nodes(1) > 0 .and. (nodes(2) > 0 .or. card%nodes(2) == 0)
       if (.not. ok) return
       if (card%system > 0) then
-         call find_directions(deck, model%systems, card%line, card%system, model%x(:, nodes(1)), directions, ok, point='GA')
+         call find_directions(deck, model%systems, card%line, card%system, model%x(:, nodes(1)), directions, ok, ['CID', 'GA '])
       else if (card%system < 0 .and. nodes(2) > 0) then
          along = model%x(:, nodes(2)) - model%x(:, nodes(1))
          if (norm2(along) <= 0.0_wp) return

@@ -4,7 +4,7 @@
 module card_fields
    use deck_cards, only: card_type
    use deck_errors, only: deck_error_list
-   use field_rules, only: any_real, component_words, in_range, integer_fault, is_component_list, largest_size, &
+   use field_rules, only: any_real, at_least_1, component_words, in_range, integer_fault, is_component_list, largest_size, &
                           list_of, parse_integer, parse_real, real_fault, real_range, real_words, smallest_size
    use kinds, only: wp
    use text_tools, only: integer_text
@@ -73,16 +73,17 @@ contains
       character(*), intent(in)               :: name !! as in the card manual
       integer, intent(out)                   :: value
       integer, intent(in), optional          :: default, least, most
-      integer :: lowest
+      integer :: bounds(2)
       logical :: is_given, ok
 
       call go_on(self, name, is_given)
-      lowest = 1
-      if (present(least)) lowest = least
+      bounds = at_least_1
+      if (present(least)) bounds(1) = least
+      if (present(most)) bounds(2) = most
       if (present(default) .and. .not. is_given) then
          value = default
       else
-         call self%integer_at(self%k, name, value, ok, lowest, most, or_blank=present(default))
+         call self%integer_at(self%k, name, value, ok, bounds, or_blank=present(default))
       end if
    end subroutine integer_field
 
@@ -275,17 +276,17 @@ contains
       call self%error_at(k, trim(name)//': '''//trim(self%fields(k)%text)//''' '//words)
    end subroutine wrong_entry
 
-   !> The integer in data field K, NAME, from LEAST to MOST. If there is none, VALUE is 0, OK is false, and an error says what was
+   !> The integer in data field K, NAME, within BOUNDS. If there is none, VALUE is 0, OK is false, and an error says what was
    !! EXPECTED. Where this is COMPONENT_WORDS the integer must be a list of components.
-   subroutine integer_at(self, k, name, value, ok, least, most, or_blank, expected)
+   subroutine integer_at(self, k, name, value, ok, bounds, or_blank, expected)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: k
       character(*), intent(in)               :: name
       integer, intent(out)                   :: value
       logical, intent(out)                   :: ok
-      integer, intent(in), optional          :: least, most !! default: any
-      logical, intent(in), optional          :: or_blank    !! the error adds that the field may be blank; default: false
-      character(*), intent(in), optional     :: expected    !! default: LEAST and MOST in words
+      integer, intent(in), optional          :: bounds(2) !! least and most, huge: no most; default: any
+      logical, intent(in), optional          :: or_blank  !! the error adds that the field may be blank; default: false
+      character(*), intent(in), optional     :: expected  !! default: BOUNDS in words
       character(:), allocatable :: words
       logical :: is_integer
 
@@ -293,8 +294,7 @@ contains
       is_integer = .false.
       if (k <= self%n) call parse_integer(self%fields(k)%text(:self%fields(k)%length), value, is_integer)
       ok = is_integer
-      if (present(least)) ok = ok .and. value >= least
-      if (present(most)) ok = ok .and. value <= most
+      if (present(bounds)) ok = ok .and. value >= bounds(1) .and. value <= bounds(2)
       if (present(expected) .and. ok) then
          if (expected == component_words) ok = is_component_list(value)
       end if
@@ -302,10 +302,10 @@ contains
       value = 0
       if (present(expected)) then
          words = expected
-      else if (present(most)) then
-         words = 'an integer from '//integer_text(least)//' to '//integer_text(most)
+      else if (bounds(2) < huge(1)) then
+         words = 'an integer from '//integer_text(bounds(1))//' to '//integer_text(bounds(2))
       else
-         words = 'an integer of '//integer_text(least)//' or more'
+         words = 'an integer of '//integer_text(bounds(1))//' or more'
       end if
       if (present(or_blank)) words = words//trim(merge(', or blank', repeat(' ', 10), or_blank))
       call self%error_at(k, trim(name)//': '//integer_fault(self%text_at(k), is_integer, words))

@@ -26,6 +26,7 @@ module field_rules
       logical  :: above = .false., below = .false. !! LEAST itself is excluded, MOST is excluded
    end type real_range
 
+   integer, parameter, public :: at_least_1(2) = [1, huge(1)] !! bounds of an integer
    type(real_range), parameter, public :: any_real = real_range(), positive = real_range(0.0_wp, above=.true.), &
                                           not_negative = real_range(0.0_wp)
    character(*), parameter, public :: component_words = 'a list of components, different digits of 1 to 6'

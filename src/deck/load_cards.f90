@@ -4,7 +4,7 @@
 module load_cards
    use bulk_data, only: bulk_data_type, of_edge, of_face, of_marks, of_nodes, temperature_card
    use card_fields, only: card_fields_type, id_ranges
-   use field_rules, only: positive
+   use field_rules, only: at_least_1, positive
    use kinds, only: wp
    use text_tools, only: integer_text
    implicit none
@@ -146,7 +146,7 @@ contains
             if (card%text_at(7) /= 'THRU') then ! two corners of a face
                do k = 7, 8
                   if (card%text_at(k) == '') cycle
-                  call card%integer_at(k, trim(merge('G1 ', 'G34', k == 7)), pressure%corners(k - 6), ok, least=1, &
+                  call card%integer_at(k, trim(merge('G1 ', 'G34', k == 7)), pressure%corners(k - 6), ok, bounds=at_least_1, &
                                        expected='a node number or THRU')
                end do
             else if (card%n < 8) then ! the last element of the range that marks faces
@@ -268,7 +268,7 @@ contains
                call card%error_at(k, 'S: a factor S and its load set L go together, one of them is blank')
             else
                call card%real_at(k, 'S', factor, factor_ok)
-               call card%integer_at(k + 1, 'L', set, set_ok, least=1, expected='a load set number of 1 or more')
+               call card%integer_at(k + 1, 'L', set, set_ok, bounds=at_least_1, expected='a load set number of 1 or more')
                if (.not. (factor_ok .and. set_ok)) cycle
                load%factors = [load%factors, factor]
                load%sets = [load%sets, set]

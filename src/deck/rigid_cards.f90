@@ -4,7 +4,7 @@
 module rigid_cards
    use bulk_data, only: bulk_data_type, rigid_card
    use card_fields, only: card_fields_type
-   use field_rules, only: component_words, has_component, parse_integer, positive
+   use field_rules, only: at_least_1, component_words, has_component, parse_integer, positive
    use kinds, only: wp
    implicit none
    private
@@ -221,7 +221,7 @@ contains
       at = 0
       do k = first, last
          if (card%text_at(k) == '') cycle
-         call card%integer_at(k, 'G', node(k), ok, least=1, expected=a_node)
+         call card%integer_at(k, 'G', node(k), ok, bounds=at_least_1, expected=a_node)
          if (ok) at(k) = k
       end do
       rigid%nodes = [rigid%nodes, pack(node, at > 0)]
@@ -260,7 +260,7 @@ contains
                cycle
             end if
             call card%integer_at(k, 'G', node, ok, expected=a_node)
-            call card%integer_at(k + 1, 'C', component, ok, least=1, most=6)
+            call card%integer_at(k + 1, 'C', component, ok, bounds=[1, 6])
             call card%real_at(k + 2, 'A', factor, ok)
             equation%node = [equation%node, node]
             equation%component = [equation%component, component]

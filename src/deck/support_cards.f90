@@ -4,7 +4,7 @@
 module support_cards
    use bulk_data, only: bulk_data_type, displacement_card, set_sum_card, spring_property_card, support_card
    use card_fields, only: card_fields_type
-   use field_rules, only: not_negative
+   use field_rules, only: at_least_1, not_negative
    use kinds, only: wp
    use text_tools, only: integer_text
    implicit none
@@ -55,7 +55,7 @@ contains
       total%at = [2]
       do k = 3, card%n
          if (card%text_at(k) == '') cycle
-         call card%integer_at(k, 'S', set, ok, least=1, expected='the number of '//a_set//', 1 or more')
+         call card%integer_at(k, 'S', set, ok, bounds=at_least_1, expected='the number of '//a_set//', 1 or more')
          total%sets = [total%sets, set]
          total%at = [total%at, k]
       end do

@@ -142,10 +142,10 @@ contains
       call find_excess(model, analysis, excess, total)
       do reanalysis = 1, most_reanalyses
          if (total <= 0.0_wp) return
-         ! the listing has the first re-analyses, and the last one in place of those between
-         if (is_listed) analysis%record%slips = pack(analysis%record%slips, analysis%record%slips%reanalysis <= reanalyses_shown)
          relieved = any(abs(excess) > 0.0_wp, dim=1) .and. (passes < 0 .or. reanalysis <= passes)
          if (.not. any(relieved)) return
+         ! the listing has the first re-analyses, and the last one in place of those between
+         if (is_listed) analysis%record%slips = pack(analysis%record%slips, analysis%record%slips%reanalysis <= reanalyses_shown)
          relief = 0.0_wp
          do i = 1, size(relieved)
             if (.not. relieved(i)) cycle
