@@ -5,9 +5,10 @@ module constraint_equations
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: a_rotation, model_type, node_kind, point_of
-   use node_coupling, only: component_place, couple_node, node_axes
+   use node_coupling, only: couple_node
    use numbers, only: by_rotation, identity
    use text_tools, only: integer_text
+   use unknowns, only: component_place, node_axes
    implicit none
    private
 

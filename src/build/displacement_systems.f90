@@ -7,9 +7,10 @@ module displacement_systems
    use kinds, only: wp
    use lists, only: id_table_type
    use model_data, only: model_type
-   use node_coupling, only: couple_node, rotation_at
+   use node_coupling, only: couple_node
    use numbers, only: identity
    use text_tools, only: integer_text
+   use unknowns, only: rotation_at
    implicit none
    private
 

@@ -7,9 +7,9 @@ module free_structure
    use interface_operator, only: named_node
    use kinds, only: wp
    use model_data, only: a_point, a_rotation, corners_of, is_face_node, model_type, node_kind, place_in_kind, support_group
-   use node_coupling, only: rotation_at
    use numbers, only: cross, first_largest
    use support_build, only: hold
+   use unknowns, only: rotation_at
    implicit none
    private
 

@@ -10,13 +10,14 @@ module load_build
    use field_rules, only: has_component
    use kinds, only: wp
    use model_data, only: model_type, stage_load_type, supported, surface_type
-   use node_coupling, only: coupling_parts, add_section_share, node_axes, place_of_component, rotation_at, rotation_component
+   use node_coupling, only: coupling_parts, add_section_share
    use numbers, only: cross, identity
    use pressure_loads, only: add_pressure, find_pressed_sides, pressed_side
    use support_build, only: check_kept, keep_moved, move
    use surface_build, only: find_surface, side_influence
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
+   use unknowns, only: node_axes, place_of_component, rotation_at, rotation_component
    implicit none
    private
 

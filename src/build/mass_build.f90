@@ -4,8 +4,8 @@ module mass_build
    use displacement_systems, only: find_directions, find_system
    use kinds, only: wp
    use model_data, only: model_type, n_bars
-   use node_coupling, only: component_place, node_axes, place_of_component, rotation_at
    use text_tools, only: integer_text
+   use unknowns, only: component_place, node_axes, place_of_component, rotation_at
    implicit none
    private
 

@@ -8,12 +8,12 @@ module rigid_elements
    use field_rules, only: has_component
    use kinds, only: wp
    use model_data, only: model_type, n_rotations
-   use node_coupling, only: component_place, node_axes, place_of_component, rotation_at, third_axis
    use numbers, only: by_rotation
    use shell_ties, only: add_ties, tie_type
    use support_build, only: check_sums, summed_sets
    use surface_build, only: find_surface, surface_node_list, surface_nodes
    use text_tools, only: integer_text
+   use unknowns, only: component_place, node_axes, place_of_component, rotation_at, third_axis
    implicit none
    private
 

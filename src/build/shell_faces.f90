@@ -9,10 +9,11 @@ module shell_faces
    use kinds, only: wp
    use model_data, only: corners_of, face_node_type, is_shell, model_type, surface_type
    use node_build, only: append_nodes
-   use node_coupling, only: couple_node, third_axis, transformation, unknown_nodes
+   use node_coupling, only: couple_node, transformation, unknown_nodes
    use numbers, only: by_rotation, cross
    use shell_membrane, only: shell_frame, shell_frame_of
    use text_tools, only: integer_text
+   use unknowns, only: third_axis
    implicit none
    private
 

@@ -11,11 +11,11 @@ module shell_ties
    use face_overlap, only: face_frame, find_point, in_frame, make_frame, map_point, seen_face
    use kinds, only: wp
    use model_data, only: corners_of, is_shell, model_type, surface_type
-   use node_coupling, only: component_place, node_axes, place_of_component
    use numbers, only: identity
    use shell_membrane, only: shell_frame, shell_frame_of
    use surface_build, only: find_surface
    use text_tools, only: integer_text, real_text
+   use unknowns, only: component_place, node_axes, place_of_component
    implicit none
    private
 

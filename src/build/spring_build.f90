@@ -7,10 +7,10 @@ module spring_build
    use kinds, only: wp
    use model_data, only: a_spring, bar_type, model_type
    use node_build, only: find_nodes
-   use node_coupling, only: node_axes, rotation_at
    use numbers, only: cross, identity
    use structural_build, only: is_beam_edge
    use text_tools, only: integer_text
+   use unknowns, only: node_axes, rotation_at
    implicit none
    private
 

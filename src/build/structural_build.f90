@@ -10,9 +10,9 @@ module structural_build
    use lists, only: id_table_type
    use model_data, only: corners_of, is_beam, is_shell, model_type, n_rotations, rotation_type
    use node_build, only: append_unknowns
-   use node_coupling, only: node_axes
    use shell_membrane, only: shell_law
    use text_tools, only: integer_text
+   use unknowns, only: node_axes
    implicit none
    private
 

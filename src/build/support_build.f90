@@ -9,10 +9,10 @@ module support_build
    use kinds, only: wp
    use lists, only: first_not_below
    use model_data, only: is_face_node, model_type, n_bars, n_points, stage_load_type, support_group
-   use node_coupling, only: component_place, place_of_component
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
+   use unknowns, only: component_place, place_of_component
    implicit none
    private
 

@@ -9,11 +9,12 @@ module mass_matrix
    use kinds, only: wp
    use lists, only: list_owners
    use model_data, only: bar_nodes, corners_of, is_beam, is_shell, model_type, n_bars, n_points, own_nodes, point_mass_type
-   use node_coupling, only: between_unknowns, extend_stiffness, participating_nodes, onto_unknowns, rotation_at, section_node, &
+   use node_coupling, only: between_unknowns, extend_stiffness, participating_nodes, onto_unknowns, section_node, &
                             unknown_nodes
    use numbers, only: identity
    use shell_element, only: shell_products
    use structural_elements, only: between_own
+   use unknowns, only: rotation_at
    implicit none
    private
 

@@ -1,4 +1,4 @@
-!> Coupling of nodal displacements with the unknowns of the equations, and places of nodal components 1 to 6.
+!> Coupling of nodal displacements with the unknowns of the equations.
 !! An ordinary node has its own unknowns, its displacements in global axes. The displacements of a coupled node are a sum over
 !! parts, {u} = sum of [T] {q}, with the unknowns q of the node or of other nodes. A node with a displacement system CD has one
 !! part: its own unknowns along the directions of the system. Elements, loads, interface elements and results use displacements;
@@ -9,7 +9,6 @@
 !! Pretension sections: the corners of an element behind a section include the overlap g of the section, {u_e} = [T] {u, g}. The
 !! unknown g is component 1 of the node of the section.
 module node_coupling
-   use coordinate_systems, only: directions_at
    use element_kinds, only: element_table
    use interface_operator, only: interface_element
    use kinds, only: wp
@@ -20,15 +19,7 @@ module node_coupling
 
    public :: is_coupled, couple_node, unknown_nodes, transformation, onto_unknowns, between_unknowns, displacements, &
              displacements_at, forces_on_unknowns, held_forces, list_on_unknowns, section_node, participating_nodes, &
-             coupled_nodes, corner_displacements, extend_stiffness, add_section_share, coupling_parts, rotation_at, &
-             rotation_component, node_axes, place_of_component, third_axis
-
-   !> The place of a nodal component among the unknowns: component D of NODE, times SCALE.
-   type, public :: component_place
-      integer  :: node = 0       !! 0: the component does not exist
-      integer  :: d = 0
-      real(wp) :: scale = 1.0_wp !! the stored displacement by the component: 1, for a rotation its arm
-   end type component_place
+             coupled_nodes, corner_displacements, extend_stiffness, add_section_share, coupling_parts
 
 contains
 
@@ -363,64 +354,5 @@ contains
          end do
       end associate
    end subroutine add_section_share
-
-   !> The position of POINT in the rotations of MODEL; 0: it has none.
-   pure integer function rotation_at(model, point) result(rotation)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: point
-
-      rotation = 0
-      if (.not. allocated(model%rotation_of)) return
-      if (point <= size(model%rotation_of)) rotation = model%rotation_of(point)
-   end function rotation_at
-
-   !> The position of rotation DIGIT, 4 to 6 in NASTRAN, among the components of a node of rotations; 0: it does not exist in the
-   !! plane.
-   pure integer function rotation_component(model, digit) result(d)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: digit
-
-      d = digit - 3
-      if (model%dimension == 2) d = merge(1, 0, digit == 6)
-   end function rotation_component
-
-   !> The place of component DIGIT, 1 to 6, of POINT.
-   pure function place_of_component(model, point, digit) result(place)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: point, digit
-      type(component_place) :: place
-      integer :: rotation
-
-      if (digit <= 3) then
-         if (digit <= model%dimension) place = component_place(point, digit, 1.0_wp)
-         return
-      end if
-      rotation = rotation_at(model, point)
-      if (rotation == 0 .or. rotation_component(model, digit) == 0) return
-      place = component_place(model%rotations(rotation)%node, rotation_component(model, digit), model%rotations(rotation)%arm)
-      if (model%dimension == 2) place%scale = place%scale*sum(third_axis(model, point)) ! the z axis of the node may point along -z
-   end function place_of_component
-
-   !> The third direction of NODE of a plane model, along z or -z.
-   pure function third_axis(model, node) result(axis)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      real(wp) :: axis(3), axes(3, 3)
-
-      axes = node_axes(model, node)
-      axis = [0.0_wp, 0.0_wp, sign(1.0_wp, axes(3, 3))]
-   end function third_axis
-
-   !> The directions of the components of NODE in global axes, columns: those of its system CD.
-   pure function node_axes(model, node) result(axes)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      real(wp) :: axes(3, 3)
-      logical  :: ok
-
-      axes = identity
-      if (.not. allocated(model%node_system)) return
-      if (model%node_system(node) > 0) call directions_at(model%systems(model%node_system(node)), model%x(:, node), axes, ok)
-   end function node_axes
 
 end module node_coupling

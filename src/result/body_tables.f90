@@ -11,12 +11,13 @@ module body_tables
    use kinds, only: wp
    use model_data, only: a_point, corners_of, has_second_order, is_beam, is_shell, model_type, n_bars, &
                          n_points, n_rotations, node_kind, supported
-   use node_coupling, only: held_forces, node_axes
+   use node_coupling, only: held_forces
    use result_page, only: page_type, shows
    use stage_entries, only: output_request
    use structural_results, only: list_beams, list_shells
    use table_writer, only: axes, column, heading, in_units, noise, table_type
    use text_tools, only: clean, integer_text, upper
+   use unknowns, only: node_axes
    implicit none
    private
 

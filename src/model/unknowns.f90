@@ -1,16 +1,24 @@
-!> The unknowns of a node: their names in messages, and their values in a rigid-body motion. The unknowns of a point are its
-!! displacements, along global axes or along its system CD. Those of a node of rotations are the rotation times its arm. A
-!! pretension section does not open in a rigid-body motion.
+!> The unknowns of a node: their places among components 1 to 6, their names in messages, their values in a rigid-body motion.
+!! The unknowns of a point are its displacements, along global axes or along its system CD. Those of a node of rotations are the
+!! rotation times its arm. A pretension section does not open in a rigid-body motion.
 module unknowns
+   use coordinate_systems, only: directions_at
    use kinds, only: wp
    use model_data, only: a_point, a_rotation, an_overlap, model_type, node_kind, place_in_kind
-   use node_coupling, only: node_axes, rotation_component
-   use numbers, only: cross
+   use numbers, only: cross, identity
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: what_is_loose, unknown_name, n_motions, motions_of, motions_at
+   public :: what_is_loose, unknown_name, n_motions, motions_of, motions_at, rotation_at, rotation_component, &
+             place_of_component, node_axes, third_axis
+
+   !> The place of a nodal component among the unknowns: component D of NODE, times SCALE.
+   type, public :: component_place
+      integer  :: node = 0       !! 0: the component does not exist
+      integer  :: d = 0
+      real(wp) :: scale = 1.0_wp !! the stored displacement by the component: 1, for a rotation its arm
+   end type component_place
 
 contains
 
@@ -118,5 +126,64 @@ contains
          end associate
       end select
    end function motions_of
+
+   !> The position of POINT in the rotations of MODEL; 0: it has none.
+   pure integer function rotation_at(model, point) result(rotation)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: point
+
+      rotation = 0
+      if (.not. allocated(model%rotation_of)) return
+      if (point <= size(model%rotation_of)) rotation = model%rotation_of(point)
+   end function rotation_at
+
+   !> The position of rotation DIGIT, 4 to 6 in NASTRAN, among the components of a node of rotations; 0: it does not exist in the
+   !! plane.
+   pure integer function rotation_component(model, digit) result(d)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: digit
+
+      d = digit - 3
+      if (model%dimension == 2) d = merge(1, 0, digit == 6)
+   end function rotation_component
+
+   !> The place of component DIGIT, 1 to 6, of POINT.
+   pure function place_of_component(model, point, digit) result(place)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: point, digit
+      type(component_place) :: place
+      integer :: rotation
+
+      if (digit <= 3) then
+         if (digit <= model%dimension) place = component_place(point, digit, 1.0_wp)
+         return
+      end if
+      rotation = rotation_at(model, point)
+      if (rotation == 0 .or. rotation_component(model, digit) == 0) return
+      place = component_place(model%rotations(rotation)%node, rotation_component(model, digit), model%rotations(rotation)%arm)
+      if (model%dimension == 2) place%scale = place%scale*sum(third_axis(model, point)) ! the z axis of the node may point along -z
+   end function place_of_component
+
+   !> The third direction of NODE of a plane model, along z or -z.
+   pure function third_axis(model, node) result(axis)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      real(wp) :: axis(3), axes(3, 3)
+
+      axes = node_axes(model, node)
+      axis = [0.0_wp, 0.0_wp, sign(1.0_wp, axes(3, 3))]
+   end function third_axis
+
+   !> The directions of the components of NODE in global axes, columns: those of its system CD.
+   pure function node_axes(model, node) result(axes)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      real(wp) :: axes(3, 3)
+      logical  :: ok
+
+      axes = identity
+      if (.not. allocated(model%node_system)) return
+      if (model%node_system(node) > 0) call directions_at(model%systems(model%node_system(node)), model%x(:, node), axes, ok)
+   end function node_axes
 
 end module unknowns
