@@ -17,8 +17,8 @@ module analysis_state
    implicit none
    private
 
-   public :: start_analysis, all_held, interface_stiffness, find_movements, subtract_joint_forces, element_force, tally_work, &
-             record_iteration, note_largest, free_norm, force_noise, note_turns
+   public :: start_analysis, all_held, interface_stiffness, find_movements, find_unbalanced, subtract_joint_forces, element_force, &
+             tally_work, record_iteration, note_largest, free_norm, force_noise, note_turns
 
    real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: the largest rounding error of forces that joints balance
 
@@ -211,8 +211,7 @@ contains
          end associate
       end do
       call note_turns(analysis)
-      analysis%unbalanced = analysis%now%condensed_load - analysis%body
-      call subtract_joint_forces(system%interface, analysis%states, analysis%unbalanced)
+      call find_unbalanced(system, analysis)
    end subroutine interface_stiffness
 
    !> Note the shear branches that began with the last movement. A branch begins at the point before the movement.
@@ -240,6 +239,15 @@ contains
          analysis%movement(:, i) = joint_movement(system%interface(i), analysis%u)
       end do
    end subroutine find_movements
+
+   !> The unbalanced forces of the increment: load minus the forces in bodies and joints on retained nodes.
+   subroutine find_unbalanced(system, analysis)
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(inout) :: analysis
+
+      analysis%unbalanced = analysis%now%condensed_load - analysis%body
+      call subtract_joint_forces(system%interface, analysis%states, analysis%unbalanced)
+   end subroutine find_unbalanced
 
    !> Force of an interface ELEMENT in this STATE on its end 2 or the base, in global axes [force].
    pure function element_force(element, state) result(force)

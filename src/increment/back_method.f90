@@ -9,8 +9,8 @@
 !!       |                *
 !!     0 *---*----*------------------ lambda
 module back_method
-   use analysis_state, only: analysis_type, find_movements, force_noise, no_stiffness, iteration_record, record_iteration, &
-                             secant_stiffness, subtract_joint_forces, tally_work
+   use analysis_state, only: analysis_type, find_movements, find_unbalanced, force_noise, no_stiffness, iteration_record, &
+                             record_iteration, secant_stiffness, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
@@ -102,8 +102,7 @@ contains
       call store(model, k, deflection, analysis)
       call forces_in_bodies(system, analysis%u, analysis%body)
       call find_movements(system, analysis)
-      analysis%unbalanced = analysis%now%condensed_load - analysis%body
-      call subtract_joint_forces(system%interface, analysis%states, analysis%unbalanced)
+      call find_unbalanced(system, analysis)
    end subroutine back_increment
 
    !> Store the states of the elements from the last solution, with the secants K and the DEFLECTIONS.

@@ -4,7 +4,7 @@
 module unknowns
    use coordinate_systems, only: directions_at
    use kinds, only: wp
-   use model_data, only: a_point, a_rotation, an_overlap, model_type, node_kind, place_in_kind
+   use model_data, only: a_point, a_rotation, an_overlap, model_type, node_kind, place_in_kind, point_of
    use numbers, only: cross, identity
    use text_tools, only: integer_text
    implicit none
@@ -64,8 +64,7 @@ contains
          return
       end if
       is_rotation = node_kind(model, node) == a_rotation
-      point = node
-      if (is_rotation) point = model%rotations(place_in_kind(model, node))%point
+      point = point_of(model, node)
       owner = 'node '//integer_text(model%node_id(point))
       system = 0
       if (allocated(model%node_system)) system = model%node_system(point)
@@ -116,12 +115,11 @@ contains
          axes = node_axes(model, node)
          q = matmul(transpose(axes(:d, :d)), motions_at(model%x(:d, node)))
       case (a_rotation)
-         associate (point => model%rotations(place_in_kind(model, node))%point, &
-                    arm => model%rotations(place_in_kind(model, node))%arm)
+         associate (arm => model%rotations(place_in_kind(model, node))%arm)
             if (d == 2) then
                q(rotation_component(model, 6), 3) = arm ! about z, whatever the system CD
             else
-               q(:, 4:) = arm*transpose(node_axes(model, point))
+               q(:, 4:) = arm*transpose(node_axes(model, point_of(model, node)))
             end if
          end associate
       end select
