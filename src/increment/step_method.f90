@@ -23,8 +23,7 @@ module step_method
 
 contains
 
-   !> [k_s] = sum [k_b] + sum [k_int], ready to solve. A singular matrix is a failure, unless open gaps leave bodies loose: then
-   !! this increment is iterated across the gaps.
+   !> [k_s] = sum [k_b] + sum [k_int], ready to solve.
    subroutine structure_stiffness(model, plan, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
@@ -39,9 +38,19 @@ contains
       call form_structure_stiffness(model, stiffness_matrices(analysis%k), where_in_plan(plan, analysis%stage, &
                                     analysis%increment), system, trouble, &
                                     one_solution=.not. any(model%joints%law%has_friction))
+      call decide_on(trouble, analysis, failure)
+   end subroutine structure_stiffness
+
+   !> TROUBLE with the stiffness is a failure, unless open gaps leave bodies loose: then this increment is iterated across the
+   !! gaps.
+   subroutine decide_on(trouble, analysis, failure)
+      type(failure_type), intent(in)     :: trouble
+      type(analysis_type), intent(inout) :: analysis
+      type(failure_type), intent(inout)  :: failure
+
       analysis%crosses_gaps = trouble%raised .and. any(is_apart(analysis%states))
       if (trouble%raised .and. .not. analysis%crosses_gaps) failure = trouble
-   end subroutine structure_stiffness
+   end subroutine decide_on
 
    !> {du} from [k_s] {du} = {dF}; across gaps by NEWTON, to equilibrium, with nothing to accumulate.
    subroutine solve_increment(model, plan, system, analysis, failure)
@@ -55,8 +64,7 @@ contains
       if (failure%raised) return
       if (.not. analysis%crosses_gaps) then
          call solve_equations(model, system, analysis%change, analysis%du, trouble, moved=analysis%move)
-         analysis%crosses_gaps = trouble%raised .and. any(is_apart(analysis%states))
-         if (trouble%raised .and. .not. analysis%crosses_gaps) failure = trouble
+         call decide_on(trouble, analysis, failure)
       end if
       if (.not. analysis%crosses_gaps) return
       call newton_increment(model, plan, analysis, system, failure)

@@ -7,7 +7,7 @@ module joint_tables
    use model_data, only: joint_node_id, joint_type, model_type
    use normal_curve, only: loading_deflection
    use normal_stiffness, only: branch_name, branch_open, branch_reload, branch_unload, force_reached
-   use result_page, only: joint_table, page_type, shows
+   use result_page, only: has_gaps, joint_table, page_type, shows
    use shear_stiffness, only: branch_shift, curve_deflection
    use stage_entries, only: output_request
    use table_writer, only: axes, column, column_type, heading, noise, page_width, table_type
@@ -34,7 +34,7 @@ contains
       integer  :: i, k, same
       logical  :: gaps, slides
 
-      gaps = any(model%joints%gap_kind /= '')
+      gaps = has_gaps(model)
       slides = any(model%joints%law%has_friction)
       call line%add([page%stage_id, analysis%increment], clean([analysis%fraction]))
       same = line%length                  ! the columns that all rows share
@@ -123,7 +123,7 @@ contains
          case (of_stiffness)
             columns = [column([character(6) :: 'LAMBDA', 'C P**M'], 'es13.5', labels%length), &
                        column('K_N, USED', 'es13.5', labels%stiffness(:12)), &
-                       column(['CLOSING', 'GAP    '], 'es13.5', labels%length, is_listed=any(model%joints%gap_kind /= '')), &
+                       column(['CLOSING', 'GAP    '], 'es13.5', labels%length, is_listed=has_gaps(model)), &
                        column('KIND', 'a9')]
          case (of_removed)
             columns = [column([character(13) :: 'SIGMAF', 'SUMF, DECIDED'], ['es13.5', 'es15.5'], labels%force), &

@@ -18,7 +18,7 @@ module listing_opening
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
    use output_file, only: output_file_type
    use range_watch, only: tetra_words
-   use result_page, only: page_type
+   use result_page, only: has_gaps, page_type
    use shear_loops, only: loop_closure, worst_closure
    use shear_stiffness, only: cubic_of
    use stage_plan, only: stage_plan_type
@@ -330,7 +330,7 @@ contains
       end do
 
       ! initial gaps
-      if (all(model%joints%gap_kind == '')) return
+      if (.not. has_gaps(model)) return
       call table%start('INITIAL GAPS, NEGATIVE: INTERFERENCE', &
                        [column('JOINT', 'i11'), column('GIVEN BY', 'a10'), column(['SMALLEST', 'LARGEST '], 'es15.5', &
                         page%labels%length), column(['OPEN   ', 'PRESSED'], 'i9')], page%file)

@@ -8,7 +8,7 @@ module result_page
    implicit none
    private
 
-   public :: set_labels, shows, table_columns
+   public :: set_labels, shows, has_gaps, table_columns
 
    character(1), parameter, public :: xyz(3) = ['x', 'y', 'z']
 
@@ -67,6 +67,13 @@ contains
       if (allocated(page%shown)) shows = any(page%shown(nodes))
    end function shows
 
+   !> Whether the deck gives the initial gap of any joint.
+   pure logical function has_gaps(model)
+      type(model_type), intent(in) :: model
+
+      has_gaps = any(model%joints%gap_kind /= '')
+   end function has_gaps
+
    !> The columns of one of the tables with a CSV file. Of a plane model the listing shows components in the plane and moments
    !! about z only.
    function table_columns(table, labels, model) result(columns)
@@ -85,7 +92,7 @@ contains
          columns = csv([character(9) :: 'stage', 'increment', 'load', 'joint', 'element', 'node1', 'node2', xyz, 'area', 'branch', &
             'lambda', 'pressure', 'force', 'k_n', 'branch_x', 'delta_x', 'tau_x', 'k_sx', 'branch_y', 'delta_y', 'tau_y', 'k_sy', &
             'slip'])
-         if (any(model%joints%gap_kind /= '')) columns = [columns, csv('gap')]
+         if (has_gaps(model)) columns = [columns, csv('gap')]
          if (any(model%joints%law%has_friction)) columns = [columns, csv(['slid_x', 'slid_y'])]
       case (stage_table) ! for each joint: peaks of the bodies, contact, forces, movement, stiffness; percent in the listing only
          columns = [csv('stage'), column('JOINT', 'i11', name='joint'), &

@@ -305,8 +305,7 @@ contains
             else
                call bars%add([analysis%increment, bar%bolt], where=[.true., bar%bolt > 0])
                call bars%add([bar%id, model%node_id(bar%nodes)], values)
-               if (bar%bolt > 0) call bars%add(merge(' LOCKED   ', merge(' TIGHTENED', '          ', &
-                                                     bar%stage == analysis%stage), analysis%is_elastic(i)))
+               if (bar%bolt > 0) call bars%add(state_of_bolt(bar%stage == analysis%stage, analysis%is_elastic(i)))
                call bars%keep_row()
             end if
          end associate
@@ -331,11 +330,20 @@ contains
             call table%add([analysis%increment, section%bolt, section%surface])
             call table%skip(1)
             call table%add(clean([section_tension(model, analysis, i), overlap_now(model, analysis, i)], floors))
-            call table%add(merge(' LOCKED   ', merge(' TIGHTENED', '          ', section%stage == analysis%stage), &
-                                 analysis%is_locked(i)))
+            call table%add(state_of_bolt(section%stage == analysis%stage, analysis%is_locked(i)))
             call table%keep_row()
          end associate
       end do
    end subroutine note_sections
+
+   !> The word behind the forces of a bolt.
+   pure function state_of_bolt(is_tightened, is_locked) result(word)
+      logical, intent(in) :: is_tightened, is_locked
+      character(10) :: word
+
+      word = ''
+      if (is_tightened) word = ' TIGHTENED'
+      if (is_locked) word = ' LOCKED'
+   end function state_of_bolt
 
 end module stage_tables
