@@ -111,7 +111,9 @@ contains
             associate (first => parts_at(model, i, 1), parts => parts_at(model, i, side))
                do k = 1, size(parts)
                   this = [first(1), parts(k), model%interface(i)%joint, side]
-                  if (all(this == pair(:, max(n, 1)))) cycle
+                  if (n > 0) then
+                     if (all(this == pair(:, n))) cycle
+                  end if
                   if (n == size(pair, 2)) pair = reshape([pair, pair], [4, 2*n])
                   n = n + 1
                   pair(:, n) = this

@@ -163,6 +163,7 @@ contains
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
       character(:), allocatable :: words
+      character(len(others))    :: kinds ! of cards
       logical :: held(model%dimension)
       integer :: d, i, k, node, s
 
@@ -221,9 +222,9 @@ contains
                end if
             end do
             if (.not. has_set(deck%bulk, card%set)) cycle
-            words = others
-            if (any(deck%bulk%force%set == card%set)) words = 'FORCE'
-            call deck%field_error(card%line, 'SID', 'set '//integer_text(card%set)//' is that of a '//words// &
+            kinds = others
+            if (any(deck%bulk%force%set == card%set)) kinds = 'FORCE'
+            call deck%field_error(card%line, 'SID', 'set '//integer_text(card%set)//' is that of a '//trim(kinds)// &
                                   ' too: case control is ambiguous')
          end associate
       end do

@@ -202,12 +202,14 @@ contains
       type(element_card), intent(in) :: cards(:)
       real(wp) :: centroid(3), extent, total
       integer  :: k, n, s
+      integer, allocatable :: nodes(:)
 
       centroid = 0.0_wp
       total = 0.0_wp
       do s = 1, size(cards)
          n = merge(2, element_table(max(1, cards(s)%kind))%n_corners, cards(s)%kind <= 0) ! corners
-         associate (p => model%x(:, nodes_on(model, cards(s), n)))
+         nodes = nodes_on(model, cards(s), n)
+         associate (p => model%x(:, nodes))
             n = size(p, 2)
             if (n == 2) then
                extent = norm2(p(:, 2) - p(:, 1))

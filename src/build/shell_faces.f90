@@ -94,7 +94,7 @@ contains
          associate (corners => corners_of(model, surface%element(s)), &
                     law => model%structural%shells(model%structural%place(surface%element(s))))
             frame = shell_frame_of(model%x(:, corners), law%offset)
-            side = sign(0.5_wp, dot_product(frame%axes(:, 3), cross(model%x(:, nodes(min(2, c))) - model%x(:, nodes(1)), &
+            side = sign(0.5_wp, dot_product(frame%axes(:, 3), cross(model%x(:, nodes(2)) - model%x(:, nodes(1)), &
                                                                      model%x(:, nodes(c)) - model%x(:, nodes(1)))))
             do i = 1, c
                associate (t => law%thickness(findloc(corners, nodes(i), dim=1)))

@@ -165,13 +165,14 @@ contains
       class(deck_text_type), intent(in) :: self
       integer, intent(in)               :: i
       character(:), allocatable         :: words
+      integer :: part
 
       if (i == 0) then
          words = self%files(1)%path
       else
-         associate (part => self%parts(self%part_of(i)))
-            words = self%files(part%file)%path//', line '//integer_text(part%number + i - part%first)
-         end associate
+         part = self%part_of(i)
+         words = self%files(self%parts(part)%file)%path//', line '// &
+                 integer_text(self%parts(part)%number + i - self%parts(part)%first)
       end if
    end function place
 

@@ -177,7 +177,9 @@ contains
       real(wp) :: diagonal(size(m, 1)), total
       integer  :: i
 
-      diagonal = [(m(i, i), i = 1, size(m, 1))]
+      do i = 1, size(m, 1)
+         diagonal(i) = m(i, i)
+      end do
       total = sum(m)
       m = 0.0_wp
       do i = 1, size(m, 1)

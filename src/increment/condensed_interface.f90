@@ -101,7 +101,7 @@ contains
             end do
          end do
       end do
-      gone = pack([(i, i = 1, system%n)], is_open)
+      allocate (gone, source=pack([(i, i = 1, system%n)], is_open))
    end subroutine find_unknowns
 
 end module condensed_interface

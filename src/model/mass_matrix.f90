@@ -49,10 +49,10 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(inout)      :: m(:, :) !! (nodes, nodes), set here
-      integer :: i
+      integer :: i, n
 
-      associate (corners => corners_of(model, e), n => element_table(model%element_kind(e))%n_nodes, &
-                 property => model%properties(model%element_property(e)))
+      n = element_table(model%element_kind(e))%n_nodes
+      associate (corners => corners_of(model, e), property => model%properties(model%element_property(e)))
          if (is_shell(model, e)) then
             associate (x => model%x(:, corners), t => model%structural%shells(model%structural%place(e))%thickness)
                m(:2*n, :2*n) = 0.0_wp

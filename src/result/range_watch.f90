@@ -120,7 +120,8 @@ contains
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
-      character(:), allocatable :: words
+      character(:), allocatable :: head
+      character(60) :: words
       real(wp) :: excess, limit, unbalanced
       integer  :: i, j, which
 
@@ -128,11 +129,16 @@ contains
          do which = beyond_p, no_slope
             associate (tally => watch%tallies(which, j))
                if (tally%n == 0) cycle
-               words = 'WITHOUT A POSITIVE SLOPE'
-               if (which == beyond_p) words = 'BEYOND P = '//real_text(tally%bound)
-               if (which == beyond_d) words = 'BEYOND D = '//real_text(tally%bound)
+               select case (which)
+               case (beyond_p)
+                  words = 'BEYOND P = '//real_text(tally%bound)
+               case (beyond_d)
+                  words = 'BEYOND D = '//real_text(tally%bound)
+               case default
+                  words = 'WITHOUT A POSITIVE SLOPE'
+               end select
                call warn(watch, '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', '//page%stage//': '// &
-                  upper(plural(tally%n, 'element'))//' '//words//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)// &
+                  upper(plural(tally%n, 'element'))//' '//trim(words)//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)// &
                   ' (INCREMENT '//integer_text(tally%increment)//'),', &
                   ' WORST '//integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d))
             end associate
@@ -141,11 +147,11 @@ contains
       watch%tallies = tally_type()
 
       ! what remains unbalanced, or above a limit
-      words = '  WARNING: '//upper(page%place)//': '
+      head = '  WARNING: '//upper(page%place)//': '
       unbalanced = free_norm(analysis%unbalanced, analysis%held)
-      if (unbalanced > much*page%largest_force) call warn(watch, words//real_text(unbalanced)// &
+      if (unbalanced > much*page%largest_force) call warn(watch, head//real_text(unbalanced)// &
          ' OF FORCE REMAIN UNBALANCED BY REMOVED ELEMENTS: SEE CARRY = YES, METHOD = NEWTON')
-      if (.not. analysis%record%is_settled) call warn(watch, words//'THE SECANTS HAVE NOT CONVERGED IN '// &
+      if (.not. analysis%record%is_settled) call warn(watch, head//'THE SECANTS HAVE NOT CONVERGED IN '// &
          integer_text(analysis%record%n_iterations)//' ITERATIONS; THE RESULTS ARE THOSE OF THE LAST: SEE AVERAGE = YES')
       excess = 0.0_wp
       limit = 0.0_wp
@@ -156,7 +162,7 @@ contains
          end associate
       end do
       if (excess > much*limit .and. excess > 0.0_wp) &
-         call warn(watch, words//'FRICTION LIMITS ARE STILL EXCEEDED BY '//real_text(excess)//' IN ALL: SEE NREAN')
+         call warn(watch, head//'FRICTION LIMITS ARE STILL EXCEEDED BY '//real_text(excess)//' IN ALL: SEE NREAN')
    end subroutine watch_stage
 
    !> The warning for a model whose bodies are of linear tetrahedra only; otherwise empty.

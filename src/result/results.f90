@@ -175,8 +175,8 @@ contains
       type(analysis_type), intent(in)   :: analysis
       type(results_type), intent(inout) :: results
       type(failure_type), intent(inout) :: failure
-      type(stage_answer_type) :: answer
-      type(reactions_type)    :: reactions
+      type(stage_answer_type), allocatable :: answer ! on the heap: the compiler warns of its bounds where it is a local variable
+      type(reactions_type) :: reactions
       character(:), allocatable :: fault, title
       integer :: before, i
 
@@ -196,6 +196,7 @@ contains
             call results%stage_tables(i)%print_kept(page%file)
          end do
          call list_energy(page, model, analysis)
+         allocate (answer)
          call find_answer(model, analysis, results%method, page%largest_force, results%bolts, answer)
          fault = fault_of_answer(model, answer)
          if (fault /= '') call failure%raise(page%place//': '//fault// &

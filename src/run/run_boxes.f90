@@ -85,7 +85,7 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       type(oscillating_type) :: structure
       type(spectrum_type)    :: spectrum
-      type(modes_type)       :: modes
+      type(modes_type), allocatable :: modes ! on the heap: the compiler warns of its bounds where it is a local variable
       type(response_type)    :: response
       type(backbone_type)    :: found
       class(equation_system), allocatable :: shifted
@@ -97,6 +97,7 @@ contains
          run%failure%message = where_in_plan(plan, analysis%stage, analysis%increment)//': '//run%failure%message
          return
       end if
+      allocate (modes)
       call evaluate_modes(model, analysis, structure, wanted, spectrum, shifted, modes)
       if (allocated(wanted%backbone)) then
          call enter(run, phase_backbone)

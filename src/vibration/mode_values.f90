@@ -119,7 +119,7 @@ contains
          integer  :: c, n
 
          v = row
-         v(1) = v(1) + sign(norm2(row), row(1))
+         v(1) = row(1) + sign(norm2(row), row(1))
          v = v/norm2(v)
          do n = 1, size(participation, 1)
             along = dot_product(v, participation(n, next:last))
