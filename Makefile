@@ -4,8 +4,11 @@ FC        ?= gfortran
 ifeq ($(origin FC),default)
 FC         = gfortran
 endif
-# a `make` without -j builds on all cores
-ifeq ($(filter -j%,$(MAKEFLAGS)),)
+# A `make` without -j builds on all cores. GNU make 4.3 does not show -j in MAKEFLAGS while it reads this file, so that the command line
+# is asked, and the MAKEFLAGS of a make that has started this one.
+JOBS_ASKED := $(shell { tr '\0' '\n' < /proc/$$PPID/cmdline; printf '%s\n' $$MAKEFLAGS; } | \
+                grep -E -e '^(-[A-Za-z]*j|--jobs)' -e '^[a-zA-Z]*j[0-9]*$$' -m 1)
+ifeq ($(JOBS_ASKED)$(filter -j%,$(MAKEFLAGS)),)
 MAKEFLAGS += -j$(shell nproc)
 endif
 
@@ -63,6 +66,8 @@ help:
 	@echo 'make pairs N=5000 SEED=7  decks in which every pair of features meets: other solver, renumbered, mirrored, turned, other units'
 	@echo 'make clean'
 
+include tests/runner/compile.mk
+
 # The program, optimised and with run-time checks -----------------------------------------------------------------
 
 $(BIN)/jointfem: src/jointfem.f90 $(RELEASE_OBJECTS)
@@ -113,25 +118,22 @@ $(RELEASE_STAMP) $(CHECKED_STAMP):
 
 $(BUILD)/release/%.o: %.f90 $(RELEASE_STAMP)
 	@mkdir -p $(@D)
-	$(FC) $(FFLAGS_RELEASE) -J$(@D) -c -o $@ $<
+	$(call compile,$(FC) $(FFLAGS_RELEASE) -J$(@D) -c $<)
 
 $(BUILD)/mpi/%.o: src/mpi/%.f90 $(RELEASE_STAMP)
 	@mkdir -p $(@D)
-	$(MPI_FC) $(FFLAGS_RELEASE) -I$(BUILD)/release $(PETSC_MODULES) -J$(@D) -c -o $@ $<
+	$(call compile,$(MPI_FC) $(FFLAGS_RELEASE) -I$(BUILD)/release $(PETSC_MODULES) -J$(@D) -c $<)
 
 $(BUILD)/checked/%.o: %.f90 $(CHECKED_STAMP)
 	@mkdir -p $(@D)
-	$(FC) $(FFLAGS_CHECKED) -J$(@D) -c -o $@ $<
+	$(call compile,$(FC) $(FFLAGS_CHECKED) -J$(@D) -c $<)
 
 # The entries of the card manual, for --help
 $(MANUAL): input/README.md src/run/card_manual.awk
 	@mkdir -p $(@D)
 	@awk -f src/run/card_manual.awk $< > $@.part && mv $@.part $@
 
-# Which object needs which, from the `use` lines. A .mod file comes with its object, and is older where nothing in it has changed.
-%.mod: %.o
-	@:
-
+# Which object needs which, from the `use` lines
 $(BUILD)/dependencies.mk: $(SOURCES) $(MPI_SOURCES) $(COMPARISONS) tests/runner/dependencies.awk Makefile
 	@mkdir -p $(@D)
 	@$(DEPENDENCIES) -v folder=$(BUILD)/release -v objects='$(RELEASE_OBJECTS)' $(SOURCES) > $@
@@ -189,7 +191,7 @@ $(QUERY): $(addprefix $(BUILD)/compare/,comparison_text.o csv_table.o query_expr
 
 $(BUILD)/compare/%.o: tests/compare/%.f90 $(RELEASE_STAMP)
 	@mkdir -p $(@D)
-	$(FC) $(FFLAGS_RELEASE) -J$(@D) -c -o $@ $<
+	$(call compile,$(FC) $(FFLAGS_RELEASE) -J$(@D) -c $<)
 
 .PHONY: test
 test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE) $(QUERY) $(UNIT_PROGRAM)

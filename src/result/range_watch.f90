@@ -138,8 +138,8 @@ contains
                   words = 'WITHOUT A POSITIVE SLOPE'
                end select
                call warn(watch, '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', '//page%stage//': '// &
-                  upper(plural(tally%n, 'element'))//' '//trim(words)//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)// &
-                  ' (INCREMENT '//integer_text(tally%increment)//'),', &
+                  upper(plural(tally%n, 'element'))//' '//trim(words)//' OF THE SHEAR LAW, FIRST NODE '// &
+                  integer_text(tally%node)//' (INCREMENT '//integer_text(tally%increment)//'),', &
                   ' WORST '//integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d))
             end associate
          end do

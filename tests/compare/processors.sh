@@ -56,7 +56,7 @@ echo "$same listings are the same bytes under ${kernels[*]}, at least $least exp
 if [ "$same" -ge "$least" ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
 
 # -O1 is compiled soonest
-if ${MAKE:-make} --no-print-directory -s -j2 BUILD="$build/native" BIN="$build/native/bin" "$build/native/bin/jointfem" \
+if ${MAKE:-make} --no-print-directory -s BUILD="$build/native" BIN="$build/native/bin" "$build/native/bin/jointfem" \
    FFLAGS='-O1 -march=native' > "$build/processors/native.log" 2>&1; then
    decks native "$build/native/bin/jointfem" "$build/processors/native"
 else

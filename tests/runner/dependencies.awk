@@ -4,9 +4,8 @@
 #    awk -f dependencies.awk -v folder=build/release -v objects='build/release/kinds.o ...' src/*/*.f90
 #
 # FOLDER receives the objects of these sources; OBJECTS lists all objects that they may need; a module without an object is skipped.
-# An object depends on the .mod files of the modules that it uses. The compiler rewrites a .mod file only when an interface changes,
-# so a change inside a routine rebuilds one object. The including makefile has the rule `%.mod: %.o`. A submodule,
-# `submodule(parent) name`, depends on the object of its parent.
+# An object depends on the objects of the modules that it uses; compile.mk compiles it only where an interface among them has changed, so
+# that a change inside a routine rebuilds one object. A submodule, `submodule(parent) name`, depends on the object of its parent.
 
 BEGIN {
    n = split(objects, path, " ")
@@ -18,18 +17,13 @@ FNR == 1 { me = name_of(FILENAME) }
 $1 == "use" {
    used = $2
    sub(/,.*/, "", used)
-   if (used in object) print folder "/" me ".o: " module_file(object[used])
+   if (used in object) print folder "/" me ".o: " object[used]
 }
 
 /^submodule\(/ {
    used = $0
    gsub(/^submodule\(|\).*/, "", used)
    if (used in object) print folder "/" me ".o: " object[used]
-}
-
-function module_file(path) {
-   sub(/\.o$/, ".mod", path)
-   return path
 }
 
 function name_of(path) {

@@ -33,13 +33,12 @@ CHECKED_MODULES := build/checked
 CHECKED_LIBRARY := build/checked/libsubject.a
 CHECKED_OBJECTS := build/checked/subject.o
 PF_FILES        := \$(sort \$(wildcard tests/unit/*.pf))
+include $here/compile.mk
 include $here/unit_tests.mk
 \$(CHECKED_OBJECTS): src/subject.f90
 	mkdir -p \$(@D) && \$(FC) \$(FFLAGS_CHECKED) -J\$(@D) -c \$< -o \$@
 \$(CHECKED_LIBRARY): \$(CHECKED_OBJECTS)
 	ar rcs \$@ \$<
-%.mod: %.o
-	@:
 END
 
 # Write a test file from the routines on standard input; its first line becomes line 10.

@@ -45,7 +45,7 @@ for example in $examples; do
    fi
 done
 becomes "$top/tree" "$top/next"
-if [ $failed -gt 0 ] || ! ${MAKE:-make} --no-print-directory -s -j2 -C "$top/tree" BUILD=build BIN=bin \
+if [ $failed -gt 0 ] || ! ${MAKE:-make} --no-print-directory -s -C "$top/tree" BUILD=build BIN=bin \
    FFLAGS='-O0 -Wno-maybe-uninitialized -Werror' bin/jointfem \
    < /dev/null > "$top/build.log" 2>&1; then
    cat "$top/build.log"
