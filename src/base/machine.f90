@@ -10,15 +10,16 @@ module machine
    private
 
    public :: available_memory, memory_for, peak_memory, keep_memory, return_memory, give_back, use_threads, kernel_figure, &
-             memory_left_by_groups
+             memory_left_by_groups, &
+             address_space_left, reserve_for_threads, note_first_call, for_threads, openblas_set_num_threads
 
    ! parameters of mallopt, malloc.h of glibc
    integer(c_int), parameter :: trim_threshold = -1, top_pad = -2, mmap_threshold = -3, mmap_max = -4, arena_max = -8
    integer(c_int), parameter :: dont_need = 4       ! advice of madvise, sys/mman.h of Linux
    integer(c_intptr_t), parameter :: page = 4096    ! size of a page of memory [bytes]; where pages are larger madvise refuses
 
-   !> Address space that a thread's first call of OpenBLAS takes; without it OpenBLAS tries for ever.
-   integer(long), parameter :: blas_buffer = 134217728_long ! BUFFER_SIZE of its common_x86_64.h
+   integer(long) :: of_thread = 0 ! address space that each thread will take for itself [bytes]
+   integer :: n_served = 0        ! threads that have it
 
    type, bind(c) :: heap_figures ! struct mallinfo2 of glibc's malloc.h
       integer(c_size_t) :: arena, ordblks, smblks, hblks, hblkhd, usmblks, fsmblks, uordblks, fordblks, keepcost
@@ -126,16 +127,42 @@ contains
    !> Memory that the program can still take [bytes]: the least of the free memory of the machine, the rest of its control groups (a
    !! container's limit) and the rest of a limit on its address space; huge where none of them can be read.
    function available_memory() result(bytes)
-      integer(long)      :: bytes, limit, taken
+      integer(long)      :: bytes, left
       type(heap_figures) :: heap
 
       bytes = min(kernel_figure('/proc/meminfo', 'MemAvailable:', 1024), memory_left_by_groups(''))
-      limit = kernel_figure('/proc/self/limits', 'Max address space', 1)
-      taken = kernel_figure('/proc/self/status', 'VmSize:', 1024)
-      if (limit == no_figure .or. taken == no_figure) return
+      left = address_space_left()
+      if (left == no_figure) return
       heap = mallinfo2()
-      bytes = min(bytes, max(0_long, limit - taken + heap%fordblks - omp_get_max_threads()*blas_buffer))
+      bytes = min(bytes, max(0_long, left + heap%fordblks - for_threads()))
    end function available_memory
+
+   !> What a limit on the address space of this program leaves [bytes]; huge where there is none.
+   function address_space_left() result(bytes)
+      integer(long) :: bytes, taken
+
+      bytes = kernel_figure('/proc/self/limits', 'Max address space', 1)
+      taken = kernel_figure('/proc/self/status', 'VmSize:', 1024)
+      if (taken == no_figure) bytes = no_figure
+      if (bytes /= no_figure) bytes = bytes - taken
+   end function address_space_left
+
+   !> Each thread will take BYTES of address space for itself, which the arrays cannot have: the buffer of its first call of OpenBLAS.
+   subroutine reserve_for_threads(bytes)
+      integer(long), intent(in) :: bytes
+
+      of_thread = bytes
+   end subroutine reserve_for_threads
+
+   !> One thread has taken its space. Whether others have is not known.
+   subroutine note_first_call()
+      n_served = 1
+   end subroutine note_first_call
+
+   !> What the threads will still take for themselves [bytes].
+   integer(long) function for_threads()
+      for_threads = (omp_get_max_threads() - n_served)*of_thread
+   end function for_threads
 
    !> Memory that the program can still take [bytes]. Where it is less than the bytes WANTED, the memory kept for reuse is returned
    !! first. It is not returned earlier, because its pages would have to be made anew.

@@ -20,14 +20,15 @@ module run_boxes
    use kinds, only: wp
    use law_error, only: follow_laws
    use load_path, only: recover_bodies
-   use machine, only: keep_memory, use_threads
-   use memory_need, only: check_model_size
+   use machine, only: keep_memory, note_first_call, use_threads
+   use memory_need, only: check_buffers, check_model_size
    use modal_response, only: find_response, response_type
    use mode_values, only: evaluate_modes, modes_type
    use model_build, only: build_model
    use model_data, only: model_type
    use natural_modes, only: find_natural_modes, release_supports, oscillating_type, spectrum_type, start_oscillation
    use newton_method, only: seat_joints
+   use openblas, only: prepare_openblas, tell_kernel
    use restart_file, only: open_restart_file, take_up, write_restart
    use results, only: list_results => print_increment, print_modes, print_stage, remove_old_results, start_results
    use run_of_deck, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, &
@@ -128,8 +129,9 @@ contains
       integer :: status
 
       call open_standard_outputs()
-      call join_processes(write_piece)
       call watch_ends()
+      call prepare_openblas()
+      call join_processes(write_piece)
       call read_command_line(command, status)
       if (status >= 0) then
          call leave_processes()
@@ -137,6 +139,7 @@ contains
       end if
       call use_threads(command%threads)
       call tell_failed_writes()
+      if (.not. command%quiet) call tell_kernel()
    end subroutine start_program
 
    !> Read the deck of ARGUMENT.
@@ -212,11 +215,14 @@ contains
       logical :: ok
 
       if (is_over(run)) return
+      call check_buffers(run%failure)
+      if (is_over(run)) return
       call enter(run, phase_order)
       call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
       call enter(run, phase_factor)
       if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
       if (run%failure%raised) return
+      if (system%description%static_operations > 0.0_wp) call note_first_call()
       call enter(run, phase_write)
       run%solver = system%description
       call date_and_time(date, time)

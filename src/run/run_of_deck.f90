@@ -14,6 +14,7 @@ module run_of_deck
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
    use model_data, only: model_type, n_points
+   use openblas, only: kernel_words
    use output_file, only: output_file_type
    use range_watch, only: distance_words, tetra_words
    use restart_stream, only: restart_stream_type
@@ -163,6 +164,7 @@ contains
             deck, ': ', 'operations refactored ', solver%refactored_operations
          if (solver%solutions > 0) write (error_unit, '(2a, 3(a, i0))') deck, ': ', 'solutions ', solver%solutions, &
             ', steps ', solver%steps, ', at most ', solver%most_steps
+         write (error_unit, '(3a)') deck, ': ', kernel_words()
          call memory_of_all(bytes)
          write (error_unit, '(3a, i12, a)') deck, ': ', 'memory    ', nint(bytes/1048576.0_wp), ' MiB'
       end associate

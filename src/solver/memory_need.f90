@@ -4,17 +4,33 @@ module memory_need
    use bulk_data, only: block_card
    use deck_input, only: deck_type
    use equation_solver, only: failure_type
-   use kinds, only: wp
-   use machine, only: memory_for
-   use text_tools, only: integer_text
+   use kinds, only: long, wp
+   use machine, only: address_space_left, for_threads, memory_for
+   use omp_lib, only: omp_get_max_threads
+   use text_tools, only: integer_text, plural
    implicit none
    private
 
-   public :: check_model_size, check_memory, nodes_of_block, shortage
+   public :: check_buffers, check_model_size, check_memory, nodes_of_block, shortage
 
    real(wp), parameter :: node_bytes = 500.0_wp !! per node, with its elements, the graph and nodal arrays; a factor takes far more
 
 contains
+
+   !> Fail where a limit on the address space leaves less than the buffers that the threads take at their first call of OpenBLAS.
+   subroutine check_buffers(failure)
+      type(failure_type), intent(inout) :: failure
+      integer(long) :: left, needed
+
+      left = address_space_left()
+      needed = for_threads()
+      if (needed > left) then
+         call failure%raise('OpenBLAS needs at least '//integer_text(int(needed/1048576))//' MiB of address space for '// &
+                            plural(omp_get_max_threads(), 'thread')//', and '//integer_text(int(left/1048576))// &
+                            ' MiB are left: raise the limit (ulimit -v)'// &
+                            trim(merge(', or take --threads 1', '                     ', omp_get_max_threads() > 1)))
+      end if
+   end subroutine check_buffers
 
    !> Fail where the nodes of the deck's blocks and GRID cards exceed the memory.
    subroutine check_model_size(deck, failure)
@@ -23,6 +39,8 @@ contains
       character(:), allocatable :: words
       real(wp) :: nodes, share
 
+      call check_buffers(failure)
+      if (failure%raised) return
       nodes = size(deck%bulk%grid) + sum(nodes_of_block(deck%bulk%block))
       call shortage('the nodes of the model need at least', node_bytes*nodes, words, share)
       if (words /= '') call failure%raise(words)

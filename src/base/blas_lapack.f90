@@ -5,7 +5,7 @@ module blas_lapack
    implicit none
    private
 
-   public :: ddot, dgemm, dgemv, dlacn2, dpotrf, dsygv, dsymv, dtrmv, dtrsm
+   public :: ddot, dgemm, dgemv, dlacn2, dpotrf, dsygv, dsymv, dsyrk, dtrmv, dtrsm
 
    interface
 
@@ -62,6 +62,15 @@ module blas_lapack
          real(wp), intent(inout) :: a(lda, *), b(ldb, *), w(*), work(*)
          integer, intent(out)    :: info
       end subroutine dsygv
+
+      !> C = alpha A A^T + beta C (TRANS = 'N'), only the triangle UPLO of C
+      pure subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)
+         import :: wp
+         character, intent(in)   :: uplo, trans
+         integer, intent(in)     :: n, k, lda, ldc
+         real(wp), intent(in)    :: alpha, beta, a(lda, *)
+         real(wp), intent(inout) :: c(ldc, *)
+      end subroutine dsyrk
 
       !> y = alpha A x + beta y, A symmetric
       pure subroutine dsymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
