@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# The kernel of OpenBLAS: where OpenBLAS takes one without AVX2 on a processor that has AVX2, the program starts itself anew with a better one
+# that computes right. Names, flags and faults are those of other_openblas.c.
+#
+#    kernel.sh PROGRAM WORK_FOLDER
+set -u
+program=$1 work=$2
+passed=0 failed=0
+rm -rf "$work"
+mkdir -p "$work"
+if ! command -v gcc > /dev/null || ! gcc -shared -fPIC -O1 -o "$work/other.so" tests/solver/other_openblas.c -ldl 2> "$work/gcc"; then
+   echo 'skipped: other kernels of OpenBLAS: there is no gcc'
+   echo '0 passed, 0 failed'
+   exit 0
+fi
+echo 'flags : fpu sse2 avx fma avx2' > "$work/haswell"
+echo 'flags : fpu sse2 avx fma avx2 avx512f avx512dq avx512cd avx512bw avx512vl' > "$work/skylake"
+echo 'flags : fpu sse2 avx' > "$work/sandybridge"
+
+# kernel NAME=VALUE...: words of --times about the kernel, the status, and whether the listing is that of the reference
+kernel() {
+   local said status
+   rm -f "$work"/*.out "$work"/*.csv
+   said=$(env -u OPENBLAS_CORETYPE LD_PRELOAD="$PWD/$work/other.so" "$@" timeout 60 "$program" --times -q -o "$work" input/prism05.bdf 2>&1 > /dev/null)
+   status=$?
+   said=$(sed -n 's/.*: OpenBLAS kernel //p' <<< "$said")
+   cmp -s "$work/prism05.out" reference_output/prism05.out || said="$said, another listing"
+   echo "$said, $status"
+}
+
+# same WHAT EXPECTED FOUND
+same() {
+   if [ "$2" = "$3" ]; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED $1: '$3', expected '$2'"; fi
+}
+
+instead() { echo "$1; OpenBLAS itself takes $2 on this processor, which is slower, 0"; }
+
+same 'AVX-512' "$(instead SkylakeX Prescott)" "$(kernel CORENAME=Prescott CPUINFO="$work/skylake")"
+same 'AVX2' "$(instead Haswell Nehalem)" "$(kernel CORENAME=Nehalem CPUINFO="$work/haswell")"
+same 'AVX' 'Prescott, 0' "$(kernel CORENAME=Prescott CPUINFO="$work/sandybridge")"
+same 'no flags' 'Prescott, 0' "$(kernel CORENAME=Prescott CPUINFO="$work/missing")"
+same 'a good choice' 'Zen, 0' "$(kernel CORENAME=Zen CPUINFO="$work/skylake")"
+same 'the choice of the user' 'Prescott, 0' "$(kernel CORENAME=Haswell OPENBLAS_CORETYPE=Prescott CPUINFO="$work/skylake")"
+for fault in WRONG CRASH HANG; do
+   same "$fault: the next kernel" "$(instead Haswell Prescott)" "$(kernel $fault=SkylakeX CORENAME=Prescott CPUINFO="$work/skylake")"
+   same "$fault: no kernel" 'Prescott, 0' "$(kernel $fault=SkylakeX,Haswell CORENAME=Prescott CPUINFO="$work/skylake")"
+done
+
+# ------------------------------------------------------------------ said once, on a terminal; not with -q; arguments as they were
+terminal() { # ARGUMENT...
+   env -u OPENBLAS_CORETYPE LD_PRELOAD="$PWD/$work/other.so" CORENAME=Prescott CPUINFO="$work/skylake" \
+      script -qec "$program $*" /dev/null 2>&1 < /dev/null | grep -c 'jointfem: OpenBLAS kernel SkylakeX; OpenBLAS itself takes Prescott'
+}
+if command -v script > /dev/null; then
+   same 'on a terminal, two decks' 1 "$(terminal -o "$work" input/prism05.bdf input/prism03.bdf)"
+   same '-q' 0 "$(terminal -q -o "$work" input/prism05.bdf)"
+else
+   echo 'skipped: the words on a terminal: there is no script'
+fi
+mkdir "$work/a b"
+cp input/prism05.bdf "$work/a b/it's *.bdf"
+env -u OPENBLAS_CORETYPE LD_PRELOAD="$PWD/$work/other.so" CORENAME=Prescott CPUINFO="$work/skylake" \
+   "$program" -q -o "$work/a b" "$work/a b/it's *.bdf" - < input/prism03.bdf > "$work/said" 2>&1
+same 'arguments and standard input' 0 $?
+cmp -s "$work/a b/it's *.out" reference_output/prism05.out; same 'the listing' 0 $?
+grep -q 'PRISM ON A RIGID BASE, 3 INCREMENTS' "$work/said"; same 'the deck of the standard input' 0 $?
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]
