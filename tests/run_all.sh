@@ -68,6 +68,7 @@ part 'decks against their references' tests/compare/check.sh "$program" "$compar
 everything_so_far
 part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
 part 'modules use what stands to the left' tests/source/folders.sh src/README.md src
+part 'Fortran that every compiler takes' tests/source/compilers.sh src tests
 part 'the tour of the source' tests/source/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 part 'the tools of make mutants and make coverage' tests/source/selftest.sh
@@ -86,6 +87,7 @@ part 'exact answers and independent computations' tests/exact/run.sh "$program" 
 part 'the verification manual as it stands' tests/manual/check.sh "$program" "$query" "$build/manual-check"
 part 'decks, exercises and numbers of the manuals' tests/manual/pages.sh "$program" "$query" "$build/pages"
 part 'TREE and SKYLINE, one thread and several' tests/solver/tree_skyline.sh "$program" "$query" "$build/solver"
+part 'the kernel of OpenBLAS' tests/solver/kernel.sh "$program" "$build/kernel"
 part 'models that do not fit into the memory' tests/solver/memory.sh "$program" "$build/memory"
 part 'linear decks and their frequencies against CalculiX' tests/programs/calculix.sh "$program" "$build/calculix"
 part 'numbers of any size, systems of units' tests/exact/sweep.sh "$program" "$build/sweep"

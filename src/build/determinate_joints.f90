@@ -153,21 +153,23 @@ contains
          node = loads%node(i)
          if (node_kind(model, node) == an_overlap) then ! the pair of forces of a pretension section
             associate (section => model%sections(place_in_kind(model, node)))
-               if (joint%carries(model%part(node))) call add(loads%force(1, i)*section%direction)
-               if (joint%carries(model%part(section%point))) call add(-loads%force(1, i)*section%direction)
+               if (joint%carries(model%part(node))) resultant = resultant + normal_part(loads%force(1, i)*section%direction)
+               if (joint%carries(model%part(section%point))) &
+                  resultant = resultant - normal_part(loads%force(1, i)*section%direction)
             end associate
          else if (node_kind(model, node) == a_point .and. joint%carries(model%part(node))) then ! other nodes have moments
-            call add(loads%force(:, i))
+            resultant = resultant + normal_part(loads%force(:, i))
          end if
       end do
 
    contains
 
-      pure subroutine add(force)
+      !> The part of FORCE along the normal of the joint, compression positive.
+      pure real(wp) function normal_part(force)
          real(wp), intent(in) :: force(3)
 
-         resultant = resultant + joint%direction*dot_product(force, joint%normal)
-      end subroutine add
+         normal_part = joint%direction*dot_product(force, joint%normal)
+      end function normal_part
 
    end function carried_resultant
 

@@ -100,6 +100,7 @@ contains
       type(fit_command_type), intent(in)    :: command
       type(surface_fit_type), intent(inout) :: fit
       type(deck_error_list), intent(inout)  :: errors
+      type(branch_fit_type) :: nothing
       integer :: b
 
       fit%source = [1, 2, 3]
@@ -115,7 +116,7 @@ contains
          if (count(data%branch(:data%n) == fit%source(b)) == 0) cycle
          if (data%is_record .and. b /= fit_load) then      ! a record may contain a short part of a branch
             call fit_branch(data, command, fit%source(b), fit%branch(b), fit%warnings)
-            if (fit%branch(b)%fault /= fault_none) fit%branch(b) = branch_fit_type()
+            if (fit%branch(b)%fault /= fault_none) fit%branch(b) = nothing
          else
             call fit_branch(data, command, fit%source(b), fit%branch(b), errors)
          end if

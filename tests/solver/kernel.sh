@@ -62,7 +62,7 @@ cp input/prism05.bdf "$work/a b/it's *.bdf"
 env -u OPENBLAS_CORETYPE LD_PRELOAD="$PWD/$work/other.so" CORENAME=Prescott CPUINFO="$work/skylake" \
    "$program" -q -o "$work/a b" "$work/a b/it's *.bdf" - < input/prism03.bdf > "$work/said" 2>&1
 same 'arguments and standard input' 0 $?
-cmp -s "$work/a b/it's *.out" reference_output/prism05.out; same 'the listing' 0 $?
+cmp -s <(tail -n +5 "$work/a b/it's *.out") <(tail -n +5 reference_output/prism05.out); same 'the listing below its heading' 0 $?
 grep -q 'PRISM ON A RIGID BASE, 3 INCREMENTS' "$work/said"; same 'the deck of the standard input' 0 $?
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]
