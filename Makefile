@@ -51,6 +51,7 @@ help:
 	@echo 'make unit-test  only the unit tests; ONLY=test_joint_gaps: of that file'
 	@echo 'make check      only the decks against reference_output'
 	@echo 'make sanitize   decks under the address, undefined and thread sanitizers, and valgrind: minutes'
+	@echo 'make platforms  both commands of README.md on Debian 13, in a root folder made by debootstrap; as root'
 	@echo 'make install PREFIX=dir  programs, manual pages, documents; default /usr/local'
 	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference; TABLES="stage bolt": of these too'
 	@echo 'make accept ACCEPT=failed   those of all decks that failed the last make check'
@@ -201,6 +202,11 @@ test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE
 .PHONY: check
 check: bin/jointfem $(COMPARE)
 	@tests/compare/check.sh bin/jointfem $(COMPARE) $(BUILD)/check
+
+# The two commands of README.md on other systems, as root
+.PHONY: platforms
+platforms:
+	@tests/platforms/debian13.sh whole $(BUILD)/platforms
 
 # PART=threads: only that part
 .PHONY: sanitize

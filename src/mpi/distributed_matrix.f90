@@ -46,7 +46,8 @@ contains
          call MatSetSizes(matrix, own, own, all, all, code)
          call MatSetType(matrix, 'aij', code)
          call MatSetBlockSize(matrix, d, code)
-         call MatXAIJSetPreallocation(matrix, d, subdomain%inside, subdomain%outside, PETSC_NULL_INTEGER, PETSC_NULL_INTEGER, code)
+         ! the last two are for symmetric storage; "none of them" is a scalar in PETSc 3.22 and an array before
+         call MatXAIJSetPreallocation(matrix, d, subdomain%inside, subdomain%outside, subdomain%inside, subdomain%outside, code)
       end associate
       call MatSetOption(stiffness%matrix, MAT_SPD, PETSC_TRUE, code)
       call MatSetOption(stiffness%matrix, MAT_SPD_ETERNAL, PETSC_TRUE, code)

@@ -1,5 +1,5 @@
 ! The routines of BLAS and LAPACK that the solvers call, written out: linked before OpenBLAS they let a sanitizer see which entries
-! are read and written. As far as the program calls them; another case stops. See src/solver/blas_lapack.f90.
+! are read and written. As far as the program calls them; another case stops. See src/base/blas_lapack.f90.
 
 subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
    use, intrinsic :: iso_fortran_env, only: wp => real64
