@@ -383,6 +383,7 @@ dgemm_rate() {
    echo "machine - load $(cut -d ' ' -f 1 /proc/loadavg)"
 } >> "$measured"
 dgemm_rate before
+export OPENBLAS_CORETYPE=${OPENBLAS_CORETYPE:-$(sed -n 's/^kernel //p' "$work/one")} # CHOLMOD and jointfem use the same kernel
 [ -x "$work/cholmod_once" ] || echo 'bench: no cholmod.h (Debian: libsuitesparse-dev): CHOLMOD is left out' >&2
 for what in $wanted; do
    case $what in

@@ -1,10 +1,11 @@
 !> What one thread of this machine does in DGEMM, the measure of all other rates: best of a few products of 2000 x 2000. Prints
-!! the rate [GFlop/s], the kernel that OpenBLAS has chosen, and its version.
+!! the rate [GFlop/s], the kernel of OpenBLAS, chosen as by jointfem, and its version.
 program dgemm_rate
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_ptr
    use blas_lapack, only: dgemm
    use machine, only: use_threads
    use kinds, only: long, wp
+   use openblas, only: prepare_openblas
    implicit none
    integer, parameter :: n = 2000, repeats = 5
 
@@ -25,6 +26,7 @@ program dgemm_rate
    integer(long) :: before, after, rate
    integer :: i
 
+   call prepare_openblas()
    call use_threads(1)
    allocate (a(n, n), b(n, n), c(n, n))
    call random_number(a)

@@ -37,6 +37,7 @@ kernel Zen avx2 fma
 kernel SkylakeX avx512f avx512dq avx512bw avx512vl
 kernel Sandybridge avx
 kernel Nehalem sse4_2
+kernel Prescott pni
 
 same=0
 for deck in input/*.bdf; do
