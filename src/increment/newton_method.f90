@@ -239,7 +239,8 @@ contains
          attempt%iteration = 0
          attempt%gain = 1.0_wp
          attempt%circles = 0
-         attempt%flips = spread(0, 1, size(analysis%states))
+         if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states))) ! = alone would read its bounds
+         attempt%flips = 0
          attempt%spoilt = 0.0_wp
          attempt%converged = .false.
          attempt%trouble = none

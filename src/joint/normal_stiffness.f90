@@ -70,6 +70,8 @@ contains
       state%pressure = pressure_reached(area, eq10, state)
       if (.not. is_virgin(area, state)) call ask_diamonds(area, state)
       if (state%branch == branch_open) state%pressure = 0.0_wp
+      state%sumf = max(0.0_wp, state%sumf) ! below zero by rounding: the diamonds remove what is below it by more
+      state%pressure = max(0.0_wp, state%pressure)
       select case (state%branch)
       case (branch_load)
          if (.not. is_virgin(area, state)) then

@@ -5,7 +5,7 @@ module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use backbone, only: backbone_type, find_loop, finish_backbone, start_backbone
    use c_library, only: end_run, open_standard_outputs, tell_failed_writes
-   use case_control, only: method_back, method_newton
+   use case_control, only: method_back, method_newton, method_step
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use condensed_interface, only: condense_on_joints
    use condition_estimate, only: watch_condition
@@ -173,6 +173,7 @@ contains
       type(model_type), intent(out)      :: model
       type(stage_plan_type), intent(out) :: plan
       integer, allocatable :: drops(:)
+      character(:), allocatable :: words
       character(:), allocatable :: loose
 
       if (is_over(run)) return
@@ -196,12 +197,17 @@ contains
       end if
       if (run%errors%any() .or. run%suggests) return
       call tell(run, unit_words(deck))
-      if (deck%control%method /= method_newton) return
+      words = 'NEWTON'
+      if (deck%control%method == method_step .and. any(abs(model%interface%gap) > 0.0_wp)) then
+         words = 'the iterations of NEWTON, which STEP needs for gaps and interference,'
+      else if (deck%control%method /= method_newton) then
+         return
+      end if
       drops = pack(model%joints%id, (model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given) .and. &
                    .not. model%joints%law%has_friction)
       if (size(drops) > 0) call tell(run, 'JOINT '//integer_text(drops(1))// &
          trim(merge(' and others', '           ', size(drops) > 1))//': shear stiffness without MU on PJOINT: an element '// &
-         'that opens drops its shear at once, and NEWTON may find no equilibrium')
+         'that opens drops its shear at once, and '//words//' may find no equilibrium, or one of several that rounding chooses')
    end subroutine build_structure
 
    !> Form [k_b] of the bodies and factorise the part that no joint changes; then the listing can be opened.

@@ -220,5 +220,13 @@ DECK
    }
 done
 
-# Shear without MU drops at once where an element opens: said of a deck for NEWTON when it has been read, of no other.
+# Shear without MU drops at once where an element opens: said of a deck that the iterations of NEWTON solve, when it has been read; also
+# of STEP where a gap or interference needs them; of no other.
 same 'shear without MU is said' "$("$program" --check input/{two_blocks,cantilever,friction_none}.bdf 2>&1 | grep -c 'shear stiffness without MU')" 1
+for gap in 0.01 -0.01 0.0; do
+   cards drops <<DECK
+METHOD = STEP;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1;CJOINT,1,1,1,,100.,0.,-1.;PJOINT,1,1,1;JNORM,1,8.0-3,0.5,500.;JSHEAR,1,100.
+CELAS2,11,10.,1,1;FORCE,1,1,,50.,0.,-1.;JGAP,1,CONST,$gap;ENDDATA
+DECK
+   same "STEP, shear without MU, gap $gap: said" "$("$program" --check "$work/drops.bdf" 2>&1 | grep -c 'shear stiffness without MU.*STEP needs')" $([ $gap = 0.0 ]; echo $?)
+done

@@ -28,7 +28,7 @@ function describe(   j, s, n) {
    method = on["newton"] ? "NEWTON" : on["back"] ? "BACK" : "STEP"
    print "DECK", copy, pair, method, (space ? "space" : axi ? "axi" : "plane"), features
    for (j = 1; j <= n_joints; j++)
-      printf "JOINT %d %.17g %.17g %.17g %.17g %.17g %d %.17g\n", j, area[j], c, m, e_u, rough ? mu : -1, nrean, sheared && !on["cubic"] && !a12 && !rough ? a11 : 0
+      printf "JOINT %d %.17g %.17g %.17g %.17g %.17g %d %.17g %d\n", j, area[j], c, m, e_u, rough ? mu : -1, nrean, sheared && !on["cubic"] && !a12 && !rough ? a11 : 0, !on["cubic"] && !a12
    n = 0
    for (j = 1; j <= ne; j++) if (e_pid[j] < 10) n++
    print "CELLS", n
