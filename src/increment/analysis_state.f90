@@ -6,6 +6,7 @@ module analysis_state
    use equation_solver, only: equation_system, failure_type
    use interface_operator, only: add_global_force, interface_element, joint_movement
    use joint_laws, only: element_state, is_apart, start_shear
+   use joint_work, only: joint_energy
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections, temperature_type
    use normal_curve, only: normal_secant
@@ -18,7 +19,7 @@ module analysis_state
    private
 
    public :: start_analysis, all_held, interface_stiffness, find_movements, find_unbalanced, subtract_joint_forces, element_force, &
-             tally_work, record_iteration, note_largest, free_norm, force_noise, note_turns
+             record_iteration, note_largest, free_norm, force_noise, note_turns
 
    real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: the largest rounding error of forces that joints balance
 
@@ -31,12 +32,6 @@ module analysis_state
       integer, private :: filler = 0                ! as in normal_state
       real(wp) :: delta = 0.0_wp, tau = 0.0_wp      !! [length], [pressure]
    end type turning_point
-
-   !> Work done on one joint in the present stage [force x length].
-   type, public :: joint_energy
-      real(wp) :: put_in(3)     = 0.0_wp            !! by shear, by normal forces, on friction: sum of positive works
-      real(wp) :: given_back(3) = 0.0_wp            !! likewise, sum of negative works as a positive number
-   end type joint_energy
 
    !> One re-analysis after the Coulomb check, or one iteration towards equilibrium, for the listing.
    type, public :: iteration_record
@@ -121,7 +116,7 @@ module analysis_state
       integer, allocatable  :: next_kind(:)         !! of the normal stiffness in the next increment
       type(element_state), allocatable :: exact(:)  !! STEP: states of the exact laws on the same movements
       type(turning_point), allocatable :: turns(:, :) !! (2, n) where the shear branches began
-      type(joint_energy), allocatable  :: energy(:) !! of the joints in this stage
+      type(joint_energy), allocatable  :: energy(:) !! work on the joints in this stage
       real(wp) :: largest_p = 0.0_wp                !! largest pressure or shear stress so far: the scale of rounding errors
       real(wp) :: largest_lambda = 0.0_wp           !! deflection so far, likewise
       real(wp) :: largest_load = 0.0_wp             !! on the structure or on the joints so far [force]
@@ -295,15 +290,6 @@ contains
 
       noise = 10.0_wp*epsilon(1.0_wp)*system%stiffest*maxval(abs(u))
    end function force_noise
-
-   !> Add the works (by shear, by normal forces, on friction) done on one element to those of its joint.
-   pure subroutine tally_work(energy, work)
-      type(joint_energy), intent(inout) :: energy
-      real(wp), intent(in)              :: work(3)
-
-      energy%put_in = energy%put_in + max(0.0_wp, work)
-      energy%given_back = energy%given_back + max(0.0_wp, -work)
-   end subroutine tally_work
 
    !> Update the largest pressure and deflection so far.
    pure subroutine note_largest(analysis)

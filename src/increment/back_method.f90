@@ -10,11 +10,12 @@
 !!     0 *---*----*------------------ lambda
 module back_method
    use analysis_state, only: analysis_type, find_movements, find_unbalanced, force_noise, no_stiffness, iteration_record, &
-                             record_iteration, secant_stiffness, tally_work
+                             record_iteration, secant_stiffness
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin, stiffness_matrices
+   use joint_laws, only: back_stiffness, exceeds_limit, rest_margin, stiffness_matrices
+   use joint_work, only: work_of_secants
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_tangent, pressure_floor
@@ -132,7 +133,7 @@ contains
                call stand_at_limit(law%shear, max(0.0_wp, state%normal%pressure), state%shear)
                state%shear%slid = state%shear%delta_0
             end if
-            call tally_work(analysis%energy(element%joint), loading_work(law, element%area, state))
+            call analysis%energy(element%joint)%add(work_of_secants(law, element%area, state))
          end associate
       end do
    end subroutine store

@@ -52,7 +52,7 @@ contains
       end do
       do i = 1, size(model%joints)
          call check('the work done on joint '//integer_text(model%joints(i)%id), [analysis%energy(i)%put_in, &
-                                                                                 analysis%energy(i)%given_back])
+                                                                analysis%energy(i)%given_back, analysis%energy(i)%lost])
       end do
       do i = 1, n_bars(model)
          call check('the pull of element '//integer_text(model%bars(i)%id), [analysis%pull(i)])

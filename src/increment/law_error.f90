@@ -31,13 +31,13 @@ contains
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(inout) :: analysis
       type(element_state) :: after
-      real(wp) :: tangent(3, 3), work(3)
+      real(wp) :: tangent(3, 3)
       integer  :: i
 
       if (.not. allocated(analysis%exact)) return
       do i = 1, size(model%interface)
          call follow_element(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, analysis%exact(i), &
-                             analysis%movement(:, i), after, tangent, work)
+                             analysis%movement(:, i), after, tangent)
          call rest_when_open(after, analysis%movement(:, i))
          analysis%exact(i) = after
       end do

@@ -1,9 +1,10 @@
 !> The load path over stages and increments, and the recovery of displacements and forces of the bodies.
 module load_path
-   use analysis_state, only: all_held, analysis_type, joint_energy, load_state, subtract_joint_forces
+   use analysis_state, only: all_held, analysis_type, load_state, subtract_joint_forces
    use body_elements, only: add_thermal_forces, internal_forces
    use bolt_locking, only: lock_bolts
    use equations, only: condense_load, equation_system, forces_in_bodies, recover_displacements
+   use joint_work, only: joint_energy
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections
    use node_coupling, only: displacements, forces_on_unknowns

@@ -1,11 +1,12 @@
 !> An attempt of METHOD = NEWTON at an increment, and its trials: displacements, joint states and residual; the step, the line
 !! search and the commit.
 module newton_trial
-   use analysis_state, only: analysis_type, find_movements, free_norm, kind_on_branch, note_turns, subtract_joint_forces, tally_work
+   use analysis_state, only: analysis_type, find_movements, free_norm, kind_on_branch, note_turns, subtract_joint_forces
    use equations, only: equation_system, forces_in_bodies
    use equation_solver, only: failure_type
    use interface_operator, only: joint_movement
    use joint_laws, only: element_state, follow_element, rest_when_open
+   use joint_work, only: work_along
    use kinds, only: wp
    use model_data, only: model_type
    implicit none
@@ -63,7 +64,6 @@ module newton_trial
       real(wp), allocatable :: u(:, :), body(:, :)    ! (dimension, retained) displacements, forces in the bodies
       type(element_state), allocatable :: states(:)
       real(wp), allocatable :: tangent(:, :, :)       ! (3, 3, n) in joint axes
-      real(wp), allocatable :: work(:, :)             ! (3, n) since the committed state
       real(wp), allocatable :: residual(:, :)
       real(wp) :: size = 0.0_wp                       ! of the residual on free components [force]
    end type trial_type
@@ -92,7 +92,7 @@ contains
       do i = 1, size(system%interface)
          associate (element => system%interface(i))
             call follow_element(model%joints(element%joint)%law, element%area, analysis%states(i), &
-                                joint_movement(element, trial%u), trial%states(i), trial%tangent(:, :, i), trial%work(:, i))
+                                joint_movement(element, trial%u), trial%states(i), trial%tangent(:, :, i))
          end associate
       end do
       trial%residual = load - trial%body
@@ -111,7 +111,7 @@ contains
 
       if (.not. allocated(trial%states)) then
          allocate (trial%body, trial%residual, mold=u)
-         allocate (trial%tangent(3, 3, size(analysis%states)), trial%work(3, size(analysis%states)))
+         allocate (trial%tangent(3, 3, size(analysis%states)))
          trial%states = analysis%states
       end if
       trial%u = u
@@ -209,12 +209,12 @@ contains
       analysis%body = trial%body
       call find_movements(system, analysis)
       analysis%unbalanced = trial%residual
-      analysis%states = trial%states
       do i = 1, size(model%interface)
-         call tally_work(analysis%energy(model%interface(i)%joint), trial%work(:, i))
-         associate (state => analysis%states(i))
+         associate (state => analysis%states(i), element => model%interface(i), movement => analysis%movement(:, i))
+            call analysis%energy(element%joint)%add(work_along(model%joints(element%joint)%law, element%area, state, movement))
+            state = trial%states(i)
             state%shear%k_s = [trial%tangent(1, 1, i), trial%tangent(2, 2, i)]
-            call rest_when_open(state, analysis%movement(:, i))
+            call rest_when_open(state, movement)
             analysis%record%kind(i) = kind_on_branch(state%normal%branch)
          end associate
       end do

@@ -1,10 +1,11 @@
 !> METHOD = STEP, the step-wise tangent-stiffness method: one routine for each box of the flow chart (Fig. 6a).
 module step_method
-   use analysis_state, only: analysis_type, find_movements, iteration_record, record_iteration, slip_record, tally_work
+   use analysis_state, only: analysis_type, find_movements, iteration_record, record_iteration, slip_record
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
    use joint_laws, only: element_state, exceeds_limit, flag_margin, friction_excess, friction_limit, is_apart, stiffness_matrices
+   use joint_work, only: work_of_tangents
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use newton_method, only: free_idle_joints, newton_increment
@@ -103,7 +104,7 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: f(:, :) !! (dimension, retained) [force]
       type(analysis_type), intent(inout) :: analysis
-      real(wp) :: movement(3), work(3), tau(2)
+      real(wp) :: movement(3)
       integer  :: i
 
       analysis%u = analysis%u + analysis%du
@@ -111,38 +112,51 @@ contains
       do i = 1, size(model%interface)
          movement = joint_movement(system%interface(i), analysis%du)
          associate (state => analysis%states(i), area => model%interface(i)%area)
-            tau = state%shear%tau
             state%shear%delta = state%shear%delta + movement(:2)
-            state%shear%tau = tau + analysis%k(:2, i)*movement(:2)/area
-            work(1) = sum(0.5_wp*area*(tau + state%shear%tau)*movement(:2))
-            work(2) = (state%normal%sumf + 0.5_wp*analysis%k(3, i)*movement(3))*movement(3)
-            work(3) = 0.0_wp
+            state%shear%tau = state%shear%tau + analysis%k(:2, i)*movement(:2)/area
             state%normal%lambda = state%normal%lambda + movement(3)
             state%normal%sumf = state%normal%sumf + analysis%k(3, i)*movement(3)
             state%normal%pressure = pressure_reached(area, analysis%eq10, state%normal)
          end associate
-         call tally_work(analysis%energy(model%interface(i)%joint), work)
          call add_force(system%interface(i), -analysis%k(:, i)*movement, analysis%body)
       end do
       if (size(system%locked) > 0) call forces_in_bodies(system, analysis%u, analysis%body) ! a locked unknown carries more than F
       call find_movements(system, analysis)
    end subroutine add_displacements
 
-   !> Coulomb limit (section 4.4): where |tau| > mu p, the element is relieved of the excess. The excess is applied at its two
-   !! ends, and the structure is analysed again with the same stiffness, NREAN times; for NREAN = -1 as long as any excess is left.
+   !> The last box that changes forces: the Coulomb limit. Then the work of the increment is known.
    subroutine limit_friction(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
       class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(inout)  :: failure
+      integer :: i
+
+      if (failure%raised .or. analysis%crosses_gaps) return
+      if (any(model%joints%law%has_friction)) call relieve(model, plan, system, analysis, failure)
+      do i = 1, size(model%interface)
+         associate (element => model%interface(i))
+            call analysis%energy(element%joint)%add(work_of_tangents(model%joints(element%joint)%law, element%area, &
+                                                                     analysis%states(i)))
+         end associate
+      end do
+   end subroutine limit_friction
+
+   !> Coulomb limit (section 4.4): where |tau| > mu p, the element is relieved of the excess. The excess is applied at its two
+   !! ends, and the structure is analysed again with the same stiffness, NREAN times; for NREAN = -1 as long as any excess is left.
+   subroutine relieve(model, plan, system, analysis, failure)
+      type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
+      class(equation_system), intent(inout) :: system
+      type(analysis_type), intent(inout) :: analysis
+      type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: excess(:, :), relief(:, :)
-      real(wp) :: on_friction, slid(2), total, total_after
+      real(wp) :: slid(2), total, total_after
       integer  :: i, passes(size(model%interface)), reanalysis, worst
       logical  :: is_listed, relieved(size(model%interface))
       type(slip_record) :: record
 
-      if (failure%raised .or. analysis%crosses_gaps .or. .not. any(model%joints%law%has_friction)) return
       allocate (excess(2, size(model%interface)))
       allocate (relief, mold=analysis%u)
       passes = model%joints(model%interface%joint)%n_reanalyses
@@ -162,15 +176,12 @@ contains
                call note_slip(model, analysis%states, 1, record)
                analysis%record%slips = [analysis%record%slips, record]
             end if
-            ! the element slides by the excess over its stiffness; part of the work put in by shear becomes work on friction
-            associate (shear => analysis%states(i)%shear, area => model%interface(i)%area, &
-                       put_in => analysis%energy(model%interface(i)%joint)%put_in)
+            ! the element slides by the excess over its stiffness
+            associate (shear => analysis%states(i)%shear, area => model%interface(i)%area)
                slid = 0.0_wp
                where (analysis%k(:2, i) > 0.0_wp) slid = excess(:, i)/analysis%k(:2, i)
                shear%tau = shear%tau - excess(:, i)/area
                shear%slid = shear%slid + slid
-               on_friction = area*sum(shear%tau*slid)
-               put_in = put_in + [-on_friction, 0.0_wp, on_friction]
             end associate
             call add_force(system%interface(i), [excess(:, i), 0.0_wp], relief)
          end do
@@ -191,7 +202,7 @@ contains
          ' re-analyses the friction of joint '//integer_text(model%joints(model%interface(worst)%joint)%id)// &
          ' is still exceeded, by '//real_text(total)//' in all, most at node '// &
          integer_text(joint_node_id(model, worst, 1))//' in its tangential direction: the joint slips as a whole')
-   end subroutine limit_friction
+   end subroutine relieve
 
    !> EXCESS(2, n) of all elements and the TOTAL of their sizes [force]; those that slip are marked.
    subroutine find_excess(model, analysis, excess, total)

@@ -115,7 +115,7 @@ contains
       real(wp), intent(in)               :: unbalanced
       type(attempt_type), intent(inout)  :: attempt
       type(straight_law), intent(inout)  :: laws(:)
-      real(wp) :: force(3), movement(3), rho(3), shift(3), softer, true_force(3), work(3)
+      real(wp) :: force(3), movement(3), rho(3), shift(3), softer, true_force(3)
       integer  :: i
       logical  :: slipped
 
@@ -143,7 +143,7 @@ contains
                movement = movement + shift
             end if
             slipped = straight%state%slips
-            call follow_element(law, area, analysis%states(i), movement, straight%state, straight%tangent, work)
+            call follow_element(law, area, analysis%states(i), movement, straight%state, straight%tangent)
             straight%point = movement
             straight%shift = shift
             straight%force = force_of(area, straight%state)

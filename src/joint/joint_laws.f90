@@ -1,19 +1,19 @@
 !> The laws of a joint together: the state of an interface element, its stiffness, and the Coulomb limit. The methods ask for
 !! these element by element: STEP for stiffnesses, NEWTON for the exact law, BACK for secants.
 module joint_laws
-   use branch_cubic, only: cubic_secant, cubic_work
+   use branch_cubic, only: cubic_secant
    use kinds, only: wp
    use normal_curve, only: loading_pressure, normal_law, normal_secant, pressure_floor
-   use normal_stiffness, only: branch_open, closed_share, follow_normal, is_virgin, norm, normal_state, stored_work
+   use normal_stiffness, only: branch_open, closed_share, follow_normal, is_virgin, norm, normal_state
    use shear_path, only: follow_shear
-   use shear_stiffness, only: curve_deflection, shear, shear_law, shear_state, slid_from, stand_at_limit
+   use shear_stiffness, only: shear, shear_law, shear_state, slid_from, stand_at_limit
    implicit none
    private
 
-   public :: norm_and_shear, start_shear, stiffness_at_rest, stiffness_matrices, follow_element, force_of, work_along
+   public :: norm_and_shear, start_shear, stiffness_at_rest, stiffness_matrices, follow_element, force_of
    public :: rest_when_open, is_apart
    public :: friction_limit, friction_excess, exceeds_limit
-   public :: back_stiffness, loading_work
+   public :: back_stiffness
 
    real(wp), parameter :: slip_margin = 1.0e-9_wp ! of the limit: rounding does not cause slip
    real(wp), parameter, public :: flag_margin = 1.0e-7_wp  !! of it: the remainder of a relief is no slip in the next increment
@@ -160,21 +160,19 @@ contains
 
    !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb
    !! friction as a return to the limit.
-   pure subroutine follow_element(law, area, before, movement, after, tangent, work)
+   pure subroutine follow_element(law, area, before, movement, after, tangent)
       type(joint_law), intent(in)      :: law
       real(wp), intent(in)             :: area
       type(element_state), intent(in)  :: before
       real(wp), intent(in)             :: movement(3)   !! total movement of end 1 relative to end 2 [length]
       type(element_state), intent(out) :: after
       real(wp), intent(out)            :: tangent(3, 3) !! d (forces x, y, z)/d movement [force/length], not symmetric
-      real(wp), intent(out)            :: work(3)       !! done by shear, by normal forces, on friction [force x length]
-      real(wp) :: by_delta(2), by_p(2), slope, shear_work, limit, size_of_tau, along(2), share, share_by_lambda, slid(2)
+      real(wp) :: by_delta(2), by_p(2), slope, work, limit, size_of_tau, along(2), share, share_by_lambda
       integer  :: i
 
       after = before
       tangent = 0.0_wp
-      work = 0.0_wp
-      call follow_normal(law%normal, area, before%normal, movement(3) - before%normal%gap, after%normal, slope, work(2))
+      call follow_normal(law%normal, area, before%normal, movement(3) - before%normal%gap, after%normal, slope, work)
       after%slips = .false.
       tangent(3, 3) = slope*area
       if (after%normal%branch == branch_open) then
@@ -190,8 +188,7 @@ contains
       end if
       do i = 1, 2
          call follow_shear(law%shear(i), before%shear(i), movement(i) - after%origin(i), &
-                           [before%normal%pressure, after%normal%pressure], after%shear(i), by_delta(i), by_p(i), shear_work)
-         work(1) = work(1) + area*shear_work
+                           [before%normal%pressure, after%normal%pressure], after%shear(i), by_delta(i), by_p(i), work)
          tangent(i, i) = area*by_delta(i)*share
          tangent(i, 3) = area*by_p(i)*slope + area*by_delta(i)*(movement(i) - before%origin(i))*share_by_lambda
       end do
@@ -203,62 +200,10 @@ contains
       tangent(:2, :2) = limit/size_of_tau*(tangent(:2, :2) - matmul(spread(along, 2, 1), &
                                            matmul(spread(along, 1, 1), tangent(:2, :2))))
       tangent(:2, 3) = limit/size_of_tau*(tangent(:2, 3) - along*dot_product(along, tangent(:2, 3))) + law%mu*slope*area*along
-      slid = slid_from(law%shear, after%normal%pressure, after%shear, limit*along)
-      after%shear%slid = after%shear%slid + slid
+      after%shear%slid = after%shear%slid + slid_from(law%shear, after%normal%pressure, after%shear, limit*along)
       after%shear%tau = limit*along
-      work(3) = area*sum(after%shear%tau*slid)
-      work(1) = sum(0.5_wp*area*(before%shear%tau + after%shear%tau)*(after%shear%delta - before%shear%delta)) - work(3)
       call stand_at_limit(law%shear, max(0.0_wp, after%normal%pressure), after%shear)
    end subroutine follow_element
-
-   !> Work of an element (tangential, normal) on the straight path from the movement FROM to TO, from its state BEFORE [force x
-   !! length]. Where slip begins on the path follow_element takes the mean of the stresses; here the point of slip is found. Up
-   !! to that point the work is that of the laws; beyond it five Gauss points integrate the stress. An element that opens does
-   !! no work beyond the point of zero pressure on the line of slope E_u.
-   pure function work_along(law, area, before, from, to) result(work)
-      type(joint_law), intent(in)     :: law
-      real(wp), intent(in)            :: area
-      type(element_state), intent(in) :: before
-      real(wp), intent(in)            :: from(3), to(3) !! total movement of end 1 relative to end 2 [length]
-      real(wp) :: work(2)
-      real(wp), parameter :: point(5) = [-0.906179845938664_wp, -0.538469310105683_wp, 0.0_wp, 0.538469310105683_wp, &
-                                         0.906179845938664_wp]
-      real(wp), parameter :: weight(5) = [0.236926885056189_wp, 0.478628670499366_wp, 0.568888888888889_wp, 0.478628670499366_wp, &
-                                          0.236926885056189_wp]
-      type(element_state) :: begins, after
-      real(wp), parameter :: near = 1.0e-7_wp ! of the path: the error of the work is its square
-      real(wp), parameter :: shut = 1.0e-9_wp ! likewise: still pressed
-      real(wp) :: tangent(3, 3), part(3), stick, slip, middle, guess, end(3)
-      integer  :: i
-
-      end = to
-      call follow_element(law, area, before, end, after, tangent, part)
-      work = part(:2)
-      if (after%normal%branch == branch_open .and. before%normal%pressure > 0.0_wp) then
-         end = from + (1.0_wp - shut)*before%normal%pressure/law%normal%e_u/(from(3) - to(3))*(to - from)
-         call follow_element(law, area, before, end, after, tangent, part)
-         work(1) = part(1)
-      end if
-      if (.not. after%slips) return
-      stick = 0.0_wp ! fraction of the path
-      slip = 1.0_wp
-      guess = 1.0_wp - norm2(after%shear%slid - before%shear%slid)/norm2(end(:2) - from(:2))
-      do i = 1, 26
-         if (slip - stick <= 2.0_wp*near) exit
-         middle = 0.5_wp*(stick + slip)
-         if (i <= 2) middle = min(max(guess + merge(-near, near, i == 1), stick), slip)
-         call follow_element(law, area, before, from + middle*(end - from), after, tangent, part)
-         if (after%slips) slip = middle
-         if (.not. after%slips) stick = middle
-      end do
-      call follow_element(law, area, before, from + stick*(end - from), begins, tangent, part)
-      work(1) = part(1)
-      do i = 1, size(point)
-         slip = stick + 0.5_wp*(1.0_wp + point(i))*(1.0_wp - stick)
-         call follow_element(law, area, begins, from + slip*(end - from), after, tangent, part)
-         work(1) = work(1) + 0.5_wp*weight(i)*(1.0_wp - stick)*area*dot_product(after%shear%tau, end(:2) - from(:2))
-      end do
-   end function work_along
 
    !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves at the DEFLECTION: p(lambda)/lambda, P(d)/d under this p and cut to
    !! the Coulomb limit, times the area [force/length]; none where the element is open.
@@ -276,19 +221,5 @@ contains
       if (law%has_friction .and. moved > 0.0_wp) k(:2) = min(k(:2), friction_limit(law, p)*area/moved)
       k(3) = normal_secant(law%normal, area, p)
    end function back_stiffness
-
-   !> Work by shear, by normal forces and on friction of an element on its path from rest to STATE [force x length]: along the
-   !! loading curves, and by sliding along the limit.
-   pure function loading_work(law, area, state) result(work)
-      type(joint_law), intent(in)     :: law
-      real(wp), intent(in)            :: area
-      type(element_state), intent(in) :: state
-      real(wp) :: work(3)
-
-      associate (lambda => state%normal%lambda, p => state%normal%pressure, loading => law%shear%load)
-         work = area*[sum(cubic_work(loading, abs(curve_deflection(state%shear)), p)), stored_work(law%normal, lambda, p, p), &
-                      sum(state%shear%tau*state%shear%slid)]
-      end associate
-   end function loading_work
 
 end module joint_laws

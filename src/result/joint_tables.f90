@@ -225,7 +225,7 @@ contains
       type(analysis_type), intent(in) :: analysis
       character(10), parameter :: names(3) = [character(10) :: 'PUT IN', 'GIVEN BACK', 'KEPT']
       type(table_type) :: table
-      real(wp) :: floor
+      real(wp) :: floor, kept(2)
       integer  :: j, k
       logical  :: slides
 
@@ -240,11 +240,12 @@ contains
       do j = 1, size(model%joints)
          associate (energy => analysis%energy(j))
             floor = noise*sum(energy%put_in)
+            kept = energy%kept()
             call table%add([model%joints(j)%id])
             do k = 2, 1, -1
-               call table%add([energy%put_in(k), energy%given_back(k), energy%put_in(k) - energy%given_back(k)], floor)
+               call table%add([energy%put_in(k), energy%given_back(k), kept(k)], floor)
             end do
-            call table%add(energy%put_in(3:), floor)
+            call table%add([energy%lost], floor)
             call table%print_row(page%file)
          end associate
       end do

@@ -9,7 +9,8 @@ module modal_path
    use analysis_state, only: analysis_type, free_norm
    use equation_solver, only: equation_system, failure_type
    use equations, only: condense_load, recover_displacements
-   use joint_laws, only: element_state, force_of, work_along
+   use joint_laws, only: element_state, force_of
+   use joint_work, only: joint_energy, work_along
    use kinds, only: wp
    use load_path, only: hold_load, start_increment
    use mass_matrix, only: form_mass, mass_matrix_type, mass_times
@@ -229,6 +230,7 @@ contains
       real(wp), intent(out)                :: work(:) !! (elements) [force x length]
       type(failure_type), intent(inout)    :: failure
       type(element_state) :: before(size(now%states))
+      type(joint_energy)  :: energy
       real(wp) :: from(3, size(now%states)), step
       integer  :: e
 
@@ -252,8 +254,8 @@ contains
       if (failure%raised) return
       do e = 1, size(before)
          associate (element => model%interface(e), to => now%movement(:, e))
-            work(e) = sum(work_along(model%joints(element%joint)%law, element%area, before(e), from(:, e), to)) &
-                      - dot_product(modal%rest_forces(:, e), to - from(:, e))
+            energy = work_along(model%joints(element%joint)%law, element%area, before(e), to)
+            work(e) = sum(energy%net()) - dot_product(modal%rest_forces(:, e), to - from(:, e))
          end associate
       end do
    end subroutine load_increment
