@@ -29,11 +29,12 @@ module modal_loops
 
    real(wp), parameter :: settled_q = 0.3_wp         ! of the tolerance: change of q from loop to loop
    real(wp), parameter :: settled_area = 10.0_wp     ! likewise, of the area of a loop
+   real(wp), parameter :: slowest = 0.9_wp           ! ratio of the changes of two loops, where it is not known
    real(wp), parameter :: coarsely_settled = 0.01_wp ! of the area: coarse loops only look for the load
    real(wp), parameter :: no_area = 1.0e-9_wp        ! of alpha q: rounding
    real(wp), parameter :: negligible = 1.0e-6_wp     ! likewise: smaller areas need not settle
    real(wp), parameter :: per_part = 0.03_wp         ! of the tolerance: share of one part of a loop
-   real(wp), parameter :: least_loss = 0.1_wp        ! of alpha q: a smaller D does not tighten the tolerances
+   real(wp), parameter :: least_loss = 0.01_wp       ! of alpha q: a smaller D does not tighten the tolerances
    real(wp), parameter :: even = 1.0e-6_wp           ! of a push: the two senses are equal
 
    !> The last loop under one alpha.
@@ -92,27 +93,30 @@ contains
       type(loop_type), intent(in), optional :: fine
       type(analysis_type), allocatable :: now
       type(path_type) :: path
-      real(wp) :: before, q_before, settled(2) ! D and q of the loop before; changes that count as none, of themselves
+      real(wp) :: settled(2)                        ! changes of q and D that count as none, of themselves
+      real(wp) :: change(2), change_before(2), before(2) ! of q and D, and these of the loop before
 
       modal%finest_work = 0.0_wp
       settled = [coarsely_settled, coarsely_settled]
       if (present(fine)) then
          call be_precise(fine, 1.0_wp)
-         settled = wanted%tolerance*[settled_area, settled_q]
+         settled = wanted%tolerance*[settled_q, settled_area]
       end if
       loop%alpha = alpha
       call start_path(modal, alpha, now)
       call begin_path(model, 0.0_wp, 0.0_wp, path)
       call follow_path(model, modal, [0.0_wp, alpha], wanted%increments, now, path, failure)
       if (present(fine)) call be_precise(fine, least_loss)
+      change = huge(1.0_wp)
       do while (.not. failure%raised .and. loop%n_loops < 2 + wanted%cycles)
-         before = loop%lost
-         q_before = loop%q
+         before = [loop%q, loop%lost]
+         change_before = change
          call run_loop(model, modal, wanted%increments, now, loop, failure)
          if (failure%raised) exit
-         if (loop%n_loops >= 2 .and. abs(loop%q - q_before) <= settled(2)*loop%q .and. &
-             abs(loop%lost - before) <= max(settled(1)*abs(loop%lost), negligible*alpha*loop%q)) exit
          if (present(fine)) call be_precise(loop, least_loss)
+         if (loop%n_loops < 2) cycle
+         change = abs([loop%q, loop%lost] - before)
+         if (all(left(change, change_before) <= max(settled*[loop%q, abs(loop%lost)], [0.0_wp, negligible*alpha*loop%q]))) exit
       end do
 
    contains
@@ -131,6 +135,17 @@ contains
       end subroutine be_precise
 
    end subroutine run_loops
+
+   !> What all later loops change, estimated from the CHANGE of the last loop and of the one BEFORE: changes fall in geometric
+   !! progression.
+   elemental real(wp) function left(change, before)
+      real(wp), intent(in) :: change, before
+      real(wp) :: ratio
+
+      ratio = slowest
+      if (before < huge(1.0_wp)) ratio = min(slowest, change/max(before, tiny(1.0_wp)))
+      left = max(change, change*ratio/(1.0_wp - ratio))
+   end function left
 
    !> One more loop from NOW, the upper turning point.
    subroutine run_loop(model, modal, increments, now, loop, failure)
