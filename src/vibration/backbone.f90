@@ -165,7 +165,7 @@ contains
       end if
       call try_loads(model, wanted, roughly, search, found, coarse)
       if (coarse%n_loops == 0) return
-      call choose_sense(model, found%modal, wanted, coarse%alpha)
+      call choose_sense(model, found%modal, wanted, coarse)
       search%low = trial_type(coarse%alpha/around, 0.0_wp)
       search%high%alpha = min(coarse%alpha*around, 2.0_wp*search%high%alpha - search%low%alpha)
       search%near = near_limit

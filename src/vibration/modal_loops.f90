@@ -29,7 +29,8 @@ module modal_loops
 
    real(wp), parameter :: settled_q = 0.3_wp         ! of the tolerance: change of q from loop to loop
    real(wp), parameter :: settled_area = 10.0_wp     ! likewise, of the area of a loop
-   real(wp), parameter :: slowest = 0.9_wp           ! ratio of the changes of two loops, where it is not known
+   real(wp), parameter :: not_known = 0.9_wp         ! ratio of the changes of two loops, where there are but two
+   real(wp), parameter :: slowest = 0.97_wp          ! likewise: a larger one counts as this
    real(wp), parameter :: coarsely_settled = 0.01_wp ! of the area: coarse loops only look for the load
    real(wp), parameter :: no_area = 1.0e-9_wp        ! of alpha q: rounding
    real(wp), parameter :: negligible = 1.0e-6_wp     ! likewise: smaller areas need not settle
@@ -54,27 +55,27 @@ module modal_loops
 
 contains
 
-   !> Choose the sense of the first push of MODAL, up to ALPHA: that in which the structure is softer, so that the loops of a
-   !! structure and of its mirror image are mirror images. The present sense remains where both are equal.
-   subroutine choose_sense(model, modal, wanted, alpha)
+   !> Choose the sense of the first push of MODAL, up to about the load of the loop COARSE: that in which the structure is softer, so
+   !! that the loops of a structure and of its mirror image are mirror images. The present sense remains where both are equal.
+   subroutine choose_sense(model, modal, wanted, coarse)
       type(model_type), intent(in)         :: model
       type(modal_load_type), intent(inout) :: modal
       type(backbone_plan), intent(in)      :: wanted
-      real(wp), intent(in)                 :: alpha
+      type(loop_type), intent(in)          :: coarse
       type(analysis_type), allocatable :: now
       type(failure_type) :: failure, none
       type(path_type)    :: path
       real(wp) :: pushed(2) ! q of the pushes; larger than any where the structure does not carry alpha
       integer  :: i
 
-      modal%finest_work = 0.0_wp
       do i = 1, 2
          failure = none
-         call start_path(modal, alpha, now)
+         call start_path(modal, coarse%alpha, now)
+         call be_precise(wanted, coarse, 1.0_wp, modal)
          call begin_path(model, 0.0_wp, 0.0_wp, path)
-         call follow_path(model, modal, [0.0_wp, alpha], wanted%increments, now, path, failure)
+         call follow_path(model, modal, [0.0_wp, coarse%alpha], wanted%increments, now, path, failure)
          pushed(i) = -1.0_wp
-         if (.not. failure%raised) pushed(i) = coordinate(modal, now, alpha)
+         if (.not. failure%raised) pushed(i) = coordinate(modal, now, coarse%alpha)
          call reverse(modal)
       end do
       if (pushed(2) > pushed(1) + even*abs(pushed(1))) call reverse(modal)
@@ -98,43 +99,42 @@ contains
 
       modal%finest_work = 0.0_wp
       settled = [coarsely_settled, coarsely_settled]
-      if (present(fine)) then
-         call be_precise(fine, 1.0_wp)
-         settled = wanted%tolerance*[settled_q, settled_area]
-      end if
       loop%alpha = alpha
       call start_path(modal, alpha, now)
+      if (present(fine)) then
+         call be_precise(wanted, fine, 1.0_wp, modal)
+         settled = wanted%tolerance*[settled_q, settled_area]
+      end if
       call begin_path(model, 0.0_wp, 0.0_wp, path)
       call follow_path(model, modal, [0.0_wp, alpha], wanted%increments, now, path, failure)
-      if (present(fine)) call be_precise(fine, least_loss)
+      if (present(fine)) call be_precise(wanted, fine, least_loss, modal)
       change = huge(1.0_wp)
       do while (.not. failure%raised .and. loop%n_loops < 2 + wanted%cycles)
          before = [loop%q, loop%lost]
          change_before = change
          call run_loop(model, modal, wanted%increments, now, loop, failure)
          if (failure%raised) exit
-         if (present(fine)) call be_precise(loop, least_loss)
+         if (present(fine)) call be_precise(wanted, loop, least_loss, modal)
          if (loop%n_loops < 2) cycle
          change = abs([loop%q, loop%lost] - before)
          if (all(left(change, change_before) <= max(settled*[loop%q, abs(loop%lost)], [0.0_wp, negligible*alpha*loop%q]))) exit
       end do
-
-   contains
-
-      !> Take the tolerances of work and q from the loop LIKE. Where D is small, an error of q is a large share of it; D of less than
-      !! LEAST of alpha q does not tighten the tolerances.
-      subroutine be_precise(like, least)
-         type(loop_type), intent(in) :: like
-         real(wp), intent(in)        :: least
-         real(wp) :: area, lost
-
-         area = like%alpha*like%q
-         lost = max(abs(like%lost), least*area)
-         modal%finest_work = max(wanted%tolerance*per_part*lost, rounding_of_work(modal, area))
-         modal%finest_q = like%q*max(wanted%tolerance*per_part*min(1.0_wp, lost/area), modal%q_noise)
-      end subroutine be_precise
-
    end subroutine run_loops
+
+   !> Take the tolerances of work and q of MODAL from the loop LIKE. Where D is small, an error of q is a large share of it; D of less
+   !! than LEAST of alpha q does not tighten the tolerances.
+   pure subroutine be_precise(wanted, like, least, modal)
+      type(backbone_plan), intent(in)      :: wanted
+      type(loop_type), intent(in)          :: like
+      real(wp), intent(in)                 :: least
+      type(modal_load_type), intent(inout) :: modal
+      real(wp) :: area, lost
+
+      area = like%alpha*like%q
+      lost = max(abs(like%lost), least*area)
+      modal%finest_work = max(wanted%tolerance*per_part*lost, rounding_of_work(modal, area))
+      modal%finest_q = like%q*max(wanted%tolerance*per_part*min(1.0_wp, lost/area), modal%q_noise)
+   end subroutine be_precise
 
    !> What all later loops change, estimated from the CHANGE of the last loop and of the one BEFORE: changes fall in geometric
    !! progression.
@@ -142,7 +142,7 @@ contains
       real(wp), intent(in) :: change, before
       real(wp) :: ratio
 
-      ratio = slowest
+      ratio = not_known
       if (before < huge(1.0_wp)) ratio = min(slowest, change/max(before, tiny(1.0_wp)))
       left = max(change, change*ratio/(1.0_wp - ratio))
    end function left

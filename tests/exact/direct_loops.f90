@@ -305,12 +305,12 @@ contains
    end subroutine go
 
    subroutine judge()
-      real(wp), parameter :: same_f = 1.0e-4_wp, same_d = 0.01_wp, no_loss = 2.0e-6_wp
-      type(state_type) :: rest, now, other
-      real(wp) :: alpha, d, f, found(8), k(3, 3), lost, omega(3), phi(3), point(6), q, q_before, shapes(3, 3), top, low, high
+      real(wp), parameter :: same_f = 1.0e-4_wp, same_d = 0.01_wp, no_loss = 1.0e-5_wp
+      type(state_type) :: rest
+      real(wp) :: alpha, d, f, found(8), k(3, 3), lost, omega(3), phi(3), point(6), q, shapes(3, 3)
       character(300) :: line
-      integer :: backbone, checked, i, loops, loop_file, row
-      logical :: ok
+      integer :: backbone, checked, i, loop_file, row, sense
+      logical :: agrees, near, ok
 
       checked = 0
       rest = state_type()
@@ -330,7 +330,6 @@ contains
       end if
       k = stiffness(rest%p)
       call find_modes(k, omega, shapes)
-      phi = shapes(:, mode)
       call get_command_argument(3, word)
       open (newunit=backbone, file=word, status='old', action='read')
       read (backbone, '(a)') line
@@ -351,52 +350,105 @@ contains
          end do
          close (loop_file)
          alpha = abs(point(5))
-         ! the softer sense first
-         now = rest
-         call go(now, force, force + alpha*inert(phi), stroke/8, d, ok)
-         if (ok) then
-            other = rest
-            call go(other, force, force - alpha*inert(phi), stroke/8, d, ok)
-            if (ok) then
-               if (abs(sum(inert(phi)*(other%u - rest%u))) > abs(sum(inert(phi)*(now%u - rest%u)))*(1.0_wp + 1.0e-6_wp)) phi = -phi
-            else
-               phi = -phi
-            end if
-         else
-            phi = -phi
-         end if
-         now = rest
-         call go(now, force, force + alpha*inert(phi), stroke/2, d, ok)
-         q = 0.0_wp
-         lost = 0.0_wp
-         do loops = 1, 42
+         phi = shapes(:, mode)
+         call choose_sense(rest, alpha, phi, near)
+         do sense = 1, merge(2, 1, near) ! both senses where the structure is almost equally soft in both
+            if (sense == 2) phi = -phi
+            call find_amplitude(rest, found(3), phi, alpha, q, lost, ok)
             if (.not. ok) exit
-            q_before = q
-            f = lost
-            lost = 0.0_wp
-            top = sum(inert(phi)*(now%u - rest%u))
-            call go(now, force + alpha*inert(phi), force - alpha*inert(phi), stroke, lost, ok)
-            if (.not. ok) exit
-            low = sum(inert(phi)*(now%u - rest%u))
-            call go(now, force - alpha*inert(phi), force + alpha*inert(phi), stroke, lost, ok)
-            if (.not. ok) exit
-            high = sum(inert(phi)*(now%u - rest%u))
-            q = 0.25_wp*(top + high) - 0.5_wp*low
-            if (loops > 1 .and. abs(q - q_before) <= 1.0e-6_wp*q .and. abs(lost - f) <= 1.0e-3_wp*lost + 1.0e-7_wp*alpha*q) exit
+            d = lost/(acos(-1.0_wp)*alpha*q)
+            f = sqrt(alpha/q)/(2.0_wp*acos(-1.0_wp))
+            agrees = abs(found(4)/f - 1.0_wp) <= same_f .and. abs(found(5) - d) <= same_d*d + no_loss
+            if (agrees) exit
          end do
          if (.not. ok) then
             print '(a)', 'skipped: no equilibrium in the direct integration'
             cycle
          end if
-         d = lost/(acos(-1.0_wp)*alpha*q)
-         f = sqrt(alpha/q)/(2.0_wp*acos(-1.0_wp))
          checked = checked + 1
-         if (abs(found(4)/f - 1.0_wp) > same_f .or. abs(found(5) - d) > same_d*d + no_loss) &
-            print '(3(a, i0), 2(a, 2es14.6), a, es10.2, i4)', 'seed ', seed, ' mode ', mode, ' row ', row, ': frequency ', &
-            found(4), f, '  loss ', found(5), d, '  E_u over tangent', e_u*m*c/sum(rest%p(:n)/n)**(1.0_wp - m), loops
+         if (.not. agrees) print '(3(a, i0), 2(a, 2es14.6), a, es10.2, l2)', 'seed ', seed, ' mode ', mode, ' row ', row, &
+            ': frequency ', found(4), f, '  loss ', found(5), d, '  E_u over tangent', e_u*m*c/sum(rest%p(:n)/n)**(1.0_wp - m), near
       end do
       print '(a, i0)', 'checked ', checked
    end subroutine judge
+
+   !> Reverse PHI where the structure is softer in the other sense; NEAR: almost as soft.
+   subroutine choose_sense(rest, alpha, phi, near)
+      type(state_type), intent(in) :: rest
+      real(wp), intent(in)         :: alpha
+      real(wp), intent(inout)      :: phi(3)
+      logical, intent(out)         :: near
+      type(state_type) :: now
+      real(wp) :: pushed(2), unused
+      logical  :: ok
+      integer  :: i
+
+      unused = 0.0_wp
+      pushed = 0.0_wp
+      do i = 1, 2
+         now = rest
+         call go(now, force, force + alpha*inert(phi), stroke/8, unused, ok)
+         if (ok) pushed(i) = sum(inert(phi)*(now%u - rest%u))
+         phi = -phi
+      end do
+      near = abs(pushed(2) - pushed(1)) < 0.03_wp*maxval(pushed)
+      if (pushed(2) > pushed(1)*(1.0_wp + 1.0e-6_wp)) phi = -phi
+   end subroutine choose_sense
+
+   !> ALPHA, from a guess, whose loop has the AMPLITUDE, by secants; half the mean stroke Q and the loss LOST of that loop.
+   subroutine find_amplitude(rest, amplitude, phi, alpha, q, lost, ok)
+      type(state_type), intent(in) :: rest
+      real(wp), intent(in)         :: amplitude, phi(3)
+      real(wp), intent(inout)      :: alpha
+      real(wp), intent(out)        :: q, lost
+      logical, intent(out)         :: ok
+      real(wp) :: before(2), now(2), wanted
+      integer  :: trial
+
+      wanted = amplitude/norm2(phi(:2))
+      before = 0.0_wp
+      do trial = 1, 8
+         call run_loops(rest, phi, alpha, q, lost, ok)
+         if (.not. ok .or. abs(q/wanted - 1.0_wp) <= 1.0e-6_wp) return
+         now = [alpha, q]
+         if (trial == 1) alpha = alpha*(1.0_wp + 0.3_wp*(wanted/q - 1.0_wp))
+         if (trial > 1) alpha = alpha + (wanted - q)*(now(1) - before(1))/(now(2) - before(2))
+         before = now
+      end do
+      ok = abs(q/wanted - 1.0_wp) <= 1.0e-4_wp
+   end subroutine find_amplitude
+
+   !> Loops under ALPHA until they have settled.
+   subroutine run_loops(rest, phi, alpha, q, lost, ok)
+      type(state_type), intent(in) :: rest
+      real(wp), intent(in)         :: phi(3), alpha
+      real(wp), intent(out)        :: q, lost
+      logical, intent(out)         :: ok
+      type(state_type) :: now
+      real(wp) :: high, load(3), lost_before, low, q_before, top
+      integer  :: i
+
+      load = alpha*inert(phi)
+      now = rest
+      q = 0.0_wp
+      lost = 0.0_wp
+      call go(now, force, force + load, stroke/2, lost, ok)
+      do i = 1, 42
+         if (.not. ok) return
+         q_before = q
+         lost_before = lost
+         lost = 0.0_wp
+         top = sum(inert(phi)*(now%u - rest%u))
+         call go(now, force + load, force - load, stroke, lost, ok)
+         if (.not. ok) return
+         low = sum(inert(phi)*(now%u - rest%u))
+         call go(now, force - load, force + load, stroke, lost, ok)
+         high = sum(inert(phi)*(now%u - rest%u))
+         q = 0.25_wp*(top + high) - 0.5_wp*low
+         if (i > 1 .and. abs(q - q_before) <= 1.0e-6_wp*q .and. &
+             abs(lost - lost_before) <= 1.0e-3_wp*lost + 1.0e-7_wp*alpha*q) return
+      end do
+   end subroutine run_loops
 
    !> The part of the load at the end of increment I of JINCR.
    real(wp) function geometric(i)
