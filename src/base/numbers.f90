@@ -91,7 +91,7 @@ contains
       real(wp) :: bracket(2)
       integer  :: i
 
-      if (ubound(c, 1) == 0) return
+      if (all(abs(c(1:)) <= 0.0_wp)) return
       call find_zeros(derivative(c), from, to, turns)
       bracket(2) = from
       do i = 1, turns%n + 1
@@ -109,24 +109,29 @@ contains
    pure real(wp) function enclosed_zero(c, bracket) result(x)
       real(wp), intent(in) :: c(0:), bracket(2)
       real(wp) :: ends(2), value, slope, step, last_step
-      integer  :: pass
+      integer  :: k, pass
 
       ends = bracket
       if (polynomial(c, ends(1)) > 0.0_wp) ends = bracket([2, 1]) ! negative at ends(1)
       x = 0.5_wp*sum(ends)
       step = ends(2) - ends(1)
       do pass = 1, 500
-         value = polynomial(c, x)
+         value = 0.0_wp
+         slope = 0.0_wp
+         do k = ubound(c, 1), 0, -1
+            slope = slope*x + value
+            value = value*x + c(k)
+         end do
+         if (abs(value) <= 0.0_wp) exit
          if (value < 0.0_wp) then
             ends(1) = x
          else
             ends(2) = x
          end if
-         slope = polynomial(derivative(c), x)
          last_step = step
          step = 0.5_wp*sum(ends) - x
          if (abs(value) < 0.5_wp*abs(slope*last_step)) then ! Newton's method converges
-            if ((x - value/slope - ends(1))*(x - value/slope - ends(2)) < 0.0_wp) step = -value/slope
+            if ((x - value/slope - ends(1))*(x - value/slope - ends(2)) <= 0.0_wp) step = -value/slope
          end if
          x = x + step
          if (abs(step) <= spacing(x)) exit
@@ -150,7 +155,9 @@ contains
       real(wp) :: slope(0:ubound(c, 1) - 1)
       integer  :: k
 
-      slope = [(k*c(k), k = 1, ubound(c, 1))]
+      do k = 1, ubound(c, 1)
+         slope(k - 1) = k*c(k)
+      end do
    end function derivative
 
    !> The X that minimizes norm2(MATRIX X - RHS), by an orthogonal factorisation with pivoting (DGELSY). The columns are scaled to unit

@@ -52,7 +52,7 @@ contains
          call card%field('CYCLES', jampl%cycles, default=5, least=0)
          call card%field('INCS', jampl%increments, default=2, most=most_amplitudes)
          call card%field('GID', jampl%node, default=0)
-         call card%field('TOL', jampl%tolerance, positive, default=1.0e-6_wp)
+         call card%field('TOL', jampl%tolerance, positive, default=1.0e-4_wp)
          call card%finish(jampl%line)
       end associate
    end subroutine read_jampl

@@ -28,7 +28,7 @@
 !! of loading belongs to a slowly growing load. An open element has no stiffness.
 module shear_loops
    use branch_cubic, only: cubic, cubic_loop, cubic_secant, cubic_slope, cubic_value, slope_on_way, value_on_way
-   use joint_laws, only: element_state, joint_law
+   use joint_laws, only: element_state, friction_limit, joint_law
    use kinds, only: wp
    use normal_curve, only: normal_tangent
    use normal_stiffness, only: branch_open
@@ -37,7 +37,7 @@ module shear_loops
    implicit none
    private
 
-   public :: closure_at, worst_closure, loop_loss, skeleton_end, oscillation_stiffness
+   public :: closure_at, worst_closure, loop_loss, loss_of_element, skeleton_end, oscillation_stiffness
 
    real(wp), parameter, public :: wide_gap = 0.05_wp !! a warning is given above it
 
@@ -108,12 +108,51 @@ contains
       real(wp), intent(in)    :: p         !! present pressure, >= 0 [pressure]
       real(wp), intent(in)    :: limit     !! Coulomb limit mu p, >= 0, or no_limit [pressure]
       real(wp), intent(in)    :: amplitude !! d of the shear deflection; its sign does not matter [length]
-      real(wp) :: d, reach
 
-      d = abs(amplitude)
-      reach = skeleton_end(loading, p, limit, d)
-      loss = max(0.0_wp, cubic_loop(loading, reach, p) + 4.0_wp*cubic_value(loading, reach, p)*(d - reach))
+      loss = loss_beyond(loading, p, abs(amplitude), skeleton_end(loading, p, limit, abs(amplitude)))
    end function loop_loss
+
+   !> The loss of the loop of amplitude D whose skeleton is constant from REACH on.
+   pure real(wp) function loss_beyond(loading, p, d, reach) result(loss)
+      type(cubic), intent(in) :: loading
+      real(wp), intent(in)    :: p, d, reach
+
+      loss = max(0.0_wp, cubic_loop(loading, reach, p) + 4.0_wp*cubic_value(loading, reach, p)*(d - reach))
+   end function loss_beyond
+
+   !> Loss of one cycle of shear per area of an element whose two ends oscillate with the amplitude MOVEMENT in its plane. The limit
+   !! is that of the resultant of the two stresses: both stay constant from the fraction of MOVEMENT on at which the resultant reaches
+   !! it [pressure x length].
+   pure real(wp) function loss_of_element(law, p, movement) result(loss)
+      type(joint_law), intent(in) :: law
+      real(wp), intent(in)        :: p           !! present pressure, >= 0 [pressure]
+      real(wp), intent(in)        :: movement(2) !! [length]
+      real(wp) :: bounds(2), d(2), limit, reach(2)
+      integer  :: i
+
+      limit = no_limit
+      if (law%has_friction) limit = friction_limit(law, p)
+      d = merge(abs(movement), 0.0_wp, law%shear%given)
+      loss = 0.0_wp
+      if (count(d > 0.0_wp) < 2) then
+         i = maxloc(d, dim=1)
+         if (d(i) > 0.0_wp) loss = loop_loss(law%shear(i)%load, p, limit, d(i))
+         return
+      end if
+      reach = [(skeleton_end(law%shear(i)%load, p, merge(no_limit, 0.0_wp, limit > 0.0_wp), d(i)), i = 1, 2)]
+      if (norm2(cubic_value(law%shear%load, reach, p)) > limit) then
+         bounds = [0.0_wp, 1.0_wp]
+         do i = 1, digits(1.0_wp)
+            if (norm2(cubic_value(law%shear%load, min(reach, 0.5_wp*sum(bounds)*d), p)) > limit) then
+               bounds(2) = 0.5_wp*sum(bounds)
+            else
+               bounds(1) = 0.5_wp*sum(bounds)
+            end if
+         end do
+         reach = min(reach, bounds(1)*d)
+      end if
+      loss = sum([(loss_beyond(law%shear(i)%load, p, d(i), reach(i)), i = 1, 2)])
+   end function loss_of_element
 
    !> d_e up to which the skeleton curve is the loading curve, at most FAR [length].
    pure real(wp) function skeleton_end(loading, p, limit, far) result(d)

@@ -7,7 +7,8 @@ module backbone
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system, failure_type
    use kinds, only: wp
-   use modal_loops, only: loop_type, modal_load_type, run_loops, start_modal_load
+   use modal_loops, only: choose_sense, loop_type, run_loops
+   use modal_path, only: modal_load_type, start_modal_load
    use mode_values, only: modes_type
    use model_data, only: model_type, n_points
    use stage_plan, only: backbone_plan, loss_at, stage_plan_type, vibration_plan_type
@@ -18,9 +19,12 @@ module backbone
 
    public :: start_backbone, find_loop, finish_backbone
 
-   real(wp), parameter :: reached = 1.0e-7_wp       ! of an amplitude: tolerance of the search
+   real(wp), parameter :: reached = 1.0e-7_wp       ! of the largest displacement: rounding
+   real(wp), parameter :: roughly = 3.0e-3_wp       ! of an amplitude: tolerance of the search with coarse increments
+   real(wp), parameter :: exactly = 0.1_wp          ! of the tolerance of JAMPL: likewise with fine increments
+   real(wp), parameter :: around = 2.0_wp           ! times the load: the two find the same load within this factor
    real(wp), parameter :: same = 1.0e-12_wp         ! of alpha: the loop jumps between two loads this close
-   real(wp), parameter :: near_limit = 1.0e-4_wp    ! of alpha: precision of the largest load that is carried
+   real(wp), parameter :: near_limit = 1.0e-3_wp    ! of alpha: precision of the largest load carried by fine increments
    integer, parameter  :: most_trials = 60
    integer, parameter  :: steps = 20                ! of the response between two amplitudes
 
@@ -41,6 +45,19 @@ module backbone
    type :: trial_type
       real(wp) :: alpha = 0.0_wp, amplitude = 0.0_wp
    end type trial_type
+
+   !> The search for the load of an amplitude.
+   type :: search_type
+      real(wp) :: amplitude = 0.0_wp                !! requested
+      type(trial_type) :: low, now, before          !! too small; the present trial; the one before
+      type(trial_type) :: high = trial_type(huge(1.0_wp), 0.0_wp) !! too large
+      real(wp) :: near = 1.0e-4_wp                  !! of alpha: precision of the largest load that is carried
+      real(wp) :: slope = 0.0_wp                    !! of the load over the amplitude, 0: not known
+      logical  :: ends = .false.
+      logical  :: is_limited = .false.              !! ... because the structure does not carry a larger load
+   contains
+      procedure :: is_nearer, judge
+   end type search_type
 
 contains
 
@@ -101,8 +118,9 @@ contains
          if (.not. more) return
          call show_line('backbone, amplitude '//integer_text(i)//' of '//integer_text(size(wanted%amplitudes)), at_once=i == 1)
          call reach_amplitude(model, wanted, wanted%amplitudes(i), found, loop)
+         more = found%problem == '' .and. loop%n_loops > 0
          if (loop%n_loops > 0) found%loops = [found%loops, loop]
-         more = found%problem == ''
+         if (loop%n_loops == 0 .and. found%problem == '') found%problem = 'no load has a loop of this amplitude'
          if (more) analysis%kept = reshape([(numbers_of(found%loops(k)), k = 1, i)], [size(numbers_of(loop)), i])
       end associate
    end subroutine find_loop
@@ -113,7 +131,7 @@ contains
       real(wp), allocatable :: numbers(:)
 
       numbers = [loop%alpha, loop%q, loop%omega_squared, loop%loss, loop%centre, loop%gap, loop%distortion, loop%slipping, &
-                 loop%open, real(loop%n_loops, wp), loop%shares, loop%way]
+                 loop%open, real(loop%n_loops, wp), loop%lost, loop%shares, loop%way]
    end function numbers_of
 
    pure type(loop_type) function taken_up(n_joints, numbers) result(loop)
@@ -121,71 +139,110 @@ contains
       real(wp), intent(in) :: numbers(:)
 
       loop = loop_type(numbers(1), numbers(2), numbers(3), numbers(4), numbers(5), numbers(6), numbers(7), numbers(8), numbers(9), &
-                       nint(numbers(10)), shares=numbers(11:10 + n_joints), &
-                       way=reshape(numbers(11 + n_joints:), [2, (size(numbers) - 10 - n_joints)/2]))
+                       nint(numbers(10)), numbers(11), shares=numbers(12:11 + n_joints), &
+                       way=reshape(numbers(12 + n_joints:), [2, (size(numbers) - 11 - n_joints)/2]))
    end function taken_up
 
-   !> The LOOP of this AMPLITUDE, by secants over the load, bracketed by loads found too small and too large. A load that the
-   !! structure does not carry is too large. Where no load remains below it, the last loop is that of the largest load carried,
-   !! if it adds one.
+   !> The LOOP of this AMPLITUDE. Loops of coarse increments find about the load. From there on increments are halved to the
+   !! tolerance of WANTED. Where the structure does not carry the load of the amplitude, LOOP is that of the largest load found, if
+   !! it is above that of the last loop.
    subroutine reach_amplitude(model, wanted, amplitude, found, loop)
       type(model_type), intent(in)       :: model
       type(backbone_plan), intent(in)    :: wanted
       real(wp), intent(in)               :: amplitude
       type(backbone_type), intent(inout) :: found
       type(loop_type), intent(out)       :: loop
-      type(trial_type)   :: low, high, now, before
-      type(loop_type)    :: next, best
-      type(failure_type) :: refused, none
-      real(wp) :: alpha
-      integer  :: trial
+      type(search_type) :: search
+      type(loop_type)   :: coarse
 
-      high%alpha = huge(1.0_wp)
-      now%alpha = found%omega_squared*amplitude/found%peak
+      search%amplitude = amplitude
+      search%now%alpha = found%omega_squared*amplitude/found%peak
       if (size(found%loops) > 0) then
-         low%alpha = found%loops(size(found%loops))%alpha
-         low%amplitude = found%loops(size(found%loops))%q*found%peak
-         now%alpha = low%alpha*amplitude/low%amplitude
+         search%low%alpha = found%loops(size(found%loops))%alpha
+         search%low%amplitude = found%loops(size(found%loops))%q*found%peak
+         search%slope = search%low%alpha/search%low%amplitude
+         search%now%alpha = search%slope*amplitude
       end if
-      before = low
+      call try_loads(model, wanted, roughly, search, found, coarse)
+      if (coarse%n_loops == 0) return
+      call choose_sense(model, found%modal, wanted, coarse)
+      search%low = trial_type(coarse%alpha/around, 0.0_wp)
+      search%high%alpha = min(coarse%alpha*around, 2.0_wp*search%high%alpha - search%low%alpha)
+      search%near = near_limit
+      if (search%is_limited) search%now%alpha = coarse%alpha
+      call try_loads(model, wanted, exactly*wanted%tolerance, search, found, loop, coarse)
+      if (loop%n_loops == 0) loop = coarse
+   end subroutine reach_amplitude
+
+   !> Try loads until the loop has the amplitude of SEARCH within TOLERANCE, by coarse increments, or by FINE ones from that loop on.
+   !! LOOP is the nearest one.
+   subroutine try_loads(model, wanted, tolerance, search, found, loop, fine)
+      type(model_type), intent(in)          :: model
+      type(backbone_plan), intent(in)       :: wanted
+      real(wp), intent(in)                  :: tolerance
+      type(search_type), intent(inout)      :: search
+      type(backbone_type), intent(inout)    :: found
+      type(loop_type), intent(out)          :: loop
+      type(loop_type), intent(in), optional :: fine
+      type(loop_type)    :: next
+      type(failure_type) :: none, refused
+      integer :: trial
+
+      search%before = trial_type()
       do trial = 1, most_trials
          refused = none
-         call run_loops(model, found%modal, wanted, now%alpha, .false., next, refused)
+         call run_loops(model, found%modal, wanted, search%now%alpha, next, refused, fine)
          if (refused%raised) then
-            high = trial_type(now%alpha, huge(1.0_wp))
             found%problem = refused%message
-            now%alpha = 0.5_wp*(low%alpha + high%alpha)
-         else
+         else if (loop%n_loops == 0 .or. search%is_nearer(next%q*found%peak, loop%q*found%peak)) then
             loop = next
-            now%amplitude = next%q*found%peak
-            if (abs(now%amplitude - amplitude) <= reached*amplitude) exit
-            if (now%amplitude < amplitude) then
-               low = now
-               best = next
-            else
-               high = now
-            end if
-            alpha = -1.0_wp ! of the secant through now and before
-            if (abs(now%amplitude - before%amplitude) > 0.0_wp) alpha = now%alpha + (amplitude - now%amplitude)* &
-               (now%alpha - before%alpha)/(now%amplitude - before%amplitude)
-            before = now
-            now%alpha = alpha
-            if (.not. (alpha > low%alpha .and. alpha < high%alpha)) &
-               now%alpha = merge(0.5_wp*(low%alpha + high%alpha), 2.0_wp*low%alpha, high%alpha < huge(1.0_wp))
          end if
-         if (high%alpha - low%alpha <= same*high%alpha) exit
-         found%is_limited = high%amplitude >= huge(1.0_wp) .and. high%alpha - low%alpha <= near_limit*high%alpha
-         if (found%is_limited) exit
+         call search%judge(merge(huge(1.0_wp), next%q*found%peak, refused%raised), tolerance)
+         if (search%ends) exit
       end do
-      if (found%is_limited) then
-         loop = best
+      found%is_limited = search%is_limited
+      if (.not. found%is_limited) found%problem = ''
+   end subroutine try_loads
+
+   !> Whether amplitude A is nearer to the requested one than B.
+   pure logical function is_nearer(search, a, b)
+      class(search_type), intent(in) :: search
+      real(wp), intent(in)           :: a, b
+
+      is_nearer = abs(a - search%amplitude) < abs(b - search%amplitude)
+   end function is_nearer
+
+   !> Judge the AMPLITUDE under the present load, huge where the structure does not carry the load, and choose the next load: by the
+   !! secant through the last two, between the loads found too small and too large. The search ends within TOLERANCE of the requested
+   !! amplitude, and where no load is left between the two.
+   subroutine judge(search, amplitude, tolerance)
+      class(search_type), intent(inout) :: search
+      real(wp), intent(in)              :: amplitude, tolerance
+      real(wp) :: alpha
+
+      search%now%amplitude = amplitude
+      search%ends = abs(amplitude - search%amplitude) <= tolerance*search%amplitude
+      if (amplitude < search%amplitude) then
+         search%low = search%now
       else
-         found%problem = ''
+         search%high = search%now
       end if
-      if (loop%n_loops == 0) return
-      call run_loops(model, found%modal, wanted, loop%alpha, .true., next, refused)
-      if (.not. refused%raised) loop = next
-   end subroutine reach_amplitude
+      alpha = -1.0_wp ! of the secant
+      if (amplitude < huge(1.0_wp)) then
+         associate (now => search%now, before => search%before)
+            if (search%slope <= 0.0_wp .or. (before%alpha > 0.0_wp .and. abs(amplitude - before%amplitude) > 0.0_wp)) &
+               search%slope = (now%alpha - before%alpha)/(amplitude - before%amplitude)
+            alpha = now%alpha + (search%amplitude - amplitude)*search%slope
+         end associate
+         search%before = search%now
+      end if
+      associate (low => search%low%alpha, high => search%high%alpha)
+         if (.not. (alpha > low .and. alpha < high)) alpha = merge(0.5_wp*(low + high), 2.0_wp*low, high < huge(1.0_wp))
+         search%is_limited = .not. search%ends .and. search%high%amplitude >= huge(1.0_wp) .and. high - low <= search%near*high
+         search%ends = search%ends .or. search%is_limited .or. high - low <= same*high
+      end associate
+      search%now%alpha = alpha
+   end subroutine judge
 
    !> Complete the backbone FOUND. Where the stage asks for a response, this is the response of the mode alone to the modal force,
    !! at every amplitude of FOUND and between these (linear over log q). The two frequencies meet at resonance, which has a row of

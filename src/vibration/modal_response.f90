@@ -74,6 +74,7 @@ contains
       real(wp), intent(in)           :: frequency !! f >= 0 [1/time]
       complex(wp), intent(out)       :: u(:)      !! (components)
       logical, intent(out)           :: ok
+      real(wp), parameter :: rounding = 1.0e-12_wp ! of lambda: at the frequency of the mode
       complex(wp) :: resistance ! dynamic stiffness of the mode per modal mass
       real(wp)    :: omega
       integer     :: r
@@ -86,7 +87,7 @@ contains
          associate (lambda => system%lambda(r))
             resistance = cmplx(lambda - omega**2, system%loss(r)*lambda + system%viscous(r)*omega*sqrt(max(0.0_wp, lambda)), wp)
          end associate
-         ok = abs(resistance) > 0.0_wp
+         ok = abs(resistance) > rounding*abs(system%lambda(r))
          if (.not. ok) return
          u = u + system%shape(:, r)*system%force(r)/(system%mass(r)*resistance)
       end do
@@ -155,6 +156,7 @@ contains
          associate (mode => modes%modes(m))
             superposed%shape(:, m) = pack(mode%u(:, plan%nodes), .true.)
             superposed%force(m) = sum(mode%u*plan%force(:d, :))
+            if (abs(superposed%force(m)) <= untouched*norm2(plan%force(:d, :))*maxval(abs(mode%u))) superposed%force(m) = 0.0_wp
             if (.not. allocated(plan%damping)) cycle
             superposed%loss(m) = mode%material_loss
             if (plan%is_structural) then

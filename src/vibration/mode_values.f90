@@ -22,7 +22,6 @@ module mode_values
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: friction_limit
    use kinds, only: wp
    use mass_matrix, only: mass_times, total_mass
    use connected_bodies, only: find_bodies
@@ -30,7 +29,7 @@ module mode_values
    use natural_modes, only: oscillating_type, spectrum_type
    use node_coupling, only: participating_nodes
    use normal_stiffness, only: branch_open
-   use shear_loops, only: loop_loss, no_limit
+   use shear_loops, only: loss_of_element
    use stage_plan, only: vibration_plan_type
    use structural_elements, only: add_pull, bar_elongation
    implicit none
@@ -40,6 +39,7 @@ module mode_values
 
    real(wp), parameter :: equal = 1.0e-7_wp    ! of the larger eigenvalue: closer eigenvalues are equal
    real(wp), parameter :: weak = 1.0e-6_wp     ! of the largest: a smaller row separates no modes
+   real(wp), parameter :: no_damping = 1.0e-12_wp ! loss factor of a mode whose damped parts have the strain energy of rounding
    real(wp), parameter :: near = 0.9283_wp     ! of the largest component: rounding must not choose between equals
 
    !> Of one mode [force x length].
@@ -234,7 +234,9 @@ contains
       call mode%energy%scale(factor**2)
       share = 0.0_wp
       if (.not. mode%is_rigid) then
-         mode%material_loss = plan%damping + mode%energy%damped/mode%energy%total()
+         mode%material_loss = plan%damping
+         if (mode%energy%damped > no_damping*mode%energy%total()) &
+            mode%material_loss = plan%damping + mode%energy%damped/mode%energy%total()
          mode%loss = mode%material_loss
          if (plan%amplitude > 0.0_wp) mode%loss = mode%loss + loss_of_joints(model, analysis, plan, mode)
          share = 1.0_wp/mode%energy%total()
@@ -249,22 +251,16 @@ contains
       type(analysis_type), intent(in)       :: analysis
       type(vibration_plan_type), intent(in) :: plan
       type(mode_type), intent(in)           :: mode
-      real(wp) :: movement(3), lost, factor, limit
-      integer  :: d, i
+      real(wp) :: movement(3), lost, factor
+      integer  :: i
 
       factor = plan%amplitude/sqrt(maxval(sum(mode%u(:, :n_points(model))**2, dim=1)))
       lost = 0.0_wp
       do i = 1, size(model%interface)
          associate (state => analysis%states(i), law => model%joints(model%interface(i)%joint)%law)
             if (state%normal%branch == branch_open) cycle
-            limit = no_limit
-            if (law%has_friction) limit = friction_limit(law, state%normal%pressure)
             movement = factor*joint_movement(model%interface(i), mode%u)
-            do d = 1, 2
-               if (.not. law%shear(d)%given) cycle
-               lost = lost + model%interface(i)%area*loop_loss(law%shear(d)%load, max(0.0_wp, state%normal%pressure), limit, &
-                                                                movement(d))
-            end do
+            lost = lost + model%interface(i)%area*loss_of_element(law, max(0.0_wp, state%normal%pressure), movement(:2))
          end associate
       end do
       loss = lost/(two_pi*factor**2*mode%energy%total())

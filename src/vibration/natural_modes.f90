@@ -194,6 +194,7 @@ contains
          if (.not. failure%raised .and. (trial > 1 .or. .not. allocated(spectrum%lambda))) &
             call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
          if (failure%raised) return
+         if (spectrum%shift < 0.0_wp) call count_rigid(model, structure, system, spectrum) ! an earlier trial may have missed one
          spectrum%lambda(:spectrum%n_rigid) = 0.0_wp
          associate (lambda => spectrum%lambda, wanted => spectrum%n_wanted)
             if (wanted == below_end - spectrum%n_before) then ! the whole range, which has been counted; a mode may be at its end
@@ -305,7 +306,7 @@ contains
       class(equation_system), allocatable, intent(out) :: system
       type(failure_type), intent(inout)  :: failure
       type(failure_type) :: loose
-      real(wp) :: extent, first, least, scale
+      real(wp) :: extent, first, scale
       integer  :: i, trial
 
       spectrum%shift = 0.0_wp
@@ -335,20 +336,30 @@ contains
          if (failure%raised) return
          call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
          if (failure%raised) return
-         least = noise*stiffest(model, structure, system)
-         associate (lambda => spectrum%lambda) ! zero but for rounding: below the least eigenvalue, and far below the next one
-            do i = count(lambda < max(least, 1.0e-9_wp*abs(spectrum%shift))), 1, -1
-               if (i == size(lambda)) exit
-               if (lambda(i) < no_mode*lambda(i + 1)) exit
-            end do
-            spectrum%n_rigid = i
-            if (i == size(lambda)) exit
-            first = lambda(i + 1)
-         end associate
+         call count_rigid(model, structure, system, spectrum)
+         if (spectrum%n_rigid == size(spectrum%lambda)) exit
+         first = spectrum%lambda(spectrum%n_rigid + 1)
          if (first > 1.0e-2_wp*abs(spectrum%shift) .and. first < 1.0e3_wp*abs(spectrum%shift)) exit
          spectrum%shift = -first
       end do
    end subroutine search_from_below
+
+   !> The number of rigid-body modes in SPECTRUM: eigenvalues zero but for rounding, below the least one and far below the next.
+   subroutine count_rigid(model, structure, system, spectrum)
+      type(model_type), intent(in)       :: model
+      type(oscillating_type), intent(in) :: structure
+      class(equation_system), intent(in) :: system
+      type(spectrum_type), intent(inout) :: spectrum
+      integer :: i
+
+      associate (lambda => spectrum%lambda)
+         do i = count(lambda < max(noise*stiffest(model, structure, system), 1.0e-9_wp*abs(spectrum%shift))), 1, -1
+            if (i == size(lambda)) exit
+            if (lambda(i) < no_mode*lambda(i + 1)) exit
+         end do
+         spectrum%n_rigid = i
+      end associate
+   end subroutine count_rigid
 
    !> Estimate of the largest eigenvalue: the largest k_ii/m_ii.
    real(wp) function stiffest(model, structure, system) result(largest)

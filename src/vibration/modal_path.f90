@@ -1,0 +1,272 @@
+!> Paths of the structure under alpha [M] {phi}, phi a natural mode, from the state at the end of a stage.
+!! The structure is held at the load of the end of the stage; phi has generalised mass 1. NEWTON iterates every increment of alpha to
+!! equilibrium. The paths use copies: the state of the stage is not changed. The modal coordinate is q = phi^T [M] (u - u_0).
+!! Unknowns inside condensed bodies contribute to q: K_gg^-1 of their forces, which is linear in alpha, so that an increment costs
+!! no recovery.
+!! The work of an element counts the forces beyond those at rest: F - F_0 over the movement. Preloads times a movement of rounding
+!! would exceed the work of small loops. What the forces at rest contribute to the loss of a loop is in absorbed_at_rest.
+module modal_path
+   use analysis_state, only: analysis_type, free_norm
+   use equation_solver, only: equation_system, failure_type
+   use equations, only: condense_load, recover_displacements
+   use joint_laws, only: element_state, force_of
+   use joint_work, only: joint_energy, work_along
+   use kinds, only: wp
+   use load_path, only: hold_load, start_increment
+   use mass_matrix, only: form_mass, mass_matrix_type, mass_times
+   use model_data, only: model_type
+   use newton_method, only: newton_increment
+   use node_coupling, only: forces_on_unknowns
+   use normal_stiffness, only: branch_open
+   use stage_plan, only: stage_plan_type
+   implicit none
+   private
+
+   public :: start_modal_load, start_path, begin_path, follow_path, coordinate, reverse
+
+   real(wp), parameter :: finest_step = 1.0e-7_wp    ! of alpha: a smaller step is not halved
+   real(wp), parameter :: coarsest_step = 0.125_wp   ! likewise: a larger one is, for elements may slip and stick within it
+   real(wp), parameter :: exact = 1.0e-10_wp         ! TOL at most
+   real(wp), parameter :: finest = 1.0e-13_wp        ! limit of TOL relative to the held load
+   real(wp), parameter :: margin = 10.0_wp           ! of rounding errors
+
+   !> The initial data of the paths of one mode.
+   type, public :: modal_load_type
+      real(wp), allocatable :: phi(:, :)             !! (dimension, n_nodes) generalised mass 1
+      real(wp), allocatable :: force(:, :)           !! [M] {phi} on all nodes
+      real(wp), allocatable :: condensed(:, :)       !! the same condensed on the retained nodes
+      real(wp) :: inside = 0.0_wp                    !! q of the interior of the bodies, retained nodes fixed, for alpha = 1
+      real(wp) :: sense = 1.0_wp                     !! of phi against the mode: that of the first push
+      type(analysis_type)   :: rest                  !! copy of the state, in equilibrium
+      real(wp), allocatable :: rest_forces(:, :)     !! (3, n) forces of the interface elements there, in their axes
+      real(wp) :: largest = 0.0_wp                   !! alpha of the present paths
+      real(wp) :: finest_work = 0.0_wp               !! increments are halved until work and q change by less; 0: not halved
+      real(wp) :: finest_q = 0.0_wp
+      real(wp) :: work_noise = 0.0_wp                !! rounding error of the work of the elements on a path
+      real(wp) :: q_noise = 0.0_wp                   !! of q, relative: what the tolerance of equilibrium leaves
+      type(stage_plan_type) :: plan
+      type(mass_matrix_type) :: mass
+      class(equation_system), allocatable :: system
+   end type modal_load_type
+
+   !> What happened on a path.
+   type, public :: path_type
+      real(wp), allocatable :: work(:)               !! (elements) of the forces beyond those at rest [force x length]
+      real(wp), allocatable :: points(:, :)          !! (2, increments) alpha, q
+      logical, allocatable  :: has_slipped(:), has_opened(:)
+   end type path_type
+
+contains
+
+   !> Copy ANALYSIS and SYSTEM under constant load, in equilibrium, and form the modal force of the shape PHI.
+   subroutine start_modal_load(model, plan, analysis, system, phi, modal, failure)
+      type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
+      type(analysis_type), intent(in)    :: analysis
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: phi(:, :) !! generalised mass 1
+      type(modal_load_type), intent(out) :: modal
+      type(failure_type), intent(inout)  :: failure
+      real(wp), allocatable :: inside(:, :), felt(:, :)
+      real(wp) :: work(size(model%interface))
+      integer :: e
+
+      if (failure%raised) return
+      allocate (modal%system, source=system)
+      call modal%system%forget_past()
+      call form_mass(model, modal%mass)
+      modal%rest = analysis
+      if (allocated(modal%rest%exact)) deallocate (modal%rest%exact)
+      modal%rest%tolerance = modal%rest%tolerance*min(1.0_wp, exact/modal%rest%load_tolerance) ! TOL of BACK is of pressures
+      modal%rest%load_tolerance = min(exact, modal%rest%load_tolerance)
+      modal%plan = plan
+      modal%phi = phi
+      allocate (modal%force, inside, mold=phi)
+      allocate (modal%condensed, mold=analysis%u)
+      call mass_times(model, modal%mass, modal%phi, modal%force)
+      call hold_load(model, modal%system, modal%rest)
+      felt = forces_on_unknowns(model, modal%force)
+      call condense_load(modal%system, felt, modal%condensed)
+      call recover_displacements(modal%system, felt, 0.0_wp*modal%condensed, inside)
+      modal%inside = sum(felt*inside)
+      allocate (modal%rest_forces(3, size(model%interface)), source=0.0_wp)
+      modal%rest%increment_fraction = 0.0_wp
+      call load_increment(model, modal, [0.0_wp, 0.0_wp], modal%rest, work, failure)
+      do e = 1, size(model%interface)
+         modal%rest_forces(:, e) = force_of(model%interface(e)%area, modal%rest%states(e))
+      end do
+      associate (states => modal%rest%states)
+         modal%work_noise = margin*epsilon(1.0_wp)*(sum(abs(modal%rest_forces*modal%rest%movement)) + &
+                                                    sum(abs(modal%rest_forces(3, :)*states%normal%lambda)))
+      end associate
+   end subroutine start_modal_load
+
+   !> Reverse the sense of phi, and of alpha and q with it.
+   pure subroutine reverse(modal)
+      type(modal_load_type), intent(inout) :: modal
+
+      modal%sense = -modal%sense
+      modal%phi = -modal%phi
+      modal%force = -modal%force
+      modal%condensed = -modal%condensed
+   end subroutine reverse
+
+   !> A state NOW at rest, with the tolerance of equilibrium for loads up to ALPHA.
+   subroutine start_path(modal, alpha, now)
+      type(modal_load_type), intent(inout) :: modal
+      real(wp), intent(in)                 :: alpha
+      type(analysis_type), allocatable, intent(inout) :: now
+      real(wp) :: held, share ! load at rest; that of alpha, of it
+
+      modal%largest = alpha
+      modal%q_noise = margin*modal%rest%load_tolerance
+      now = modal%rest
+      held = free_norm(modal%rest%now%condensed_load, modal%rest%held)
+      if (held <= 0.0_wp) return
+      share = alpha*free_norm(modal%condensed, modal%rest%held)/held
+      now%load_tolerance = max(min(finest, now%load_tolerance), now%load_tolerance*min(1.0_wp, share))
+      modal%q_noise = margin*now%load_tolerance/share
+      now%tolerance = now%load_tolerance/modal%rest%load_tolerance*now%tolerance
+   end subroutine start_path
+
+   !> Go from alpha = ENDS(1) to ENDS(2) in N increments, along PATH.
+   subroutine follow_path(model, modal, ends, n, now, path, failure)
+      type(model_type), intent(in)         :: model
+      type(modal_load_type), intent(inout) :: modal
+      real(wp), intent(in)                 :: ends(2)
+      integer, intent(in)                  :: n
+      type(analysis_type), intent(inout)   :: now
+      type(path_type), intent(inout)       :: path
+      type(failure_type), intent(inout)    :: failure
+      type(analysis_type), allocatable :: straight
+      real(wp) :: at(2), work(size(model%interface))
+      integer  :: i
+
+      do i = 1, n
+         at = ends(1) + [i - 1, i]*(ends(2) - ends(1))/n
+         if (modal%finest_work > 0.0_wp) then
+            straight = now
+            call load_increment(model, modal, at, straight, work, failure)
+            if (failure%raised) return
+            call refine_increment(model, modal, at, [work, coordinate(modal, straight, at(2))], now, path, failure)
+         else
+            call load_increment(model, modal, at, now, work, failure)
+            call add_work(now, work, path)
+         end if
+         if (failure%raised) return
+         path%points = reshape([path%points, at(2), coordinate(modal, now, at(2))], [2, size(path%points, 2) + 1])
+      end do
+   end subroutine follow_path
+
+   !> Go from alpha = ENDS(1) to ENDS(2). As one increment, the joints take the work and q becomes what WHOLE says. The increment is
+   !! halved until halving has no effect on the work of the elements and on q. The remaining error of the work falls by four in each
+   !! halving; a third of the last difference is subtracted.
+   recursive subroutine refine_increment(model, modal, ends, whole, now, path, failure)
+      type(model_type), intent(in)         :: model
+      type(modal_load_type), intent(inout) :: modal
+      real(wp), intent(in)                 :: ends(2)
+      real(wp), intent(in)                 :: whole(:) !! (elements) [force x length], and q
+      type(analysis_type), intent(inout)   :: now
+      type(path_type), intent(inout)       :: path
+      type(failure_type), intent(inout)    :: failure
+      type(analysis_type), allocatable :: half, end
+      real(wp) :: first(size(whole)), second(size(whole)), difference(size(whole)), middle, share
+      integer  :: n
+
+      n = size(model%interface)
+      middle = 0.5_wp*sum(ends)
+      half = now
+      call load_increment(model, modal, [ends(1), middle], half, first(:n), failure)
+      end = half
+      call load_increment(model, modal, [middle, ends(2)], end, second(:n), failure)
+      if (failure%raised) return
+      first(n + 1) = coordinate(modal, half, middle)
+      second(n + 1) = coordinate(modal, end, ends(2))
+      difference(:n) = first(:n) + second(:n) - whole(:n)
+      difference(n + 1) = second(n + 1) - whole(n + 1)
+      share = abs(ends(2) - ends(1))/modal%largest
+      if (share <= coarsest_step .and. (share <= finest_step .or. (sum(abs(difference(:n))) <= modal%finest_work &
+                                                                   .and. abs(difference(n + 1)) <= modal%finest_q))) then
+         call add_work(half, first(:n), path)
+         call add_work(end, second(:n) + difference(:n)/3.0_wp, path)
+         now = end
+      else
+         deallocate (half, end) ! states are large
+         call refine_increment(model, modal, [ends(1), middle], first, now, path, failure)
+         if (.not. failure%raised) call refine_increment(model, modal, [middle, ends(2)], second, now, path, failure)
+      end if
+   end subroutine refine_increment
+
+   !> Begin PATH at ALPHA and Q.
+   pure subroutine begin_path(model, alpha, q, path)
+      type(model_type), intent(in)   :: model
+      real(wp), intent(in)           :: alpha, q
+      type(path_type), intent(inout) :: path
+
+      path%points = reshape([alpha, q], [2, 1])
+      path%work = spread(0.0_wp, 1, size(model%interface))
+      path%has_slipped = spread(.false., 1, size(model%interface))
+      path%has_opened = path%has_slipped
+   end subroutine begin_path
+
+   !> Add WORK, done by the joints on the way to NOW, to PATH.
+   subroutine add_work(now, work, path)
+      type(analysis_type), intent(in) :: now
+      real(wp), intent(in)            :: work(:) !! (elements) [force x length]
+      type(path_type), intent(inout)  :: path
+
+      path%work = path%work + work
+      path%has_slipped = path%has_slipped .or. now%states%slips
+      path%has_opened = path%has_opened .or. now%states%normal%branch == branch_open
+   end subroutine add_work
+
+   !> One increment from alpha = ENDS(1) to ENDS(2), and the WORK of the joints on the straight path of each element, without
+   !! that of the forces at rest. Where it continues the last increment, NEWTON begins from the extrapolated displacements.
+   subroutine load_increment(model, modal, ends, now, work, failure)
+      type(model_type), intent(in)         :: model
+      type(modal_load_type), intent(inout) :: modal
+      real(wp), intent(in)                 :: ends(2)
+      type(analysis_type), intent(inout)   :: now
+      real(wp), intent(out)                :: work(:) !! (elements) [force x length]
+      type(failure_type), intent(inout)    :: failure
+      type(element_state) :: before(size(now%states))
+      type(joint_energy)  :: energy
+      real(wp) :: from(3, size(now%states)), step
+      integer  :: e
+
+      work = 0.0_wp
+      if (failure%raised) return
+      associate (at => modal%rest%before)
+         now%before%load = at%load + ends(1)*modal%force
+         now%before%condensed_load = at%condensed_load + ends(1)*modal%condensed
+         now%after%load = at%load + ends(2)*modal%force
+         now%after%condensed_load = at%condensed_load + ends(2)*modal%condensed
+      end associate
+      now%now%load = now%before%load
+      now%now%condensed_load = now%before%condensed_load
+      step = ends(2) - ends(1)
+      now%increment = merge(1, 0, step*now%increment_fraction > 0.0_wp)
+      modal%plan%stages(modal%rest%stage)%fractions = pack([now%increment_fraction, step], [now%increment > 0, .true.])
+      before = now%states
+      from = now%movement
+      call start_increment(modal%plan, modal%system, now)
+      call newton_increment(model, modal%plan, now, modal%system, failure)
+      if (failure%raised) return
+      do e = 1, size(before)
+         associate (element => model%interface(e), to => now%movement(:, e))
+            energy = work_along(model%joints(element%joint)%law, element%area, before(e), to)
+            work(e) = sum(energy%net()) - dot_product(modal%rest_forces(:, e), to - from(:, e))
+         end associate
+      end do
+   end subroutine load_increment
+
+   !> q of the state NOW, under ALPHA.
+   pure real(wp) function coordinate(modal, now, alpha) result(q)
+      type(modal_load_type), intent(in) :: modal
+      type(analysis_type), intent(in)   :: now
+      real(wp), intent(in)              :: alpha
+
+      q = sum(modal%condensed*(now%u - modal%rest%u)) + alpha*modal%inside
+   end function coordinate
+
+end module modal_path
