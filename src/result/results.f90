@@ -3,7 +3,7 @@ module results
    use analysis_state, only: analysis_type
    use answer_tables, only: print_answer, print_bolts, print_reactions, print_watched
    use body_tables, only: list_bodies, list_condensed
-   use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, record_bolts, start_bolts
+   use bolt_answers, only: bolt_answer_type, bolt_history, end_stage, find_bolt_answers, record_bolts, start_bolts
    use c_library, only: close_file, lock_folder
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
@@ -25,6 +25,7 @@ module results
    use stage_tables, only: n_stage_tables, note_stage_tables, pass_rows
    use structural_results, only: list_shell_forces
    use support_reactions, only: find_reactions, reactions_type
+   use symmetry_planes, only: find_planes, symmetry_plane
    use table_writer, only: csv_titles, table_type
    use text_tools, only: integer_text, plural, real_text, upper
    use vibration_tables, only: list_modes
@@ -61,6 +62,7 @@ module results
       type(table_type), private :: stage_tables(n_stage_tables) ! of the stage so far
       type(vtu_results_type), private :: vtu
       type(bolt_history), private     :: bolts
+      type(symmetry_plane), allocatable, private :: planes(:)
       type(watch_state), private      :: watched_before ! at the end of the last stage, where nodes are watched
    end type results_type
 
@@ -84,7 +86,8 @@ contains
       results%base = base
       results%missing_vtu = ''
       results%method = deck%control%method
-      call start_bolts(model, results%bolts)
+      call find_planes(model, results%planes)
+      call start_bolts(model, results%planes, results%bolts)
       if (plan%has_watched_nodes) call start_watched(model, results%watched_before)
       call start_watch(model, results%watch)
       associate (page => results%page, control => deck%control)
@@ -196,7 +199,7 @@ contains
             call results%stage_tables(i)%print_kept(page%file)
          end do
          call list_energy(page, model, analysis)
-         call find_answer(model, analysis, results%method, page%largest_force, results%bolts, answer)
+         call find_answer(model, results%planes, analysis, results%method, page%largest_force, results%bolts, answer)
          fault = fault_of_answer(model, answer)
          if (fault /= '') call failure%raise(page%place//': '//fault// &
                                              ' is too large; are loads, lengths and stiffnesses in consistent units?')
@@ -222,7 +225,7 @@ contains
          digest%contact = min(digest%contact, minval(answer%joints%contact))
          digest%safety = min(digest%safety, minval(answer%joints%safety, mask=answer%joints%has_safety))
       end associate
-      results%bolts%before = answer%bolts%force
+      call end_stage(answer%bolts, results%bolts)
       if (plan%has_watched_nodes) results%watched_before = state_at_end(model, analysis)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
