@@ -1,7 +1,8 @@
 !> Planes of symmetry of a half or quarter model, or of a sector, known from its supports.
 !! A plane bounds the model on one side. All nodes of elements on it are held along its normal, none of them is moved along it, and
 !! at least half of them are held along the normals of such planes only: a clamped face is no plane of symmetry. Where a plane cuts
-!! a joint or a bolt, the mirror image balances the forces along its normal, and the moments about the lines in the plane.
+!! a bolt, or the bodies on both sides of a joint, the mirror image balances the forces along its normal, and the moments about the
+!! lines in the plane.
 module symmetry_planes
    use kinds, only: wp
    use lists, only: distinct
@@ -11,7 +12,7 @@ module symmetry_planes
    implicit none
    private
 
-   public :: find_planes, planes_through, free_part, axis_part, onto_planes
+   public :: find_planes, planes_through, parts_cut, cut_by, free_part, axis_part, onto_planes
 
    real(wp), parameter :: level = 1.0e-5_wp   ! of the extent of the model: nodes nearer to a plane lie on it
    real(wp), parameter :: aligned = 1.0e-8_wp ! 1 - cosine of the angle between directions that count as one
@@ -23,7 +24,7 @@ module symmetry_planes
       real(wp) :: near = 0.0_wp              !! distance within which a node lies on it [length]
    end type symmetry_plane
 
-   !> The planes that cut a joint or a bolt, as orthonormal directions: the first is the normal of the first plane.
+   !> The planes that cut something, as orthonormal directions: the first is the normal of the first plane.
    type, public :: cut_type
       integer  :: n = 0                      !! number of directions; planes that are parallel have one
       real(wp) :: direction(3, 3) = 0.0_wp   !! columns
@@ -202,20 +203,54 @@ contains
       integer, intent(in)              :: nodes(:)
       type(cut_type) :: cut
       integer, allocatable :: each(:)
-      real(wp) :: rest(3)
-      integer  :: i, k
+      logical :: cuts(size(planes))
+      integer :: i, k
 
       if (size(planes) == 0) return
       call distinct(nodes, each)
       do k = 1, size(planes)
-         if (count([(is_on(planes(k), model%x(:, each(i))), i = 1, size(each))]) < model%dimension - 1) cycle
+         cuts(k) = count([(is_on(planes(k), model%x(:, each(i))), i = 1, size(each))]) >= model%dimension - 1
+      end do
+      cut = cut_by(planes, cuts)
+   end function planes_through
+
+   !> (parts, planes) Which of the PLANES cut the parts: at least two nodes of elements of a part lie on such a plane, in the plane
+   !! one.
+   pure function parts_cut(model, planes, part, n_parts) result(cuts)
+      type(model_type), intent(in)     :: model
+      type(symmetry_plane), intent(in) :: planes(:)
+      integer, intent(in)              :: part(:) !! (n_nodes) of each node
+      integer, intent(in)              :: n_parts
+      logical :: cuts(n_parts, size(planes))
+      integer :: k, n(n_parts), node
+
+      do k = 1, size(planes)
+         n = 0
+         do node = 1, n_points(model)
+            if (model%first_at(node + 1) == model%first_at(node)) cycle
+            if (is_on(planes(k), model%x(:, node))) n(part(node)) = n(part(node)) + 1
+         end do
+         cuts(:, k) = n >= model%dimension - 1
+      end do
+   end function parts_cut
+
+   !> The directions of those of the PLANES that CUT something.
+   pure function cut_by(planes, cuts) result(cut)
+      type(symmetry_plane), intent(in) :: planes(:)
+      logical, intent(in)              :: cuts(:) !! (planes)
+      type(cut_type) :: cut
+      real(wp) :: rest(3)
+      integer  :: k
+
+      do k = 1, size(planes)
+         if (.not. cuts(k)) cycle
          rest = free_part(cut, planes(k)%normal)
          if (norm2(rest) <= parallel) cycle
          cut%n = cut%n + 1
          cut%direction(:, cut%n) = rest/norm2(rest)
          cut%plane(cut%n) = k
       end do
-   end function planes_through
+   end function cut_by
 
    !> VECTOR without the components along the directions of CUT: of a force what the mirror images do not balance.
    pure function free_part(cut, vector) result(rest)

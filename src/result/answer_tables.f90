@@ -77,8 +77,8 @@ contains
          end associate
          call table%print_row(page%screen, page%tables(stage_table))
       end do
-      call note_cuts(page, 'JOINT', model%joints%id, merge(answer%joints%n_cuts, 0, has_shear(model%joints)), &
-                     'T AND MU N/T LEAVE OUT THE SHEAR FORCE THAT ITS MIRROR IMAGE BALANCES')
+      call note_cuts(page, 'THE BODIES OF JOINT', model%joints%id, merge(answer%joints%n_cuts, 0, has_shear(model%joints)), &
+                     'T AND MU N/T LEAVE OUT THE SHEAR FORCE THAT THE MIRROR IMAGE BALANCES')
       call print_stiffnesses(page, model, answer)
 
    contains

@@ -17,7 +17,7 @@ module bolt_answers
    use passing_forces, only: forces_between, passage_type
    use restart_stream, only: restart_stream_type
    use surface_build, only: surface_node_list, surface_nodes
-   use symmetry_planes, only: axis_part, free_part, symmetry_plane
+   use symmetry_planes, only: axis_part, cut_type, free_part, symmetry_plane
    use text_tools, only: above
    implicit none
    private
@@ -79,13 +79,14 @@ module bolt_answers
 contains
 
    !> Find all bolts of MODEL, which has these PLANES of symmetry; the history is empty.
-   subroutine start_bolts(model, planes, history)
+   subroutine start_bolts(model, planes, cuts, history)
       type(model_type), intent(in)     :: model
       type(symmetry_plane), intent(in) :: planes(:)
+      type(cut_type), intent(in)       :: cuts(:)     !! (joints) by these planes
       type(bolt_history), intent(out)  :: history
       integer :: n
 
-      call find_places(model, planes, history%bolts, history%passages, history%crossing)
+      call find_places(model, planes, cuts, history%bolts, history%passages, history%crossing)
       n = size(history%bolts)
       allocate (history%before(n), history%tightened(n), history%largest(n), history%assembled(n), history%change(n), &
                 history%load(n), history%clamped(n), source=0.0_wp)

@@ -31,9 +31,10 @@ module bolt_places
 contains
 
    !> Find all BOLTS of MODEL, bars first, and the joints that each crosses.
-   subroutine find_places(model, planes, bolts, passages, crossing)
+   subroutine find_places(model, planes, cuts, bolts, passages, crossing)
       type(model_type), intent(in)               :: model
       type(symmetry_plane), intent(in)           :: planes(:)
+      type(cut_type), intent(in)                 :: cuts(:)        !! (joints) by these planes
       type(bolt_place), allocatable, intent(out) :: bolts(:)
       type(passage_type), intent(out)            :: passages       !! the pairs of bodies, where there are bolts
       integer, allocatable, intent(out)          :: crossing(:, :) !! (pairs, bolts) as in forces_between
@@ -43,7 +44,7 @@ contains
       n = n_sections(model)
       if (n_bars(model) > 0) n = n + count(model%bars%bolt > 0)
       allocate (bolts(n))
-      if (n > 0) call start_passages(model, planes, passages)
+      if (n > 0) call start_passages(model, cuts, passages)
       allocate (crossing(passages%n, n), source=0)
       n = 0
       do i = 1, n_bars(model)

@@ -1,17 +1,18 @@
-!> What a joint transmits: its resultant and its largest pressure, and the planes of symmetry that cut it.
+!> What a joint transmits: its resultant and its largest pressure, and the planes of symmetry that cut its bodies.
 module joint_resultants
    use analysis_state, only: analysis_type, element_force
-   use interface_operator, only: at_first_end, nodes_of_end
+   use connected_bodies, only: number_parts
+   use interface_operator, only: at_first_end
    use kinds, only: wp
    use model_data, only: joint_type, model_type
    use numbers, only: cross, first_largest
-   use symmetry_planes, only: cut_type, planes_through, symmetry_plane
+   use symmetry_planes, only: cut_by, cut_type, find_planes, parts_cut, symmetry_plane
    use table_writer, only: noise
    use text_tools, only: above
    implicit none
    private
 
-   public :: find_resultant, find_largest_pressure, joint_cut
+   public :: find_resultant, find_largest_pressure, find_cuts
 
    !> The force and moment of side 1 on side 2.
    type, public :: joint_resultant
@@ -62,25 +63,33 @@ contains
       end associate
    end subroutine find_largest_pressure
 
-   !> The PLANES of symmetry that cut JOINT.
-   pure function joint_cut(model, planes, joint) result(cut)
-      type(model_type), intent(in)     :: model
-      type(symmetry_plane), intent(in) :: planes(:)
-      type(joint_type), intent(in)     :: joint
-      type(cut_type) :: cut
-      integer, allocatable :: nodes(:)
-      integer :: i, n
+   !> The PLANES of symmetry of MODEL, and those that cut all bodies on both sides of each joint; a rigid base has no part in it.
+   !! Bodies are parts that bolts do not connect.
+   pure subroutine find_cuts(model, planes, cuts)
+      type(model_type), intent(in)                   :: model
+      type(symmetry_plane), allocatable, intent(out) :: planes(:)
+      type(cut_type), allocatable, intent(out)       :: cuts(:) !! (joints)
+      integer, allocatable :: part(:)
+      logical, allocatable :: all_cut(:), of_part(:, :)
+      integer :: i, j, k, n_parts
 
+      call find_planes(model, planes)
+      allocate (cuts(size(model%joints)))
       if (size(planes) == 0) return
-      allocate (nodes(sum(model%interface(joint%first:joint%last)%n_1)))
-      n = 0
-      do i = joint%first, joint%last
-         associate (element => model%interface(i))
-            nodes(n + 1:n + element%n_1) = nodes_of_end(element, 1)
-            n = n + element%n_1
-         end associate
+      call number_parts(model, .false., part, n_parts)
+      allocate (of_part, source=parts_cut(model, planes, part, n_parts))
+      allocate (all_cut(size(planes)))
+      do j = 1, size(cuts)
+         all_cut = .true.
+         do i = model%joints(j)%first, model%joints(j)%last
+            associate (nodes => model%interface(i)%node)
+               do k = 1, size(nodes)
+                  all_cut = all_cut .and. of_part(part(nodes(k)), :)
+               end do
+            end associate
+         end do
+         cuts(j) = cut_by(planes, all_cut)
       end do
-      cut = planes_through(model, planes, nodes)
-   end function joint_cut
+   end subroutine find_cuts
 
 end module joint_resultants

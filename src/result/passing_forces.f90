@@ -8,11 +8,10 @@ module passing_forces
    use analysis_state, only: analysis_type, element_force
    use connected_bodies, only: number_parts
    use interface_operator, only: nodes_of_end
-   use joint_resultants, only: joint_cut
    use kinds, only: wp
    use lists, only: join, root_of
    use model_data, only: a_point, model_type, n_bars, n_points, node_kind, supported
-   use symmetry_planes, only: cut_type, free_part, symmetry_plane
+   use symmetry_planes, only: cut_type, free_part
    use unknowns, only: node_axes
    implicit none
    private
@@ -27,7 +26,7 @@ module passing_forces
       integer :: n = 0                       !! number of pairs
       integer, allocatable :: of_element(:)  !! (interface elements) the pair
       integer, allocatable :: sense(:)       !! (interface elements) 1: end 1 is on the first body of the pair; -1: on the second
-      type(cut_type), allocatable :: cut(:)  !! (pairs) the planes of symmetry that cut any of their joints
+      type(cut_type), allocatable :: cut(:)  !! (pairs) the planes of symmetry that cut the bodies
       integer, allocatable, private :: part(:)     ! (n_nodes) the body of a node
       integer, allocatable, private :: pairs(:, :) ! (3, pairs) two bodies; the joint of a body that faces itself, else 0
       integer, private :: base = 0           ! number of the body of a rigid base, the last
@@ -39,11 +38,10 @@ module passing_forces
 contains
 
    !> The pairs of bodies of MODEL; cut_passages completes them.
-   pure subroutine start_passages(model, planes, passages)
-      type(model_type), intent(in)     :: model
-      type(symmetry_plane), intent(in) :: planes(:)
-      type(passage_type), intent(out)  :: passages
-      type(cut_type) :: cut
+   pure subroutine start_passages(model, cuts, passages)
+      type(model_type), intent(in)    :: model
+      type(cut_type), intent(in)      :: cuts(:) !! (joints) by planes of symmetry
+      type(passage_type), intent(out) :: passages
       integer, allocatable :: nodes(:), pairs(:, :)
       integer :: bodies(2), end, i, j, this(3)
 
@@ -68,13 +66,10 @@ contains
       passages%n = size(pairs, 2)
       call move_alloc(pairs, passages%pairs)
       allocate (passages%cut(passages%n))
-      do j = 1, merge(size(model%joints), 0, size(planes) > 0)
-         cut = joint_cut(model, planes, model%joints(j))
-         do i = model%joints(j)%first, model%joints(j)%last
-            associate (known => passages%cut(passages%of_element(i)))
-               if (cut%n > known%n) known = cut
-            end associate
-         end do
+      do i = 1, size(model%interface)
+         associate (known => passages%cut(passages%of_element(i)), cut => cuts(model%interface(i)%joint))
+            if (cut%n > known%n) known = cut
+         end associate
       end do
    end subroutine start_passages
 

@@ -9,6 +9,7 @@ module results
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
+   use joint_resultants, only: find_cuts
    use joint_tables, only: list_energy, list_joints, plot_joint, write_history
    use kinds, only: wp
    use listing_opening, only: write_opening
@@ -25,7 +26,7 @@ module results
    use stage_tables, only: n_stage_tables, note_stage_tables, pass_rows
    use structural_results, only: list_shell_forces
    use support_reactions, only: find_reactions, reactions_type
-   use symmetry_planes, only: find_planes, symmetry_plane
+   use symmetry_planes, only: cut_type, symmetry_plane
    use table_writer, only: csv_titles, table_type
    use text_tools, only: integer_text, plural, real_text, upper
    use vibration_tables, only: list_modes
@@ -62,7 +63,7 @@ module results
       type(table_type), private :: stage_tables(n_stage_tables) ! of the stage so far
       type(vtu_results_type), private :: vtu
       type(bolt_history), private     :: bolts
-      type(symmetry_plane), allocatable, private :: planes(:)
+      type(cut_type), allocatable, private :: cuts(:) ! (joints) by planes of symmetry
       type(watch_state), private      :: watched_before ! at the end of the last stage, where nodes are watched
    end type results_type
 
@@ -79,6 +80,7 @@ contains
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
       class(subdomain_output_type), allocatable :: subdomains
+      type(symmetry_plane), allocatable :: planes(:)
       logical :: is_asked(size(table_endings))
       integer :: i
 
@@ -86,8 +88,8 @@ contains
       results%base = base
       results%missing_vtu = ''
       results%method = deck%control%method
-      call find_planes(model, results%planes)
-      call start_bolts(model, results%planes, results%bolts)
+      call find_cuts(model, planes, results%cuts)
+      call start_bolts(model, planes, results%cuts, results%bolts)
       if (plan%has_watched_nodes) call start_watched(model, results%watched_before)
       call start_watch(model, results%watch)
       associate (page => results%page, control => deck%control)
@@ -199,7 +201,7 @@ contains
             call results%stage_tables(i)%print_kept(page%file)
          end do
          call list_energy(page, model, analysis)
-         call find_answer(model, results%planes, analysis, results%method, page%largest_force, results%bolts, answer)
+         call find_answer(model, results%cuts, analysis, results%method, page%largest_force, results%bolts, answer)
          fault = fault_of_answer(model, answer)
          if (fault /= '') call failure%raise(page%place//': '//fault// &
                                              ' is too large; are loads, lengths and stiffnesses in consistent units?')

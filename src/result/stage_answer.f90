@@ -8,7 +8,7 @@ module stage_answer
    use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, remainder
    use elasticity, only: max_stresses, von_mises
    use interface_operator, only: at_first_end
-   use joint_resultants, only: find_largest_pressure, find_resultant, joint_cut, joint_resultant
+   use joint_resultants, only: find_largest_pressure, find_resultant, joint_resultant
    use joint_sides, only: straight
    use kinds, only: wp
    use law_error, only: tangents_now
@@ -16,7 +16,7 @@ module stage_answer
    use normal_stiffness, only: branch_open, normal_state
    use numbers, only: cross, first_largest, identity, is_measure
    use structural_results, only: node_peaks
-   use symmetry_planes, only: cut_type, free_part, symmetry_plane
+   use symmetry_planes, only: cut_type, free_part
    use table_writer, only: noise
    use text_tools, only: above, integer_text
    implicit none
@@ -38,7 +38,7 @@ module stage_answer
       real(wp) :: pressure = 0.0_wp            !! largest [pressure]
       real(wp) :: gap = 0.0_wp                 !! largest [length]
       integer  :: slipping = 0                 !! interface elements
-      integer  :: n_cuts = 0                   !! directions of the planes of symmetry that cut it
+      integer  :: n_cuts = 0                   !! directions of the planes of symmetry that cut its bodies
       real(wp) :: normal = 0.0_wp, shear = 0.0_wp, moment = 0.0_wp !! N, T, M [force; force x length]
       logical  :: has_safety = .false.
       real(wp) :: safety = 0.0_wp              !! mu N/T
@@ -60,9 +60,9 @@ contains
 
    !> The answer at the end of the stage just completed, the bodies recovered. Peaks are the largest displacement of a node, and
    !! the largest von Mises stress at the centre of an element and at a node as the mean of its elements.
-   subroutine find_answer(model, planes, analysis, method, largest_force, bolts, answer)
+   subroutine find_answer(model, cuts, analysis, method, largest_force, bolts, answer)
       type(model_type), intent(in)    :: model
-      type(symmetry_plane), intent(in) :: planes(:)
+      type(cut_type), intent(in)      :: cuts(:)       !! (joints) by planes of symmetry
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: method        !! of case control
       real(wp), intent(in)            :: largest_force !! ever applied at a node, for the noise [force]
@@ -74,8 +74,7 @@ contains
       allocate (answer%joints(size(model%joints)))
       allocate (k, source=tangents_now(model, analysis, method))
       do j = 1, size(model%joints)
-         call describe_joint(model, analysis, model%joints(j), joint_cut(model, planes, model%joints(j)), k, &
-                             remainder*largest_force, answer%joints(j))
+         call describe_joint(model, analysis, model%joints(j), cuts(j), k, remainder*largest_force, answer%joints(j))
       end do
       call find_bolt_answers(model, analysis, largest_force, bolts, answer%bolts)
 

@@ -30,7 +30,7 @@ pressed half 2 0 4 -10 'SPCM,1,1,22' 0 500 && {
    near 'half, pushed: safety' "$(of half stage rows 'stage = 2' print safety)" '0.15*24000/500' 1e-8
    near 'half, pushed: the safety of the whole' "$(of half stage rows 'stage = 2' print safety)" "$(of whole stage rows 'stage = 2' print safety)" 1e-8
    holds 'half: the base holds more than T' "abs($(of half stage rows 'stage = 1' print 'sqrt(force_x^2+force_y^2)')) > 500"
-   says 'half: what is left out' "$work/half.log" 'NOTE: A PLANE OF SYMMETRY CUTS JOINT 1: T AND MU N/T'
+   says 'half: what is left out' "$work/half.log" 'NOTE: A PLANE OF SYMMETRY CUTS THE BODIES OF JOINT 1: T AND MU N/T'
 }
 # cut at y = -10, a side plane: pushed along x
 pressed side 2 0 2 -10 'SPCM,1,2,24' 300 0 &&
@@ -38,7 +38,19 @@ pressed side 2 0 2 -10 'SPCM,1,2,24' 300 0 &&
 # cut twice: nothing can move it sideways
 pressed quarter 2 0 2 0 'SPCM,1,1,22;SPCM,1,2,24' 0 0 && {
    nothing 'quarter, pressed' quarter 1
-   says 'quarter: what is left out' "$work/quarter.log" 'NOTE: PLANES OF SYMMETRY CUT JOINT 1'
+   says 'quarter: what is left out' "$work/quarter.log" 'NOTE: PLANES OF SYMMETRY CUT THE BODIES OF JOINT 1'
+}
+# a foot beside the plane, which cuts the body on it: the other foot holds the body as well along the normal
+cards foot <<'DECK'
+METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 10;SUBCASE 2;  LOAD = 20
+BEGIN BULK;BLOCK3,1,1,4,4,2,0.,-10.,4.;+,20.,10.,12.,,,,1,1;+,22,,,,,23;BLOCK3,2,1,2,4,1,10.,-10.,0.;+,20.,10.,4.,,,,1001,1001;+,,,,,20,,1
+PMARK,20;PMARK,22;PMARK,23;PSOLID,1,1;MAT1,1,70000.,,.33;JOINT,1,1,20;PJOINT,1,1,2,2,.15;JNORM,1,2.-4,.5;JSHEAR,2,2.+4
+SPCM,1,1,22;PLOADM,10,60.,23;LOAD,20,1.,1.,10,1.,15;FORCEM,15,500.,0.,1.,0.,23;ENDDATA
+DECK
+run foot && {
+   nothing 'a foot beside the plane, pressed' foot 1
+   near 'a foot beside the plane, pushed: T' "$(of foot stage rows 'stage = 2' print t)" 500 1e-8
+   holds 'a foot beside the plane: the base holds more' "abs($(of foot stage rows 'stage = 1' print 'sqrt(force_x^2+force_y^2)')) > 500"
 }
 # one node left to a spring in place of its support: no plane of symmetry, as all the friction along x counts
 pressed other 2 0 4 -10 'SPC1,1,1,2,THRU,15;CELAS2,1001,1.+9,1,1' 0 500 &&
