@@ -240,7 +240,8 @@ contains
                if (rotation_at(model, nodes(end)) == 0) then
                   call deck%errors%add(card%line, 'spring '//integer_text(card%id)//': node '// &
                      integer_text(model%node_id(nodes(end)))// &
-                     ' has no rotations; expected a node of shells or beams, or the reference node of an RBE2')
+                     ' has no rotations; expected a node of shells or beams, or the reference node of an RBE2, RBAR, or RBE3 '// &
+                     'with rotations in REFC')
                   return
                end if
                associate (rotation => model%rotations(rotation_at(model, nodes(end))))
