@@ -24,6 +24,15 @@ module symmetry_planes
       real(wp) :: near = 0.0_wp              !! distance within which a node lies on it [length]
    end type symmetry_plane
 
+   !> A plane through supported nodes.
+   type :: candidate_type
+      type(symmetry_plane) :: plane
+      real(wp) :: base(3) = 0.0_wp           !! one of these nodes [length]
+      real(wp) :: along(3) = 0.0_wp          !! unit vector from there to another of them
+      logical  :: has_line = .false.         !! there is one
+      logical  :: spans = .false.            !! and in space a third one beside their line
+   end type candidate_type
+
    !> The planes that cut something, as orthonormal directions: the first is the normal of the first plane.
    type, public :: cut_type
       integer  :: n = 0                      !! number of directions; planes that are parallel have one
@@ -37,27 +46,28 @@ contains
    pure subroutine find_planes(model, planes)
       type(model_type), intent(in)                   :: model
       type(symmetry_plane), allocatable, intent(out) :: planes(:)
-      type(symmetry_plane), allocatable :: candidates(:)
+      type(candidate_type), allocatable :: found(:)
       logical, allocatable :: counts(:) ! nodes of elements
       integer :: i
 
       allocate (counts, source=model%first_at(2:n_points(model) + 1) > model%first_at(:n_points(model)))
-      call find_candidates(model, counts, candidates)
-      planes = pack(candidates, [(is_held_plane(model, counts, candidates(i)), i = 1, size(candidates))])
+      call find_candidates(model, counts, found)
+      planes = pack(found%plane, found%spans)
+      planes = pack(planes, [(is_held_plane(model, counts, planes(i)), i = 1, size(planes))])
       planes = pack(planes, [(holds_nothing_else(model, counts, planes, planes(i)), i = 1, size(planes))])
    end subroutine find_planes
 
    !> Planes through nodes that are held along the normal of the plane, with all outermost nodes of the model on one side of it.
-   pure subroutine find_candidates(model, counts, planes)
+   pure subroutine find_candidates(model, counts, found)
       type(model_type), intent(in)                   :: model
       logical, intent(in)                            :: counts(:)
-      type(symmetry_plane), allocatable, intent(out) :: planes(:)
+      type(candidate_type), allocatable, intent(out) :: found(:)
       real(wp) :: axes(3, 3), near, offset
       real(wp), allocatable :: beyond(:), outer(:, :)
       logical  :: held(model%dimension)
       integer  :: d, k, node
 
-      allocate (planes(0))
+      allocate (found(0))
       if (.not. any(counts)) return
       outer = outermost(model, counts)
       near = level*maxval(maxval(outer, dim=2) - minval(outer, dim=2))
@@ -77,13 +87,32 @@ contains
             else if (.not. maxval(beyond) > near) then
                cycle ! the whole model lies in it
             end if
-            do k = 1, size(planes)
-               if (is_along(planes(k)%normal, axes(:, d)) .and. abs(planes(k)%offset - offset) <= near) exit
+            do k = 1, size(found)
+               if (is_along(found(k)%plane%normal, axes(:, d)) .and. abs(found(k)%plane%offset - offset) <= near) exit
             end do
-            if (k > size(planes)) planes = [planes, symmetry_plane(axes(:, d), offset, near)]
+            if (k > size(found)) found = [found, candidate_type(symmetry_plane(axes(:, d), offset, near), model%x(:, node))]
+            call widen(model%dimension, model%x(:, node), found(k))
          end do
       end do
    end subroutine find_candidates
+
+   !> Note that X is another point of a supported node of CANDIDATE.
+   pure subroutine widen(dimension, x, candidate)
+      integer, intent(in)                 :: dimension
+      real(wp), intent(in)                :: x(3)
+      type(candidate_type), intent(inout) :: candidate
+      real(wp) :: arm(3)
+
+      arm = x - candidate%base
+      if (norm2(arm) <= candidate%plane%near) return
+      if (.not. candidate%has_line) then
+         candidate%has_line = .true.
+         candidate%along = arm/norm2(arm)
+         candidate%spans = dimension == 2
+      else if (norm2(cross(candidate%along, arm)) > candidate%plane%near) then
+         candidate%spans = .true.
+      end if
+   end subroutine widen
 
    !> (3, n) The positions of the outermost nodes in 13 directions and those against them.
    pure function outermost(model, counts) result(x)
@@ -118,17 +147,16 @@ contains
       is_on = abs(dot_product(plane%normal, x) - plane%offset) <= plane%near
    end function is_on
 
-   !> Whether no node that counts lies beyond PLANE, and all on it are held along its normal, are never moved, and span it.
+   !> Whether no node that counts lies beyond PLANE, and all on it are held along its normal and never moved.
    pure logical function is_held_plane(model, counts, plane) result(is_one)
       type(model_type), intent(in)     :: model
       logical, intent(in)              :: counts(:)
       type(symmetry_plane), intent(in) :: plane
       real(wp) :: axes(3, 3)
-      logical  :: held(model%dimension), is_held(size(counts))
+      logical  :: held(model%dimension)
       integer  :: d, k, node, s
 
       is_one = .false.
-      is_held = .false.
       do node = 1, size(counts)
          if (.not. counts(node)) cycle
          if (dot_product(plane%normal, model%x(:, node)) < plane%offset - plane%near) return
@@ -144,29 +172,9 @@ contains
             if (.not. allocated(model%stage_loads(s)%moved)) cycle
             if (abs(model%stage_loads(s)%moved(d, node)) > 0.0_wp) return
          end do
-         is_held(node) = .true.
       end do
-      is_one = spans_plane(model, pack([(node, node = 1, size(counts))], is_held), plane%near)
+      is_one = .true.
    end function is_held_plane
-
-   !> Whether NODES lie apart by more than NEAR, in space not all on a line.
-   pure logical function spans_plane(model, nodes, near) result(spans)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: nodes(:)
-      real(wp), intent(in)         :: near !! [length]
-      real(wp) :: span(3)
-      integer  :: i
-
-      spans = .false.
-      if (size(nodes) < model%dimension) return
-      span = 0.0_wp
-      do i = 2, size(nodes)
-         if (norm2(model%x(:, nodes(i)) - model%x(:, nodes(1))) > norm2(span)) span = model%x(:, nodes(i)) - model%x(:, nodes(1))
-      end do
-      spans = norm2(span) > near
-      if (model%dimension == 3) spans = spans .and. &
-         any([(norm2(cross(span, model%x(:, nodes(i)) - model%x(:, nodes(1)))) > near*norm2(span), i = 2, size(nodes))])
-   end function spans_plane
 
    !> Whether at least half of the nodes on PLANE are held along the normals of the PLANES through them only.
    pure logical function holds_nothing_else(model, counts, planes, plane) result(holds)
