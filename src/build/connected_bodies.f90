@@ -7,7 +7,7 @@ module connected_bodies
    implicit none
    private
 
-   public :: find_bodies, find_parts
+   public :: find_bodies, find_parts, number_parts
 
 contains
 
@@ -33,10 +33,25 @@ contains
       end do
    end subroutine find_bodies
 
-   !> Number the connected parts. A node without a body is a part of its own; a dependent node belongs to the part of its masters.
+   !> Number the connected parts in MODEL.
    pure subroutine find_parts(model, with_bolts)
       type(model_type), intent(inout) :: model
-      logical, intent(in)             :: with_bolts !! whether bolts connect bodies, as other bars do
+      logical, intent(in)             :: with_bolts
+      integer, allocatable :: part(:)
+      integer :: n_parts
+
+      call number_parts(model, with_bolts, part, n_parts)
+      call move_alloc(part, model%part)
+      model%n_parts = n_parts
+   end subroutine find_parts
+
+   !> The connected PART of each node. A node without a body is a part of its own; a dependent node belongs to the part of its
+   !! masters.
+   pure subroutine number_parts(model, with_bolts, part, n_parts)
+      type(model_type), intent(in)      :: model
+      logical, intent(in)               :: with_bolts !! whether bolts connect bodies, as other bars do
+      integer, allocatable, intent(out) :: part(:)    !! (n_nodes)
+      integer, intent(out)              :: n_parts
       integer, allocatable :: parent(:)
       integer :: k, node, root
 
@@ -56,17 +71,17 @@ contains
       do k = 1, n_rotations(model)
          call join(parent, model%rotations(k)%point, model%rotations(k)%node)
       end do
-      model%part = spread(0, 1, model%n_nodes)
-      model%n_parts = 0
+      allocate (part(model%n_nodes), source=0)
+      n_parts = 0
       do node = 1, model%n_nodes
          root = root_of(parent, node)
-         if (model%part(root) == 0) then
-            model%n_parts = model%n_parts + 1
-            model%part(root) = model%n_parts
+         if (part(root) == 0) then
+            n_parts = n_parts + 1
+            part(root) = n_parts
          end if
-         model%part(node) = model%part(root)
+         part(node) = part(root)
       end do
-   end subroutine find_parts
+   end subroutine number_parts
 
    !> Join the nodes of every element, and WITH_BOLTS the halves of each solid bolt. For an element behind a pretension section the
    !! section node replaces the nodes that are cut.

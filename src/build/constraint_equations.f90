@@ -76,8 +76,8 @@ contains
                words = ' is already dependent by '//name_of(deck, list%item(of(item%d, item%node))%line)
             else
                of(item%d, item%node) = i
-               if (model%held(item%d, item%node)) words = ' is supported by an SPC or PS too; a component is either '// &
-                                                          'dependent or supported'
+               if (model%held(item%d, item%node)) words = ' is supported by '//support_name(deck, model, item%node, item%d)// &
+                                                          ' too; a component is either dependent or supported'
             end if
             if (words /= '') call name_once(i, component_text(model, item%node, item%d)//words)
          end associate
@@ -108,23 +108,47 @@ contains
             if (list%item(j)%field == list%item(this)%field .and. is_named(j)) return
          end do
          is_named(this) = .true.
-         call deck%field_error(list%item(this)%line, list%item(this)%field, message, called='G')
+         call deck%field_error(list%item(this)%line, list%item(this)%field, message, &
+                               called=trim(merge('PID1', 'G   ', deck%card_on(list%item(this)%line) == 'SHELLTO')))
       end subroutine name_once
 
    end subroutine check_dependences
 
-   !> Text such as 'RBE2 7, deck.bdf, line 12' for the card on LINE.
+   !> Text such as 'RBAR 7 (deck.bdf, line 12)' for the card on LINE; an MPC has the number of its set, a SHELLTO none.
    function name_of(deck, line) result(name)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line
       character(:), allocatable :: name
       integer :: i
 
-      name = 'MPC'
+      name = ''
       i = findloc(deck%bulk%rigid%line, line, dim=1)
-      if (i > 0) name = trim(merge('RBE3 ', 'RBE2 ', deck%bulk%rigid(i)%is_mean))//' '//integer_text(deck%bulk%rigid(i)%id)
-      name = name//' ('//deck%text%place(line)//')'
+      if (i > 0) name = ' '//integer_text(deck%bulk%rigid(i)%id)
+      i = findloc(deck%bulk%equation%line, line, dim=1)
+      if (i > 0) name = ' of set '//integer_text(deck%bulk%equation(i)%set)
+      name = deck%card_on(line)//name//' ('//deck%text%place(line)//')'
    end function name_of
+
+   !> The same for the card that supports component D of NODE.
+   function support_name(deck, model, node, d) result(name)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer, intent(in)            :: node, d
+      character(:), allocatable :: name
+      integer :: group
+
+      group = 0
+      if (node <= size(model%support_of, 2)) group = model%support_of(d, node)
+      name = 'a support'
+      if (group == 0) return
+      associate (source => model%support_groups(group))
+         name = trim(source%kind)
+         if (source%kind == 'GRID') name = 'PS of GRID'
+         if (source%kind == 'SPCM') name = name//' of surface '//integer_text(source%id)
+         if (any(source%kind == ['SPC ', 'SPC1'])) name = name//' of set '//integer_text(source%id)
+         if (source%kind == 'SPC1' .or. source%kind == 'SPCM') name = name//' ('//deck%text%place(source%line)//')'
+      end associate
+   end function support_name
 
    !> Text such as 'component 3 of node 7' for component D of NODE, which may be a node of rotations.
    pure function component_text(model, node, d) result(words)

@@ -88,7 +88,7 @@ contains
    subroutine check_balance(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
-      real(wp) :: force(3), moment(3), size_of, arm
+      real(wp) :: force(3), moment(3), of_forces, of_moments, arm ! sums of amounts: the scales of rounding
       integer  :: i, s
 
       if (.not. model%floats) return
@@ -96,15 +96,17 @@ contains
       do s = 1, size(model%stage_loads)
          force = 0.0_wp
          moment = 0.0_wp
-         size_of = 0.0_wp
+         of_forces = 0.0_wp
+         of_moments = 0.0_wp
          associate (loads => model%stage_loads(s))
             do i = 1, loads%n
-               size_of = size_of + norm2(loads%force(:, i))
                if (node_kind(model, loads%node(i)) == a_point) then
+                  of_forces = of_forces + norm2(loads%force(:, i))
                   force = force + loads%force(:, i)
                   moment = moment + cross(model%x(:, loads%node(i)), loads%force(:, i))
                else if (node_kind(model, loads%node(i)) == a_rotation) then
                   associate (rotation => model%rotations(place_in_kind(model, loads%node(i))))
+                     of_moments = of_moments + rotation%arm*norm2(loads%force(:, i))
                      if (model%dimension == 3) moment = moment + rotation%arm*loads%force(:, i)
                      if (model%dimension == 2) moment(3) = moment(3) + rotation%arm*loads%force(1, i)
                   end associate
@@ -113,7 +115,7 @@ contains
          end associate
          if (model%axisymmetric) force(1) = 0.0_wp
          if (model%axisymmetric) moment = 0.0_wp
-         if (norm2(force) > balanced*size_of .or. norm2(moment) > balanced*size_of*arm) call deck%errors%add( &
+         if (norm2(force) > balanced*of_forces .or. norm2(moment) > balanced*(of_forces*arm + of_moments)) call deck%errors%add( &
             deck%control%stages(s)%load%line, 'LOAD: nothing supports the structure, and this load does not balance itself; '// &
             'expected a support')
       end do

@@ -210,16 +210,17 @@ contains
       allocate (elements(0))
       associate (card => deck%bulk%joint(j))
          surface = 0
-         first = j
          do k = 1, 2
             if (card%sides(k) == 0) cycle
             surface(k) = tables%surface%find(card%sides(k))
             if (surface(k) == 0) call deck%field_error(card%line, 'SIDE'//integer_text(k), &
                                                        'there is no PMARK '//integer_text(card%sides(k)))
-            first = min(first, (tables%side%find(card%sides(k)) + 1)/2)
+            first = (tables%side%find(card%sides(k)) + 1)/2
+            if (first < j) call deck%field_error(card%line, 'SIDE'//integer_text(k), 'surface '//integer_text(card%sides(k))// &
+               ' is a side of JOINT '//integer_text(deck%bulk%joint(first)%id)//' already, and a face belongs to one JOINT. '// &
+               'Bodies that stand on one face: give the faces of all these bodies one PMARK and one JOINT; for laws of their '// &
+               'own, divide the face into a PMARK for each body')
          end do
-         if (first < j) call deck%field_error(card%line, 'SIDE1', 'one of the sides is a side of JOINT '// &
-                                              integer_text(deck%bulk%joint(first)%id)//' already')
          if (surface(1) == 0 .or. (surface(2) == 0 .and. card%sides(2) /= 0)) return
          if (any(model%surfaces(pack(surface, surface > 0))%n == 0)) return
          shared = .false. ! whether bodies lie on both sides of any part of a surface

@@ -90,7 +90,7 @@ contains
       rotation = rotation_at(model, node)
       if (rotation == 0) then
          call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)//' has no rotations, so that no moment can act '// &
-            'on it; expected the reference node of an RBE2, or of an RBE3 with rotations in REFC')
+            'on it; expected a node of shells or beams, or the reference node of an RBE2, RBAR, or RBE3 with rotations in REFC')
          force = 0.0_wp
          return
       end if

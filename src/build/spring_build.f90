@@ -76,8 +76,9 @@ contains
                                               ' with a PROD, nor a CONROD, CBAR or CBEAM')
             if (k == 0 .or. stage == 0) cycle
             if (model%bars(k)%bolt > 0) then
-               call deck%field_error(card%line, 'EID', 'CROD '//integer_text(card%element)//' is BOLT '// &
-                                     integer_text(model%bars(k)%bolt)//' already')
+               call deck%field_error(card%line, 'EID', name_of_bar(deck, card%element)//' is BOLT '// &
+                  integer_text(model%bars(k)%bolt)//' already, and a bolt is tightened in one stage only; expected one BOLT '// &
+                  'for each element, with the stage that tightens it last')
                cycle
             end if
             model%bars(k)%bolt = card%id
@@ -86,6 +87,21 @@ contains
          end associate
       end do
    end subroutine build_bars
+
+   !> Text such as 'CONROD 7' for the bar or beam ID, as its card has it.
+   function name_of_bar(deck, id) result(name)
+      type(checked_deck), intent(in) :: deck
+      integer, intent(in)            :: id
+      character(:), allocatable :: name
+      integer :: k, line
+
+      line = 0
+      k = findloc(deck%bulk%edge%id, id, dim=1)
+      if (k > 0) line = deck%bulk%edge(k)%line
+      k = findloc(deck%bulk%conrod%id, id, dim=1)
+      if (k > 0) line = deck%bulk%conrod(k)%line
+      name = deck%card_on(line)//' '//integer_text(id)
+   end function name_of_bar
 
    !> The stiffness and mass of BAR with the section of PROD; its card is on LINE, its nodes are known.
    subroutine build_bar(deck, line, prod, model, bar)
@@ -224,7 +240,8 @@ contains
                if (rotation_at(model, nodes(end)) == 0) then
                   call deck%errors%add(card%line, 'spring '//integer_text(card%id)//': node '// &
                      integer_text(model%node_id(nodes(end)))// &
-                     ' has no rotations; expected a node of shells or beams, or the reference node of an RBE2')
+                     ' has no rotations; expected a node of shells or beams, or the reference node of an RBE2, RBAR, or RBE3 '// &
+                     'with rotations in REFC')
                   return
                end if
                associate (rotation => model%rotations(rotation_at(model, nodes(end))))

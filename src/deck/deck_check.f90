@@ -24,6 +24,7 @@ module deck_check
       procedure :: start
       procedure, private :: kind_of_line, named_field_error, numbered_field_error
       generic :: field_error => named_field_error, numbered_field_error
+      procedure :: card_on
       procedure :: check_ids
       procedure :: mesh_is_faulty
       procedure :: report_repeated
@@ -58,6 +59,15 @@ contains
 
       kind = findloc(self%kinds%name, card_name(self%text%card_part(line)), dim=1)
    end function kind_of_line
+
+   !> The name of the card that begins on LINE, as the user wrote it.
+   function card_on(self, line) result(name)
+      class(checked_deck), intent(in) :: self
+      integer, intent(in)             :: line
+      character(:), allocatable       :: name
+
+      name = trim(card_name(self%text%card_part(line)))
+   end function card_on
 
    !> Add an error about the field FIELD of the card that begins on LINE.
    subroutine named_field_error(self, line, field, message, called)

@@ -66,7 +66,7 @@ contains
             rigid%directions = [directions]
          end select
          if (rigid%is_mean .and. any([(any(has_component(rigid%directions, c)), c = 4, 6)])) &
-            call bulk%ignored%add('456 in C of RBE3')
+            call bulk%ignored%add('456 in C of '//trim(card%name))
       end associate
    end subroutine read_rigid
 

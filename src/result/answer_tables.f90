@@ -4,11 +4,12 @@ module answer_tables
    use analysis_state, only: analysis_type
    use bolt_answers, only: bolt_answer_type
    use kinds, only: wp
-   use model_data, only: joint_node_id, model_type
+   use model_data, only: joint_node_id, joint_type, model_type
    use result_page, only: bolt_block_2, bolt_table, page_type, reaction_table, split_table, stage_table, table_columns, watch_table
    use stage_answer, only: peak_type, stage_answer_type
    use support_reactions, only: reaction_type, reactions_type
    use table_writer, only: axes, column, heading, table_type
+   use text_tools, only: integer_text
    use watched_nodes, only: watch_answer
    implicit none
    private
@@ -76,6 +77,8 @@ contains
          end associate
          call table%print_row(page%screen, page%tables(stage_table))
       end do
+      call note_cuts(page, 'THE BODIES OF JOINT', model%joints%id, merge(answer%joints%n_cuts, 0, has_shear(model%joints)), &
+                     'T AND MU N/T LEAVE OUT THE SHEAR FORCE THAT THE MIRROR IMAGE BALANCES')
       call print_stiffnesses(page, model, answer)
 
    contains
@@ -99,6 +102,26 @@ contains
       end subroutine add_node
 
    end subroutine print_answer
+
+   !> Whether JOINT can transmit shear forces.
+   elemental logical function has_shear(joint)
+      type(joint_type), intent(in) :: joint
+
+      has_shear = joint%law%has_friction .or. any(joint%law%shear%given)
+   end function has_shear
+
+   !> Print for each item with a number of CUTS that planes of symmetry cut it, and WHAT follows.
+   subroutine note_cuts(page, kind, id, cuts, what)
+      type(page_type), intent(inout) :: page
+      character(*), intent(in)       :: kind, what
+      integer, intent(in)            :: id(:), cuts(:)
+      integer :: i
+
+      do i = 1, size(id)
+         if (cuts(i) > 0) call page%screen%put('  NOTE: '//trim(merge('A PLANE OF SYMMETRY CUTS', 'PLANES OF SYMMETRY CUT  ', &
+            cuts(i) == 1))//' '//kind//' '//integer_text(id(i))//': '//what)
+      end do
+   end subroutine note_cuts
 
    !> Print stiffnesses about the centroids.
    subroutine print_stiffnesses(page, model, answer)
@@ -153,11 +176,13 @@ contains
                call table%add([page%stage_id, analysis%increment], [analysis%fraction])
                call table%add([bolt%id])
                call table%add([bolt%element, bolt%surface], where=[bolt%element, bolt%surface] > 0)
-               call table%add([bolt%force, bolt%change, bolt%load_change])
+               call table%add([bolt%force, bolt%change])
+               call table%add([bolt%load_change], where=[bolt%has_load])
                call table%add([bolt%ratio, bolt%moment], where=[bolt%has_ratio, bolt%has_moment])
                call table%add([bolt%longer])
                call table%add([bolt%element, bolt%surface])
-               call table%add([bolt%tightened, bolt%largest, bolt%load], where=spread(bolt%is_locked, 1, 3))
+               call table%add([bolt%tightened, bolt%largest, bolt%load], &
+                              where=[bolt%is_locked, bolt%is_locked, bolt%is_locked .and. bolt%has_load])
                call table%add([bolt%share, bolt%stress, bolt%edge_stress, bolt%use, 100.0_wp*bolt%use], &
                               where=[bolt%has_share, .true., bolt%has_moment, bolt%has_strength, bolt%has_strength])
                call table%add([bolt%joint], where=[clamps])
@@ -168,6 +193,8 @@ contains
             if (.not. in_answer) call table%print_row(csv_file=page%tables(bolt_table))
          end do
       end do
+      if (in_answer) call note_cuts(page, 'BOLT', bolts%id, bolts%n_cuts, &
+         'FORCES AND BENDING ARE OF ITS PART IN THE MODEL, STRESS AND MU N/T OF THE WHOLE')
    end subroutine print_bolts
 
    !> Print the support reactions; the last line is the balance.

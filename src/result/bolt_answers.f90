@@ -1,72 +1,70 @@
 !> The bolts at the end of an increment, bars or solids: force, load share, stress, and clamping of the joint. The terms are
 !! those of VDI 2230. Assembly is the end of the last stage that tightens a bolt. The share of an axial or transverse load and
-!! the loss of clamping force are counted from assembly on.
+!! the loss of clamping force are counted from assembly on. The load of a bolt is the force that passes between the bodies that
+!! it clamps, see passing_forces. Of a bolt that planes of symmetry cut, force, load and bending are those of the part in the
+!! model; the bending stress is that of the whole shank.
 module bolt_answers
    use analysis_state, only: analysis_type
    use body_elements, only: element_thermal_forces, element_stiffness
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
+   use bolt_places, only: bolt_place, distance, find_places
    use element_kinds, only: max_felt_dofs, max_nodes
    use interface_operator, only: at_first_end
    use kinds, only: wp
-   use model_data, only: a_point, corners_of, model_type, n_bars, n_points, n_sections, node_kind, section_type, temperature_type
+   use model_data, only: corners_of, model_type, section_type, temperature_type
    use node_coupling, only: corner_displacements
-   use numbers, only: cross, first_largest, tie
+   use numbers, only: cross, tie
+   use passing_forces, only: forces_between, passage_type
    use restart_stream, only: restart_stream_type
    use surface_build, only: surface_node_list, surface_nodes
+   use symmetry_planes, only: axis_part, cut_type, free_part, symmetry_plane
    use text_tools, only: above
    implicit none
    private
 
-   public :: start_bolts, find_bolt_answers, record_bolts, load_along, whole_load, bending_moment
+   public :: start_bolts, find_bolt_answers, end_stage, record_bolts, bending_moment
 
    ! of forces and movements: the remainder of sums and differences that are zero but for rounding and the tolerance of iterations
    real(wp), parameter, public :: remainder = 1.0e-7_wp
 
-   real(wp), parameter :: about_as_near = 0.45_wp ! of the bolt's length: own joint farther than the nearest one by this
-   real(wp), parameter :: along_it = 0.01_wp      ! of the whole load: a smaller part along a bolt is none
+   real(wp), parameter :: along_it = 0.1_wp       ! of the whole load: a smaller part along a bolt is none
    real(wp), parameter :: pi = acos(-1.0_wp)
-
-   !> The data of a bolt that do not change.
-   type :: bolt_place
-      integer  :: id = 0                  !! of its BOLT card
-      integer  :: bar = 0, section = 0    !! position of its bar or of its pretension section: one of them is 0
-      integer  :: stage = 0               !! position of the stage that tightens it
-      integer  :: joint = 0               !! position of the joint that it crosses, the largest of several; 0: none
-      real(wp) :: point(3) = 0.0_wp       !! on its axis [length]
-      real(wp) :: direction(3) = 0.0_wp   !! along it, unit
-      real(wp) :: area = 0.0_wp           !! of its shank [length^2]
-      real(wp) :: strength = 0.0_wp       !! ST of its material, 0: not given [pressure]
-   end type bolt_place
 
    !> The history of the bolts of a model.
    type, public :: bolt_history
-      type(bolt_place), allocatable, private :: bolts(:)
+      type(bolt_place), allocatable, private   :: bolts(:)
+      type(passage_type), private              :: passages
+      integer, allocatable, private            :: crossing(:, :) !! (pairs of bodies, bolts) as in forces_between
       integer, private :: assembly = 0    !! position of the last stage so far that tightened a bolt, 0: none
-      real(wp), private :: load = 0.0_wp  !! the largest since assembly [force]
       real(wp), allocatable :: before(:)             !! forces at the end of the stage before [force]
       real(wp), allocatable, private :: tightened(:) !! at the end of tightening, 0: not yet
       real(wp), allocatable, private :: largest(:)   !! largest since then
       real(wp), allocatable, private :: assembled(:) !! at assembly
       real(wp), allocatable, private :: change(:)    !! largest in size since assembly
+      real(wp), allocatable, private :: load(:)      !! change of the load that came with it
       real(wp), allocatable, private :: clamped(:)   !! clamping force of its own joint around the bolt at assembly
+      real(wp), allocatable, private :: passed(:, :), passed_before(:, :), passed_assembled(:, :) !! (3, pairs) forces between
+                                                     !! bodies now, at the end of the stage before, at assembly [force]
    end type bolt_history
 
    type, public :: bolt_answer_type
       integer  :: id = 0
       integer  :: element = 0, surface = 0     !! its bar; its pretension section; one of them is 0
+      integer  :: n_cuts = 0                   !! directions of the planes of symmetry that cut it
       real(wp) :: longer = 0.0_wp              !! elongation of a bar; of a solid bolt minus its shortening [length]
       real(wp) :: force = 0.0_wp               !! tension [force]
       real(wp) :: change = 0.0_wp              !! since the end of the stage before [force]
-      real(wp) :: load_change = 0.0_wp         !! of the load along it [force]
+      logical  :: has_load = .false.           !! clamps bodies: the load is known
+      real(wp) :: load_change = 0.0_wp         !! of the load along it since then, positive where it parts the bodies [force]
       logical  :: has_ratio = .false., has_moment = .false.
       real(wp) :: ratio = 0.0_wp               !! change over load_change
       real(wp) :: moment = 0.0_wp              !! bending [force x length]
       logical  :: is_locked = .false.          !! has been tightened: the values below are known
       real(wp) :: tightened = 0.0_wp           !! force at the end of tightening [force]
       real(wp) :: largest = 0.0_wp             !! since then [force]
-      real(wp) :: load = 0.0_wp                !! the largest whole load since assembly [force]
+      real(wp) :: load = 0.0_wp                !! change of the whole load from assembly to where the force changed most [force]
       logical  :: has_share = .false.
-      real(wp) :: share = 0.0_wp               !! largest change of force since assembly over the load that changed
+      real(wp) :: share = 0.0_wp               !! that change of force over this load
       logical  :: has_strength = .false.
       real(wp) :: stress = 0.0_wp              !! force over area [pressure]
       real(wp) :: edge_stress = 0.0_wp         !! with bending, of a round shank; where has_moment [pressure]
@@ -80,154 +78,31 @@ module bolt_answers
 
 contains
 
-   !> Find all bolts of MODEL, bars first, and the joint of each; the history is empty.
-   subroutine start_bolts(model, history)
-      type(model_type), intent(in)    :: model
-      type(bolt_history), intent(out) :: history
-      type(surface_node_list) :: list
-      real(wp) :: along, radius, span(2)
-      integer  :: i, n, node, s
+   !> Find all bolts of MODEL, which has these PLANES of symmetry; the history is empty.
+   subroutine start_bolts(model, planes, cuts, history)
+      type(model_type), intent(in)     :: model
+      type(symmetry_plane), intent(in) :: planes(:)
+      type(cut_type), intent(in)       :: cuts(:)     !! (joints) by these planes
+      type(bolt_history), intent(out)  :: history
+      integer :: n
 
-      n = n_sections(model)
-      if (n_bars(model) > 0) n = n + count(model%bars%bolt > 0)
-      allocate (history%bolts(n))
+      call find_places(model, planes, cuts, history%bolts, history%passages, history%crossing)
+      n = size(history%bolts)
       allocate (history%before(n), history%tightened(n), history%largest(n), history%assembled(n), history%change(n), &
-                history%clamped(n), source=0.0_wp)
-      n = 0
-      do i = 1, n_bars(model)
-         associate (bar => model%bars(i))
-            if (bar%bolt == 0) cycle
-            n = n + 1
-            history%bolts(n) = bolt_place(id=bar%bolt, bar=i, stage=bar%stage, point=model%x(:, bar%nodes(1)), &
-                                          direction=bar%direction(:, 1), area=bar%area, strength=bar%strength)
-            call find_own_joint(model, [0.0_wp, norm2(model%x(:, bar%nodes(2)) - model%x(:, bar%nodes(1)))], history%bolts(n))
-         end associate
-      end do
-      do i = 1, n_sections(model)
-         n = n + 1
-         associate (section => model%sections(i), bolt => history%bolts(n))
-            s = findloc(model%surfaces%id, section%surface, dim=1)
-            call surface_nodes(model, model%surfaces(s), list)
-            bolt = bolt_place(id=section%bolt, section=i, stage=section%stage, direction=section%direction, area=section%area, &
-                              point=matmul(model%x(:, list%node), list%area)/sum(list%area), strength=section%strength)
-            radius = 0.0_wp
-            do s = 1, list%n
-               radius = max(radius, norm2(model%x(:, list%node(s)) - bolt%point))
-            end do
-            span = 0.0_wp ! of the nodes of its body no farther from the axis than those of its pretension section
-            do node = 1, n_points(model)
-               if (model%part(node) /= model%part(section%point)) cycle
-               if (distance(bolt, model%x(:, node)) > radius*(1.0_wp + 1.0e-3_wp)) cycle
-               along = dot_product(model%x(:, node) - bolt%point, bolt%direction)
-               span = [min(span(1), along), max(span(2), along)]
-            end do
-            call find_own_joint(model, span, bolt)
-         end associate
-      end do
+                history%load(n), history%clamped(n), source=0.0_wp)
+      allocate (history%passed(3, history%passages%n), history%passed_before(3, history%passages%n), &
+                history%passed_assembled(3, history%passages%n), source=0.0_wp)
    end subroutine start_bolts
-
-   !> The joint of BOLT: its element nearest to the axis lies within the SPAN of the bolt and faces the axis. Joints much
-   !! farther than the nearest one belong to other bolts. Of the remaining joints the one of largest area is taken, the first of
-   !! equal ones.
-   pure subroutine find_own_joint(model, span, bolt)
-      type(model_type), intent(in)    :: model
-      real(wp), intent(in)            :: span(2) !! from the point of the bolt, in its direction [length]
-      type(bolt_place), intent(inout) :: bolt
-      real(wp) :: off(size(model%joints)), along, near
-      logical  :: crossed(size(model%joints))
-      integer  :: i, j
-
-      crossed = .false.
-      off = huge(1.0_wp)
-      associate (length => span(2) - span(1))
-         do j = 1, size(model%joints)
-            do i = model%joints(j)%first, model%joints(j)%last
-               near = distance(bolt, at_first_end(model%interface(i), model%x))
-               if (near > off(j) - tie*length) cycle
-               off(j) = near
-               along = dot_product(at_first_end(model%interface(i), model%x) - bolt%point, bolt%direction)
-               crossed(j) = along > span(1) - tie*length .and. along < span(2) + tie*length .and. &
-                            abs(dot_product(model%interface(i)%axes(:, 3), bolt%direction)) > 0.5_wp
-            end do
-         end do
-         crossed = crossed .and. off <= minval(off, mask=crossed) + about_as_near*length
-      end associate
-      bolt%joint = first_largest(model%joints%area, crossed)
-   end subroutine find_own_joint
-
-   !> Distance of X from the axis of BOLT [length].
-   pure real(wp) function distance(bolt, x)
-      type(bolt_place), intent(in) :: bolt
-      real(wp), intent(in)         :: x(3)
-
-      distance = norm2(x - bolt%point - dot_product(x - bolt%point, bolt%direction)*bolt%direction)
-   end function distance
-
-   !> The load of the deck along DIRECTION at FRACTION of STAGE: the larger of the sums of nodal forces in this and in the
-   !! opposite direction. Of self-equilibrated loads one half counts [force]. Preloads are left out.
-   real(wp) function load_along(model, direction, stage, fraction) result(load)
-      type(model_type), intent(in) :: model
-      real(wp), intent(in)         :: direction(3)
-      integer, intent(in)          :: stage    !! position; before the first there is no load
-      real(wp), intent(in)         :: fraction
-      real(wp), allocatable :: force(:, :)
-      real(wp) :: component, sums(2)
-      integer  :: i
-
-      call find_load_change(model, 0, stage, fraction, force)
-      sums = 0.0_wp
-      do i = 1, size(force, 2)
-         component = dot_product(force(:, i), direction)
-         sums = sums + [max(0.0_wp, component), max(0.0_wp, -component)]
-      end do
-      load = maxval(sums)
-   end function load_along
-
-   !> The load of the deck in any direction at FRACTION of STAGE, relative to the end of stage FROM: half the sum of the
-   !! magnitudes of its nodal forces and of the magnitude of their resultant. For a single force it is that force, for
-   !! self-equilibrated loads one half [force].
-   real(wp) function whole_load(model, from, stage, fraction) result(load)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: from, stage
-      real(wp), intent(in)         :: fraction
-      real(wp), allocatable :: force(:, :)
-
-      call find_load_change(model, from, stage, fraction, force)
-      load = 0.5_wp*(sum(norm2(force, dim=1)) + norm2(sum(force, dim=2)))
-   end function whole_load
-
-   !> (3, n_nodes) The nodal forces of the deck at FRACTION of STAGE, less those at the end of stage FROM; without moments.
-   subroutine find_load_change(model, from, stage, fraction, force)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: from, stage !! positions; before the first there is no load
-      real(wp), intent(in)         :: fraction
-      real(wp), allocatable, intent(out) :: force(:, :)
-      real(wp) :: shares(3)
-      integer  :: i, k, stages(3)
-
-      stages = [stage, stage - 1, from]
-      shares = [fraction, 1.0_wp - fraction, -1.0_wp]
-      allocate (force(3, model%n_nodes), source=0.0_wp)
-      do k = 1, 3
-         if (abs(shares(k)) <= 0.0_wp .or. stages(k) < 1) cycle
-         associate (loads => model%stage_loads(stages(k)))
-            do i = 1, loads%n
-               if (node_kind(model, loads%node(i)) == a_point) &
-                  force(:, loads%node(i)) = force(:, loads%node(i)) + shares(k)*loads%force(:, i)
-            end do
-         end associate
-      end do
-   end subroutine find_load_change
 
    !> Bending moment at the pretension section of a solid bolt: the moment that the elements behind it exert on the nodes of the
    !! section, about the centroid of its area, across the bolt [force x length]. The weight of these elements is neglected.
-   pure real(wp) function bending_moment(model, section, u, temperature) result(moment)
+   pure function bending_moment(model, section, u, temperature) result(moment)
       type(model_type), intent(in)   :: model
       type(section_type), intent(in) :: section
       real(wp), intent(in)           :: u(:, :) !! (dimension, n_nodes) of all nodes [length]
       type(temperature_type), intent(in) :: temperature
       type(surface_node_list) :: list
-      real(wp) :: centroid(3), force(3), thermal(3, max_nodes), total(3), k(max_felt_dofs, max_felt_dofs), p(max_felt_dofs)
+      real(wp) :: moment(3), centroid(3), force(3), thermal(3, max_nodes), k(max_felt_dofs, max_felt_dofs), p(max_felt_dofs)
       integer  :: d, e, i, j, n, s
 
       d = model%dimension
@@ -237,7 +112,7 @@ contains
       do i = 1, list%n
          centroid = centroid + list%area(i)*model%x(:, list%node(i))/sum(list%area)
       end do
-      total = 0.0_wp
+      moment = 0.0_wp
       do j = model%first_at(section%node), model%first_at(section%node + 1) - 1
          e = model%elements_at(j)
          call element_stiffness(model, e, k)
@@ -249,12 +124,11 @@ contains
                if (model%node_section(nodes(i)) /= model%element_section(e)) cycle
                force = 0.0_wp
                force(:d) = p(d*(i - 1) + 1:d*i) - thermal(:d, i)
-               total = total + cross(model%x(:, nodes(i)) - centroid, force)
+               moment = moment + cross(model%x(:, nodes(i)) - centroid, force)
             end do
          end associate
       end do
-      total = total - dot_product(total, section%direction)*section%direction
-      moment = norm2(total)
+      moment = moment - dot_product(moment, section%direction)*section%direction
       if (model%axisymmetric) moment = 0.0_wp ! self-equilibrated around the ring
    end function bending_moment
 
@@ -267,52 +141,33 @@ contains
       type(bolt_history), intent(inout) :: history
       type(bolt_answer_type), allocatable, intent(out) :: answers(:)
       real(wp), allocatable :: clamping(:), force(:), shear(:)
-      real(wp) :: floor
+      real(wp) :: axial, floor, whole
       integer  :: i, stage
-      logical  :: completed
 
       stage = analysis%stage
-      completed = analysis%fraction >= 1.0_wp
       floor = remainder*largest_force
       allocate (answers(size(history%bolts)), force(size(history%bolts)))
       if (size(answers) == 0) return
       do i = 1, size(answers)
-         associate (answer => answers(i), bolt => history%bolts(i))
-            answer%id = bolt%id
-            if (bolt%bar > 0) then
-               force(i) = bar_tension(model, analysis, bolt%bar)
-               answer%element = model%bars(bolt%bar)%id
-               answer%longer = elongation_now(model, analysis, bolt%bar)
-            else
-               force(i) = section_tension(model, analysis, bolt%section)
-               answer%surface = model%sections(bolt%section)%surface
-               answer%longer = -overlap_now(model, analysis, bolt%section)
-            end if
-            answer%force = above(force(i), floor)
-            answer%stress = answer%force/bolt%area
-            answer%has_moment = bolt%section > 0 .and. completed
-            if (.not. answer%has_moment) cycle
-            answer%moment = above(bending_moment(model, model%sections(bolt%section), analysis%all_u, analysis%now%temperature), &
-                                  floor*sqrt(bolt%area))
-            answer%edge_stress = answer%stress + 4.0_wp*sqrt(pi)*answer%moment/bolt%area**1.5_wp ! W = pi d**3/32, A = pi d**2/4
-         end associate
+         call answer_force(model, analysis, history%bolts(i), floor, force(i), answers(i))
       end do
+      history%passed = forces_between(model, analysis, history%passages, history%crossing, bolt_directions(history%bolts), force)
       allocate (clamping, shear, mold=force)
       call find_clamping(model, analysis, history%bolts, clamping, shear)
-      call record_increment(model, analysis, force, clamping, history)
+      call record_increment(analysis%stage, force, clamping, floor, history)
       do i = 1, size(answers)
          associate (answer => answers(i), bolt => history%bolts(i))
             answer%change = above(force(i) - history%before(i), floor)
-            answer%load_change = above(load_along(model, bolt%direction, stage, analysis%fraction) &
-                                       - load_along(model, bolt%direction, stage - 1, 1.0_wp), floor)
-            answer%has_ratio = bolt%stage /= stage .and. abs(answer%load_change) > &
-               along_it*whole_load(model, stage - 1, stage, analysis%fraction)
+            answer%has_load = any(history%crossing(:, i) /= 0)
+            call find_load(bolt, history%crossing(:, i), history%passed - history%passed_before, axial, whole)
+            answer%load_change = above(axial, floor)
+            answer%has_ratio = bolt%stage /= stage .and. abs(answer%load_change) > along_it*whole
             if (answer%has_ratio) answer%ratio = answer%change/answer%load_change
-            answer%is_locked = bolt%stage < stage .or. (bolt%stage == stage .and. completed)
+            answer%is_locked = bolt%stage < stage .or. (bolt%stage == stage .and. analysis%fraction >= 1.0_wp)
             if (.not. answer%is_locked) cycle
             answer%tightened = above(history%tightened(i), floor)
             answer%largest = above(history%largest(i), floor)
-            answer%load = above(history%load, floor)
+            answer%load = above(history%load(i), floor)
             answer%has_share = answer%load > 0.0_wp
             if (answer%has_share) answer%share = above(history%change(i), floor)/answer%load
             answer%has_strength = bolt%strength > 0.0_wp
@@ -327,8 +182,72 @@ contains
       end do
    end subroutine find_bolt_answers
 
+   !> The tension FORCE of BOLT now, and in ANSWER all that follows from it and from the bodies.
+   subroutine answer_force(model, analysis, bolt, floor, force, answer)
+      type(model_type), intent(in)        :: model
+      type(analysis_type), intent(in)     :: analysis
+      type(bolt_place), intent(in)        :: bolt
+      real(wp), intent(in)                :: floor !! of forces: smaller values are rounding
+      real(wp), intent(out)               :: force
+      type(bolt_answer_type), intent(out) :: answer
+      real(wp) :: moment(3)
+
+      answer%id = bolt%id
+      answer%n_cuts = bolt%cut%n
+      if (bolt%bar > 0) then
+         force = bar_tension(model, analysis, bolt%bar)
+         answer%element = model%bars(bolt%bar)%id
+         answer%longer = elongation_now(model, analysis, bolt%bar)
+      else
+         force = section_tension(model, analysis, bolt%section)
+         answer%surface = model%sections(bolt%section)%surface
+         answer%longer = -overlap_now(model, analysis, bolt%section)
+      end if
+      answer%force = above(force, floor)
+      answer%stress = answer%force/bolt%area
+      answer%has_moment = bolt%section > 0 .and. analysis%fraction >= 1.0_wp
+      if (.not. answer%has_moment) return
+      moment = bending_moment(model, model%sections(bolt%section), analysis%all_u, analysis%now%temperature)
+      answer%moment = above(norm2(axis_part(bolt%cut, moment)), floor*sqrt(bolt%area))
+      ! W = pi d**3/32, A = pi d**2/4; one plane of symmetry leaves half of the moment and of the area of the whole shank
+      answer%edge_stress = answer%stress + &
+         merge(sqrt(0.5_wp), 1.0_wp, bolt%cut%n == 1)*4.0_wp*sqrt(pi)*answer%moment/bolt%area**1.5_wp
+   end subroutine answer_force
+
+   !> (3, bolts) The directions of BOLTS.
+   pure function bolt_directions(bolts) result(directions)
+      type(bolt_place), intent(in) :: bolts(:)
+      real(wp) :: directions(3, size(bolts))
+      integer  :: i
+
+      do i = 1, size(bolts)
+         directions(:, i) = bolts(i)%direction
+      end do
+   end function bolt_directions
+
+   !> The load of BOLT from the forces that have PASSED between bodies: AXIAL along it, positive where it parts the bodies, and the
+   !! WHOLE force, each of the pair of bodies between which it is largest.
+   pure subroutine find_load(bolt, crossing, passed, axial, whole)
+      type(bolt_place), intent(in) :: bolt
+      integer, intent(in)          :: crossing(:)  !! (pairs) of this bolt
+      real(wp), intent(in)         :: passed(:, :) !! (3, pairs) [force]
+      real(wp), intent(out)        :: axial, whole !! [force]
+      real(wp) :: parting
+      integer  :: k
+
+      axial = 0.0_wp
+      whole = 0.0_wp
+      do k = 1, size(crossing)
+         if (crossing(k) == 0) cycle
+         parting = -crossing(k)*dot_product(passed(:, k), bolt%direction)
+         if (abs(parting) > abs(axial)) axial = parting
+         whole = max(whole, norm2(passed(:, k)))
+      end do
+   end subroutine find_load
+
    !> Clamping and shear forces of the own joint around each bolt: sums over the elements of the joint nearest to the axis of
-   !! this bolt. Elements equally near to several bolts are shared equally.
+   !! this bolt. Elements equally near to several bolts are shared equally. The shear forces are those that no plane of symmetry
+   !! through the bolt balances.
    pure subroutine find_clamping(model, analysis, bolts, clamping, shear)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -354,17 +273,22 @@ contains
          end associate
       end do
       if (model%axisymmetric) along = 0.0_wp ! self-equilibrated around the ring
-      shear = norm2(along, dim=1)
+      do b = 1, size(bolts)
+         shear(b) = norm2(free_part(bolts(b)%cut, along(:, b)))
+      end do
    end subroutine find_clamping
 
-   !> Record the completed increment in HISTORY; a second call for the same increment changes nothing.
-   subroutine record_increment(model, analysis, force, clamping, history)
-      type(model_type), intent(in)      :: model
-      type(analysis_type), intent(in)   :: analysis
+   !> Record the completed increment in HISTORY; a second call for the same increment changes nothing. Stages in which no load comes
+   !! between the bodies, such as warming alone, change no share.
+   pure subroutine record_increment(stage, force, clamping, floor, history)
+      integer, intent(in)               :: stage
       real(wp), intent(in)              :: force(:), clamping(:) !! (bolts) now [force]
+      real(wp), intent(in)              :: floor                 !! of forces: smaller values are rounding
       type(bolt_history), intent(inout) :: history
+      real(wp) :: axial, load, whole
+      integer  :: i
 
-      associate (bolts => history%bolts, stage => analysis%stage)
+      associate (bolts => history%bolts)
          if (any(bolts%stage == stage)) then
             where (bolts%stage == stage)
                history%tightened = force
@@ -375,14 +299,27 @@ contains
             history%clamped = clamping
             history%change = 0.0_wp
             history%load = 0.0_wp
+            history%passed_assembled = history%passed
          end if
          where (bolts%stage <= stage) history%largest = max(history%largest, force)
-         if (stage > history%assembly) &
-            history%load = max(history%load, whole_load(model, history%assembly, stage, analysis%fraction))
-         if (whole_load(model, stage - 1, stage, analysis%fraction) <= tie*history%load) return ! thermal load only, or tightened
-         where (abs(force - history%assembled) > abs(history%change)) history%change = force - history%assembled
+         do i = 1, size(bolts)
+            call find_load(bolts(i), history%crossing(:, i), history%passed - history%passed_before, axial, whole)
+            call find_load(bolts(i), history%crossing(:, i), history%passed - history%passed_assembled, axial, load)
+            if (whole <= max(tie*load, floor) .or. abs(force(i) - history%assembled(i)) <= abs(history%change(i))) cycle
+            history%change(i) = force(i) - history%assembled(i)
+            history%load(i) = load
+         end do
       end associate
    end subroutine record_increment
+
+   !> The stage that HISTORY has recorded last is over.
+   pure subroutine end_stage(answers, history)
+      type(bolt_answer_type), intent(in) :: answers(:)
+      type(bolt_history), intent(inout)  :: history
+
+      history%before = answers%force
+      history%passed_before = history%passed
+   end subroutine end_stage
 
    !> Write the history to a restart file, or read it for the same model.
    subroutine record_bolts(stream, history)
@@ -390,7 +327,7 @@ contains
       type(bolt_history), intent(inout)        :: history
 
       call stream%item(history%assembly, history%load, history%before, history%tightened, history%largest, history%assembled)
-      call stream%item(history%change, history%clamped)
+      call stream%item(history%change, history%clamped, history%passed_before, history%passed_assembled)
    end subroutine record_bolts
 
 end module bolt_answers

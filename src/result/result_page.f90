@@ -113,8 +113,8 @@ contains
             name=[character(11) :: 'force', 'change', 'load_change'], is_listed=first), &
             column('CHANGE/LOAD', 'f13.5', name='ratio', is_listed=first), &
             column('BENDING', 'es13.4', labels%moment, name='bending', is_listed=first), csv(['longer ', 'element', 'surface']), &
-            column([character(9) :: 'TIGHTENED', 'LARGEST', 'ALL LOADS'], 'es12.4', labels%force, &
-            name=[character(9) :: 'tightened', 'largest', 'all_loads'], is_listed=second), &
+            column([character(10) :: 'TIGHTENED', 'LARGEST', 'WHOLE LOAD'], 'es12.4', labels%force, &
+            name=[character(10) :: 'tightened', 'largest', 'whole_load'], is_listed=second), &
             column('SHARE', 'f9.5', name='share', is_listed=second), column(['STRESS     ', 'AND BENDING'], 'es12.4', &
             labels%pressure, name=['stress     ', 'edge_stress'], is_listed=second), &
             csv('use'), column('OF ST %', 'f9.2', is_listed=second), column('JOINT', 'i9', name='joint', is_listed=second), &

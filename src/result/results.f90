@@ -3,12 +3,13 @@ module results
    use analysis_state, only: analysis_type
    use answer_tables, only: print_answer, print_bolts, print_reactions, print_watched
    use body_tables, only: list_bodies, list_condensed
-   use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, record_bolts, start_bolts
+   use bolt_answers, only: bolt_answer_type, bolt_history, end_stage, find_bolt_answers, record_bolts, start_bolts
    use c_library, only: close_file, lock_folder
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
+   use joint_resultants, only: find_cuts
    use joint_tables, only: list_energy, list_joints, plot_joint, write_history
    use kinds, only: wp
    use listing_opening, only: write_opening
@@ -25,6 +26,7 @@ module results
    use stage_tables, only: n_stage_tables, note_stage_tables, pass_rows
    use structural_results, only: list_shell_forces
    use support_reactions, only: find_reactions, reactions_type
+   use symmetry_planes, only: cut_type, symmetry_plane
    use table_writer, only: csv_titles, table_type
    use text_tools, only: integer_text, plural, real_text, upper
    use vibration_tables, only: list_modes
@@ -61,6 +63,7 @@ module results
       type(table_type), private :: stage_tables(n_stage_tables) ! of the stage so far
       type(vtu_results_type), private :: vtu
       type(bolt_history), private     :: bolts
+      type(cut_type), allocatable, private :: cuts(:) ! (joints) by planes of symmetry
       type(watch_state), private      :: watched_before ! at the end of the last stage, where nodes are watched
    end type results_type
 
@@ -77,6 +80,7 @@ contains
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
       class(subdomain_output_type), allocatable :: subdomains
+      type(symmetry_plane), allocatable :: planes(:)
       logical :: is_asked(size(table_endings))
       integer :: i
 
@@ -84,7 +88,8 @@ contains
       results%base = base
       results%missing_vtu = ''
       results%method = deck%control%method
-      call start_bolts(model, results%bolts)
+      call find_cuts(model, planes, results%cuts)
+      call start_bolts(model, planes, results%cuts, results%bolts)
       if (plan%has_watched_nodes) call start_watched(model, results%watched_before)
       call start_watch(model, results%watch)
       associate (page => results%page, control => deck%control)
@@ -197,7 +202,7 @@ contains
          end do
          call list_energy(page, model, analysis)
          allocate (answer)
-         call find_answer(model, analysis, results%method, page%largest_force, results%bolts, answer)
+         call find_answer(model, results%cuts, analysis, results%method, page%largest_force, results%bolts, answer)
          fault = fault_of_answer(model, answer)
          if (fault /= '') call failure%raise(page%place//': '//fault// &
                                              ' is too large; are loads, lengths and stiffnesses in consistent units?')
@@ -223,7 +228,7 @@ contains
          digest%contact = min(digest%contact, minval(answer%joints%contact))
          digest%safety = min(digest%safety, minval(answer%joints%safety, mask=answer%joints%has_safety))
       end associate
-      results%bolts%before = answer%bolts%force
+      call end_stage(answer%bolts, results%bolts)
       if (plan%has_watched_nodes) results%watched_before = state_at_end(model, analysis)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage

@@ -1,13 +1,14 @@
 !> The answer at the end of a stage: the values of interest for the bodies, each joint and each bolt. Values at the level of
 !! rounding are zero; values without meaning are absent. For a joint these are the resultant, the rigid-body movement of its sides
 !! against each other and its six stiffnesses, in the joint's axes: forces (movements) along x, y and the normal z, moments
-!! (rotations) about them.
+!! (rotations) about them. T leaves out what planes of symmetry balance.
 module stage_answer
-   use analysis_state, only: analysis_type, element_force
+   use analysis_state, only: analysis_type
    use body_elements, only: element_centre, node_stresses, whole_stress
    use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, remainder
    use elasticity, only: max_stresses, von_mises
    use interface_operator, only: at_first_end
+   use joint_resultants, only: find_largest_pressure, find_resultant, joint_resultant
    use joint_sides, only: straight
    use kinds, only: wp
    use law_error, only: tangents_now
@@ -15,12 +16,13 @@ module stage_answer
    use normal_stiffness, only: branch_open, normal_state
    use numbers, only: cross, first_largest, identity, is_measure
    use structural_results, only: node_peaks
+   use symmetry_planes, only: cut_type, free_part
    use table_writer, only: noise
    use text_tools, only: above, integer_text
    implicit none
    private
 
-   public :: find_answer, find_resultant, rigid_movement, stiffness_about, face_distance, fault_of_answer
+   public :: find_answer, rigid_movement, stiffness_about, face_distance, fault_of_answer
 
    !> The largest value of a kind, and its place.
    type, public :: peak_type
@@ -30,21 +32,13 @@ module stage_answer
       real(wp) :: x(3) = 0.0_wp                !! position [length]
    end type peak_type
 
-   !> The force and moment of side 1 on side 2.
-   type, public :: joint_resultant
-      real(wp) :: normal = 0.0_wp           !! N: sum of the normal forces of the elements, compression positive [force]
-      real(wp) :: along(2) = 0.0_wp         !! sums of the shear forces in the elements' own x and y [force]
-      real(wp) :: shear(3) = 0.0_wp         !! the same as a vector, global axes [force]
-      real(wp) :: force(3) = 0.0_wp         !! total, global axes [force]
-      real(wp) :: moment(3) = 0.0_wp        !! about the centroid of the area, global axes [force x length]
-   end type joint_resultant
-
    type, public :: joint_answer
       real(wp) :: contact = 0.0_wp             !! share of the area that is not open
       integer  :: pressed_at = 0, open_at = 0  !! interface elements of the largest pressure and gap; 0: none
       real(wp) :: pressure = 0.0_wp            !! largest [pressure]
       real(wp) :: gap = 0.0_wp                 !! largest [length]
       integer  :: slipping = 0                 !! interface elements
+      integer  :: n_cuts = 0                   !! directions of the planes of symmetry that cut its bodies
       real(wp) :: normal = 0.0_wp, shear = 0.0_wp, moment = 0.0_wp !! N, T, M [force; force x length]
       logical  :: has_safety = .false.
       real(wp) :: safety = 0.0_wp              !! mu N/T
@@ -66,8 +60,9 @@ contains
 
    !> The answer at the end of the stage just completed, the bodies recovered. Peaks are the largest displacement of a node, and
    !! the largest von Mises stress at the centre of an element and at a node as the mean of its elements.
-   subroutine find_answer(model, analysis, method, largest_force, bolts, answer)
+   subroutine find_answer(model, cuts, analysis, method, largest_force, bolts, answer)
       type(model_type), intent(in)    :: model
+      type(cut_type), intent(in)      :: cuts(:)       !! (joints) by planes of symmetry
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: method        !! of case control
       real(wp), intent(in)            :: largest_force !! ever applied at a node, for the noise [force]
@@ -79,7 +74,7 @@ contains
       allocate (answer%joints(size(model%joints)))
       allocate (k, source=tangents_now(model, analysis, method))
       do j = 1, size(model%joints)
-         call describe_joint(model, analysis, model%joints(j), k, remainder*largest_force, answer%joints(j))
+         call describe_joint(model, analysis, model%joints(j), cuts(j), k, remainder*largest_force, answer%joints(j))
       end do
       call find_bolt_answers(model, analysis, largest_force, bolts, answer%bolts)
 
@@ -137,10 +132,11 @@ contains
    end function face_distance
 
    !> Contact, resultant, safety against slip and stiffness of JOINT.
-   pure subroutine describe_joint(model, analysis, joint, k, floor, answer)
+   pure subroutine describe_joint(model, analysis, joint, cut, k, floor, answer)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
       type(joint_type), intent(in)      :: joint
+      type(cut_type), intent(in)        :: cut     !! by planes of symmetry
       real(wp), intent(in)              :: k(:, :) !! (3, n) tangents of all interface elements
       real(wp), intent(in)              :: floor   !! of forces: smaller values are rounding
       type(joint_answer), intent(inout) :: answer
@@ -150,18 +146,17 @@ contains
       associate (states => analysis%states(joint%first:joint%last), elements => model%interface(joint%first:joint%last))
          answer%contact = above(1.0_wp - sum(elements%area, mask=states%normal%branch == branch_open)/joint%area, noise)
          answer%slipping = count(states%slips)
-         answer%pressure = above(maxval(states%normal%pressure), noise*analysis%largest_p)
          answer%gap = above(maxval(face_distance(states%normal)), noise*analysis%largest_lambda)
-         if (answer%pressure > 0.0_wp) answer%pressed_at = &
-            joint%first - 1 + first_largest(states%normal%pressure, states%normal%pressure > 0.0_wp)
          if (answer%gap > 0.0_wp) answer%open_at = &
             joint%first - 1 + first_largest(face_distance(states%normal), states%normal%branch == branch_open)
       end associate
+      call find_largest_pressure(analysis, joint, answer%pressure, answer%pressed_at)
       total = find_resultant(model, analysis, joint)
+      answer%n_cuts = cut%n
       associate (frame => joint%frame)
          if (model%axisymmetric) total%shear(1) = 0.0_wp ! self-equilibrated around the ring
          answer%normal = above(total%normal, floor)
-         answer%shear = above(norm2(total%shear), floor)
+         answer%shear = above(norm2(free_part(cut, total%shear)), floor)
          answer%force(:3) = above(matmul(total%force, frame%axes), floor)
          answer%force(4:) = above(matmul(total%moment, frame%axes), floor*frame%extent)
          answer%force = merge(answer%force, 0.0_wp, frame%exists)
@@ -178,27 +173,6 @@ contains
          where (answer%has_secant) answer%secant = answer%force/answer%movement
       end associate
    end subroutine describe_joint
-
-   !> The present resultant of JOINT.
-   pure function find_resultant(model, analysis, joint) result(total)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      type(joint_type), intent(in)    :: joint
-      type(joint_resultant) :: total
-      real(wp) :: force(3)
-      integer  :: i
-
-      do i = joint%first, joint%last
-         associate (element => model%interface(i), state => analysis%states(i))
-            force = element_force(element, state)
-            total%force = total%force + force
-            total%moment = total%moment + cross(at_first_end(element, model%x) - joint%frame%centroid, force)
-            total%normal = total%normal + state%normal%sumf
-            total%along = total%along + state%shear%tau*element%area
-            total%shear = total%shear + matmul(element%axes(:, :2), state%shear%tau*element%area)
-         end associate
-      end do
-   end function find_resultant
 
    !> Rigid-body movement of side 1 against side 2, fitted to the deflections {d} of the elements that are not open (delta_x,
    !! delta_y, lambda as in the joint history) by least squares weighted with their areas. The translation at the centroid s of

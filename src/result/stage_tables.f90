@@ -5,6 +5,7 @@ module stage_tables
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
    use case_control, only: method_back, method_newton
    use determinate_joints, only: carried_resultant
+   use joint_resultants, only: find_largest_pressure, find_resultant, joint_resultant
    use kinds, only: wp
    use law_error, only: distance_type, normal_distance, shear_distance
    use model_data, only: a_spring, bar_nodes, joint_node_id, model_type, n_bars, n_sections, point_of, stage_load_type
@@ -12,7 +13,6 @@ module stage_tables
    use numbers, only: first_largest
    use range_watch, only: farthest_type
    use result_page, only: page_type
-   use stage_answer, only: find_resultant, joint_resultant
    use step_method, only: reanalyses_shown
    use table_writer, only: axes, column, noise, table_type
    use text_tools, only: above, clean, integer_text
@@ -54,8 +54,9 @@ contains
       type(analysis_type), intent(in)         :: analysis
       type(table_type), intent(inout)         :: table
       type(stage_load_type) :: now !! present load
-      real(wp) :: applied, floor, force, unbalanced
-      integer  :: at_lambda, at_p, i, j
+      type(joint_resultant) :: total
+      real(wp) :: applied, floor, p_max, unbalanced
+      integer  :: at_lambda, at_p, j
 
       associate (labels => page%labels)
          ! here the unit of LAMBDA ends two characters behind its numbers
@@ -79,19 +80,16 @@ contains
          else
             associate (joint => model%joints(j), first => model%joints(j)%first, &
                        state => analysis%states(model%joints(j)%first:model%joints(j)%last)%normal)
-               force = 0.0_wp
-               do i = 1, size(state)
-                  force = force + state(i)%sumf*dot_product(model%interface(first - 1 + i)%axes(:, 3), joint%normal)
-               end do
+               total = find_resultant(model, analysis, joint)
                applied = 0.0_wp
                if (joint%determinate) applied = carried_resultant(model, joint, now)
                at_lambda = first - 1 + first_largest(above(state%lambda, noise*analysis%largest_lambda))
-               at_p = first - 1 + first_largest(above(state%pressure, noise*analysis%largest_p))
+               call find_largest_pressure(analysis, joint, p_max, at_p)
                call table%add([joint%id, count(state%branch == branch_open)], &
                               [clean(maxval(state%lambda), noise*analysis%largest_lambda)])
-               call table%add([joint_node_id(model, at_lambda, 1)], [clean(maxval(state%pressure), noise*analysis%largest_p)])
-               call table%add([joint_node_id(model, at_p, 1)])
-               call table%add([force, applied, force - applied], floor, &
+               call table%add([joint_node_id(model, at_lambda, 1)], [clean(p_max, noise*analysis%largest_p)])
+               call table%add([joint_node_id(model, max(at_p, 1), 1)], where=[at_p > 0])
+               call table%add([total%across, applied, total%across - applied], floor, &
                               where=[.not. joint%frame%faces_all_ways, joint%determinate, joint%determinate])
             end associate
          end if

@@ -14,7 +14,7 @@ module watched_nodes
    use bolt_locking, only: bar_tension
    use kinds, only: wp
    use connected_bodies, only: find_bodies
-   use model_data, only: a_spring, bar_nodes, corners_of, model_type, n_bars, n_points
+   use model_data, only: a_point, a_spring, bar_nodes, corners_of, model_type, n_bars, n_points, node_kind
    use structural_elements, only: bar_elongation
    implicit none
    private
@@ -35,7 +35,7 @@ module watched_nodes
    type, public :: watched_node
       integer  :: node = 0                      !! its position
       real(wp) :: u(3) = 0.0_wp, change(3) = 0.0_wp !! displacement, and its change over the stage [length]
-      real(wp) :: load(3) = 0.0_wp              ! change over the stage of the load, for the stiffness [force]
+      real(wp) :: load(3) = 0.0_wp              ! change over the stage of the forces, for the stiffness [force]
       logical  :: is_loaded = .false., moves = .false.
       real(wp) :: along = 0.0_wp                ! the change along the load [length]
       real(wp) :: stiffness = 0.0_wp            ! load over that [force/length]
@@ -73,12 +73,13 @@ contains
       now = state_at_end(model, analysis)
       change = now%u - before%u
       largest = maxval(abs(change(:, :n_points(model))))
-      allocate (load(3, model%n_nodes), source=0.0_wp) ! change over the stage of the loads of the deck, without preloads [force]
+      ! change over the stage of the loads of the deck, without preloads and moments [force]
+      allocate (load(3, n_points(model)), source=0.0_wp)
       do s = max(1, analysis%stage - 1), analysis%stage
          associate (loads => model%stage_loads(s))
             do k = 1, loads%n
-               load(:, loads%node(k)) = load(:, loads%node(k)) + &
-                                        merge(1, -1, s == analysis%stage)*analysis%fraction*loads%force(:, k)
+               if (node_kind(model, loads%node(k)) == a_point) load(:, loads%node(k)) = load(:, loads%node(k)) + &
+                  merge(1, -1, s == analysis%stage)*analysis%fraction*loads%force(:, k)
             end do
          end associate
       end do

@@ -194,3 +194,32 @@ run tie && {
 }
 run_input gib && judge 'gib: the listing names the nodes of the largest pressure that the answer names' -f tests/exact/pressed_nodes.awk \
    "$work/gib.stage.csv" "$work/gib.out"
+
+# Two rules that two tables share. The normal force: a node in a vee of two elements whose normals are 3:4 oblique, springs k_n and k_s: the
+# force along the mean normal is the load, shear included; N is the sum of the normal forces.
+cards vee <<'DECK'
+METHOD = NEWTON;LOAD = 1;INCR = 1
+BEGIN BULK;GRID,7;CJOINT,1,1,7,,100.,.6,-.8;CJOINT,2,1,7,,100.,-.6,-.8;PJOINT,1,1,2,,,,.1;JNORM,1,.02,1.,50.;JSHEAR,2,40.
+FORCE,1,7,,20.,0.,-1.;JINCR,1,2;ENDDATA
+DECK
+run vee && {
+   w=$(number '20/(2*(0.64*5000 + 0.36*4000))')
+   near 'vee: N' "$(of vee stage print n)" "2*0.8*5000*$w" 1e-9
+   same 'vee: joint force, applied, difference' "$(table vee 'INCREMENTS OF STAGE' | awk '$1 == 2 { print $10, $11, $12 }')" \
+        '2.00000E+01 2.00000E+01 0.000E+00'
+   same 'vee: N in the table of resultants' "$(table vee 'RESULTANTS OF JOINTS' | awk '$1 == 2 { printf "%.4f", $3 }')" \
+        "$(printf '%.4f' "$(of vee stage print n)")"
+}
+# The largest pressure: where nothing is pressed it is zero, and no node has it, in both tables
+cards opened <<'DECK'
+METHOD = NEWTON;SPC = 1;SUBCASE 1;LOAD = 1;INCR = 1;SUBCASE 2;LOAD = 2;INCR = 1
+BEGIN BULK;GRID,7;CJOINT,1,1,7,,100.,0.,-1.;PJOINT,1,1,,,,,.1;JNORM,1,8.-3,.5,500.;CELAS2,9,100.,7,2
+FORCE,1,7,,40.,0.,-1.;FORCE,2,7,,10.,0.,1.;SPC1,1,1,7;JINCR,1,4;ENDDATA
+DECK
+run opened && for stage in 1 2; do
+   same "opened, stage $stage: p and its node in the table" \
+      "$(table opened "INCREMENTS OF STAGE $stage" | awk '$1 == 4 { $0 = substr($0, 62, 24); print $1, $2 }')" \
+      "$([ $stage = 1 ] && printf '%.5E 7' "$(of opened stage rows 'stage = 1' print p_max)" || echo '0.00000E+00 ')"
+   same "opened, stage $stage: node in the file" "$(awk -F, -v s=$stage 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } $1 == s { print $at["p_node"] }' \
+      "$work/opened.stage.csv")" "$([ $stage = 1 ] && echo 7)"
+done

@@ -29,6 +29,9 @@ by_place rigid_mark 'RBE2M,905,15,123456,30' 15 && same_rows 'RBE2M with GN on i
 by_place mean_list 'GRID,901,,12.0,9.0,40.0;RBE3,905,,901,123456,1.,123,3,9;+,21,27,2.,123,6,12,18,24;+,4.,123,15' 901
 by_place mean_mark 'GRID,901,,12.0,9.0,40.0;RBE3M,905,901,123456,123,30' 901 && same_rows 'RBE3M' mean_mark mean_list 1e-9 $resultant
 by_place mean_list 'GRID,901,,10.0,10.0,30.0;RBE3,905,,901,123456,1.,123,3,9;+,21,27,2.,123,6,12,18,24;+,4.,123,15' 901
+by_place mean_mark 'GRID,901,,12.0,9.0,40.0;RBE3M,905,901,123456,123456,30' 901 && {
+   says 'RBE3M, 123456 in C: on the screen' "$work/mean_mark.log" 'without effect: 456 in C of RBE3M'
+}
 by_place mean_mark 'RBE3M,905,0,123456,123,30' 28 && {
    same_rows 'RBE3M: its node stands at the centroid, behind the last' mean_mark mean_list 1e-9 $resultant
    same 'RBE3M: the node' "$(placed_row mean_mark 0 1)" 28

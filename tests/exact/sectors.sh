@@ -136,3 +136,8 @@ END
          END { print "checked", n }' "$work/turned.rows"
    }
 done
+# the mirror images of a sector balance all shear along its joint, whatever the angle of its planes
+for name in flange_sector sector_turned quarter; do
+   same "$name: no T of the whole joint" "$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { printf "%g %s;", $at["t"], $at["safety"] }' \
+      "$work/$name.stage.csv")" '0 ;0 ;'
+done

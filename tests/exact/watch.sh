@@ -50,6 +50,30 @@ run pulled && {
    adds_up pulled 1
 }
 
+# Moments are no part of the load: a cantilever of beams, 200 long, with the shear of its section, by hand. 100 at its middle and a moment at its end move the watched
+# node at three quarters; a moment alone is no load. The same with the moment on the reference node of an RBE2.
+ei=$(number '210000*20^4/12')
+for case in 'both 100. FORCE,1,2,,100.,0.,0.,-1.' 'alone 0. $'; do
+   set -- $case
+   for tip in 'MOMENT,1,4,,1.E5,0.,1.,0.' 'GRID,9,,200.,0.,0.;RBE2,99,9,123456,4;MOMENT,1,9,,1.E5,0.,1.,0.'; do
+      cards moment <<DECK
+MODEL = SPACE;SPC = 1;LOAD = 1;SET 7 = 3;WATCH = SET 7
+BEGIN BULK;GRID,1,,0.,0.,0.;GRID,2,,100.,0.,0.;GRID,3,,150.,0.,0.;GRID,4,,200.,0.,0.;CBAR,1,5,1,2,0.,1.,0.;CBAR,2,5,2,3,0.,1.,0.
+CBAR,3,5,3,4,0.,1.,0.;PBARL,5,1,,BAR;+,20.,20.;MAT1,1,2.1E5,,0.3;SPC1,1,123456,1;$3;$tip;ENDDATA
+DECK
+      run moment || continue
+      w=$(number "-$2*(100^2*(3*150 - 100)/(6*$ei) + 100/(5/6*400*210000/2.6)) - 1e5*150^2/(2*$ei)")
+      near "a moment and a force, $1: movement" "$(watched moment 1 3 change_z)" "$w" 1e-9
+      if [ "$1" = alone ]; then
+         same 'a moment alone is no load' "$(awk -F, '$2 == 3 { print $15 $16 $17 }' "$work/moment.watch.csv")" ''
+      else
+         near 'a moment and a force: load' "$(watched moment 1 3 load)" 100 1e-12
+         near 'a moment and a force: along it' "$(watched moment 1 3 along)" "-($w)" 1e-9
+         near 'a moment and a force: stiffness' "$(watched moment 1 3 stiffness)" "-100/($w)" 1e-9
+      fi
+   done
+done
+
 # What is at work besides: bolts, friction, splits, spiders, gravity. Tightening rods does no outer work: no table.
 for case in 'bolted_cantilever 1' 'solid_bolt 2' 'lap_joint 3' 'bracket_spiders 1' 'gib 2'; do
    set -- $case

@@ -1,0 +1,162 @@
+!> The bolts of a model, bars or solids: their axes, the joints that they cross, and the planes of symmetry that cut them.
+module bolt_places
+   use interface_operator, only: at_first_end
+   use kinds, only: wp
+   use model_data, only: model_type, n_bars, n_points, n_sections
+   use numbers, only: first_largest, tie
+   use passing_forces, only: cut_passages, passage_type, start_passages
+   use surface_build, only: surface_node_list, surface_nodes
+   use symmetry_planes, only: cut_type, onto_planes, planes_through, symmetry_plane
+   implicit none
+   private
+
+   public :: find_places, distance
+
+   real(wp), parameter :: about_as_near = 0.45_wp ! of the bolt's length: own joint farther than the nearest one by this
+   real(wp), parameter :: in_plane = 1.0e-3_wp ! sine of the largest angle between a plane and a bolt that it cuts
+
+   !> The data of a bolt that do not change.
+   type, public :: bolt_place
+      integer  :: id = 0                  !! of its BOLT card
+      integer  :: bar = 0, section = 0    !! position of its bar or of its pretension section: one of them is 0
+      integer  :: stage = 0               !! position of the stage that tightens it
+      integer  :: joint = 0               !! position of the joint that it crosses, the largest of several; 0: none
+      real(wp) :: point(3) = 0.0_wp       !! on its axis [length]
+      real(wp) :: direction(3) = 0.0_wp   !! along it, unit
+      real(wp) :: area = 0.0_wp           !! of its shank [length^2]
+      real(wp) :: strength = 0.0_wp       !! ST of its material, 0: not given [pressure]
+      type(cut_type) :: cut               !! the planes of symmetry through its axis
+   end type bolt_place
+
+contains
+
+   !> Find all BOLTS of MODEL, bars first, and the joints that each crosses.
+   subroutine find_places(model, planes, cuts, bolts, passages, crossing)
+      type(model_type), intent(in)               :: model
+      type(symmetry_plane), intent(in)           :: planes(:)
+      type(cut_type), intent(in)                 :: cuts(:)        !! (joints) by these planes
+      type(bolt_place), allocatable, intent(out) :: bolts(:)
+      type(passage_type), intent(out)            :: passages       !! the pairs of bodies, where there are bolts
+      integer, allocatable, intent(out)          :: crossing(:, :) !! (pairs, bolts) as in forces_between
+      real(wp) :: span(2)
+      integer  :: i, n
+
+      n = n_sections(model)
+      if (n_bars(model) > 0) n = n + count(model%bars%bolt > 0)
+      allocate (bolts(n))
+      if (n > 0) call start_passages(model, cuts, passages)
+      allocate (crossing(passages%n, n), source=0)
+      n = 0
+      do i = 1, n_bars(model)
+         associate (bar => model%bars(i))
+            if (bar%bolt == 0) cycle
+            n = n + 1
+            bolts(n) = bolt_place(id=bar%bolt, bar=i, stage=bar%stage, point=model%x(:, bar%nodes(1)), &
+                                  direction=bar%direction(:, 1), area=bar%area, strength=bar%strength, &
+                                  cut=planes_along(model, planes, bar%nodes, bar%direction(:, 1)))
+            span = [0.0_wp, norm2(model%x(:, bar%nodes(2)) - model%x(:, bar%nodes(1)))]
+            call find_own_joint(model, span, passages, bolts(n), crossing(:, n))
+         end associate
+      end do
+      do i = 1, n_sections(model)
+         n = n + 1
+         call place_section(model, planes, i, bolts(n), span)
+         call find_own_joint(model, span, passages, bolts(n), crossing(:, n))
+      end do
+      if (n > 0) call cut_passages(model, bolts%bar, bolts%section, crossing, passages)
+   end subroutine find_places
+
+   !> The BOLT of pretension section I, and its SPAN: that of the nodes of its body no farther from the axis than those of the
+   !! section.
+   subroutine place_section(model, planes, i, bolt, span)
+      type(model_type), intent(in)     :: model
+      type(symmetry_plane), intent(in) :: planes(:)
+      integer, intent(in)              :: i
+      type(bolt_place), intent(out)    :: bolt
+      real(wp), intent(out)            :: span(2) !! from the point of the bolt, in its direction [length]
+      type(surface_node_list) :: list
+      real(wp) :: along, centroid(3), radius
+      integer  :: node, s
+
+      associate (section => model%sections(i))
+         s = findloc(model%surfaces%id, section%surface, dim=1)
+         call surface_nodes(model, model%surfaces(s), list)
+         bolt = bolt_place(id=section%bolt, section=i, stage=section%stage, direction=section%direction, area=section%area, &
+                           strength=section%strength, cut=planes_along(model, planes, list%node, section%direction))
+         centroid = 0.0_wp
+         do s = 1, list%n
+            centroid = centroid + list%area(s)/sum(list%area)*model%x(:, list%node(s))
+         end do
+         bolt%point = onto_planes(bolt%cut, planes, centroid)
+         radius = 0.0_wp
+         do s = 1, list%n
+            radius = max(radius, norm2(model%x(:, list%node(s)) - bolt%point))
+         end do
+         span = 0.0_wp
+         do node = 1, n_points(model)
+            if (model%part(node) /= model%part(section%point)) cycle
+            if (distance(bolt, model%x(:, node)) > radius*(1.0_wp + 1.0e-3_wp)) cycle
+            along = dot_product(model%x(:, node) - bolt%point, bolt%direction)
+            span = [min(span(1), along), max(span(2), along)]
+         end do
+      end associate
+   end subroutine place_section
+
+   !> Of the PLANES those that have DIRECTION in them and NODES on them.
+   pure function planes_along(model, planes, nodes, direction) result(cut)
+      type(model_type), intent(in)     :: model
+      type(symmetry_plane), intent(in) :: planes(:)
+      integer, intent(in)              :: nodes(:)
+      real(wp), intent(in)             :: direction(3)
+      type(cut_type) :: cut
+      integer :: k
+
+      cut = planes_through(model, planes, nodes)
+      if (any([(abs(dot_product(cut%direction(:, k), direction)) > in_plane, k = 1, cut%n)])) cut = cut_type()
+   end function planes_along
+
+   !> The joints that BOLT crosses: the element nearest to the axis lies within the SPAN of the bolt and faces the axis. Joints much
+   !! farther than the nearest one belong to other bolts. CROSSING tells the pairs of bodies on both sides. Of these joints its own
+   !! is the one of largest area, the first of equal ones.
+   pure subroutine find_own_joint(model, span, passages, bolt, crossing)
+      type(model_type), intent(in)    :: model
+      real(wp), intent(in)            :: span(2)     !! from the point of the bolt, in its direction [length]
+      type(passage_type), intent(in)  :: passages
+      type(bolt_place), intent(inout) :: bolt
+      integer, intent(inout)          :: crossing(:) !! (pairs) 0 on entry
+      real(wp) :: off(size(model%joints)), along, near
+      logical  :: crossed(size(model%joints))
+      integer  :: at(size(model%joints)), i, j
+
+      crossed = .false.
+      off = huge(1.0_wp)
+      associate (length => span(2) - span(1))
+         do j = 1, size(model%joints)
+            do i = model%joints(j)%first, model%joints(j)%last
+               near = distance(bolt, at_first_end(model%interface(i), model%x))
+               if (near > off(j) - tie*length) cycle
+               off(j) = near
+               at(j) = i
+               along = dot_product(at_first_end(model%interface(i), model%x) - bolt%point, bolt%direction)
+               crossed(j) = along > span(1) - tie*length .and. along < span(2) + tie*length .and. &
+                            abs(dot_product(model%interface(i)%axes(:, 3), bolt%direction)) > 0.5_wp
+            end do
+         end do
+         crossed = crossed .and. off <= minval(off, mask=crossed) + about_as_near*length
+      end associate
+      bolt%joint = first_largest(model%joints%area, crossed)
+      do j = 1, size(model%joints) ! the normal of an element points from its end 1 to its end 2
+         if (crossed(j)) crossing(passages%of_element(at(j))) = passages%sense(at(j))* &
+            nint(sign(1.0_wp, dot_product(model%interface(at(j))%axes(:, 3), bolt%direction)))
+      end do
+   end subroutine find_own_joint
+
+   !> Distance of X from the axis of BOLT [length].
+   pure real(wp) function distance(bolt, x)
+      type(bolt_place), intent(in) :: bolt
+      real(wp), intent(in)         :: x(3)
+
+      distance = norm2(x - bolt%point - dot_product(x - bolt%point, bolt%direction)*bolt%direction)
+   end function distance
+
+end module bolt_places
