@@ -22,7 +22,7 @@ module model_build
    use shell_ties, only: find_ties, tie_type
    use spring_build, only: build_bars, build_springs
    use stage_plan, only: plan_stages, stage_plan_type
-   use structural_build, only: build_beams, build_rotations, build_shells, leave_out_idle
+   use structural_build, only: bow_edges, build_beams, build_rotations, build_shells, leave_out_idle
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use surface_sides, only: split_shared_surfaces
@@ -63,6 +63,7 @@ contains
       call name_surface_nodes(checked, model)
       ! data on the mesh: each kind is built even if another one has errors
       call split_shared_surfaces(checked, model)
+      call bow_edges(model)
       call find_ties(checked, model, ties)
       call build_shell_faces(checked, model)
       call build_joints(checked, model)

@@ -16,7 +16,9 @@ module structural_build
    implicit none
    private
 
-   public :: build_beams, build_rotations, build_shells, is_beam_edge, leave_out_idle
+   real(wp), parameter :: one_side = 0.5_wp   ! cosine: triangles at an edge less than 60 degrees apart lie on one side of it
+
+   public :: bow_edges, build_beams, build_rotations, build_shells, is_beam_edge, leave_out_idle
 
 contains
 
@@ -191,6 +193,50 @@ contains
       end do
    end subroutine build_shells
 
+   !> Find the edges between triangular shells, which their drilling rotations bow (shell_membrane), once shared surfaces are split:
+   !! triangles lie on different sides of the edge, and no quadrilateral has it. Triangles on the same nodes lie on one side.
+   pure subroutine bow_edges(model)
+      type(model_type), intent(inout) :: model
+      integer :: b, e, i, k
+
+      do e = 1, model%n_elements
+         if (.not. is_shell(model, e)) cycle
+         if (size(corners_of(model, e)) /= 3) cycle
+         associate (nodes => model%element_nodes(:3, e), law => model%structural%shells(model%structural%place(e)))
+            do i = 1, 3
+               b = nodes(modulo(i, 3) + 1)
+               law%bowed(i) = .false.
+               do k = model%first_at(nodes(i)), model%first_at(nodes(i) + 1) - 1
+                  associate (other => model%elements_at(k))
+                     if (.not. is_shell(model, other)) cycle
+                     if (all(corners_of(model, other) /= b)) cycle
+                     if (size(corners_of(model, other)) == 4) then
+                        law%bowed(i) = .false.
+                        exit
+                     end if
+                     if (dot_product(across(e, nodes(i), b), across(other, nodes(i), b)) < one_side) law%bowed(i) = .true.
+                  end associate
+               end do
+            end do
+         end associate
+      end do
+
+   contains
+
+      !> The direction from the edge between nodes A and B into triangle E.
+      pure function across(e, a, b) result(inward)
+         integer, intent(in) :: e, a, b
+         real(wp) :: inward(3)
+
+         associate (along => model%x(:, b) - model%x(:, a), centre => sum(model%x(:, model%element_nodes(:3, e)), dim=2)/3.0_wp)
+            inward = centre - model%x(:, a)
+            inward = inward - dot_product(inward, along)/max(dot_product(along, along), tiny(1.0_wp))*along
+            inward = inward/max(norm2(inward), tiny(1.0_wp))
+         end associate
+      end function across
+
+   end subroutine bow_edges
+
    !> Build the beams of MODEL; displacement systems must be known. Errors: a beam without length, or without plane 1.
    subroutine build_beams(deck, model)
       type(checked_deck), intent(in)  :: deck
@@ -266,7 +312,6 @@ contains
       associate (mat1 => deck%bulk%mat1)
          call elasticity_matrix(plane_stress, mat1(membrane)%e, mat1(membrane)%nu, d)
          law%d = d(:3, :3)
-         law%nu = mat1(membrane)%nu
          law%expansion = mat1(membrane)%alpha
          call elasticity_matrix(plane_stress, mat1(bending)%e, mat1(bending)%nu, d)
          law%bending = card%inertia_ratio*d(:3, :3)
