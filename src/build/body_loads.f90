@@ -12,6 +12,7 @@ module body_loads
    use kinds, only: wp
    use mass_matrix, only: scalar_mass
    use model_data, only: corners_of, is_beam, is_shell, model_type, n_points, own_nodes, stage_load_type
+   use model_kind, only: space_hint
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity
    use structural_elements, only: onto_own
@@ -43,7 +44,7 @@ contains
 
       if (model%dimension == 3 .or. abs(vector(3)) <= rounding*norm2(vector)) return
       call deck%field_error(line, field, trim(merge('not zero                        ', 'the load points out of the plane', &
-                                                    field == 'N3'))//', but a plane model lies in x-y')
+                                                    field == 'N3'))//', but a plane model lies in x-y'//space_hint(model))
    end subroutine check_plane
 
    !> The FIELDS of the GRAV, ACCEL1 and RFORCE cards. Errors: no mass; a direction or an axis that the model does not have.
@@ -117,7 +118,7 @@ contains
                'not zero, but an axisymmetric model has no circumferential forces')
          else if (model%dimension == 2) then
             if (maxval(axis(:2)) > rounding*maxval(axis)) call deck%field_error(field%line, 'R1', &
-               'a plane model turns about z; expected R1 and R2 zero')
+               'a plane model turns about z; expected R1 and R2 zero'//space_hint(model))
          end if
       end subroutine set_spin
 
@@ -233,7 +234,8 @@ contains
             if (.not. card%is_fraction .and. any(card%x > length*(1.0_wp + 1.0e-9_wp))) &
                call deck%field_error(card%line, 'X1', 'X1 or X2 lies beyond the end of the beam')
             if (model%dimension == 2 .and. card%kind <= 6 .and. any(load_types(card%kind) == ['FZ ', 'MX ', 'MY '])) &
-               call deck%field_error(card%line, 'TYPE', trim(load_types(card%kind))//' in a plane model, which lies in x-y')
+               call deck%field_error(card%line, 'TYPE', trim(load_types(card%kind))//' in a plane model, which lies in x-y'// &
+                                     space_hint(model))
             beam(i) = e
             f(:, i) = at_ends(model, e, card)
          end associate

@@ -204,6 +204,7 @@ module model_data
 
    type, public :: model_type
       integer :: dimension = 2               !! degrees of freedom per node
+      character(:), allocatable :: kind_words !! how a model in x-y without MODEL is read; not allocated: no choice
       logical :: axisymmetric = .false.      !! about y; loads, areas and forces are those of the whole ring
       integer :: n_nodes = 0
       integer :: n_filled = 0                !! number of mid-edge nodes that the program added, see node_build
