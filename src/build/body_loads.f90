@@ -10,7 +10,7 @@ module body_loads
    use element_kinds, only: kind_edge2, max_nodes
    use isoparametric, only: body_forces
    use kinds, only: wp
-   use mass_matrix, only: scalar_mass
+   use mass_matrix, only: bar_mass, scalar_mass
    use model_data, only: corners_of, is_beam, is_shell, model_type, n_points, own_nodes, stage_load_type
    use model_kind, only: space_hint
    use node_coupling, only: add_section_share
@@ -70,7 +70,8 @@ contains
                if (model%axisymmetric .and. abs(field%uniform(1)) > rounding*norm2(field%uniform)) &
                   call deck%field_error(field%line, 'N1', 'not zero, but in an axisymmetric model gravity acts along y')
             end if
-            if (all(model%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp)) call deck%errors%add(field%line, &
+            if (all(model%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp) .and. &
+                all(model%bars%mass <= 0.0_wp)) call deck%errors%add(field%line, &
                trim(merge('RFORCE', 'GRAV  ', field%is_spin))//': no body has a mass; give RHO on its MAT1')
          end associate
       end do
@@ -203,6 +204,15 @@ contains
                q(:3, end) = (law%rho*law%area + law%extra_mass)*acceleration_at(field, x(:, end) + law%offset(:, end))
             end do
             call add_to_beam(model, e, beam_line_load(law, x, q, 0.0_wp, 1.0_wp), loads, force)
+         end associate
+      end do
+      do k = 1, size(model%bars)
+         associate (bar => model%bars(k), d => model%dimension)
+            if (.not. bar%mass > 0.0_wp) cycle
+            do end = 1, 2
+               a(:, end) = acceleration_at(field, model%x(:, bar%nodes(end)))
+            end do
+            force(:d, bar%nodes) = force(:d, bar%nodes) + matmul(a(:d, :2), bar_mass(model, k))
          end associate
       end do
       do k = 1, size(model%masses)
