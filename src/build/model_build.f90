@@ -18,6 +18,7 @@ module model_build
    use model_data, only: model_type, n_sections, stage_load_type
    use pretension_section, only: build_sections
    use rigid_elements, only: build_dependents, name_surface_nodes
+   use rod_torsion, only: add_torsion
    use shell_faces, only: build_shell_faces, couple_shell_faces
    use shell_ties, only: find_ties, tie_type
    use spring_build, only: build_bars, build_springs
@@ -76,6 +77,7 @@ contains
       call build_frames(checked, model)
       call build_beams(checked, model)
       call build_springs(checked, model)
+      call add_torsion(model)
       call build_dependents(checked, ties, model)
       call leave_out_idle(model)
       call build_masses(checked, model)

@@ -8,8 +8,9 @@ module structural_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, is_beam, is_shell, model_type, n_rotations, rotation_type
+   use model_data, only: corners_of, is_beam, is_shell, model_type, n_bars, n_rotations, rotation_type
    use node_build, only: append_unknowns
+   use rod_torsion, only: leave_out_untwisted, twisted_nodes
    use shell_membrane, only: shell_law
    use text_tools, only: integer_text
    use unknowns, only: node_axes
@@ -40,10 +41,10 @@ contains
       integer, allocatable :: elements(:), n_elements(:), points(:)
       real(wp) :: square(model%n_nodes)
       integer  :: count_of(model%n_nodes), e, i, k, n, node
-      logical  :: turns
+      logical  :: turns, twisted(model%n_nodes)
 
       if (model%axisymmetric) return
-      if (size(deck%rigid) == 0 .and. all(model%properties%state < shell)) return
+      if (size(deck%rigid) == 0 .and. all(model%properties%state < shell) .and. all(model%bars%torsion <= 0.0_wp)) return
       allocate (rotations(size(deck%rigid) + model%n_nodes))
       allocate (model%rotation_of(model%n_nodes), source=0)
       n = 0
@@ -93,6 +94,21 @@ contains
          end if
          rotations(model%rotation_of(node))%of_element = .true.
       end do
+      twisted = twisted_nodes(deck, model, model%rotation_of > 0)
+      do i = 1, n_bars(model)
+         associate (ends => model%bars(i)%nodes)
+            do k = 1, 2
+               if (any(ends == 0)) cycle ! reported already
+               if (.not. twisted(ends(k))) cycle
+               if (model%rotation_of(ends(k)) == 0) then
+                  n = n + 1
+                  model%rotation_of(ends(k)) = n
+                  rotations(n) = rotation_type(point=ends(k), of_element=.true., of_rods=.true., &
+                                               arm=norm2(model%x(:, ends(2)) - model%x(:, ends(1))))
+               end if
+            end do
+         end associate
+      end do
       if (n == 0) then
          deallocate (model%rotation_of)
          return
@@ -118,11 +134,12 @@ contains
          has_rotations = any(model%properties(model%element_property(e))%state == [shell, beam])
    end function has_rotations
 
-   !> In the plane the node of rotations has one component, about z.
+   !> In the plane the node of rotations has one component, about z; at a node of rods alone, those that a rod twists.
    subroutine leave_out_idle(model)
       type(model_type), intent(inout) :: model
       integer :: k
 
+      if (model%dimension == 3) call leave_out_untwisted(model)
       if (model%dimension == 3) return
       do k = 1, n_rotations(model)
          if (.not. model%rotations(k)%of_element) cycle

@@ -114,9 +114,9 @@ contains
          if (any(kind == [kind_tria3, kind_quad4, kind_tria6])) call card%skip(['THETA'])
          if (any(kind == [kind_tria3, kind_quad4])) then
             call card%field('ZOFFS', plate%offset, default=0.0_wp)
-            if (kind == kind_tria3) call card%skip(['-', '-'])
+            if (kind == kind_tria3) call card%skip(['-'])
             call card%skip(['-    ', 'TFLAG'])
-            flag = card%text_at(corners + 6 + merge(2, 0, kind == kind_tria3))
+            flag = card%text_at(10)
             if (flag /= '' .and. flag /= '0') call card%error('TFLAG', 'expected 0 or blank: T1 to T4 are thicknesses')
             call card%field(thickness_names(:corners), plate%thickness(:corners), positive, default=0.0_wp)
             plate%element = card%i

@@ -1,5 +1,6 @@
 # Frames, trusses and plates as they come from NASTRAN, all nodes in x-y: whether the model is plane or one of space, and what bars bear.
 
+rotation() { table "$1" 'ROTATIONS OF REFERENCE NODES' | awk -v node="$2" -v c="$3" '$1 == node { v = $(1 + c) } END { print v }'; }
 # said NAME WORDS PATTERN: the screen says it once
 said() { same "$2" "$(grep -c -- "$3" "$work/$1.log")" 1; }
 # of_kind NAME WORDS DIMENSION: the listing has as many components of displacements
@@ -87,3 +88,94 @@ for cards in 'CORD2R,7,,0.0,0.0,0.0,0.0,0.0,1.0;+,1.0,1.0,0.0;FORCE,1,2,7,5.0,1.
    "$program" --check "$work/truss.bdf" > "$work/truss.log" 2>&1
    said truss "truss with $cards" 'a plane model'
 done
+
+# ---- rods: G J/L in torsion, weight on both ends ----
+
+# a rod from a wall to the end of a beam across it, which bends by 3 E I/L; a moment about the rod acts where they meet
+cards rod_torsion <<'DECK'
+SPC = 1;LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,3.0,0.0,0.0;GRID,3,,3.0,2.0,0.0
+CROD,1,1,1,2;PROD,1,1,1.0,6.0;CBAR,2,2,2,3,0.0,0.0,1.0;PBAR,2,1,1.0,1.5,1.0,1.0;MAT1,1,1.+6,,0.25
+SPC1,1,123456,1;SPC1,1,12356,2;SPC1,1,123,3;MOMENT,1,2,,100.0,1.0,0.0,0.0;ENDDATA
+DECK
+both='100/(3*1e6*1.5/2 + 4e5*6/3)'
+run rod_torsion && near 'torsion of CROD beside a beam' "$(rotation rod_torsion 2 1)" "$both" 3e-6
+sed -e 's/^CROD.*/CONROD,1,1,2,1,1.0,6.0/' -e '/^PROD/d' "$work/rod_torsion.bdf" > "$work/conrod_torsion.bdf"
+run conrod_torsion && near 'torsion of CONROD beside a beam' "$(rotation conrod_torsion 2 1)" "$both" 3e-6
+# in two rods, whose middle node has no other rotation: the same; turned in space by a CP and CD of every node, too
+sed -e 's/^CROD.*/CROD,1,1,1,4\nCROD,4,1,4,2\nGRID,4,,1.2,0.0,0.0\nSPC1,1,23,4/' "$work/rod_torsion.bdf" > "$work/rod_chain.bdf"
+run rod_chain && near 'torsion of two rods in a row' "$(rotation rod_chain 2 1)" "$both" 3e-6
+near 'torsion of two rods in a row: the middle' "$(rotation rod_chain 4 1)" "$both*1.2/3" 6e-6
+sed -e 's/^GRID,4.*/&\nGRDSET,,7,,,,7\nCORD2R,7,,0.0,0.0,0.0,1.0,2.0,3.0\n+,3.0,-1.0,1.0/' -e 's/^MOMENT,1,2,,/MOMENT,1,2,7,/' -e 's/^SPC = 1/MODEL = SPACE\n&/' "$work/rod_chain.bdf" > "$work/rod_turned.bdf"
+run rod_turned && near 'torsion of two rods in a row, turned in space: torque' "$(table rod_turned 'FORCES OF SPRINGS' | awk '$2 == 4 { print $6 }')" "$both*8e5" 3e-6
+# a moment on the node between two rods, held at their ends, beside nothing else
+cards rods_alone <<'DECK'
+SPC = 1;LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,1.0,0.0,0.0;GRID,3,,3.0,0.0,0.0;CROD,1,1,1,2;CROD,2,1,2,3;PROD,1,1,1.0,6.0
+MAT1,1,1.+6,,0.25;SPC1,1,123456,1,3;SPC1,1,123,2;MOMENT,1,2,,10.0,1.0,0.0,0.0;ENDDATA
+DECK
+run rods_alone && near 'torsion of rods alone' "$(table rods_alone 'FORCES OF SPRINGS' | awk '$2 == 1 { print $6 }')" '10*2/3' 3e-6
+
+# weight: two rods side by side, RHO 2, A 1 and 0.5, L 2, NSM 3 of one; in the plane, in space, with ACCEL1 at one end, turning about z
+for model in PLANE SPACE; do
+   cards rod_weight <<DECK
+MODEL = $model;SPC = 1;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 2;SUBCASE 3;  LOAD = 3;BEGIN BULK;GRID,1,,1.0,0.0,0.0;GRID,2,,1.0,2.0,0.0
+CROD,9,9,1,2;PROD,9,1,1.0,,,3.0;CONROD,8,1,2,1,0.5;MAT1,1,1.+6,,0.3,2.0;SPC1,1,123456,1;SPC1,1,13,2
+GRAV,1,,10.0,0.0,-1.0,0.0;ACCEL1,2,,10.0,0.0,-1.0,0.0;+,2;RFORCE,3,,,1.0,0.0,0.0,0.5;ENDDATA
+DECK
+   ea='(1e6*1 + 1e6*0.5)/2' m='2*(2*1 + 3) + 2*(2*0.5)'
+   run rod_weight && {
+      end_moved() { table rod_weight "DISPLACEMENTS OF NODES, STAGE $1" | awk -v d=$([ $model = PLANE ] && echo 2 || echo 3) '$1 == 2 { print $(1 + d + 2) }'; }
+      near "$model: weight of rods, elongation" "$(end_moved 1)" "-0.5*10*($m)/($ea)" 3e-6
+      near "$model: ACCEL1 on rods" "$(end_moved 2)" "-0.5*10*($m)/($ea)" 3e-6
+      near "$model: rods that turn" "$(end_moved 3)" "(2*$pi*0.5)^2*2*($m)/3/($ea)" 3e-6
+   }
+done
+# base excitation of half a rod as a mass on its stiffness
+cards rod_base <<'DECK'
+SPC = 1;MASS = LUMPED;SET 1 = 2;SUBCASE 1;  MODES = 3;  FREQUENCY = 5;  DLOAD = 1;  RESPONSE = SET 1;BEGIN BULK;EIGRL,3,,,1;FREQ1,5,1.0,1.0,1
+GRID,1,,0.0,0.0;GRID,2,,1.0,0.0;CROD,9,9,1,2;PROD,9,1,1.0;MAT1,1,1.+6,,0.3,2.0;SPC1,1,12,1;SPC1,1,2,2;GRAV,1,,10.0,1.0,0.0,0.0
+PARAM,G,1.-9;ENDDATA
+DECK
+run rod_base && near 'base excitation of a rod' "$(awk -F, 'NR > 1 && $4 == "x" && $2 < 1.5 { print $5 }' "$work/rod_base.response.csv")" "10/(1e6 - 4*$pi^2)" 3e-6
+
+# ---- BAROR and BEAMOR: plane 1 and PID where a beam leaves them blank ----
+
+# beam_of CARD DEFAULTS...: moved along y by 1; L = 2, I1 = 2, I2 = 1
+beam_of() {
+   { printf 'MODEL = SPACE\nSPC = 1\nLOAD = 1\nBEGIN BULK\nGRID,1,,0.0,0.0,0.0\nGRID,2,,2.0,0.0,0.0\nGRID,5,,1.0,0.0,7.0\nPBAR,3,1,1.0,2.0,1.0,1.0\nMAT1,1,1000.0,,0.3\nSPC1,1,123456,1\nFORCE,1,2,,1.0,0.0,1.0,0.0\n'
+     printf '%s\n' "$@" ENDDATA; } > "$work/default.bdf"
+   run default && moved default 2 2
+}
+in_1='8/(3*1000*2)' in_2='8/(3*1000*1)' skew='8/3000*(0.5/2 + 0.5/1)'
+near 'BAROR gives plane 1' "$(beam_of CBAR,3,3,1,2 BAROR,,,,,0.0,0.0,1.0)" "$in_2" 3e-6
+near 'BAROR gives plane 1 by a node' "$(beam_of CBAR,3,3,1,2 BAROR,,,,,5)" "$in_2" 3e-6
+near 'BAROR gives the PID' "$(beam_of CBAR,7,,1,2,0.0,1.0,0.0 BAROR,,3)" "$in_1" 3e-6
+near 'a blank PID is the EID' "$(beam_of CBAR,3,,1,2,0.0,1.0,0.0)" "$in_1" 3e-6
+near 'the vector of a CBAR goes before BAROR' "$(beam_of CBAR,3,3,1,2,0.0,1.0,0.0 BAROR,,,,,0.0,0.0,1.0)" "$in_1" 3e-6
+near 'the node of a CBAR goes before BAROR' "$(beam_of CBAR,3,3,1,2,5 BAROR,,,,,0.0,1.0,0.0)" "$in_2" 3e-6
+near 'BAROR fills single blank components' "$(beam_of CBAR,3,3,1,2,,1.0 BAROR,,,,,0.0,0.0,1.0)" "$skew" 3e-6
+near 'BEAMOR is for CBEAM' "$(beam_of CBEAM,3,3,1,2 BEAMOR,,,,,0.0,0.0,1.0 BAROR,,,,,0.0,1.0,0.0)" "$in_2" 3e-6
+near 'BAROR is not for CBEAM' "$(beam_of CBEAM,3,3,1,2 BAROR,,,,,0.0,0.0,1.0 BEAMOR,,,,,0.0,1.0,0.0)" "$in_1" 3e-6
+
+# ---- lumped mass: half of a beam at its end, without rotary inertia; f = sqrt(3 E I/L^3/(m/2))/(2 pi) ----
+
+for word in 'MASS = LUMPED' 'PARAM,COUPMASS,-1'; do
+   cards lumped_beam <<DECK
+MODEL = SPACE;SPC = 1;$word;SUBCASE 1;  MODES = 3;BEGIN BULK;EIGRL,3,,,3;GRID,1,,0.0,0.0,0.0;GRID,2,,2.0,0.0,0.0;CBAR,1,1,1,2,0.0,1.0,0.0
+PBAR,1,1,1.0,2.0,1.0,1.0;MAT1,1,1000.0,,0.3,1.-3;SPC1,1,123456,1;ENDDATA
+DECK
+   run lumped_beam && {
+      near "lumped beam, $word: plane 2" "$(mode lumped_beam 1 frequency)" "sqrt(3*1000*1/8/(1e-3*2/2))/(2*$pi)" 3e-6
+      near "lumped beam, $word: plane 1" "$(mode lumped_beam 3 frequency)" "sqrt(3*1000*2/8/(1e-3*2/2))/(2*$pi)" 3e-6
+      near "lumped beam, $word: along" "$(mode lumped_beam 2 frequency)" "sqrt(1000*1/2/(1e-3*2/2))/(2*$pi)" 3e-6
+   }
+done
+
+# ---- T1 to T3 of CTRIA3, where NASTRAN has them: two triangles of a square pulled evenly, their mean thickness ----
+
+cards corner_thickness <<'DECK'
+SPC = 1;LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,2.0,0.0,0.0;GRID,3,,2.0,2.0,0.0;GRID,4,,0.0,2.0,0.0
+CTRIA3  1       1       1       2       3;+               0       0.5     0.5     0.5
+CTRIA3  2       1       1       3       4;+                       0.5     0.5     0.5
+PSHELL,1,1,9.0,1,,1;MAT1,1,1000.0,,0.3;SPC1,1,123,1;SPC1,1,13,4;SPC1,1,3,2;FORCE,1,2,,5.0,1.0,0.0,0.0;FORCE,1,3,,5.0,1.0,0.0,0.0;ENDDATA
+DECK
+run corner_thickness && near 'thickness at the corners of CTRIA3' "$(moved corner_thickness 3 1)" '10*2/(1000*2*0.5)' 3e-6
