@@ -8,6 +8,7 @@ module model_kind
    use case_control, only: model_axisymmetric, model_plane, model_space
    use coordinate_systems, only: directions_at
    use deck_check, only: checked_deck
+   use elasticity, only: axisymmetric
    use element_kinds, only: element_table
    use field_rules, only: has_component
    use kinds, only: wp
@@ -70,6 +71,10 @@ contains
       character(:), allocatable :: words
 
       words = ' (MODEL = SPACE makes it a model of space)'
+      if (allocated(model%properties)) then
+         if (any(model%properties%state < axisymmetric)) &
+            words = ' (MODEL = SPACE, and MID2 on PSHELL, make it a model of space)'
+      end if
       if (model%axisymmetric) words = ''
    end function space_hint
 
