@@ -10,8 +10,9 @@ module body_loads
    use element_kinds, only: kind_edge2, max_nodes
    use isoparametric, only: body_forces
    use kinds, only: wp
-   use mass_matrix, only: scalar_mass
+   use mass_matrix, only: bar_mass, scalar_mass
    use model_data, only: corners_of, is_beam, is_shell, model_type, n_points, own_nodes, stage_load_type
+   use model_kind, only: space_hint
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity
    use structural_elements, only: onto_own
@@ -43,7 +44,7 @@ contains
 
       if (model%dimension == 3 .or. abs(vector(3)) <= rounding*norm2(vector)) return
       call deck%field_error(line, field, trim(merge('not zero                        ', 'the load points out of the plane', &
-                                                    field == 'N3'))//', but a plane model lies in x-y')
+                                                    field == 'N3'))//', but a plane model lies in x-y'//space_hint(model))
    end subroutine check_plane
 
    !> The FIELDS of the GRAV, ACCEL1 and RFORCE cards. Errors: no mass; a direction or an axis that the model does not have.
@@ -69,7 +70,8 @@ contains
                if (model%axisymmetric .and. abs(field%uniform(1)) > rounding*norm2(field%uniform)) &
                   call deck%field_error(field%line, 'N1', 'not zero, but in an axisymmetric model gravity acts along y')
             end if
-            if (all(model%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp)) call deck%errors%add(field%line, &
+            if (all(model%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp) .and. &
+                all(model%bars%mass <= 0.0_wp)) call deck%errors%add(field%line, &
                trim(merge('RFORCE', 'GRAV  ', field%is_spin))//': no body has a mass; give RHO on its MAT1')
          end associate
       end do
@@ -117,7 +119,7 @@ contains
                'not zero, but an axisymmetric model has no circumferential forces')
          else if (model%dimension == 2) then
             if (maxval(axis(:2)) > rounding*maxval(axis)) call deck%field_error(field%line, 'R1', &
-               'a plane model turns about z; expected R1 and R2 zero')
+               'a plane model turns about z; expected R1 and R2 zero'//space_hint(model))
          end if
       end subroutine set_spin
 
@@ -204,6 +206,15 @@ contains
             call add_to_beam(model, e, beam_line_load(law, x, q, 0.0_wp, 1.0_wp), loads, force)
          end associate
       end do
+      do k = 1, size(model%bars)
+         associate (bar => model%bars(k), d => model%dimension)
+            if (.not. bar%mass > 0.0_wp) cycle
+            do end = 1, 2
+               a(:, end) = acceleration_at(field, model%x(:, bar%nodes(end)))
+            end do
+            force(:d, bar%nodes) = force(:d, bar%nodes) + matmul(a(:d, :2), bar_mass(model, k))
+         end associate
+      end do
       do k = 1, size(model%masses)
          associate (point => model%masses(k), acceleration => acceleration_at(field, model%x(:, model%masses(k)%node)))
             force(:, point%node) = force(:, point%node) + point%mass*acceleration + matmul(point%directed, acceleration)
@@ -233,7 +244,8 @@ contains
             if (.not. card%is_fraction .and. any(card%x > length*(1.0_wp + 1.0e-9_wp))) &
                call deck%field_error(card%line, 'X1', 'X1 or X2 lies beyond the end of the beam')
             if (model%dimension == 2 .and. card%kind <= 6 .and. any(load_types(card%kind) == ['FZ ', 'MX ', 'MY '])) &
-               call deck%field_error(card%line, 'TYPE', trim(load_types(card%kind))//' in a plane model, which lies in x-y')
+               call deck%field_error(card%line, 'TYPE', trim(load_types(card%kind))//' in a plane model, which lies in x-y'// &
+                                     space_hint(model))
             beam(i) = e
             f(:, i) = at_ends(model, e, card)
          end associate

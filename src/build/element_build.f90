@@ -16,6 +16,8 @@ module element_build
    implicit none
    private
 
+   real(wp), parameter :: coincident = 1.0e-9_wp ! of the longest edge: corners that are no farther apart lie in one place
+   real(wp), parameter :: misplaced = 0.3_wp     ! of an edge: a mid-side node farther off its middle is that of another edge
    integer, parameter :: few = 4096 ! number of elements up to which one thread is used
 
    public :: resolve_properties, collect_elements, collect_sides, check_elements, is_face
@@ -142,7 +144,8 @@ contains
              (state == solid .eqv. kind%dimension == 3)) return
          property = 0
          if (state == shell .and. kind%linear /= card%kind) then
-            call deck%errors%add(card%line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells in a model of space')
+            call deck%errors%add(card%line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells, or MODEL = '// &
+                                 'PLANE for bodies in x-y')
          else if (kind%dimension == 2 .and. card%property > 0 .and. any(deck%bulk%pmark%id == card%property)) then
             call deck%field_error(card%line, 'PID', integer_text(card%property)//' is a PMARK: a surface of a plane body is '// &
                                   'marked with CBAR or CROD edges')
@@ -211,7 +214,6 @@ contains
       type(grid_card), intent(in)    :: nodes(:)    !! of DECK, then of blocks, in global axes
       type(model_type), intent(in)   :: model
       logical, allocatable :: doubtful(:), sound(:) ! doubtful: the position of a node is not known, which has been reported
-      character(:), allocatable :: expected
       integer :: e, i, last_line, node
 
       allocate (doubtful(0:model%n_nodes), source=.false.)
@@ -227,26 +229,11 @@ contains
          sound(e) = is_sound(e)
       end do
       !$omp end parallel do
-      expected = ''
       last_line = 0
       do e = 1, model%n_elements
          if (sound(e) .or. model%element_line(e) == last_line) cycle ! one error per card
          last_line = model%element_line(e)
-         associate (kind => element_table(model%element_kind(e)))
-            select case (model%element_kind(e))
-            case (kind_quad4)
-               expected = 'area at some corner; expected four nodes counter-clockwise round a convex quadrilateral'
-            case (kind_tria3)
-               expected = 'area at some corner; expected three nodes counter-clockwise'
-            case (kind_quad8, kind_tria6)
-               expected = 'area at some integration point; expected the corners counter-clockwise, then the nodes near the '// &
-                          'middle of its edges, the first between corners 1 and 2'
-            case default
-               expected = 'volume at some integration point; expected the '//trim(merge('nodes  ', 'corners', kind%n_nodes > &
-                          kind%n_corners))//' in the order of '//trim(kind%card)//' in the card manual'
-            end select
-         end associate
-         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '//expected)
+         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//shape_fault(model, e))
       end do
 
    contains
@@ -270,5 +257,80 @@ contains
       end function is_sound
 
    end subroutine check_elements
+
+   !> What is wrong with the shape of element E, and what was expected: coincident corners, mid-side nodes where the element with
+   !! straight edges is sound, or the order of the nodes.
+   function shape_fault(model, e) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      character(:), allocatable :: twins, words
+      integer, allocatable :: corners(:), nodes(:)
+      real(wp) :: off, largest
+      integer  :: i, k, worst
+
+      allocate (nodes, source=corners_of(model, e))
+      associate (kind => element_table(model%element_kind(e)))
+         allocate (corners, source=nodes(:kind%n_corners))
+         words = ' has no positive '//trim(merge('volume at some integration point', 'area at some integration point  ', &
+                                                 kind%dimension == 3))
+         if (kind%dimension == 2 .and. kind%linear == model%element_kind(e)) words = ' has no positive area at some corner'
+         twins = ''
+         do i = 1, size(corners) - 1
+            do k = i + 1, size(corners)
+               if (norm2(model%x(:, corners(k)) - model%x(:, corners(i))) < coincident*longest_edge(model, e)) &
+                  twins = twins//', G'//integer_text(i)//' and G'//integer_text(k)
+            end do
+         end do
+         if (twins /= '') then
+            words = words//': it has corners in one place'//twins//'; expected an element of fewer corners, such as '// &
+                    trim(merge('CPENTA', 'CTRIA3', kind%dimension == 3))
+            return
+         end if
+         if (size(nodes) > size(corners)) then
+            if (smallest_jacobian(kind%linear, model%x(:kind%dimension, corners)) > 0.0_wp) then
+               largest = -1.0_wp
+               worst = size(corners) + 1
+               do k = 1, kind%n_edges
+                  associate (p => model%x(:, corners(kind%edges(1, k))), q => model%x(:, corners(kind%edges(2, k))))
+                     off = norm2(model%x(:, nodes(size(corners) + k)) - 0.5_wp*(p + q))/norm2(q - p)
+                  end associate
+                  if (off > largest) worst = size(corners) + k
+                  largest = max(largest, off)
+               end do
+               words = words//', but would have with straight edges: mid-side nodes are at fault, most of all G'// &
+                       integer_text(worst)//', node '//integer_text(model%node_id(nodes(worst)))//', which stands '// &
+                       integer_text(nint(100.0_wp*largest))//' % of its edge off the middle'
+               if (largest < misplaced) words = words//'; expected smaller elements, or straight edges'
+               if (largest < misplaced) return
+            end if
+         end if
+         select case (model%element_kind(e))
+         case (kind_quad4)
+            words = words//'; expected four nodes counter-clockwise round a convex quadrilateral'
+         case (kind_tria3)
+            words = words//'; expected three nodes counter-clockwise'
+         case (kind_quad8, kind_tria6)
+            words = words//'; expected the corners counter-clockwise, then the nodes near the middle of its edges, the first '// &
+                    'between corners 1 and 2'
+         case default
+            words = words//'; expected the '//trim(merge('nodes  ', 'corners', size(nodes) > size(corners)))// &
+                    ' in the order of '//trim(kind%card)//' in the card manual'
+         end select
+      end associate
+   end function shape_fault
+
+   !> Length of the longest edge of element E [length].
+   pure real(wp) function longest_edge(model, e) result(longest)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      integer :: k
+
+      longest = 0.0_wp
+      associate (kind => element_table(model%element_kind(e)), nodes => model%element_nodes(:, e))
+         do k = 1, kind%n_edges
+            longest = max(longest, norm2(model%x(:, nodes(kind%edges(2, k))) - model%x(:, nodes(kind%edges(1, k)))))
+         end do
+      end associate
+   end function longest_edge
 
 end module element_build

@@ -8,6 +8,7 @@ module joint_build
    use kinds, only: wp
    use lists, only: id_table_type, list_owners
    use model_data, only: joint_type, model_type
+   use model_kind, only: space_hint
    use node_build, only: find_nodes
    use text_tools, only: integer_text, real_text
    implicit none
@@ -260,7 +261,7 @@ contains
             call find_nodes(deck, card%line, card%nodes, model, nodes)
             call connect_nodes(element, nodes(1), nodes(2))
             if (model%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) &
-               call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y')
+               call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y'//space_hint(model))
             if (norm2(card%normal) > 0.0_wp) &
                element%axes = joint_axes(model, outward(model, nodes, card%normal/norm2(card%normal)))
          end associate

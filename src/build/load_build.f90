@@ -10,6 +10,7 @@ module load_build
    use field_rules, only: has_component
    use kinds, only: wp
    use model_data, only: model_type, stage_load_type, supported, surface_type
+   use model_kind, only: space_hint
    use node_coupling, only: coupling_parts, add_section_share
    use numbers, only: cross, identity
    use pressure_loads, only: add_pressure, find_pressed_sides, pressed_side
@@ -99,7 +100,7 @@ contains
       force = force/model%rotations(rotation)%arm
       if (model%dimension == 2) then
          if (any(abs(force(:2)) > rounding*norm2(force))) call deck%field_error(card%line, 'N1', &
-            'not zero, but in a plane model moments act about z: expected N3 alone')
+            'not zero, but in a plane model moments act about z: expected N3 alone'//space_hint(model))
          force = [force(3), 0.0_wp, 0.0_wp]
          axes = identity
       end if

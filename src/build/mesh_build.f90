@@ -5,7 +5,6 @@
 module mesh_build
    use block_mesh, only: collect_cards, mesh_card_type
    use bulk_data, only: element_card
-   use case_control, only: model_axisymmetric, model_plane, model_space
    use deck_check, only: checked_deck
    use displacement_systems, only: build_systems
    use elasticity, only: axisymmetric
@@ -14,6 +13,7 @@ module mesh_build
    use kinds, only: wp
    use lists, only: list_owners
    use model_data, only: model_type, placed_node
+   use model_kind, only: find_kind, space_hint
    use node_build, only: append_nodes, build_nodes, fill_mid_sides, highest_number
    use numbers, only: cross
    use text_tools, only: integer_text
@@ -32,33 +32,11 @@ contains
       type(mesh_card_type) :: cards
       integer, allocatable :: states(:)
       integer :: b, other, ring
-      logical :: has_rings, has_solids, is_plane
 
-      has_solids = any(deck%bulk%block%dimension == 3) .or. any(element_table(deck%bulk%element%kind)%dimension == 3)
-      model%dimension = merge(3, 2, has_solids)
       call build_systems(deck, model%systems)
       call collect_cards(deck, cards)
       call build_nodes(deck, cards%grid, model)
-      ! without solids a deck with PAXIS or BLOCK2, or with PSHELL but no bending material, is plane, whatever X3 of its nodes
-      has_rings = size(deck%bulk%paxis) > 0
-      is_plane = has_rings .or. any(deck%bulk%block%dimension == 2) .or. &
-                 (size(deck%bulk%pshell) > 0 .and. all(deck%bulk%pshell%bending <= 0))
-      if (any(abs(model%x(3, :)) > 0.0_wp) .and. .not. is_plane) model%dimension = 3
-      ! the entry MODEL of case control, where the deck does not contradict it
-      associate (control => deck%control)
-         select case (control%model)
-         case (model_space)
-            if (has_rings) call deck%errors%add(control%model_line, 'MODEL = SPACE, but the deck has a PAXIS; expected '// &
-                                                'AXISYMMETRIC, or no PAXIS')
-            if (.not. has_rings) model%dimension = 3
-         case (model_plane, model_axisymmetric)
-            if (has_solids) call deck%errors%add(control%model_line, 'MODEL: the deck has solids; expected SPACE')
-            if (.not. has_solids) model%dimension = 2
-            if (has_rings .eqv. control%model == model_plane) call deck%errors%add(control%model_line, &
-               trim(merge('MODEL = PLANE, but the deck has a PAXIS        ', &
-                          'MODEL = AXISYMMETRIC, but the deck has no PAXIS', control%model == model_plane)))
-         end select
-      end associate
+      call find_kind(deck, model)
       do b = 1, size(deck%bulk%block)
          if (deck%bulk%block(b)%dimension < model%dimension) call deck%errors%add(deck%bulk%block(b)%line, &
             'BLOCK2: plane bodies cannot stand in a model of space')
@@ -242,7 +220,7 @@ contains
             if (grid%cp <= 0) x = grid%x ! a number given twice has one node
             if (abs(x(3)) > 0.0_wp) call deck%field_error(grid%line, trim(merge('CP', 'X3', grid%cp > 0)), &
                trim(merge('puts the node out of the plane', 'not zero                      ', grid%cp > 0))// &
-               ', but a plane model lies in x-y')
+               ', but a plane model lies in x-y'//space_hint(model))
             if (model%axisymmetric .and. x(1) < 0.0_wp) call deck%field_error(grid%line, trim(merge('CP', 'X1', grid%cp > 0)), &
                trim(merge('puts the node at a negative x', 'negative                     ', grid%cp > 0))// &
                ', but an axisymmetric model lies in x >= 0')

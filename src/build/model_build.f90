@@ -18,11 +18,12 @@ module model_build
    use model_data, only: model_type, n_sections, stage_load_type
    use pretension_section, only: build_sections
    use rigid_elements, only: build_dependents, name_surface_nodes
+   use rod_torsion, only: add_torsion
    use shell_faces, only: build_shell_faces, couple_shell_faces
    use shell_ties, only: find_ties, tie_type
    use spring_build, only: build_bars, build_springs
    use stage_plan, only: plan_stages, stage_plan_type
-   use structural_build, only: build_beams, build_rotations, build_shells, leave_out_idle
+   use structural_build, only: bow_edges, build_beams, build_rotations, build_shells, leave_out_idle
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use surface_sides, only: split_shared_surfaces
@@ -63,6 +64,7 @@ contains
       call name_surface_nodes(checked, model)
       ! data on the mesh: each kind is built even if another one has errors
       call split_shared_surfaces(checked, model)
+      call bow_edges(model)
       call find_ties(checked, model, ties)
       call build_shell_faces(checked, model)
       call build_joints(checked, model)
@@ -75,6 +77,7 @@ contains
       call build_frames(checked, model)
       call build_beams(checked, model)
       call build_springs(checked, model)
+      call add_torsion(model)
       call build_dependents(checked, ties, model)
       call leave_out_idle(model)
       call build_masses(checked, model)

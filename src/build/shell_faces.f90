@@ -70,7 +70,8 @@ contains
       call move_alloc(faces, model%faces)
    end subroutine build_shell_faces
 
-   !> Give the sides of SURFACE that belong to shells nodes among FACES; a shared node has the mean lever of its sides.
+   !> Give the sides of SURFACE that belong to shells nodes among FACES; a shared node has the mean lever of its sides. The lines of the
+   !! strips at a node count along UP, the normal of the first shell there, because the next shell may be numbered clockwise.
    subroutine offset_sides(model, surface, faces)
       type(model_type), intent(in)      :: model
       type(surface_type), intent(inout) :: surface
@@ -78,13 +79,14 @@ contains
       type(face_node_type), allocatable :: own(:)
       integer, allocatable :: n_of(:), of_node(:, :)
       integer  :: c, i, line, n, nodes(4), row, s
-      real(wp) :: side
+      real(wp) :: side, up(3, model%n_nodes)
       type(shell_frame) :: frame
 
       call cut_edges(surface)
       allocate (own(4*surface%n), of_node(0:strips, model%n_nodes))
       allocate (n_of(4*surface%n), source=0)
       of_node = 0
+      up = 0.0_wp
       n = 0
       do s = 1, surface%n
          if (.not. is_shell(model, surface%element(s))) cycle
@@ -101,8 +103,10 @@ contains
                   if (c > 2) then
                      call take(0, nodes(i), (law%offset + side*t)*frame%axes(:, 3), surface%nodes(i, s))
                   else ! edge 1 to 2: 1 and 2 on the lower line of the strip, then 2 and 1 on the upper one
+                     if (all(abs(up(:, nodes(i))) <= 0.0_wp)) up(:, nodes(i)) = frame%axes(:, 3)
                      do line = row - 1, row
-                        call take(line, nodes(i), (law%offset + t*(real(line, wp)/strips - 0.5_wp))*frame%axes(:, 3), &
+                        call take(merge(line, strips - line, dot_product(up(:, nodes(i)), frame%axes(:, 3)) >= 0.0_wp), nodes(i), &
+                                  (law%offset + t*(real(line, wp)/strips - 0.5_wp))*frame%axes(:, 3), &
                                   surface%nodes(merge(i, 5 - i, line < row), s))
                      end do
                   end if

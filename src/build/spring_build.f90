@@ -6,6 +6,7 @@ module spring_build
    use displacement_systems, only: find_directions
    use kinds, only: wp
    use model_data, only: a_spring, bar_type, model_type
+   use model_kind, only: space_hint
    use node_build, only: find_nodes
    use numbers, only: cross, identity
    use structural_build, only: is_beam_edge
@@ -127,6 +128,8 @@ contains
       end if
       bar%direction = spread(along/length, 2, 2)
       bar%stiffness = deck%bulk%mat1(material)%e*prod%area/length
+      if (.not. deck%bulk%mat1(material)%bars_only) &
+         bar%torsion = 0.5_wp*deck%bulk%mat1(material)%e/(1.0_wp + deck%bulk%mat1(material)%nu)*prod%torsion/length
       bar%area = prod%area
       bar%strength = deck%bulk%mat1(material)%strength
       bar%mass = deck%bulk%parameters%mass_factor*(deck%bulk%mat1(material)%rho*prod%area + prod%extra_mass)*length
@@ -207,7 +210,7 @@ contains
          directions(:, k) = 0.0_wp
          if (nodes(k) == 0) cycle
          if (card%components(k) == 3 .and. model%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
-            'a plane model has no component 3')
+            'a plane model has no component 3'//space_hint(model))
          if (all(card%components(k) /= [1, 2, model%dimension, 4, 5, 6])) return ! reported
          axes = node_axes(model, nodes(k))
          directions(:, k) = axes(:, modulo(card%components(k) - 1, 3) + 1)

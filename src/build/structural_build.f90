@@ -8,15 +8,18 @@ module structural_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, is_beam, is_shell, model_type, n_rotations, rotation_type
+   use model_data, only: corners_of, is_beam, is_shell, model_type, n_bars, n_rotations, rotation_type
    use node_build, only: append_unknowns
+   use rod_torsion, only: leave_out_untwisted, twisted_nodes
    use shell_membrane, only: shell_law
    use text_tools, only: integer_text
    use unknowns, only: node_axes
    implicit none
    private
 
-   public :: build_beams, build_rotations, build_shells, is_beam_edge, leave_out_idle
+   real(wp), parameter :: one_side = 0.5_wp   ! cosine: triangles at an edge less than 60 degrees apart lie on one side of it
+
+   public :: bow_edges, build_beams, build_rotations, build_shells, is_beam_edge, leave_out_idle
 
 contains
 
@@ -38,10 +41,10 @@ contains
       integer, allocatable :: elements(:), n_elements(:), points(:)
       real(wp) :: square(model%n_nodes)
       integer  :: count_of(model%n_nodes), e, i, k, n, node
-      logical  :: turns
+      logical  :: turns, twisted(model%n_nodes)
 
       if (model%axisymmetric) return
-      if (size(deck%rigid) == 0 .and. all(model%properties%state < shell)) return
+      if (size(deck%rigid) == 0 .and. all(model%properties%state < shell) .and. all(model%bars%torsion <= 0.0_wp)) return
       allocate (rotations(size(deck%rigid) + model%n_nodes))
       allocate (model%rotation_of(model%n_nodes), source=0)
       n = 0
@@ -91,6 +94,21 @@ contains
          end if
          rotations(model%rotation_of(node))%of_element = .true.
       end do
+      twisted = twisted_nodes(deck, model, model%rotation_of > 0)
+      do i = 1, n_bars(model)
+         associate (ends => model%bars(i)%nodes)
+            do k = 1, 2
+               if (any(ends == 0)) cycle ! reported already
+               if (.not. twisted(ends(k))) cycle
+               if (model%rotation_of(ends(k)) == 0) then
+                  n = n + 1
+                  model%rotation_of(ends(k)) = n
+                  rotations(n) = rotation_type(point=ends(k), of_element=.true., of_rods=.true., &
+                                               arm=norm2(model%x(:, ends(2)) - model%x(:, ends(1))))
+               end if
+            end do
+         end associate
+      end do
       if (n == 0) then
          deallocate (model%rotation_of)
          return
@@ -116,11 +134,12 @@ contains
          has_rotations = any(model%properties(model%element_property(e))%state == [shell, beam])
    end function has_rotations
 
-   !> In the plane the node of rotations has one component, about z.
+   !> In the plane the node of rotations has one component, about z; at a node of rods alone, those that a rod twists.
    subroutine leave_out_idle(model)
       type(model_type), intent(inout) :: model
       integer :: k
 
+      if (model%dimension == 3) call leave_out_untwisted(model)
       if (model%dimension == 3) return
       do k = 1, n_rotations(model)
          if (.not. model%rotations(k)%of_element) cycle
@@ -190,6 +209,50 @@ contains
          end associate
       end do
    end subroutine build_shells
+
+   !> Find the edges between triangular shells, which their drilling rotations bow (shell_membrane), once shared surfaces are split:
+   !! triangles lie on different sides of the edge, and no quadrilateral has it. Triangles on the same nodes lie on one side.
+   pure subroutine bow_edges(model)
+      type(model_type), intent(inout) :: model
+      integer :: b, e, i, k
+
+      do e = 1, model%n_elements
+         if (.not. is_shell(model, e)) cycle
+         if (size(corners_of(model, e)) /= 3) cycle
+         associate (nodes => model%element_nodes(:3, e), law => model%structural%shells(model%structural%place(e)))
+            do i = 1, 3
+               b = nodes(modulo(i, 3) + 1)
+               law%bowed(i) = .false.
+               do k = model%first_at(nodes(i)), model%first_at(nodes(i) + 1) - 1
+                  associate (other => model%elements_at(k))
+                     if (.not. is_shell(model, other)) cycle
+                     if (all(corners_of(model, other) /= b)) cycle
+                     if (size(corners_of(model, other)) == 4) then
+                        law%bowed(i) = .false.
+                        exit
+                     end if
+                     if (dot_product(across(e, nodes(i), b), across(other, nodes(i), b)) < one_side) law%bowed(i) = .true.
+                  end associate
+               end do
+            end do
+         end associate
+      end do
+
+   contains
+
+      !> The direction from the edge between nodes A and B into triangle E.
+      pure function across(e, a, b) result(inward)
+         integer, intent(in) :: e, a, b
+         real(wp) :: inward(3)
+
+         associate (along => model%x(:, b) - model%x(:, a), centre => sum(model%x(:, model%element_nodes(:3, e)), dim=2)/3.0_wp)
+            inward = centre - model%x(:, a)
+            inward = inward - dot_product(inward, along)/max(dot_product(along, along), tiny(1.0_wp))*along
+            inward = inward/max(norm2(inward), tiny(1.0_wp))
+         end associate
+      end function across
+
+   end subroutine bow_edges
 
    !> Build the beams of MODEL; displacement systems must be known. Errors: a beam without length, or without plane 1.
    subroutine build_beams(deck, model)
@@ -266,7 +329,6 @@ contains
       associate (mat1 => deck%bulk%mat1)
          call elasticity_matrix(plane_stress, mat1(membrane)%e, mat1(membrane)%nu, d)
          law%d = d(:3, :3)
-         law%nu = mat1(membrane)%nu
          law%expansion = mat1(membrane)%alpha
          call elasticity_matrix(plane_stress, mat1(bending)%e, mat1(bending)%nu, d)
          law%bending = card%inertia_ratio*d(:3, :3)

@@ -40,9 +40,9 @@ module bulk_data
 
    !> CBAR, CBEAM, CROD: a mark, a beam or a bolt. NODES(:2) are its ends; NODES(3), G0, may be the mid-side node of a marked edge.
    type, extends(element_card), public :: edge_card
-      real(wp) :: orientation(3) = 0.0_wp               ! X1, X2, X3 where there is no G0
+      real(wp) :: orientation(3) = 0.0_wp, offset(3, 2) = 0.0_wp ! X1, X2, X3 where there is no G0; WA, WB
       integer  :: pins(2) = 0                           ! PA, PB
-      real(wp) :: offset(3, 2) = 0.0_wp                 ! WA, WB
+      logical  :: blank(4) = .false.                    ! X1, X2, X3, PID
    end type edge_card
 
    !> Additional data of a shell card: the position of its element_card, ZOFFS and T1 to T4.
@@ -74,8 +74,7 @@ module bulk_data
       real(wp) :: thickness = 0.0_wp                    ! of a PSHELL
       logical  :: incompatible = .false.                ! modes of Wilson and Taylor
       integer  :: bending = 0, shear = 0                ! MID2 and MID3 of a PSHELL, 0: blank
-      real(wp) :: inertia_ratio = 1.0_wp                ! 12I/T**3
-      real(wp) :: shear_ratio = 5.0_wp/6.0_wp           ! TS/T
+      real(wp) :: inertia_ratio = 1.0_wp, shear_ratio = 5.0_wp/6.0_wp ! 12I/T**3, TS/T
       real(wp) :: extra_mass = 0.0_wp                   ! NSM, per area
       real(wp) :: fibre(2) = 0.0_wp                     ! Z1, Z2
       logical  :: fibre_given(2) = .false.
@@ -83,7 +82,7 @@ module bulk_data
 
    type, public :: prod_card
       integer  :: line = 0, id = 0, material = 0
-      real(wp) :: area = 0.0_wp, extra_mass = 0.0_wp    ! the second is NSM, per length
+      real(wp) :: area = 0.0_wp, torsion = 0.0_wp, extra_mass = 0.0_wp ! A, J, NSM per length
    end type prod_card
 
    !> CONROD: a bar with its own cross-section; its id is that of the element.
@@ -357,6 +356,7 @@ module bulk_data
       type(system_card), allocatable       :: system(:)
       type(element_card), allocatable      :: element(:)   !! of bodies; faces of marked surfaces too
       type(edge_card), allocatable         :: edge(:)      !! CBAR, CBEAM and CROD
+      type(edge_card)                      :: edge_defaults(2) !! of BAROR and BEAMOR
       type(plate_card), allocatable        :: plate(:)     !! of CQUAD4 and CTRIA3 with ZOFFS or T1 to T4
       type(beam_property_card), allocatable :: beam_property(:)
       type(beam_load_card), allocatable    :: beam_load(:)

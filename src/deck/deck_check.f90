@@ -30,11 +30,6 @@ module deck_check
       procedure :: report_repeated
    end type checked_deck
 
-   ! the cards of nodes, elements, properties and marked surfaces
-   character(8), parameter :: mesh_cards(*) = [character(8) :: 'GRID', 'GRDSET', 'CORD1R', 'CORD1C', 'CORD1S', 'CORD2R', 'CORD2C', &
-      'CORD2S', 'BLOCK2', 'BLOCK3', 'CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA', 'CBAR', 'CROD', 'CONROD', &
-      'NODEAT', 'PSHELL', 'PAXIS', 'PSOLID', 'PROD', 'PMARK', 'MAT1']
-
 contains
 
    !> Begin the check of DECK; errors go to ERRORS. Both must outlive SELF.
@@ -166,7 +161,7 @@ contains
             name = card_name(self%text%card_part(line))
             if (name /= '') exit
          end do
-         is_faulty = any(mesh_cards == name)
+         is_faulty = any(self%kinds%of_mesh .and. self%kinds%name == name)
          if (is_faulty) return
       end do
    end function mesh_is_faulty

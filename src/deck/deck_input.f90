@@ -13,8 +13,8 @@ module deck_input
    use lists, only: id_table_type
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
                          read_temperature
-   use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark, read_grid_defaults, &
-                         read_system, system_names
+   use mesh_cards, only: complete_remedy, fill_defaults, read_block, read_edge, read_edge_defaults, read_element, read_grid, &
+                         read_pmark, read_grid_defaults, read_system, system_names
    use nastran_compatibility, only: is_idle_card
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
@@ -32,6 +32,7 @@ module deck_input
       character(8), allocatable :: fields(:)         !! names of the data fields, as far as cards of this kind have been read
       integer, private :: routine = 0                ! the same for kinds that share a routine
       integer, private :: n = 0                      ! number of cards of this kind
+      logical :: of_mesh = .false.                   !! of nodes, elements, properties or marked surfaces
       procedure(read_one), pointer, nopass, private :: read => null()
    end type card_kind
 
@@ -57,7 +58,7 @@ module deck_input
 contains
 
    !> All cards and the routines that read them. A new card is a line here, or a name in the line of the cards in the same array. GRID
-   !! stands first, see read_all. No routine depends on what another has read.
+   !! stands first, see read_all, then the other cards of the mesh. No routine depends on what another has read.
    subroutine list_cards(cards)
       type(card_kind), allocatable, intent(out) :: cards(:)
 
@@ -67,6 +68,7 @@ contains
       call add(system_names, read_system)
       call add(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA '], read_element)
       call add(['CBAR ', 'CBEAM', 'CROD '], read_edge)
+      call add(['BAROR ', 'BEAMOR'], read_edge_defaults)
       call add(['BLOCK2', 'BLOCK3'], read_block)
       call add(['PMARK'], read_pmark)
       call add(['PSHELL'], read_pshell)
@@ -75,14 +77,15 @@ contains
       call add(['PROD'], read_rod)
       call add(['PBAR  ', 'PBARL ', 'PBEAM ', 'PBEAML'], read_beam_property)
       call add(['CONROD'], read_rod)
+      call add(['NODEAT'], read_place)
+      call add(['MAT1'], read_mat1)
+      cards%of_mesh = .true.
       call add(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
       call add(['PELAS', 'PBUSH'], read_spring_property)
       call add(['CONM2 ', 'CMASS2'], read_mass)
-      call add(['MAT1'], read_mat1)
       call add(['SPC ', 'SPC1', 'SPCM'], read_support)
       call add(['SPCADD'], read_sum)
       call add(['RBE2 ', 'RBE3 ', 'RBAR ', 'RBE2M', 'RBE3M'], read_rigid)
-      call add(['NODEAT'], read_place)
       call add(['SHELLTO'], read_tie)
       call add(['MPC'], read_equation)
       call add(['MPCADD'], read_sum)
@@ -210,17 +213,14 @@ contains
       call find_cards(deck%text, cursor, deck%kinds, kind_at, deck%bulk, errors)
       call make_room(deck%kinds, deck%bulk)
       call read_all(deck%text, kind_at, deck%kinds, deck%bulk, errors)
-      associate (bulk => deck%bulk, defaults => deck%bulk%grid_defaults, asked => deck%control%stages%vibration)
+      associate (bulk => deck%bulk, asked => deck%control%stages%vibration)
          ! the arrays whose cards may fill one entry or several are cut to the filled entries
          bulk%system = bulk%system(:count(bulk%system%line > 0))
          bulk%spring_property = bulk%spring_property(:count(bulk%spring_property%line > 0))
          bulk%support = bulk%support(:count(bulk%support%line > 0))
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
-         ! GRDSET fills the blank fields of GRID
-         where (bulk%grid%cp < 0) bulk%grid%cp = defaults%cp
-         where (bulk%grid%cd < 0) bulk%grid%cd = defaults%cd
-         where (bulk%grid%ps == 0) bulk%grid%ps = defaults%ps
+         call fill_defaults(bulk)
          call count_unused(bulk)
          call bulk%ignored%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), errors)
       end associate

@@ -1,6 +1,7 @@
 !> Reads the cards of the mesh: nodes, coordinate systems, elements, edges, marked surfaces and blocks.
 !! Nodes: GRID and its defaults GRDSET. Coordinate systems: by three nodes (CORD1R, CORD1C, CORD1S) or by three points (CORD2R,
-!! CORD2C, CORD2S). Edges: CBAR and CROD. Marked surfaces: PMARK. Blocks: BLOCK2 and BLOCK3.
+!! CORD2C, CORD2S). Edges: CBAR, CBEAM and their defaults BAROR
+!! and BEAMOR, and CROD. Marked surfaces: PMARK. Blocks: BLOCK2 and BLOCK3.
 module mesh_cards
    use bulk_data, only: bulk_data_type, edge_cbar, edge_cbeam, edge_crod, plate_card, system_card
    use card_fields, only: card_fields_type
@@ -11,7 +12,8 @@ module mesh_cards
    implicit none
    private
 
-   public :: read_system, read_grid_defaults, read_grid, read_element, read_edge, read_pmark, read_block
+   public :: read_system, read_grid_defaults, read_grid, read_element, read_edge, read_edge_defaults, read_pmark, &
+             read_block, fill_defaults
 
    character(6), parameter, public :: system_names(6) = ['CORD1R', 'CORD1C', 'CORD1S', 'CORD2R', 'CORD2C', 'CORD2S']
    character(3), parameter :: node_names(max_nodes) = ['G1 ', 'G2 ', 'G3 ', 'G4 ', 'G5 ', 'G6 ', 'G7 ', 'G8 ', 'G9 ', 'G10', &
@@ -112,9 +114,9 @@ contains
          if (any(kind == [kind_tria3, kind_quad4, kind_tria6])) call card%skip(['THETA'])
          if (any(kind == [kind_tria3, kind_quad4])) then
             call card%field('ZOFFS', plate%offset, default=0.0_wp)
-            if (kind == kind_tria3) call card%skip(['-', '-'])
+            if (kind == kind_tria3) call card%skip(['-'])
             call card%skip(['-    ', 'TFLAG'])
-            flag = card%text_at(corners + 6 + merge(2, 0, kind == kind_tria3))
+            flag = card%text_at(10)
             if (flag /= '' .and. flag /= '0') call card%error('TFLAG', 'expected 0 or blank: T1 to T4 are thicknesses')
             call card%field(thickness_names(:corners), plate%thickness(:corners), positive, default=0.0_wp)
             plate%element = card%i
@@ -162,7 +164,11 @@ contains
          if (card%name == 'CBAR') edge%kind = edge_cbar
          if (card%name == 'CBEAM') edge%kind = edge_cbeam
          call card%field('EID', edge%id)
-         call card%field('PID', edge%property)
+         if (edge%kind == edge_crod) then
+            call card%field('PID', edge%property)
+         else ! blank: that of BAROR or BEAMOR, or EID
+            call card%field('PID', edge%property, default=0)
+         end if
          call card%field(merge(['G1', 'G2'], ['GA', 'GB'], edge%kind == edge_crod), edge%nodes(:2))
          if (edge%kind /= edge_crod) then
             call card%field('X1', edge%orientation(1), default=0.0_wp, whole=.true.)
@@ -170,6 +176,8 @@ contains
             call parse_integer(card%text_at(5), edge%nodes(3), ok)
             if (ok .and. any(card%given(['X2', 'X3']))) edge%nodes(3) = 0
             if (edge%nodes(3) > 0) edge%orientation = 0.0_wp
+            if (edge%nodes(3) == 0) edge%blank(:3) = .not. card%given(['X1', 'X2', 'X3'])
+            edge%blank(4:) = .not. card%given(['PID'])
             call card%word('OFFT', '|GGG|', word)
             call card%components('PA', edge%pins(1), default=0)
             call card%components('PB', edge%pins(2), default=0)
@@ -179,6 +187,47 @@ contains
          call card%finish(edge%line)
       end associate
    end subroutine read_edge
+
+   !> BAROR, BEAMOR: defaults for blank PID and X1, X2, X3 (or G0) of CBAR, CBEAM; one card of each at most.
+   subroutine read_edge_defaults(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      character(8) :: word
+      logical :: ok
+
+      associate (defaults => bulk%edge_defaults(merge(1, 2, card%name == 'BAROR')))
+         if (defaults%line > 0) call card%errors%add(card%line, trim(card%name)//': given twice; expected at most one in a deck')
+         call card%skip(['-'])
+         call card%field('PID', defaults%property, default=0)
+         call card%blank(['-', '-'])
+         call card%field('X1', defaults%orientation(1), default=0.0_wp, whole=.true.)
+         call card%field(['X2', 'X3'], defaults%orientation(2:), default=0.0_wp, whole=.true.)
+         call parse_integer(card%text_at(5), defaults%nodes(3), ok)
+         if (ok .and. any(card%given(['X2', 'X3']))) defaults%nodes(3) = 0
+         call card%word('OFFT', '|GGG|', word)
+         call card%finish(defaults%line)
+      end associate
+   end subroutine read_edge_defaults
+
+   !> Fill the blank fields of GRID from GRDSET, and those of CBAR and CBEAM from BAROR and BEAMOR. Without a default the PID of a beam
+   !! is its EID.
+   pure subroutine fill_defaults(bulk)
+      type(bulk_data_type), intent(inout) :: bulk
+      integer :: i
+
+      associate (grid => bulk%grid, defaults => bulk%grid_defaults)
+         where (grid%cp < 0) grid%cp = defaults%cp
+         where (grid%cd < 0) grid%cd = defaults%cd
+         where (grid%ps == 0) grid%ps = defaults%ps
+      end associate
+      do i = 1, size(bulk%edge)
+         associate (edge => bulk%edge(i), defaults => bulk%edge_defaults(merge(2, 1, bulk%edge(i)%kind == edge_cbeam)))
+            if (edge%blank(4)) edge%property = merge(defaults%property, edge%id, defaults%property > 0)
+            if (defaults%nodes(3) == 0) where (edge%blank(:3)) edge%orientation = defaults%orientation
+            if (all(edge%blank(:3))) edge%nodes(3) = defaults%nodes(3)
+         end associate
+      end do
+   end subroutine fill_defaults
 
    !> PMARK: a marked surface.
    subroutine read_pmark(card, bulk)

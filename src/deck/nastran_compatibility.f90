@@ -58,11 +58,11 @@ module nastran_compatibility
       'EDE', 'STRFIELD', 'SURFACE', 'VOLUME', 'BOUTPUT', 'DATAREC', 'THERMAL', 'FLUX', 'HOUTPUT', 'ENTHALPY', 'MEFFMASS', &
       'MODALKE', 'OTIME', 'OFREQUENCY', 'OMODES', 'PLOTID', 'SETP', 'XYPLOT', 'XYPRINT', 'SEALL', 'VUGRID']
    ! of the bulk data: plots, and properties and materials of unsupported elements
-   character(8), parameter :: card_names(41) = [character(8) :: &
+   character(8), parameter :: card_names(39) = [character(8) :: &
       'MAT4', 'MAT5', 'DTI', &
       'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBCOMP', &
       'PBEND', 'PBUSH1D', 'PCOMP', 'PCOMPG', 'PCOMPS', 'PDAMP', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &
-      'PMASS', 'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PVISC', 'PWELD', 'BAROR', 'BEAMOR', 'MAT2', 'MAT3', 'MAT8', 'MAT9', &
+      'PMASS', 'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PVISC', 'PWELD', 'MAT2', 'MAT3', 'MAT8', 'MAT9', &
       'MAT10', 'MAT11', 'TABLEM1', 'MDLPRM', 'ABSNMVS', 'ABSTRCT']
 
 contains

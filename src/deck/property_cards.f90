@@ -104,7 +104,8 @@ contains
       end if
       call card%field('MID', rod%material)
       call card%field('A', rod%area, positive)
-      call card%skip(['J', 'C'])
+      call card%field('J', rod%torsion, not_negative, default=0.0_wp)
+      call card%skip(['C'])
       call card%field('NSM', rod%extra_mass, not_negative, default=0.0_wp)
       call card%finish(rod%line)
       if (card%name == 'PROD') then

@@ -200,7 +200,7 @@ contains
    end function beam_stiffness
 
    !> [m] between the nodal values: from the shape functions and the rotary inertia of the section, or LUMPED: half of the mass at
-   !! each end, with the rotary inertia of half the length.
+   !! each end, without rotary inertia, as in NASTRAN.
    pure function beam_mass(law, x, lumped) result(m)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)    !! [length]
@@ -220,8 +220,8 @@ contains
       own(6, 5) = own(5, 6)
       m = 0.0_wp
       if (lumped) then
-         m(:6, :6) = 0.5_wp*length*own
-         m(7:, 7:) = m(:6, :6)
+         m(:3, :3) = 0.5_wp*length*own(:3, :3)
+         m(7:9, 7:9) = m(:3, :3)
       else
          do i = 1, size(gauss_at)
             moved = movement_at(law, length, gauss_at(i))

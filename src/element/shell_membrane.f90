@@ -2,8 +2,17 @@
 !! An element is flat: its corners are projected onto its mean plane. The distance of a corner from this plane is a rigid lever, as
 !! is the offset of the plate (ZOFFS). Values of a corner are u, v, w and the rotations, in the axes of the element.
 !!
-!! Triangle: the optimal triangle with drilling rotations (C. A. Felippa, A study of optimal membrane triangles with drilling
-!! freedoms, Comput. Methods Appl. Mech. Engrg. 192 (2003) 2125-2168).
+!! Triangle: after the optimal triangle with drilling rotations (C. A. Felippa, A study of optimal membrane triangles with drilling
+!! freedoms, Comput. Methods Appl. Mech. Engrg. 192 (2003) 2125-2168), with two changes.
+!!
+!! 1. The drilling rotations of the ends of an edge bow the edge in its plane. The traction on a bowed edge does work on these
+!!    rotations: it asks for moments at both ends. The moments of two triangles at a common edge cancel. At an edge of one triangle
+!!    alone nothing would balance them, because nodal forces are those of a straight edge. So only edges between triangles are bowed
+!!    (BOWED), and a patch of any mesh bears constant stress under nodal forces without moments. A lone triangle is one of constant
+!!    strain.
+!! 2. The higher-order stiffness is a hundred times smaller (HIGHER): the optimal one makes rows of triangles at a boundary, whose
+!!    outer edges are straight, and curved shells too stiff.
+!!
 !! Quadrilateral: with the modes of Wilson and Taylor. A penalty ties the drilling rotation to the rotation of the membrane (T. J.
 !! R. Hughes, F. Brezzi, On drilling degrees of freedom, Comput. Methods Appl. Mech. Engrg. 72 (1989) 105-121). The penalty is of
 !! the size of the bending stiffness: a larger one would lock curved shells, a smaller one would make twisted shells too flexible.
@@ -25,10 +34,10 @@ module shell_membrane
       real(wp) :: d(3, 3) = 0.0_wp            !! plane stress of the membrane: xx, yy, xy [pressure]
       real(wp) :: bending(3, 3) = 0.0_wp      !! the same for bending, times 12 I/T**3 [pressure]
       real(wp) :: shear = 0.0_wp              !! G TS/T of transverse shear; 0: rigid in transverse shear [pressure]
-      real(wp) :: nu = 0.0_wp                 !! Poisson's ratio of the membrane [-]
       real(wp) :: thickness(4) = 0.0_wp       !! at the corners [length]
       real(wp) :: offset = 0.0_wp             !! of the mean plane from the nodes, along the normal (ZOFFS) [length]
       real(wp) :: expansion = 0.0_wp          !! alpha [1/temperature]
+      logical  :: bowed(3) = .false.          !! of a triangle: its edge from corner i to the next lies between triangles
    end type shell_law
 
    !> The geometry of a shell element.
@@ -40,6 +49,9 @@ module shell_membrane
    end type shell_frame
 
    real(wp), parameter :: drilling = 1.0_wp ! penalty of the drilling rotation of a quadrilateral: this times G t^2/area, at most G
+
+   real(wp), parameter :: lumping = 1.5_wp  ! alpha_b, of the bow of an edge in the mean strains of a triangle; 3/2 is optimal
+   real(wp), parameter :: higher = 0.004_wp ! beta_0, of the higher-order stiffness; (1 - 4 nu^2)/2 is optimal
 
    ! extrapolation of strains from the integration points of a quadrilateral to its corners: TO_CORNERS(i, j) is the weight of the
    ! point next to corner i at corner j
@@ -118,7 +130,7 @@ contains
 
       m = 3*frame%n
       if (frame%n == 3) then
-         call membrane_strains(law%nu, frame%x(:, :3), area, basic, at_corner)
+         call membrane_strains(law, frame%x(:, :3), area, basic, at_corner)
          d = area*sum(law%thickness(:3))/3.0_wp*law%d
          k(:m, :m) = matmul(transpose(basic), matmul(d, basic))
          do b = 1, 3                          ! the mid-edge points, each with a third of the area
@@ -202,27 +214,29 @@ contains
 
    !> The strains xx, yy, xy of a membrane triangle from its nine values, u, v, theta_z of corner 1 first: the BASIC strains, which
    !! are constant, and the higher-order strains AT_CORNER i, whose mean is zero. Felippa 2003, Eqs. (11) to (32), with the
-   !! parameters of OPT.
-   pure subroutine membrane_strains(nu, x, area, basic, at_corner)
-      real(wp), intent(in)  :: nu             !! [-]
+   !! parameters of OPT but for the two changes above.
+   pure subroutine membrane_strains(law, x, area, basic, at_corner)
+      type(shell_law), intent(in) :: law
       real(wp), intent(in)  :: x(2, 3)        !! [length]
       real(wp), intent(out) :: area           !! [length^2]
       real(wp), intent(out) :: basic(3, 9), at_corner(3, 9, 3) !! [1/length], of rotations [-]
       real(wp), parameter :: b(9) = [1.0_wp, 2.0_wp, 1.0_wp, 0.0_wp, 1.0_wp, -1.0_wp, -1.0_wp, -1.0_wp, -2.0_wp] ! beta 1 to 9
       real(wp) :: to_hierarchical(3, 9), natural(3, 3), a(3, 3), q(3, 3), squares(3), direction(2, 3), from(2, 3), to(2, 3)
+      real(wp) :: bow(3)
       integer  :: i, j, k, row
 
+      basic = 0.0_wp
       associate (xs => x(1, :), ys => x(2, :))
          area = 0.5_wp*((xs(2) - xs(1))*(ys(3) - ys(1)) - (xs(3) - xs(1))*(ys(2) - ys(1)))
          do i = 1, 3
             j = modulo(i, 3) + 1
             k = modulo(j, 3) + 1
-            associate (y_jk => ys(j) - ys(k), x_kj => xs(k) - xs(j), x_ik => xs(i) - xs(k), x_ji => xs(j) - xs(i), &
-                       y_ik => ys(i) - ys(k), y_ji => ys(j) - ys(i))
+            associate (y_jk => ys(j) - ys(k), x_kj => xs(k) - xs(j), x_ji => xs(j) - xs(i), y_ji => ys(j) - ys(i))
                basic(:, 3*i - 2) = 0.5_wp*[y_jk, 0.0_wp, x_kj]
                basic(:, 3*i - 1) = 0.5_wp*[0.0_wp, x_kj, y_jk]
-               basic(:, 3*i) = 0.125_wp*[y_jk*(y_ik - y_ji), x_kj*(x_ji - x_ik), &
-                                         2.0_wp*(x_ji*y_ji - x_ik*y_ik)]
+               bow = merge(lumping/12.0_wp, 0.0_wp, law%bowed(i))*[y_ji**2, x_ji**2, -2.0_wp*x_ji*y_ji]
+               basic(:, 3*i) = basic(:, 3*i) - bow
+               basic(:, 3*j) = basic(:, 3*j) + bow
                do row = 1, 3
                   to_hierarchical(row, 3*i - 2:3*i - 1) = [x_kj, -y_jk]/(4.0_wp*area)
                end do
@@ -252,8 +266,7 @@ contains
          case (3); q = reshape(b([5, 8, 2, 6, 9, 3, 4, 7, 1]), [3, 3])
          end select
          q = 2.0_wp*area/3.0_wp*q/spread(squares, 2, 3)
-         at_corner(:, :, k) = 1.5_wp*sqrt(max(0.5_wp*(1.0_wp - 4.0_wp*nu**2), 0.01_wp))* &
-                              matmul(natural, matmul(q, to_hierarchical))
+         at_corner(:, :, k) = 1.5_wp*sqrt(higher)*matmul(natural, matmul(q, to_hierarchical))
       end do
    end subroutine membrane_strains
 
@@ -270,7 +283,7 @@ contains
 
       if (frame%n == 3) then
          q(:9) = pack(own([1, 2, 6], :3), .true.)
-         call membrane_strains(law%nu, frame%x(:, :3), area, basic, at_corner)
+         call membrane_strains(law, frame%x(:, :3), area, basic, at_corner)
          strain(:, 4) = matmul(basic, q(:9))
          do i = 1, 3
             strain(:, i) = strain(:, 4) + matmul(at_corner(:, :, i), q(:9))
@@ -300,7 +313,7 @@ contains
       real(wp) :: at_corner(3, 9, 3), basic(3, 9), k(16, 16), q(16), area
 
       if (frame%n == 3) then
-         call membrane_strains(law%nu, frame%x(:, :3), area, basic, at_corner)
+         call membrane_strains(law, frame%x(:, :3), area, basic, at_corner)
          q(:9) = area*sum(law%thickness(:3))*sum(rise)/9.0_wp*law%expansion*matmul(transpose(basic), law%d(:, 1) + law%d(:, 2))
       else
          call condensed_quadrilateral(law, frame, rise, k, q)

@@ -18,7 +18,7 @@ module mass_matrix
    implicit none
    private
 
-   public :: scalar_mass, n_masses, form_mass, mass_times, total_mass
+   public :: bar_mass, scalar_mass, n_masses, form_mass, mass_times, total_mass
    public :: coupled_dynamic_stiffness, coupled_bar_mass, coupled_point_mass, mass_nodes
 
    integer, parameter :: worth_threads = 10000 ! number of nodes from which on threads are used
@@ -44,7 +44,7 @@ contains
 
    !> Mass between the own_nodes of element E (no beam), the same for every component of their displacements [force time^2/length].
    !! Of a shell: between its corners, and between its rotations the rotary inertia of the thickness, divided by the arms; the
-   !! drilling rotation has this inertia too.
+   !! drilling rotation has this inertia too. Lumped mass has no rotary inertia.
    pure subroutine scalar_mass(model, e, m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -57,7 +57,7 @@ contains
             associate (x => model%x(:, corners), t => model%structural%shells(model%structural%place(e))%thickness)
                m(:2*n, :2*n) = 0.0_wp
                call shell_products(x, property%rho*t(:n) + property%extra_mass, m(:n, :n))
-               call shell_products(x, property%rho*t(:n)**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
+               if (.not. model%lumped) call shell_products(x, property%rho*t(:n)**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
             end associate
             do i = n + 1, 2*n
                associate (arm => model%rotations(model%rotation_of(corners(i - n)))%arm)
@@ -65,7 +65,6 @@ contains
                   m(n + 1:2*n, i) = m(n + 1:2*n, i)/arm
                end associate
             end do
-            if (model%lumped) call lump(m(n + 1:2*n, n + 1:2*n))
          else
             call shape_products(law_of(model, e), model%x(:model%dimension, corners), m)
             m(:n, :n) = property%rho*m(:n, :n)

@@ -131,6 +131,7 @@ module model_data
       real(wp) :: area = 0.0_wp              !! of a bar [length^2]
       real(wp) :: strength = 0.0_wp          !! ST of its material, 0: not given [pressure]
       integer  :: stage = 0                  !! position of the stage that tightens the bolt; elastic from its end on
+      real(wp) :: torsion = 0.0_wp           !! G J/L of a bar [force x length]
       real(wp) :: mass = 0.0_wp              !! (rho A + NSM) L of a bar [force x time^2/length]
       real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
       real(wp) :: reference = 0.0_wp         !! TREF [temperature]
@@ -167,7 +168,8 @@ module model_data
       integer  :: node = 0                   !! the node of its rotations
       real(wp) :: arm = 1.0_wp               !! root mean square of the distances of the dependent nodes, or of the nodes of
                                              !! the elements, from it [length]
-      logical  :: of_element = .false.       !! whether it belongs to shells or beams
+      logical  :: of_element = .false.       !! whether it belongs to shells, beams or rods
+      logical  :: of_rods = .false.          !! to rods alone
    end type rotation_type
 
    !> A node on the face of shells, at a rigid LEVER from POINT, a node of the shells.
@@ -204,6 +206,7 @@ module model_data
 
    type, public :: model_type
       integer :: dimension = 2               !! degrees of freedom per node
+      character(:), allocatable :: kind_words !! how a model in x-y without MODEL is read; not allocated: no choice
       logical :: axisymmetric = .false.      !! about y; loads, areas and forces are those of the whole ring
       integer :: n_nodes = 0
       integer :: n_filled = 0                !! number of mid-edge nodes that the program added, see node_build

@@ -218,6 +218,8 @@ contains
          end select
          if (allocated(solver%reason)) call file%put('  '//solver%reason)
       end associate
+      if (any(deck%control%stages%vibration%modes%id > 0)) call file%put(trim(merge( &
+         '  MASS LUMPED                                 ', '  MASS CONSISTENT (DEFAULT OF NASTRAN: LUMPED)', model%lumped)))
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
       words = upper(deck%bulk%ignored%words()) ! a list with commas, in as many lines as needed

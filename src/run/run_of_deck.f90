@@ -207,7 +207,7 @@ contains
             call tell(run, distance_words(watch%farthest))
          end associate
          call tell(run, tetra_words(model))
-         call say_of_deck(run, deck)
+         call say_of_deck(run, deck, model)
          if (ok) then
             call show_answers(run%results, shown)
             if (.not. shown) call miss_output(run)
@@ -246,11 +246,14 @@ contains
       run%misses_output = .true.
    end subroutine miss_output
 
-   !> Report the entries without effect, and how NASTRAN would read the deck differently.
-   subroutine say_of_deck(run, deck)
-      type(run_type), intent(in)  :: run
-      type(deck_type), intent(in) :: deck
+   !> Report the kind of the model where the deck leaves a choice, the entries without effect, and how NASTRAN would read the deck
+   !! differently.
+   subroutine say_of_deck(run, deck, model)
+      type(run_type), intent(in)   :: run
+      type(deck_type), intent(in)  :: deck
+      type(model_type), intent(in) :: model
 
+      if (allocated(model%kind_words)) call tell(run, model%kind_words)
       if (deck%bulk%ignored%n > 0) call tell(run, deck%bulk%ignored%words())
       if (deck%control%of_nastran .and. size(deck%control%stages) > 1) call tell(run, plural(size(deck%control%stages), &
          'SUBCASE')//' are stages of one history: each starts from the end of the previous one')
@@ -278,16 +281,17 @@ contains
                   call tell(run, 'its results would overwrite the INCLUDE file '//deck%text%files(i)%path)
             end do
          case (has_errors)
+            if (allocated(model%kind_words)) call tell(run, model%kind_words)
             call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, run%errors)
          case (was_checked)
-            call say_of_deck(run, deck)
+            call say_of_deck(run, deck, model)
             call write_bytes(1, name//': no errors; '//plural(n_points(model), 'node')//', '// &
                              plural(model%n_elements, 'body element')//', '// &
                              plural(size(model%interface), 'interface element')//', '//plural(size(plan%stages), 'stage')// &
                              new_line('a'), ok)
             if (.not. ok) call miss_output(run)
          case (was_searched)
-            call say_of_deck(run, deck)
+            call say_of_deck(run, deck, model)
             call run%suggestions%finish(ok)
             if (.not. ok) call miss_output(run)
          case (is_unsolved)

@@ -45,3 +45,62 @@ for kind in hexa hexa_plain penta penta_plain tetra hexa20 penta15 tetra10 equat
       table == "stresses" && NF == 10 { elements++; for (k = 5; k <= 7; k++) check($k, 2000); for (k = 8; k <= 10; k++) check($k, 400) }
       END { if (nodes < 16 || elements < 7) print nodes " nodes, " elements " elements"; print "checked " n }' "$work/patch_$kind.out"
 done
+
+# ---- shells: a rectangle of 24 x 12 bears constant stress under the nodal forces of that stress, which have no moments, and under PLOADM ----
+
+# shell_patch NAME MESH STRESS...: 4 x 3 cells. MESH: words of even (else nodes lie anywhere, those of the sides on the sides), quad, tria, mixed (else),
+# turned (diagonals), reversed (every other element clockwise), double (each element twice, half as thick). STRESS: S_X, S_Y, S_XY, or PLOADM.
+# The first lines are the displacements expected: node, u, v.
+shell_patch() {
+   awk -v mesh="$2" -v stress="${*:3}" '
+      function is(word) { return index(mesh, word) > 0 }
+      function element(a, b, c, d,   k, t) {
+         for (k = 0; k <= is("double"); k++) {
+            t = is("reversed") && e++ % 2 ? c "," b "," a : a "," b "," c
+            if (d) printf "CQUAD4,%d,1,%d,%d,%d,%d\n", ++id, a, b, c, d; else printf "CTRIA3,%d,1,%s\n", ++id, t
+         }
+      }
+      function side(a, b,   k, n) {                          # the body lies to the left: the outer normal times the length is (dy, -dx)
+         dx = x[b] - x[a]; dy = y[b] - y[a]
+         if (stress == "PLOADM") { printf "CROD,%d,20,%d,%d\n", ++id, a, b; return }
+         for (k = 1; k <= 2; k++) { n = k == 1 ? a : b; fx[n] += 0.5*t*(s[1]*dy - s[3]*dx); fy[n] += 0.5*t*(s[3]*dy - s[2]*dx) }
+      }
+      BEGIN {
+         split(stress == "PLOADM" ? "-80 -80 0" : stress, s, " "); e_ = 2e5; nu = 0.3; t = 0.5
+         print "MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  OUTPUT = LAST, STRESS\nBEGIN BULK"
+         split("0 5 13 18 24", at_x, " "); split("0 3 8 12", at_y, " "); split("1.1 -0.7 0.4 -1.3 0.9 0.6 -0.5 1.2 -0.9 0.3 -1.0 0.8", away, " ")
+         for (i = 0; i <= 4; i++) for (j = 0; j <= 3; j++) {
+            n = 4*i + j + 1; inside = i > 0 && i < 4 && j > 0 && j < 3
+            x[n] = is("even") ? 6*i : at_x[i + 1] + (inside ? away[++m] : 0); y[n] = is("even") ? 4*j : at_y[j + 1] + (inside ? away[++m] : 0)
+            printf "$ %d %.9g %.9g\nGRID,%d,,%.6f,%.6f,0.0\n", n, (s[1] - nu*s[2])/e_*x[n] + s[3]*2*(1 + nu)/e_*y[n], (s[2] - nu*s[1])/e_*y[n], n, x[n], y[n]
+         }
+         for (i = 0; i < 4; i++) for (j = 0; j < 3; j++) {
+            a = 4*i + j + 1; b = a + 4; c = b + 1; d = a + 1
+            if (is("quad") || (is("mixed") && (i + 2*j) % 3 == 0)) element(a, b, c, d)
+            else if (is("turned") && (i + j) % 2) { element(a, b, d); element(b, c, d) }
+            else { element(a, b, c); element(a, c, d) }
+         }
+         printf "PSHELL,1,1,%s,1,,1\nMAT1,1,2.0+5,,0.3\nSPC1,1,123,1\nSPC1,1,3,4,17\nSPC1,1,2,17\n", is("double") ? "0.25" : "0.5"
+         for (i = 0; i < 4; i++) { side(4*i + 1, 4*i + 5); side(4*i + 8, 4*i + 4) }
+         for (j = 1; j < 4; j++) { side(16 + j, 17 + j); side(j + 1, j) }
+         if (stress == "PLOADM") print "PMARK,20\nPLOADM,1,80.0,20"
+         for (n in fx) if (fx[n]^2 + fy[n]^2 > 1e-12) printf "FORCE,1,%d,,1.0,%.9f,%.9f,0.0\n", n, fx[n], fy[n]
+         print "ENDDATA" }' > "$work/$1.bdf"
+}
+for mesh in 'tria even' 'tria even turned' tria 'tria turned' 'tria turned reversed' 'tria turned double' 'quad even' quad 'mixed even' 'mixed turned' 'mixed turned reversed'; do
+   for stress in '100 0 0' '0 100 0' '0 0 60' '70 -40 30' PLOADM; do
+      [ "$stress" = PLOADM ] && [[ $mesh == *double* ]] && continue # a marked edge has one shell behind it
+      shell_patch shell_patch "$mesh" $stress
+      run shell_patch && judge "patch of shells under nodal forces, $mesh: $stress" -v stress="${stress/PLOADM/-80 -80 0}" '
+         function check(found, expected, size) { n++; if (!((found - expected)^2 <= (3e-6*size)^2)) print FNR ": " found ", expected " expected }
+         BEGIN { split(stress, s, " ") }
+         FILENAME ~ /bdf$/ { if ($1 == "$" && NF == 4) { u[$2] = $3; v[$2] = $4 } next }
+         / DISPLACEMENTS OF NODES/ { table = 1 }
+         / STRESSES AT THE FACES/ { table = 2 }
+         / REACTIONS| BALANCE| ROTATIONS/ { table = 0 }
+         $1 + 0 != $1 || NF < 7 { next }
+         table == 1 && $1 in u { nodes++; check($5, u[$1], 0.012); check($6, v[$1], 0.012) }
+         table == 2 { elements++; check($3, s[1], 100); check($4, s[2], 100); check($6, s[3], 100) }
+         END { if (nodes < 20 || !elements) print nodes " nodes, " elements " elements"; print "checked " n }' "$work/shell_patch.bdf" "$work/shell_patch.out"
+   done
+done
