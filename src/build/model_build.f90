@@ -27,6 +27,8 @@ module model_build
    use surface_build, only: build_surfaces
    use surface_sides, only: split_shared_surfaces
    use temperature_build, only: build_temperatures
+   use text_tools, only: append
+   use unit_watch, only: unit_words
    use vibration_build, only: find_shown_nodes, plan_vibrations
    implicit none
    private
@@ -49,6 +51,7 @@ contains
       type(stage_load_type), allocatable :: oscillating(:)
       integer :: j
 
+      allocate (model%warnings(0))
       if (.not. deck%is_whole) return
       call checked%start(deck, errors)
       ! consistency of the cards, load history, mesh
@@ -98,6 +101,7 @@ contains
          model%joints(j)%frame = find_frame(model, model%joints(j))
       end do
       call check_mass(checked, model)
+      call append(model%warnings, unit_words(deck))
    end subroutine build_model
 
 end module model_build

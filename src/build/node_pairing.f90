@@ -16,11 +16,19 @@ module node_pairing
    public :: pair_nodes, fit_side
 
    real(wp), parameter :: default_tolerance = 1.0e-3_wp ! of the shortest edge of SIDE1
+   real(wp), parameter, public :: most_aside = 1.0e-4_wp !! of the shortest edge at a node: offset of its partner across the normal
    real(wp), parameter, public :: facing = -0.5_wp      !! cosine of the normals of two sides that face each other, at most
 
    real(wp), parameter :: twice = 1.01_wp     ! covered share above which faces lie behind one another
 
    real(wp), parameter, public :: default_reach = 0.1_wp !! of the longest side of a face of SIDE1
+
+   !> Pairs whose nodes do not face each other along the normal.
+   type, public :: aside_type
+      integer  :: n = 0                      !! number of such pairs
+      integer  :: nodes(2) = 0               !! the pair with the largest offset
+      real(wp) :: distance = 0.0_wp          !! its offset across the normal [length]
+   end type aside_type
 
    !> The faces of SIDE2 for the search, and work space.
    type :: opposite_faces
@@ -34,8 +42,10 @@ module node_pairing
 
 contains
 
-   !> For every node of side 1 the coincident node of side 2, or the reason why there are no pairs.
-   subroutine pair_nodes(model, surface, side1, side2, tol, partner, fault, in_tolerance)
+   !> For every node of side 1 the coincident node of side 2, or the reason why there are no pairs. ASIDE is the largest offset of a
+   !! partner across the normal, above MOST_ASIDE of the shortest edge at its node: the forces of such a pair have a moment that
+   !! nothing balances.
+   subroutine pair_nodes(model, surface, side1, side2, tol, partner, fault, in_tolerance, aside)
       type(model_type), intent(in)        :: model
       integer, intent(in)                 :: surface(2)   !! of the model
       type(surface_node_list), intent(in) :: side1, side2 !! their nodes
@@ -43,6 +53,7 @@ contains
       integer, intent(out)                :: partner(:)   !! nodes of the model, of use where there is no fault
       character(:), allocatable, intent(out) :: fault     !! '': all nodes have partners
       logical, intent(out)                :: in_tolerance !! the error is reported for TOL, else for SIDE2
+      type(aside_type), intent(out)       :: aside
       type(spatial_search_type) :: search
       real(wp) :: tolerance, distance, worst
       integer  :: k, found(side1%n), nearest, turned, worst_node
@@ -93,8 +104,42 @@ contains
          fault = 'SIDE2 has '//plural(side2%n, 'node')//', SIDE1 '//integer_text(side1%n)//': every node needs its partner'
       else if (.not. same_order(model, surface, side1, partner)) then
          fault = 'mid-side nodes face corner nodes: one side is of second order, the other is not'
+      else
+         call find_aside(model, model%surfaces(surface(1)), side1, partner, aside)
       end if
    end subroutine pair_nodes
+
+   !> The pair of SURFACE that stands farthest ASIDE: the offset of its nodes across the normal.
+   pure subroutine find_aside(model, surface, side, partner, aside)
+      type(model_type), intent(in)        :: model
+      type(surface_type), intent(in)      :: surface
+      type(surface_node_list), intent(in) :: side       !! its nodes
+      integer, intent(in)                 :: partner(:) !! of these nodes
+      type(aside_type), intent(out)       :: aside
+      type(id_table_type) :: place
+      real(wp) :: offset(3), shortest(side%n), distance
+      integer  :: at(max_side_nodes), k, n, s
+
+      call place%build(side%node)
+      shortest = huge(1.0_wp)
+      do s = 1, surface%n
+         n = surface%n_nodes(s)
+         do k = 1, n
+            at(k) = place%find(surface%nodes(k, s))
+         end do
+         shortest(at(:n)) = min(shortest(at(:n)), minval(edge_lengths(model%x(:, surface%nodes(:surface%corners(s), s)))))
+      end do
+      do k = 1, side%n
+         offset = model%x(:, partner(k)) - model%x(:, side%node(k))
+         offset = offset - dot_product(offset, side%normal(:, k))*side%normal(:, k)
+         distance = norm2(offset)
+         if (distance <= most_aside*shortest(k)) cycle
+         aside%n = aside%n + 1
+         if (distance <= aside%distance) cycle
+         aside%distance = distance
+         aside%nodes = [side%node(k), partner(k)]
+      end do
+   end subroutine find_aside
 
    !> Whether corners have corners as partners, and mid-side nodes have mid-side nodes.
    pure logical function same_order(model, surface, side1, partner)

@@ -10,6 +10,7 @@ module model_data
    use kinds, only: wp
    use lists, only: id_table_type
    use shell_membrane, only: shell_law
+   use text_tools, only: text_item
    implicit none
    private
 
@@ -249,6 +250,7 @@ module model_data
       type(stage_load_type), allocatable   :: stage_loads(:)
       integer, allocatable  :: part(:)       !! (n_nodes) the connected body of a node
       integer :: n_parts = 0
+      type(text_item), allocatable :: warnings(:) !! about the model, found while it was built
    end type model_type
 
 contains

@@ -22,7 +22,7 @@ module listing_opening
    use shear_loops, only: loop_closure, worst_closure
    use shear_stiffness, only: cubic_of
    use stage_plan, only: stage_plan_type
-   use table_writer, only: axes, column, cut, heading, in_form, page_width, table_type
+   use table_writer, only: axes, column, cut, heading, in_form, page_width, put_lines, table_type
    use terminal, only: standard_input, version
    use text_tools, only: clean, integer_text, plural, real_text, upper
    implicit none
@@ -157,8 +157,7 @@ contains
       type(model_type), intent(in)          :: model
       class(equation_system), intent(in)    :: system
       integer(long) :: n(2, size(element_table)) ! body elements of a kind, without and with incompatible modes
-      character(:), allocatable :: words
-      integer :: first, i, k, last, m
+      integer :: i, k, m
 
       call heading(file, 'MODEL SUMMARY')
       call count_line(file, 'NODES', int(n_points(model), long))
@@ -220,15 +219,12 @@ contains
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
-      words = upper(deck%bulk%ignored%words()) ! a list with commas, in as many lines as needed
-      first = 1
-      do while (first <= len(words))
-         last = min(first + page_width - 6, len(words))
-         if (last < len(words)) last = first - 1 + max(1, index(words(first:last), ',', back=.true.))
-         call file%put('  '//repeat(' ', merge(0, 1, first == 1))//words(first:last))
-         first = last + 1
-      end do
+      call put_lines(file, upper(deck%bulk%ignored%words()), ',')
       if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
+      if (.not. allocated(model%warnings)) return
+      do i = 1, size(model%warnings)
+         call put_lines(file, 'WARNING: '//upper(model%warnings(i)%words), ' ')
+      end do
    end subroutine write_summary
 
    !> The number of a kind of parts of the model.

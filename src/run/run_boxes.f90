@@ -34,7 +34,6 @@ module run_boxes
                           phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
                           is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
-   use unit_watch, only: unit_words
    use vibration_tables, only: list_backbone, list_response
    use vtu_grids, only: write_piece
    use text_tools, only: integer_text
@@ -170,6 +169,7 @@ contains
       type(stage_plan_type), intent(out) :: plan
       integer, allocatable :: drops(:)
       character(:), allocatable :: loose
+      integer :: i
 
       if (is_over(run)) return
       call keep_memory()
@@ -191,7 +191,9 @@ contains
          run%ending = was_checked
       end if
       if (run%errors%any() .or. run%suggests) return
-      call tell(run, unit_words(deck))
+      do i = 1, size(model%warnings)
+         call tell(run, model%warnings(i)%words)
+      end do
       if (deck%control%method /= method_newton) return
       drops = pack(model%joints%id, (model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given) .and. &
                    .not. model%joints%law%has_friction)
