@@ -15,6 +15,7 @@ module model_build
    use load_build, only: build_loads
    use mass_build, only: build_masses, check_mass
    use mesh_build, only: build_mesh, check_named_nodes
+   use mesh_watch, only: crack_words, repeated_words
    use model_data, only: model_type, n_sections, stage_load_type
    use pretension_section, only: build_sections
    use rigid_elements, only: build_dependents, name_surface_nodes
@@ -101,6 +102,8 @@ contains
          model%joints(j)%frame = find_frame(model, model%joints(j))
       end do
       call check_mass(checked, model)
+      call append(model%warnings, repeated_words(model))
+      call append(model%warnings, crack_words(model))
       call append(model%warnings, unit_words(deck))
    end subroutine build_model
 
