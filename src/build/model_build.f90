@@ -29,7 +29,7 @@ module model_build
    use surface_sides, only: split_shared_surfaces
    use temperature_build, only: build_temperatures
    use text_tools, only: append
-   use unit_watch, only: unit_words
+   use unit_watch, only: watch_units
    use vibration_build, only: find_shown_nodes, plan_vibrations
    implicit none
    private
@@ -104,7 +104,7 @@ contains
       call check_mass(checked, model)
       call append(model%warnings, repeated_words(model))
       call append(model%warnings, crack_words(model))
-      call append(model%warnings, unit_words(deck))
+      call watch_units(deck, model)
    end subroutine build_model
 
 end module model_build
