@@ -14,7 +14,7 @@ module listing_opening
    use kinds, only: long, wp
    use model_data, only: a_spring, model_type, n_bars, n_points, n_rotations, n_sections, supported, &
                          whole_share
-   use normal_curve, only: pressure_floor
+   use normal_curve, only: normal_tangent, pressure_floor
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
    use output_file, only: output_file_type
    use range_watch, only: tetra_words
@@ -300,6 +300,14 @@ contains
             if (.not. joint%frame%faces_all_ways) call table%add(clean(joint%normal(:d), 1.0e-9_wp))
             call table%print_row(page%file)
             lists(j) = count([(model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0, i = joint%first, joint%last)])
+         end associate
+      end do
+
+      do j = 1, size(model%joints)
+         associate (joint => model%joints(j), law => model%joints(j)%law%normal)
+            if (.not. joint%e_u_given .and. law%c > 0.0_wp) call page%file%put('  NOTE: E_U OF JOINT '//integer_text(joint%id)// &
+               ' IS THE DEFAULT, E OF THE BODIES,'//in_form(law%e_u/normal_tangent(law, 1.0_wp, joint%p_av, joint%p_av), &
+               '(es10.2)', 10)//' TIMES THE SLOPE OF LOADING AT ITS FIRST P')
          end associate
       end do
 
