@@ -49,7 +49,7 @@ contains
       type(deck_type), intent(in)     :: deck
       type(model_type), intent(inout) :: model
       logical  :: meant(4) ! systems that UNITS and the wave speeds allow
-      real(wp) :: metre, newton
+      real(wp) :: metre, newton, pascals
       integer  :: i
 
       associate (control => deck%control)
@@ -61,7 +61,9 @@ contains
          i = findloc(force_name, upper(control%force_unit), dim=1)
          if (i > 0) newton = newtons(i)
       end associate
-      call append(model%warnings, material_words(deck, meant, newton/max(metre, tiny(1.0_wp))**2))
+      pascals = 0.0_wp
+      if (metre > 0.0_wp) pascals = newton/metre**2
+      call append(model%warnings, material_words(deck, meant, pascals))
       call append(model%warnings, approach_words(deck, model, metre, newton))
       call append(model%warnings, gravity_words(deck, meant))
    end subroutine watch_units
