@@ -1,6 +1,6 @@
 !> Warnings about the mesh: elements on the same nodes, and coincident nodes that nothing connects.
-!! Both are left by meshes that were written twice or not merged. The stiffness of an element that is there twice counts twice; bodies
-!! whose nodes are not merged come apart as at a crack. Neither is an error: an overlay, or a crack, may be meant.
+!! Both are left by meshes that were written twice or not merged. The stiffness of an element that is there twice counts twice;
+!! bodies whose nodes are not merged come apart as at a crack. Neither is an error: an overlay, or a crack, may be meant.
 module mesh_watch
    use element_kinds, only: element_table
    use kinds, only: wp

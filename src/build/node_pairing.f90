@@ -1,7 +1,8 @@
 !> Pairs of facing nodes for matching sides of a joint, and the search of facing faces for the mortar projection.
 module node_pairing
+   use curved_faces, only: find_tilts, largest_sagitta
    use element_kinds, only: max_side_nodes
-   use face_overlap, only: edge_lengths, face_frame, in_frame, make_frame, plane_points, seen_area
+   use face_overlap, only: edge_lengths, face_frame, in_frame, make_frame, plane_points, seen_area, seen_face
    use kinds, only: wp
    use lists, only: distinct, id_table_type
    use model_data, only: joint_cover, model_type, surface_type, whole_share
@@ -35,6 +36,8 @@ module node_pairing
       type(spatial_search_type) :: boxes
       real(wp), allocatable :: normal(:, :)  ! (3, n) at their centres
       real(wp), allocatable :: area(:)       ! (n) area projected along their normals
+      real(wp), allocatable :: tilt(:, :)    ! (4, n) angles of the tangents where the surface is curved
+      real(wp), allocatable :: own_tilt(:, :) ! likewise of SIDE1
       logical, allocatable  :: covers(:)     ! (n) whether it covers any part of SIDE1
       integer, allocatable  :: near(:)       ! faces that the search has found
       type(plane_points)    :: points
@@ -189,6 +192,7 @@ contains
       farthest_reach = 0.0_wp
       associate (side1 => model%surfaces(surface(1)), side2 => model%surfaces(surface(2)))
          call list_opposite(model, side2, opposite)
+         call find_tilts(model, side1, opposite%own_tilt)
          do s = 1, side1%n
             n = side1%n_nodes(s)
             call side_influence(model, side1, s, area, normal)
@@ -209,6 +213,12 @@ contains
             call sums%add_face(elements(:n), side1%nodes(:n, s), integrals%node, part)
             cover%share = cover%share + merge(1.0_wp, share, share >= whole_share)*sum(area)
             cover%farthest = max(cover%farthest, integrals%farthest)
+            cover%sagitta(1) = max(cover%sagitta(1), largest_sagitta(model%x(:, side1%nodes(:side1%corners(s), s)), &
+                                                                     opposite%own_tilt(:, s)))
+         end do
+         do s = 1, side2%n
+            if (opposite%covers(s)) cover%sagitta(2) = max(cover%sagitta(2), largest_sagitta( &
+               model%x(:, side2%nodes(:side2%corners(s), s)), opposite%tilt(:, s)))
          end do
          ! coverage and mean sizes of the faces; faults
          call sums%finish()
@@ -267,6 +277,7 @@ contains
          opposite%normal(:, s) = frame%axes(:, 3)
       end do
       call opposite%boxes%build(box(:, 1, :), box(:, 2, :))
+      call find_tilts(model, side2, opposite%tilt)
    end subroutine list_opposite
 
    !> FACE S of SIDE1 in its own frame, and the INTEGRALS over the part of it that SIDE2 covers.
@@ -278,12 +289,14 @@ contains
       type(opposite_faces), intent(inout)  :: opposite !! of SIDE2
       type(own_face), intent(out)          :: face
       type(cover_integrals), intent(out)   :: integrals
+      type(seen_face) :: other
       real(wp) :: low(3), high(3), before
       integer  :: d, i, n
 
       associate (x => model%x(:, side1%nodes(:side1%n_nodes(s), s)))
          call make_frame(model%dimension, x, face%frame)
          face%seen = in_frame(model%dimension, x, face%frame)
+         call bend(face%seen, opposite%own_tilt(:, s), [0.0_wp, 0.0_wp, 1.0_wp])
          face%reach = merge(reach, default_reach*maxval(edge_lengths(x(:, :side1%corners(s)))), reach > 0.0_wp)
       end associate
       face%on_ring = model%axisymmetric
@@ -300,11 +313,23 @@ contains
             if (dot_product(opposite%normal(:, f), face%frame%axes(:, 3)) > facing) cycle
             before = integrals%seen
             associate (nodes => side2%nodes(:side2%n_nodes(f), f))
-               call add_overlap(face, in_frame(model%dimension, model%x(:, nodes), face%frame), nodes, opposite%points, integrals)
+               other = in_frame(model%dimension, model%x(:, nodes), face%frame)
+               call bend(other, opposite%tilt(:, f), matmul(opposite%normal(:, f), face%frame%axes))
+               call add_overlap(face, other, nodes, opposite%points, integrals)
             end associate
             if (integrals%seen > before) opposite%covers(f) = .true.
          end associate
       end do
    end subroutine cover_face
+
+   !> Make a face the chords of arcs with the angles TILT of their tangents; NORMAL is that of the face in its coordinates.
+   pure subroutine bend(face, tilt, normal)
+      type(seen_face), intent(inout) :: face
+      real(wp), intent(in)           :: tilt(4), normal(3)
+
+      face%is_curved = any(abs(tilt) > 0.0_wp)
+      face%tilt = tilt
+      face%normal = normal
+   end subroutine bend
 
 end module node_pairing

@@ -62,6 +62,7 @@ module model_data
       logical  :: fitted = .false.           !! whether a mortar projection was made
       real(wp) :: share = 1.0_wp             !! share of the area of SIDE1 that SIDE2 covers
       real(wp) :: farthest = 0.0_wp          !! largest distance of the faces, along the normal of SIDE1 [length]
+      real(wp) :: sagitta(2) = 0.0_wp        !! largest of the chords of curved SIDE1, SIDE2 [length]
       real(wp) :: spacing(2) = 0.0_wp        !! mean area (of edges: length) of the facing sides of SIDE1 and of SIDE2
    end type joint_cover
 
