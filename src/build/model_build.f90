@@ -2,6 +2,7 @@
 module model_build
    use case_control, only: method_step
    use connected_bodies, only: find_parts
+   use constraint_equations, only: expansion_type
    use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
@@ -49,6 +50,7 @@ contains
       type(checked_deck) :: checked
       type(marked_side), allocatable :: sides(:)
       type(tie_type), allocatable :: ties(:)
+      type(expansion_type), allocatable :: expansions(:)
       type(stage_load_type), allocatable :: oscillating(:)
       integer :: j
 
@@ -79,13 +81,13 @@ contains
       call build_frames(checked, model)
       call build_beams(checked, model)
       call build_springs(checked, model)
-      call build_dependents(checked, ties, model)
+      call build_dependents(checked, ties, model, expansions)
       call leave_out_idle(model)
       call build_masses(checked, model)
       if (.not. errors%any()) call couple_shell_faces(model)
       call build_loads(checked, model, oscillating)
       if (.not. errors%any()) call check_balance(checked, model)
-      call build_temperatures(checked, model)
+      call build_temperatures(checked, expansions, model)
       call find_shown_nodes(checked, model, plan)
       call plan_vibrations(checked, model, oscillating, plan)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
