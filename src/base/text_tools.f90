@@ -8,7 +8,7 @@ module text_tools
    implicit none
    private
 
-   public :: upper, integer_text, real_text, write_short, write_full, write_integer, fitted_text, plural, above, clean
+   public :: upper, integer_text, real_text, write_short, write_full, write_integer, fitted_text, plural, above, clean, append
 
    integer, parameter, public :: short_width = 13   !! characters of write_short
    integer, parameter, public :: full_width = 24    !! of write_full, at most
@@ -29,6 +29,11 @@ module text_tools
          real(c_double), value               :: value
       end function strfromd
    end interface
+
+   !> A text of its own length.
+   type, public :: text_item
+      character(:), allocatable :: words
+   end type text_item
 
    integer, parameter :: room = 2048 ! initial length, doubled for a longer line
 
@@ -231,6 +236,24 @@ contains
       text = integer_text(count)//' '//noun
       if (count /= 1) text = text//'s'
    end function plural
+
+   !> Append WORDS to TEXTS, if there are any.
+   pure subroutine append(texts, words)
+      type(text_item), allocatable, intent(inout) :: texts(:) !! not allocated: empty
+      character(*), intent(in)                    :: words
+      type(text_item), allocatable :: longer(:)
+      integer :: i, n
+
+      if (words == '') return
+      n = 0
+      if (allocated(texts)) n = size(texts)
+      allocate (longer(n + 1))
+      do i = 1, n
+         longer(i)%words = texts(i)%words
+      end do
+      longer(n + 1)%words = words
+      call move_alloc(longer, texts)
+   end subroutine append
 
    !> VALUE in full, or zero where it lies below FLOOR; zero has no sign.
    elemental real(wp) function above(value, floor)

@@ -12,19 +12,31 @@ module constraint_equations
    implicit none
    private
 
-   public :: add_dependence, add_term, check_dependences, eliminate, mean_motion, solve_for
+   public :: add_dependence, add_expansion, add_term, check_dependences, eliminate, mean_motion, solve_for
 
-   !> A constraint equation of one dependent component, D of NODE. Components are unknowns, along the axes of their nodes.
+   !> What a rigid element adds to a constraint equation when it is warmed: GROWTH times T - REFERENCE, T the mean of two POINTS.
+   type, public :: expansion_type
+      integer  :: node = 0, d = 0            !! the dependent component
+      integer  :: points(2) = 0
+      integer  :: line = 0                   !! of the card
+      real(wp) :: growth = 0.0_wp            !! [length/temperature]
+      real(wp) :: reference = 0.0_wp         !! TREF [temperature]
+   end type expansion_type
+
+   !> A constraint equation of one dependent component, D of NODE. Components are unknowns, along the axes of their nodes. Where it
+   !! has a part that is no component, an expansion, this part is the place of the component itself, which is held and moved.
    type, public :: dependence_type
       integer :: node = 0, d = 0
       integer :: line = 0, field = 0         !! of the card, and the data field that names the node
       integer :: n = 0                       !! number of terms
       type(component_place), allocatable :: on(:) !! (at least n) independent components, SCALE is the factor; one may occur twice
+      logical :: expands = .false.
    end type dependence_type
 
    type, public :: dependence_list
       integer :: n = 0
       type(dependence_type), allocatable :: item(:)
+      type(expansion_type), allocatable :: expansions(:) !! of rigid elements; not allocated: none
       logical, allocatable :: without(:)     !! (n_nodes) the node belongs to a rigid element or an equation, not to an element
    end type dependence_list
 
@@ -56,6 +68,21 @@ contains
          item%on(item%n) = component_place(place%node, place%d, factor)
       end associate
    end subroutine add_term
+
+   !> Add to the last equation what the element between two POINTS grows by, GROWTH [length/temperature] from the REFERENCE
+   !! temperature on.
+   pure subroutine add_expansion(list, points, growth, reference)
+      type(dependence_list), intent(inout) :: list
+      integer, intent(in)                  :: points(2)
+      real(wp), intent(in)                 :: growth, reference
+
+      if (abs(growth) <= 0.0_wp) return
+      if (.not. allocated(list%expansions)) allocate (list%expansions(0))
+      associate (item => list%item(list%n))
+         item%expands = .true.
+         list%expansions = [list%expansions, expansion_type(item%node, item%d, points, item%line, growth, reference)]
+      end associate
+   end subroutine add_expansion
 
    !> Errors: a component that depends twice, is supported too, or depends on a dependent component.
    subroutine check_dependences(deck, model, list)
@@ -172,6 +199,7 @@ contains
       logical, allocatable  :: is_used(:, :)
       integer, allocatable  :: masters(:), column(:) ! of a node, and their places among them
       real(wp) :: axes(3, 3)
+      logical  :: expands(3)
       integer  :: d, i, k, n, node
 
       d = model%dimension
@@ -190,7 +218,11 @@ contains
          axes = node_axes(model, point_of(model, node))
          if (node_kind(model, node) == a_rotation .and. d == 2) axes = identity ! z in the first column
          n = 0
-         if (.not. all(model%left_out(:, node))) call add_master(node)
+         expands = .false.
+         do i = 1, list%n
+            if (list%item(i)%node == node) expands(list%item(i)%d) = list%item(i)%expands
+         end do
+         if (any(expands(:d) .or. .not. model%left_out(:, node))) call add_master(node)
          do i = 1, list%n
             if (list%item(i)%node /= node) cycle
             do k = 1, list%item(i)%n
@@ -199,7 +231,7 @@ contains
          end do
          allocate (t(d, d, n), source=0.0_wp)
          do k = 1, d
-            if (.not. model%left_out(k, node)) t(:, k, 1) = axes(:d, k)
+            if (expands(k) .or. .not. model%left_out(k, node)) t(:, k, 1) = axes(:d, k)
          end do
          do i = 1, list%n
             if (list%item(i)%node /= node) cycle

@@ -26,6 +26,9 @@ module face_overlap
       integer  :: kind = 0                    !! of its shape functions, from side_kind
       integer  :: n = 0                       !! number of nodes
       real(wp) :: x(3, max_side_nodes) = 0.0_wp !! s, t and h of each node [length]
+      logical  :: is_curved = .false.         !! whether the edges are chords of arcs; then also
+      real(wp) :: tilt(4) = 0.0_wp            !! the angles of their tangents [rad]
+      real(wp) :: normal(3) = 0.0_wp          !! of the face, unit
    end type seen_face
 
    integer, parameter  :: most_steps = 30     ! of Newton

@@ -17,7 +17,7 @@ module joint_gaps
    use joint_sides, only: joint_axes, joint_centroid
    use kinds, only: wp
    use model_data, only: joint_type, model_type
-   use text_tools, only: integer_text
+   use text_tools, only: append, integer_text, real_text
    implicit none
    private
 
@@ -346,7 +346,8 @@ contains
       end do
    end subroutine gaps_by_node
 
-   !> TRUE: the distance of the faces in the mesh, along the normal from end 1 to end 2.
+   !> TRUE: the distance of the faces in the mesh, along the normal from end 1 to end 2. Chords of curved faces stand for arcs; where
+   !! the arcs stand out farther than the gaps are wide, a warning gives both.
    subroutine true_gaps(deck, card, joint, model)
       type(checked_deck), intent(in)  :: deck
       type(jgap_card), intent(in)     :: card
@@ -363,10 +364,17 @@ contains
                return
             end if
             closing = joint_movement(element, model%x)
+            closing(3) = closing(3) - dot_product(element%bulge, element%axes(:, 3))
             element%gap = 0.0_wp
             if (abs(closing(3)) > touching*maxval(abs(model%x(:, element%node)))) element%gap = -closing(3)
          end associate
       end do
+      associate (gaps => model%interface(joint%first:joint%last)%gap, sagitta => joint%cover%sagitta)
+         if (size(gaps) == 0 .or. maxval(sagitta) <= max(maxval(abs(gaps)), touching*maxval(abs(model%x)))) return
+         call append(model%warnings, 'joint '//integer_text(joint%id)//': JGAP TRUE finds gaps of '//real_text(minval(gaps))// &
+            ' to '//real_text(maxval(gaps))//' between arcs through the nodes, whose chords lie up to '//real_text(sagitta(1))// &
+            ' (SIDE1) and '//real_text(sagitta(2))//' (SIDE2) beside them; a finer mesh, or JGAP CONST, is surer')
+      end associate
    end subroutine true_gaps
 
 end module joint_gaps

@@ -10,10 +10,10 @@ module joint_sides
    use lists, only: id_table_type
    use model_data, only: corners_of, joint_cover, joint_frame, joint_type, model_type, surface_type
    use mortar_integrals, only: face_part, whole_shares, interface_sums_type
-   use node_pairing, only: pair_nodes, fit_side
+   use node_pairing, only: aside_type, pair_nodes, fit_side
    use numbers, only: cross
    use surface_build, only: side_influence, surface_node_list, surface_nodes
-   use text_tools, only: integer_text
+   use text_tools, only: append, integer_text, plural, real_text
    implicit none
    private
 
@@ -24,9 +24,9 @@ module joint_sides
 
 contains
 
-   !> The elements between two sides: pairs if every node has a partner and the card does not request a projection; the coverage of
-   !! projected sides is stored in joint J of MODEL. SURFACE(2) = 0: the elements between a surface and its duplicate, if the
-   !! surface was split, or a rigid base.
+   !> The elements between two sides: pairs if every node has a partner that faces it along the normal and the card does not request
+   !! a projection; the coverage of projected sides is stored in joint J of MODEL. FIT = NO makes pairs whose nodes stand aside, too.
+   !! SURFACE(2) = 0: the elements between a surface and its duplicate, if the surface was split, or a rigid base.
    subroutine join_sides(deck, j, model, surface, elements)
       type(checked_deck), intent(in)                       :: deck
       integer, intent(in)                                  :: j, surface(2)
@@ -36,6 +36,7 @@ contains
       character(:), allocatable :: fault, lack
       type(interface_sums_type) :: sums
       type(joint_cover) :: cover
+      type(aside_type)  :: aside
       integer, allocatable :: kept(:), partner(:)
       logical, allocatable :: partly(:)
       logical :: in_tolerance
@@ -55,7 +56,10 @@ contains
             partner = model%duplicate(side1%node)
          else if (card%fit /= fit_yes) then
             call surface_nodes(model, model%surfaces(surface(2)), side2)
-            call pair_nodes(model, surface, side1, side2, card%tolerance, partner, fault, in_tolerance)
+            call pair_nodes(model, surface, side1, side2, card%tolerance, partner, fault, in_tolerance, aside)
+            if (aside%n > 0 .and. card%fit == fit_no) call append(model%warnings, 'joint '//integer_text(card%id)//': '// &
+               aside_words(model, aside)//'; FIT = NO pairs them, and nothing balances the moments of their forces')
+            if (aside%n > 0 .and. card%fit /= fit_no) fault = aside_words(model, aside)
          end if
          lack = ''
          if (fault == '') then
@@ -70,6 +74,7 @@ contains
          else
             call fit_side(model, surface, side1, card%tolerance, sums, cover, partly, fault)
             if (fault /= '') then
+               if (aside%n > 0) fault = fault//'; the nodes pair by FIT = NO, but '//aside_words(model, aside)
                call deck%field_error(card%line, 'SIDE2', fault)
             else
                model%joints(j)%cover = cover
@@ -79,6 +84,17 @@ contains
          if (lack /= '') call deck%errors%add(card%line, 'surface '//integer_text(card%sides(1))//' has no area at node '//lack)
       end associate
    end subroutine join_sides
+
+   !> Text about pairs whose nodes stand aside.
+   function aside_words(model, aside) result(words)
+      type(model_type), intent(in) :: model
+      type(aside_type), intent(in) :: aside
+      character(:), allocatable    :: words
+
+      words = plural(aside%n, 'node')//' of SIDE1 and their partners do not face each other along the normal; node '// &
+              integer_text(model%node_id(aside%nodes(1)))//' stands '//real_text(aside%distance)//' beside node '// &
+              integer_text(model%node_id(aside%nodes(2)))
+   end function aside_words
 
    !> Elements between the nodes of SIDE and their partners, 0: a rigid base. Faces with mid-side nodes have elements at these nodes
    !! alone, which are connected to the corners too.

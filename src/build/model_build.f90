@@ -2,6 +2,7 @@
 module model_build
    use case_control, only: method_step
    use connected_bodies, only: find_parts
+   use constraint_equations, only: expansion_type
    use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
@@ -15,6 +16,7 @@ module model_build
    use load_build, only: build_loads
    use mass_build, only: build_masses, check_mass
    use mesh_build, only: build_mesh, check_named_nodes
+   use mesh_watch, only: crack_words, repeated_words
    use model_data, only: model_type, n_sections, stage_load_type
    use pretension_section, only: build_sections
    use rigid_elements, only: build_dependents, name_surface_nodes
@@ -28,6 +30,8 @@ module model_build
    use surface_build, only: build_surfaces
    use surface_sides, only: split_shared_surfaces
    use temperature_build, only: build_temperatures
+   use text_tools, only: append
+   use unit_watch, only: watch_units
    use vibration_build, only: find_shown_nodes, plan_vibrations
    implicit none
    private
@@ -47,9 +51,11 @@ contains
       type(checked_deck) :: checked
       type(marked_side), allocatable :: sides(:)
       type(tie_type), allocatable :: ties(:)
+      type(expansion_type), allocatable :: expansions(:)
       type(stage_load_type), allocatable :: oscillating(:)
       integer :: j
 
+      allocate (model%warnings(0))
       if (.not. deck%is_whole) return
       call checked%start(deck, errors)
       ! consistency of the cards, load history, mesh
@@ -78,13 +84,13 @@ contains
       call build_beams(checked, model)
       call build_springs(checked, model)
       call add_torsion(model)
-      call build_dependents(checked, ties, model)
+      call build_dependents(checked, ties, model, expansions)
       call leave_out_idle(model)
       call build_masses(checked, model)
       if (.not. errors%any()) call couple_shell_faces(model)
       call build_loads(checked, model, oscillating)
       if (.not. errors%any()) call check_balance(checked, model)
-      call build_temperatures(checked, model)
+      call build_temperatures(checked, expansions, model)
       call find_shown_nodes(checked, model, plan)
       call plan_vibrations(checked, model, oscillating, plan)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
@@ -101,6 +107,9 @@ contains
          model%joints(j)%frame = find_frame(model, model%joints(j))
       end do
       call check_mass(checked, model)
+      call append(model%warnings, repeated_words(model))
+      call append(model%warnings, crack_words(model))
+      call watch_units(deck, model)
    end subroutine build_model
 
 end module model_build

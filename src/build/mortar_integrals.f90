@@ -5,6 +5,7 @@
 !! elements at these nodes only, because the tributary areas of the corners are zero or negative (0 and 1/3 of the triangle with 6
 !! nodes; -1/12 and 1/3 of the quadrilateral with 8).
 module mortar_integrals
+   use curved_faces, only: height_over_chords
    use element_kinds, only: max_nodes, max_side_nodes
    use element_mapping, only: two_pi
    use face_overlap, only: face_frame, find_point, map_point, seen_face, surface_vector, overlap_points, plane_points
@@ -29,6 +30,9 @@ module mortar_integrals
    type, public :: cover_integrals
       real(wp) :: seen = 0.0_wp                                     !! covered area, projected onto the plane of the face
       real(wp) :: farthest = 0.0_wp                                 !! largest distance of the faces [length]
+      real(wp) :: bulge(max_side_nodes) = 0.0_wp                    !! of N_k times what curved surfaces are farther apart than their
+                                                                    !! chords [length^3]
+      real(wp) :: along(3) = 0.0_wp                                 !! normal of the face, of bulges
       real(wp) :: area(max_side_nodes) = 0.0_wp                     !! of N_k [length^2]
       real(wp) :: normal(3, max_side_nodes) = 0.0_wp                !! of N_k n, in global axes [length^2]
       real(wp) :: own(max_side_nodes, max_side_nodes) = 0.0_wp      !! of N_k N_k' [length^2]
@@ -43,6 +47,7 @@ module mortar_integrals
       real(wp) :: normal(3, max_side_nodes) = 0.0_wp                      !! area times normal [length^2]
       real(wp) :: own(max_side_nodes, max_side_nodes) = 0.0_wp            !! (element, node k) area times weight [length^2]
       real(wp), allocatable :: opposite(:, :)                             !! (max_side_nodes, nodes opposite) likewise
+      real(wp) :: bulge(3, max_side_nodes) = 0.0_wp                       !! area times bulge, along the normal of the face [length^3]
    end type face_part
 
    real(wp), parameter :: least_weight = 1.0e-12_wp !! a smaller weight is rounding: its node is not connected
@@ -54,6 +59,7 @@ module mortar_integrals
       real(wp), allocatable :: area(:)              !! (elements) [length^2]
       real(wp), allocatable :: normal(:, :)         !! (3, elements) area times normal
       real(wp), allocatable :: around(:)            !! (elements) area of all faces at the element
+      real(wp), allocatable :: bulge(:, :)          !! (3, elements) area times bulge
       integer :: n = 0                              !! number of entries: a node, a weight and the element
       integer, allocatable  :: owner(:)             !! (room) element
       integer, allocatable  :: key(:)               !! (room) the node; for end 2 plus n_nodes
@@ -84,6 +90,7 @@ contains
 
       call overlap_points(face%seen, opposite, points)
       if (points%n == 0) return
+      integrals%along = face%frame%axes(:, 3)
       if (.not. allocated(integrals%node)) allocate (integrals%node(0), integrals%opposite(max_side_nodes, 0))
       do j = 1, size(nodes)
          column(j) = findloc(integrals%node, nodes(j), dim=1)
@@ -107,6 +114,8 @@ contains
             integrals%farthest = max(integrals%farthest, abs(x_2(3) - x_1(3)))
             surface = weight*matmul(face%frame%axes, surface)
             weight = norm2(surface)
+            if (face%seen%is_curved .or. opposite%is_curved) integrals%bulge(:n) = integrals%bulge(:n) + &
+               n_1(:n)*(weight*(rise(opposite, points%place(:, i), x_2(3)) - rise(face%seen, points%place(:, i), x_1(3))))
             do j = 1, n
                integrals%area(j) = integrals%area(j) + weight*n_1(j)
                integrals%normal(:, j) = integrals%normal(:, j) + surface*n_1(j)
@@ -119,6 +128,27 @@ contains
       end associate
    end subroutine add_overlap
 
+   !> How far the curved surface of FACE lies above the point of its chords at PLACE, whose height is CHORD, in the frame of another
+   !! face. The foot of the point of the surface on FACE lies beside PLACE where the faces are not parallel.
+   pure real(wp) function rise(face, place, chord)
+      type(seen_face), intent(in) :: face
+      real(wp), intent(in)        :: place(2), chord
+      real(wp) :: foot(3), height, n(max_nodes), point(3)
+      logical  :: found
+      integer  :: i
+
+      rise = 0.0_wp
+      if (.not. face%is_curved) return
+      height = 0.0_wp
+      do i = 1, 3
+         call find_point(face, place - height*face%normal(:2), point, found)
+         if (.not. found) return
+         height = height_over_chords(face%x(:, :face%n), face%tilt, point)
+      end do
+      call map_point(face, point, n, foot)
+      rise = foot(3) + height*face%normal(3) - chord
+   end function rise
+
    !> PART from the INTEGRALS over a face with N nodes. A fully covered face: the displacements u2 of SIDE2 are fitted by least
    !! squares, u2_k = sum of (M^-1)_kl times the integral of N_l u2, where M is the integral of N_k N_l. The fit is exact where the
    !! shape functions of the face represent u2, and a node opposite its partner is connected to the partner only. A partly covered
@@ -128,7 +158,7 @@ contains
       logical, intent(in)               :: is_whole
       type(cover_integrals), intent(in) :: integrals
       type(face_part), intent(inout)    :: part
-      real(wp) :: share(max_side_nodes, max_side_nodes), fitted(n, size(integrals%node))
+      real(wp) :: share(max_side_nodes, max_side_nodes), fitted(n, size(integrals%node)), bulge(n, 1)
       integer  :: k
 
       part%n = n
@@ -139,10 +169,15 @@ contains
             part%own(:, k) = share(:, k)*integrals%area(k)
          end do
          part%opposite = matmul(part%own(:, :n), fitted)
+         bulge(:, 1) = integrals%bulge(:n)
+         if (any(abs(bulge) > 0.0_wp)) call solve_symmetric(integrals%own(:n, :n), reshape(integrals%bulge(:n), [n, 1]), bulge)
+         part%bulge = matmul(reshape(integrals%along, [3, 1]), transpose(matmul(part%own(:, :n), bulge)))
       else
          share = partial_shares(dimension, n)
          part%own(:, :n) = matmul(share(:, :n), integrals%own(:n, :n))
          part%opposite = matmul(share(:, :n), integrals%opposite(:n, :))
+         bulge(:, 1) = integrals%bulge(:n)
+         part%bulge = matmul(reshape(integrals%along, [3, 1]), transpose(matmul(share(:, :n), bulge)))
       end if
       part%area = matmul(share(:, :n), integrals%area(:n))
       part%normal = matmul(integrals%normal(:, :n), transpose(share(:, :n)))
@@ -224,7 +259,7 @@ contains
       self%n_nodes = n_nodes
       self%n = 0
       allocate (self%area(n), self%around(n), source=0.0_wp)
-      allocate (self%normal(3, n), source=0.0_wp)
+      allocate (self%normal(3, n), self%bulge(3, n), source=0.0_wp)
       allocate (self%owner(100), self%key(100), self%weight(100))
    end subroutine start
 
@@ -241,6 +276,7 @@ contains
          if (elements(i) == 0 .or. all(abs(part%own(i, :part%n)) <= 0.0_wp)) cycle
          self%area(elements(i)) = self%area(elements(i)) + part%area(i)
          self%normal(:, elements(i)) = self%normal(:, elements(i)) + part%normal(:, i)
+         self%bulge(:, elements(i)) = self%bulge(:, elements(i)) + part%bulge(:, i)
          self%around(elements(i)) = self%around(elements(i)) + sum(abs(part%area(:part%n)))
          associate (key => [own(:part%n), self%n_nodes + opposite], &
                     weight => [part%own(i, :part%n), part%opposite(i, :size(opposite))])
@@ -306,6 +342,7 @@ contains
       element%weight = pack([weight(:n_1), -weight(n_1 + 1:)], abs(weight) > 0.0_wp)
       element%node = pack(merge(node, node - self%n_nodes, node <= self%n_nodes), abs(weight) > 0.0_wp)
       element%area = self%area(i)
+      element%bulge = self%bulge(:, i)/self%area(i)
    end subroutine connect
 
    !> Set the weights of an end that are rounding to zero, and correct the largest weight so that the sum is 1.

@@ -1,7 +1,8 @@
 !> Pairs of facing nodes for matching sides of a joint, and the search of facing faces for the mortar projection.
 module node_pairing
+   use curved_faces, only: find_tilts, largest_sagitta
    use element_kinds, only: max_side_nodes
-   use face_overlap, only: edge_lengths, face_frame, in_frame, make_frame, plane_points, seen_area
+   use face_overlap, only: edge_lengths, face_frame, in_frame, make_frame, plane_points, seen_area, seen_face
    use kinds, only: wp
    use lists, only: distinct, id_table_type
    use model_data, only: joint_cover, model_type, surface_type, whole_share
@@ -16,17 +17,27 @@ module node_pairing
    public :: pair_nodes, fit_side
 
    real(wp), parameter :: default_tolerance = 1.0e-3_wp ! of the shortest edge of SIDE1
+   real(wp), parameter, public :: most_aside = 1.0e-4_wp !! of the shortest edge at a node: offset of its partner across the normal
    real(wp), parameter, public :: facing = -0.5_wp      !! cosine of the normals of two sides that face each other, at most
 
    real(wp), parameter :: twice = 1.01_wp     ! covered share above which faces lie behind one another
 
    real(wp), parameter, public :: default_reach = 0.1_wp !! of the longest side of a face of SIDE1
 
+   !> Pairs whose nodes do not face each other along the normal.
+   type, public :: aside_type
+      integer  :: n = 0                      !! number of such pairs
+      integer  :: nodes(2) = 0               !! the pair with the largest offset
+      real(wp) :: distance = 0.0_wp          !! its offset across the normal [length]
+   end type aside_type
+
    !> The faces of SIDE2 for the search, and work space.
    type :: opposite_faces
       type(spatial_search_type) :: boxes
       real(wp), allocatable :: normal(:, :)  ! (3, n) at their centres
       real(wp), allocatable :: area(:)       ! (n) area projected along their normals
+      real(wp), allocatable :: tilt(:, :)    ! (4, n) angles of the tangents where the surface is curved
+      real(wp), allocatable :: own_tilt(:, :) ! likewise of SIDE1
       logical, allocatable  :: covers(:)     ! (n) whether it covers any part of SIDE1
       integer, allocatable  :: near(:)       ! faces that the search has found
       type(plane_points)    :: points
@@ -34,8 +45,10 @@ module node_pairing
 
 contains
 
-   !> For every node of side 1 the coincident node of side 2, or the reason why there are no pairs.
-   subroutine pair_nodes(model, surface, side1, side2, tol, partner, fault, in_tolerance)
+   !> For every node of side 1 the coincident node of side 2, or the reason why there are no pairs. ASIDE is the largest offset of a
+   !! partner across the normal, above MOST_ASIDE of the shortest edge at its node: the forces of such a pair have a moment that
+   !! nothing balances.
+   subroutine pair_nodes(model, surface, side1, side2, tol, partner, fault, in_tolerance, aside)
       type(model_type), intent(in)        :: model
       integer, intent(in)                 :: surface(2)   !! of the model
       type(surface_node_list), intent(in) :: side1, side2 !! their nodes
@@ -43,6 +56,7 @@ contains
       integer, intent(out)                :: partner(:)   !! nodes of the model, of use where there is no fault
       character(:), allocatable, intent(out) :: fault     !! '': all nodes have partners
       logical, intent(out)                :: in_tolerance !! the error is reported for TOL, else for SIDE2
+      type(aside_type), intent(out)       :: aside
       type(spatial_search_type) :: search
       real(wp) :: tolerance, distance, worst
       integer  :: k, found(side1%n), nearest, turned, worst_node
@@ -93,8 +107,42 @@ contains
          fault = 'SIDE2 has '//plural(side2%n, 'node')//', SIDE1 '//integer_text(side1%n)//': every node needs its partner'
       else if (.not. same_order(model, surface, side1, partner)) then
          fault = 'mid-side nodes face corner nodes: one side is of second order, the other is not'
+      else
+         call find_aside(model, model%surfaces(surface(1)), side1, partner, aside)
       end if
    end subroutine pair_nodes
+
+   !> The pair of SURFACE that stands farthest ASIDE: the offset of its nodes across the normal.
+   pure subroutine find_aside(model, surface, side, partner, aside)
+      type(model_type), intent(in)        :: model
+      type(surface_type), intent(in)      :: surface
+      type(surface_node_list), intent(in) :: side       !! its nodes
+      integer, intent(in)                 :: partner(:) !! of these nodes
+      type(aside_type), intent(out)       :: aside
+      type(id_table_type) :: place
+      real(wp) :: offset(3), shortest(side%n), distance
+      integer  :: at(max_side_nodes), k, n, s
+
+      call place%build(side%node)
+      shortest = huge(1.0_wp)
+      do s = 1, surface%n
+         n = surface%n_nodes(s)
+         do k = 1, n
+            at(k) = place%find(surface%nodes(k, s))
+         end do
+         shortest(at(:n)) = min(shortest(at(:n)), minval(edge_lengths(model%x(:, surface%nodes(:surface%corners(s), s)))))
+      end do
+      do k = 1, side%n
+         offset = model%x(:, partner(k)) - model%x(:, side%node(k))
+         offset = offset - dot_product(offset, side%normal(:, k))*side%normal(:, k)
+         distance = norm2(offset)
+         if (distance <= most_aside*shortest(k)) cycle
+         aside%n = aside%n + 1
+         if (distance <= aside%distance) cycle
+         aside%distance = distance
+         aside%nodes = [side%node(k), partner(k)]
+      end do
+   end subroutine find_aside
 
    !> Whether corners have corners as partners, and mid-side nodes have mid-side nodes.
    pure logical function same_order(model, surface, side1, partner)
@@ -144,6 +192,7 @@ contains
       farthest_reach = 0.0_wp
       associate (side1 => model%surfaces(surface(1)), side2 => model%surfaces(surface(2)))
          call list_opposite(model, side2, opposite)
+         call find_tilts(model, side1, opposite%own_tilt)
          do s = 1, side1%n
             n = side1%n_nodes(s)
             call side_influence(model, side1, s, area, normal)
@@ -164,6 +213,12 @@ contains
             call sums%add_face(elements(:n), side1%nodes(:n, s), integrals%node, part)
             cover%share = cover%share + merge(1.0_wp, share, share >= whole_share)*sum(area)
             cover%farthest = max(cover%farthest, integrals%farthest)
+            cover%sagitta(1) = max(cover%sagitta(1), largest_sagitta(model%x(:, side1%nodes(:side1%corners(s), s)), &
+                                                                     opposite%own_tilt(:, s)))
+         end do
+         do s = 1, side2%n
+            if (opposite%covers(s)) cover%sagitta(2) = max(cover%sagitta(2), largest_sagitta( &
+               model%x(:, side2%nodes(:side2%corners(s), s)), opposite%tilt(:, s)))
          end do
          ! coverage and mean sizes of the faces; faults
          call sums%finish()
@@ -222,6 +277,7 @@ contains
          opposite%normal(:, s) = frame%axes(:, 3)
       end do
       call opposite%boxes%build(box(:, 1, :), box(:, 2, :))
+      call find_tilts(model, side2, opposite%tilt)
    end subroutine list_opposite
 
    !> FACE S of SIDE1 in its own frame, and the INTEGRALS over the part of it that SIDE2 covers.
@@ -233,12 +289,14 @@ contains
       type(opposite_faces), intent(inout)  :: opposite !! of SIDE2
       type(own_face), intent(out)          :: face
       type(cover_integrals), intent(out)   :: integrals
+      type(seen_face) :: other
       real(wp) :: low(3), high(3), before
       integer  :: d, i, n
 
       associate (x => model%x(:, side1%nodes(:side1%n_nodes(s), s)))
          call make_frame(model%dimension, x, face%frame)
          face%seen = in_frame(model%dimension, x, face%frame)
+         call bend(face%seen, opposite%own_tilt(:, s), [0.0_wp, 0.0_wp, 1.0_wp])
          face%reach = merge(reach, default_reach*maxval(edge_lengths(x(:, :side1%corners(s)))), reach > 0.0_wp)
       end associate
       face%on_ring = model%axisymmetric
@@ -255,11 +313,23 @@ contains
             if (dot_product(opposite%normal(:, f), face%frame%axes(:, 3)) > facing) cycle
             before = integrals%seen
             associate (nodes => side2%nodes(:side2%n_nodes(f), f))
-               call add_overlap(face, in_frame(model%dimension, model%x(:, nodes), face%frame), nodes, opposite%points, integrals)
+               other = in_frame(model%dimension, model%x(:, nodes), face%frame)
+               call bend(other, opposite%tilt(:, f), matmul(opposite%normal(:, f), face%frame%axes))
+               call add_overlap(face, other, nodes, opposite%points, integrals)
             end associate
             if (integrals%seen > before) opposite%covers(f) = .true.
          end associate
       end do
    end subroutine cover_face
+
+   !> Make a face the chords of arcs with the angles TILT of their tangents; NORMAL is that of the face in its coordinates.
+   pure subroutine bend(face, tilt, normal)
+      type(seen_face), intent(inout) :: face
+      real(wp), intent(in)           :: tilt(4), normal(3)
+
+      face%is_curved = any(abs(tilt) > 0.0_wp)
+      face%tilt = tilt
+      face%normal = normal
+   end subroutine bend
 
 end module node_pairing

@@ -3,7 +3,8 @@
 !! the rigid-body motion of a ring is axial only.
 module rigid_elements
    use bulk_data, only: equation_card, rigid_card
-   use constraint_equations, only: add_dependence, add_term, check_dependences, dependence_list, eliminate, mean_motion, solve_for
+   use constraint_equations, only: add_dependence, add_expansion, add_term, check_dependences, dependence_list, eliminate, &
+                                   expansion_type, mean_motion, solve_for
    use deck_check, only: checked_deck
    use field_rules, only: has_component
    use kinds, only: wp
@@ -23,14 +24,16 @@ contains
 
    !> Couple MODEL by the rigid elements and equations of DECK; supports and displacement systems must be known.
    !! Errors: missing or split nodes, components that do not exist, and the errors of check_dependences.
-   subroutine build_dependents(deck, ties, model)
+   subroutine build_dependents(deck, ties, model, expansions)
       type(checked_deck), intent(in)  :: deck
       type(tie_type), intent(in)      :: ties(:) !! from SHELLTO cards
       type(model_type), intent(inout) :: model
+      type(expansion_type), allocatable, intent(out) :: expansions(:) !! of rigid elements, for temperatures
       type(dependence_list) :: list
       integer, allocatable  :: active(:)  ! active sets of equations
       integer :: i, set
 
+      allocate (expansions(0))
       set = 0
       if (size(deck%control%stages) > 0) set = deck%control%stages(1)%equations%id
       if (set > 0 .and. all(deck%bulk%equation%set /= set) .and. all(deck%bulk%equation_sum%set /= set)) call deck%errors%add( &
@@ -41,9 +44,9 @@ contains
       allocate (list%without(model%n_nodes), source=.false.)
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
-            if (abs(card%alpha) > 0.0_wp .and. any(deck%control%stages%temperature%id > 0)) call deck%field_error(card%line, &
-               card%alpha_at, 'not zero, and case control has TEMPERATURE(LOAD), but rigid elements have no thermal expansion; '// &
-               'expected blank or zero', called='ALPHA')
+            if (card%is_mean .and. abs(card%alpha) > 0.0_wp .and. any(deck%control%stages%temperature%id > 0)) &
+               call deck%field_error(card%line, card%alpha_at, 'not zero, and case control has TEMPERATURE(LOAD), but a mean '// &
+               'motion has no thermal expansion; expected blank or zero', called='ALPHA')
             if (card%is_mean) call add_mean(deck, card, model, list)
             if (.not. card%is_mean) call add_rigid(deck, card, model, list)
          end associate
@@ -53,6 +56,7 @@ contains
          call add_equation(deck, deck%bulk%equation(i), any(active == deck%bulk%equation(i)%set), model, list)
       end do
       model%used = model%used .or. list%without
+      if (allocated(list%expansions)) call move_alloc(list%expansions, expansions)
       if (deck%errors%any() .or. list%n == 0) return
       call check_dependences(deck, model, list)
       do i = 1, n_rotations(model)
@@ -133,6 +137,8 @@ contains
                if (place%node > 0) call add_term(list, place, dot_product(own(:, c - first), motion(first + 1:first + 3, digit))* &
                                                  own_place%scale/place%scale)
             end do
+            if (c <= 3) call add_expansion(list, [point, node], card%alpha* &
+               dot_product(own(:, c), model%x(:, node) - model%x(:, point)), card%reference)
          end do
       end do
    end subroutine add_rigid

@@ -1,11 +1,16 @@
 !> Temperatures of nodes and shells at the end of every stage, from TEMP, TEMPD and TEMPP1.
 module temperature_build
+   use bulk_data, only: rigid_card
+   use constraint_equations, only: expansion_type
    use deck_check, only: checked_deck
    use element_kinds, only: element_table
+   use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: first_not_below
-   use model_data, only: a_bar, corners_of, is_shell, model_type, n_bars, n_points, temperature_type
-   use text_tools, only: integer_text
+   use model_data, only: a_bar, corners_of, is_shell, model_type, n_bars, n_points, stage_load_type, &
+                         temperature_type
+   use text_tools, only: append, integer_text, real_text
+   use unknowns, only: node_axes
    implicit none
    private
 
@@ -13,13 +18,15 @@ module temperature_build
 
 contains
 
-   !> The nodal temperatures of every stage that names a set of TEMP and TEMPD cards, in its load of MODEL.
-   subroutine build_temperatures(deck, model)
+   !> The nodal temperatures of every stage that names a set of TEMP and TEMPD cards, in its load of MODEL; EXPANSIONS of rigid
+   !! elements as movements of held components.
+   subroutine build_temperatures(deck, expansions, model)
       type(checked_deck), intent(in)  :: deck
+      type(expansion_type), intent(in) :: expansions(:)
       type(model_type), intent(inout) :: model
       logical, allocatable :: given(:)
       logical :: needs_one(model%n_nodes) ! nodes of bodies and bars
-      integer :: before, i, s
+      integer :: before, i, k, s
 
       call check_cards(deck, model)
       do s = 1, size(deck%control%stages)
@@ -35,7 +42,8 @@ contains
                                     integer_text(reference%id))
                cycle
             end if
-            if (all(abs(model%properties%alpha) <= 0.0_wp) .and. all(abs(model%bars%expansion) <= 0.0_wp)) then
+            if (all(abs(model%properties%alpha) <= 0.0_wp) .and. all(abs(model%bars%expansion) <= 0.0_wp) .and. &
+                size(expansions) == 0) then
                call deck%errors%add(reference%line, 'TEMPERATURE: nothing expands; give A on a MAT1')
                cycle
             end if
@@ -50,12 +58,125 @@ contains
             do i = 1, n_bars(model)
                if (model%bars(i)%kind == a_bar) needs_one(model%bars(i)%nodes) = .true.
             end do
+            do k = 1, size(expansions)
+               needs_one(expansions(k)%points) = .true.
+            end do
             i = findloc(needs_one(:n_points(model)) .and. .not. given(:n_points(model)), .true., dim=1)
             if (i > 0) call deck%errors%add(reference%line, 'TEMPERATURE: node '//integer_text(model%node_id(i))// &
                ' has no temperature in set '//integer_text(reference%id)//'; expected a TEMP of it, or a TEMPD')
          end associate
       end do
+      if (deck%errors%any()) return
+      do s = 1, size(model%stage_loads)
+         call expand(expansions, model%stage_loads(s), model)
+      end do
+      call append(model%warnings, reference_words(deck, model))
+      call append(model%warnings, squeeze_words(deck, model))
    end subroutine build_temperatures
+
+   !> A warning for the RBE2 that squeezes its nodes most, because the body at them expands otherwise than the element; '' where none
+   !! does.
+   function squeeze_words(deck, model) result(words)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      character(:), allocatable      :: words
+      real(wp) :: rise, strain, worst
+      integer  :: e, i, k, n, node, s
+
+      words = ''
+      worst = 1.0e-6_wp
+      n = 0
+      do i = 1, size(deck%rigid)
+         associate (card => deck%rigid(i))
+            if (card%is_mean .or. size(card%nodes) < 2) cycle
+            strain = 0.0_wp
+            e = 0
+            do k = 1, size(card%nodes)
+               node = model%node_table%find(card%nodes(k))
+               if (model%first_at(node) == model%first_at(node + 1)) cycle
+               associate (property => model%properties(model%element_property(model%elements_at(model%first_at(node)))))
+                  do s = 1, size(model%stage_loads)
+                     if (.not. allocated(model%stage_loads(s)%temperature%at)) cycle
+                     rise = model%stage_loads(s)%temperature%at(node)
+                     rise = property%alpha*(rise - property%reference) - card%alpha*(rise - card%reference)
+                     if (abs(rise) <= abs(strain)) cycle
+                     strain = rise
+                     e = model%elements_at(model%first_at(node))
+                  end do
+               end associate
+            end do
+            if (e == 0) cycle
+            if (held_extent(model, card) <= 0.0_wp) cycle
+            if (abs(strain) > 1.0e-6_wp) n = n + 1
+            if (abs(strain) <= worst) cycle
+            worst = abs(strain)
+            words = 'RBE2 '//integer_text(card%id)//' holds nodes up to '//real_text(held_extent(model, card))// &
+                    ' apart, where the warm body beside them would expand by '//real_text(strain*held_extent(model, card))// &
+                    ': a strain of '//real_text(strain)//', E times which is a stress of '// &
+                    real_text(strain*model%properties(model%element_property(e))%e)//'; give ALPHA and TREF, or an RBE3'
+         end associate
+      end do
+      if (n > 1) words = words//'; '//integer_text(n - 1)//trim(merge(' other does so too  ', ' others do so too   ', n == 2))
+   end function squeeze_words
+
+   !> The largest distance of the nodes of CARD along a direction in which it holds them [length].
+   pure real(wp) function held_extent(model, card) result(extent)
+      type(model_type), intent(in) :: model
+      type(rigid_card), intent(in) :: card
+      real(wp) :: axes(3, 3)
+      integer  :: nodes(size(card%nodes)), c, k
+
+      nodes = [(model%node_table%find(card%nodes(k)), k = 1, size(nodes))]
+      axes = node_axes(model, nodes(1))
+      extent = 0.0_wp
+      do c = 1, model%dimension
+         if (.not. has_component(card%components, c)) cycle
+         associate (along => matmul(axes(:, c), model%x(:, nodes)))
+            extent = max(extent, maxval(along) - minval(along))
+         end associate
+      end do
+   end function held_extent
+
+   !> Move the components of EXPANSIONS by their growth at the temperatures of LOADS.
+   pure subroutine expand(expansions, loads, model)
+      type(expansion_type), intent(in)     :: expansions(:)
+      type(stage_load_type), intent(inout) :: loads
+      type(model_type), intent(in)         :: model
+      integer :: k
+
+      if (size(expansions) == 0 .or. .not. allocated(loads%temperature%at)) return
+      if (.not. allocated(loads%moved)) allocate (loads%moved(model%dimension, model%n_nodes), source=0.0_wp)
+      do k = 1, size(expansions)
+         associate (part => expansions(k))
+            loads%moved(part%d, part%node) = part%growth*(0.5_wp*sum(loads%temperature%at(part%points)) - part%reference)
+         end associate
+      end do
+   end subroutine expand
+
+   !> A warning for the first MAT1 with expansion whose TREF is blank where a stage has temperatures; '' where there is none.
+   function reference_words(deck, model) result(words)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      character(:), allocatable      :: words
+      real(wp) :: highest, lowest
+      integer  :: i, s
+
+      words = ''
+      highest = -huge(1.0_wp)
+      lowest = huge(1.0_wp)
+      do s = 1, size(model%stage_loads)
+         if (.not. allocated(model%stage_loads(s)%temperature%at)) cycle
+         associate (at => pack(model%stage_loads(s)%temperature%at(:n_points(model)), model%used(:n_points(model))))
+            highest = max(highest, maxval(at))
+            lowest = min(lowest, minval(at))
+         end associate
+      end do
+      i = findloc(abs(deck%bulk%mat1%alpha) > 0.0_wp .and. .not. deck%bulk%mat1%reference_given, .true., dim=1)
+      if (i == 0 .or. highest < lowest) return
+      words = 'MAT1 '//integer_text(deck%bulk%mat1(i)%id)//': TREF is blank, so that temperatures of '//real_text(lowest)
+      if (highest > lowest) words = words//' to '//real_text(highest)
+      words = words//' count from 0'
+   end function reference_words
 
    !> Errors of TEMP and TEMPP1: missing nodes or shells, a node or shell named twice in a set; of TEMPD: two of one set.
    subroutine check_cards(deck, model)

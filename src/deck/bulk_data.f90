@@ -124,6 +124,7 @@ module bulk_data
       logical  :: bars_only = .false.                   ! only E is given
       real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF
+      logical  :: reference_given = .false.
       real(wp) :: damping = 0.0_wp                      ! GE
       real(wp) :: strength = 0.0_wp                     ! ST, 0: blank
    end type mat1_card
@@ -146,7 +147,7 @@ module bulk_data
       integer, allocatable  :: nodes(:), directions(:), at(:) ! AT(k): data field of NODES(k)
       real(wp), allocatable :: weight(:)
       integer, allocatable  :: um_nodes(:), um_components(:), um_at(:) ! RBE3 with UM: dependent in place of COMPONENTS
-      real(wp) :: alpha = 0.0_wp                        ! coefficient of thermal expansion
+      real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! coefficient of thermal expansion, TREF
       integer  :: alpha_at = 0                          ! its data field
    end type rigid_card
 

@@ -130,6 +130,7 @@ contains
          call card%field('RHO', mat1%rho, not_negative, default=0.0_wp)
          call card%field('A', mat1%alpha, default=0.0_wp)
          call card%field('TREF', mat1%reference, default=0.0_wp)
+         mat1%reference_given = card%given('TREF')
          call card%field('GE', mat1%damping, not_negative, default=0.0_wp)
          call card%field('ST', mat1%strength, not_negative, default=0.0_wp)
          call card%skip(['SC   ', 'SS   ', 'MCSID'])

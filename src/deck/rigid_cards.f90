@@ -61,6 +61,8 @@ contains
             directions = rigid%components
             if (rigid%is_mean) call card%components('C', directions)
             call card%field('PID', rigid%surface)
+            if (.not. rigid%is_mean) call card%field('ALPHA', rigid%alpha, default=0.0_wp)
+            if (.not. rigid%is_mean) call card%field('TREF', rigid%reference, default=0.0_wp)
             call card%finish(rigid%line)
             rigid%at = [merge(5, 4, rigid%is_mean)]
             rigid%directions = [directions]
@@ -97,7 +99,8 @@ contains
    subroutine read_rigid_bar(card, rigid)
       type(card_fields_type), intent(inout) :: card
       type(rigid_card), intent(inout)       :: rigid
-      integer :: nodes(2), independent(2), dependent(2), a, c
+      integer  :: nodes(2), independent(2), dependent(2), a, c
+      real(wp) :: expansion(2)
 
       call card%field('EID', rigid%id)
       call card%field(['GA', 'GB'], nodes)
@@ -105,7 +108,9 @@ contains
       call card%components('CNB', independent(2), default=0)
       call card%components('CMA', dependent(1), default=0)
       call card%components('CMB', dependent(2), default=0)
-      call card%field('ALPHA', rigid%alpha, default=0.0_wp)
+      call card%field(['ALPHA', 'TREF '], expansion, default=0.0_wp)
+      rigid%alpha = expansion(1)
+      rigid%reference = expansion(2)
       call card%finish(rigid%line)
       rigid%alpha_at = 8
       a = merge(2, 1, independent(1) == 0 .and. independent(2) > 0) ! the independent end
@@ -130,12 +135,11 @@ contains
       type(card_fields_type), intent(inout) :: card
       integer, intent(in)                   :: k, last
       type(rigid_card), intent(inout)       :: rigid
-      real(wp) :: reference
-      logical  :: ok
+      logical :: ok
 
       call card%real_at(k, 'ALPHA', rigid%alpha, ok)
       rigid%alpha_at = k
-      if (k < last) call card%real_at(k + 1, 'TREF', reference, ok)
+      if (k < last) call card%real_at(k + 1, 'TREF', rigid%reference, ok)
    end subroutine read_expansion
 
    !> The groups of an RBE3 from data field 5 on. WEIGHT, DIRECTIONS and nodes of the first group are decoded so far; after its

@@ -27,6 +27,7 @@ module interface_operator
                                              !! movement is the sum of map times the unknowns of the nodes
       real(wp) :: area = 0.0_wp              !! a_i [length^2]
       real(wp) :: gap = 0.0_wp               !! g: closing at which the faces touch; negative: interference [length]
+      real(wp) :: bulge(3) = 0.0_wp          !! from what curved faces are farther apart along z than their chords [length]
       real(wp) :: axes(3, 3) = 0.0_wp        !! columns: x, y in the joint, z its normal from end 1 to end 2
    end type interface_element
 

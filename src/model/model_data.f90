@@ -10,6 +10,7 @@ module model_data
    use kinds, only: wp
    use lists, only: id_table_type
    use shell_membrane, only: shell_law
+   use text_tools, only: text_item
    implicit none
    private
 
@@ -61,6 +62,7 @@ module model_data
       logical  :: fitted = .false.           !! whether a mortar projection was made
       real(wp) :: share = 1.0_wp             !! share of the area of SIDE1 that SIDE2 covers
       real(wp) :: farthest = 0.0_wp          !! largest distance of the faces, along the normal of SIDE1 [length]
+      real(wp) :: sagitta(2) = 0.0_wp        !! largest of the chords of curved SIDE1, SIDE2 [length]
       real(wp) :: spacing(2) = 0.0_wp        !! mean area (of edges: length) of the facing sides of SIDE1 and of SIDE2
    end type joint_cover
 
@@ -252,6 +254,7 @@ module model_data
       type(stage_load_type), allocatable   :: stage_loads(:)
       integer, allocatable  :: part(:)       !! (n_nodes) the connected body of a node
       integer :: n_parts = 0
+      type(text_item), allocatable :: warnings(:) !! about the model, found while it was built
    end type model_type
 
 contains

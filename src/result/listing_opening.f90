@@ -14,7 +14,7 @@ module listing_opening
    use kinds, only: long, wp
    use model_data, only: a_spring, model_type, n_bars, n_points, n_rotations, n_sections, supported, &
                          whole_share
-   use normal_curve, only: pressure_floor
+   use normal_curve, only: normal_tangent, pressure_floor
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
    use output_file, only: output_file_type
    use range_watch, only: tetra_words
@@ -22,7 +22,7 @@ module listing_opening
    use shear_loops, only: loop_closure, worst_closure
    use shear_stiffness, only: cubic_of
    use stage_plan, only: stage_plan_type
-   use table_writer, only: axes, column, cut, heading, in_form, page_width, table_type
+   use table_writer, only: axes, column, cut, heading, in_form, page_width, put_lines, table_type
    use terminal, only: standard_input, version
    use text_tools, only: clean, integer_text, plural, real_text, upper
    implicit none
@@ -157,8 +157,7 @@ contains
       type(model_type), intent(in)          :: model
       class(equation_system), intent(in)    :: system
       integer(long) :: n(2, size(element_table)) ! body elements of a kind, without and with incompatible modes
-      character(:), allocatable :: words
-      integer :: first, i, k, last, m
+      integer :: i, k, m
 
       call heading(file, 'MODEL SUMMARY')
       call count_line(file, 'NODES', int(n_points(model), long))
@@ -222,15 +221,12 @@ contains
          '  MASS LUMPED                                 ', '  MASS CONSISTENT (DEFAULT OF NASTRAN: LUMPED)', model%lumped)))
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
-      words = upper(deck%bulk%ignored%words()) ! a list with commas, in as many lines as needed
-      first = 1
-      do while (first <= len(words))
-         last = min(first + page_width - 6, len(words))
-         if (last < len(words)) last = first - 1 + max(1, index(words(first:last), ',', back=.true.))
-         call file%put('  '//repeat(' ', merge(0, 1, first == 1))//words(first:last))
-         first = last + 1
-      end do
+      call put_lines(file, upper(deck%bulk%ignored%words()), ',')
       if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
+      if (.not. allocated(model%warnings)) return
+      do i = 1, size(model%warnings)
+         call put_lines(file, 'WARNING: '//upper(model%warnings(i)%words), ' ')
+      end do
    end subroutine write_summary
 
    !> The number of a kind of parts of the model.
@@ -306,6 +302,14 @@ contains
             if (.not. joint%frame%faces_all_ways) call table%add(clean(joint%normal(:d), 1.0e-9_wp))
             call table%print_row(page%file)
             lists(j) = count([(model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0, i = joint%first, joint%last)])
+         end associate
+      end do
+
+      do j = 1, size(model%joints)
+         associate (joint => model%joints(j), law => model%joints(j)%law%normal)
+            if (.not. joint%e_u_given .and. law%c > 0.0_wp) call page%file%put('  NOTE: E_U OF JOINT '//integer_text(joint%id)// &
+               ' IS THE DEFAULT, E OF THE BODIES,'//in_form(law%e_u/normal_tangent(law, 1.0_wp, joint%p_av, joint%p_av), &
+               '(es10.2)', 10)//' TIMES THE SLOPE OF LOADING AT ITS FIRST P')
          end associate
       end do
 

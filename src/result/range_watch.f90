@@ -73,6 +73,7 @@ contains
       allocate (watch%soft_line(size(model%joints)), watch%soft_unloading(2*size(model%joints)), source=.false.)
       allocate (watch%first_of(2, size(model%joints)), source=-1)
       if (tetra_words(model) /= '') watch%n_warnings = 1
+      if (allocated(model%warnings)) watch%n_warnings = watch%n_warnings + size(model%warnings)
       watch%poor_condition = ''
       watch%divided = ''
    end subroutine start_watch

@@ -17,7 +17,7 @@ module table_writer
    implicit none
    private
 
-   public :: column, csv, csv_titles, heading, cut, in_form, in_units
+   public :: column, csv, csv_titles, heading, put_lines, cut, in_form, in_units
 
    integer, parameter, public      :: page_width = 132
    real(wp), parameter, public     :: noise = 1.0e-9_wp !! of the largest number of its kind: smaller values are rounding
@@ -351,6 +351,21 @@ contains
       call file%put(' '//cut(words, page_width - 1))
       call file%put('')
    end subroutine heading
+
+   !> Write WORDS in as many lines as the page needs, broken after a SEPARATOR.
+   subroutine put_lines(file, words, separator)
+      type(output_file_type), intent(inout) :: file
+      character(*), intent(in)              :: words, separator
+      integer :: first, last
+
+      first = 1
+      do while (first <= len(words))
+         last = min(first + page_width - 6, len(words))
+         if (last < len(words)) last = first - 1 + max(1, index(words(first:last), separator, back=.true.))
+         call file%put('  '//repeat(' ', merge(0, 1, first == 1))//words(first:last))
+         first = last + 1
+      end do
+   end subroutine put_lines
 
    !> The unit behind a heading, in brackets; empty where LABEL is blank.
    pure function in_units(label) result(words)

@@ -22,21 +22,23 @@ module vibration_tables
    real(wp), parameter :: least_share = 1.0e-4_wp  ! of the strain energy: a smaller share has no row in the listing
    real(wp), parameter :: no_part = 1.0e-9_wp      ! of the largest mass or participation possible: rounding
    real(wp), parameter :: no_mass = 1.0e-12_wp     ! of the mass of the structure: rounding, in full precision
+   real(wp), parameter :: steep = 2.0_wp           ! times the stiffness of the loading curves: a stiffer default is warned of
    real(wp), parameter :: tiny_share = 1.0e-7_wp   ! of an amplitude, of a loss: rounding
 
 contains
 
    !> The search for the modes, mass, frequencies, participation, and shares of strain energy.
-   subroutine list_modes(page, model, plan, modes)
+   subroutine list_modes(page, model, plan, modes, n_warnings)
       type(page_type), intent(inout)        :: page
       type(model_type), intent(in)          :: model
       type(vibration_plan_type), intent(in) :: plan
       type(modes_type), intent(in)          :: modes
+      integer, intent(inout)                :: n_warnings
       character(4), parameter :: moments(6) = ['I XX', 'I YY', 'I ZZ', 'I XY', 'I YZ', 'I ZX']
       type(table_type) :: parts, table
       integer, allocatable :: shown(:)
       real(wp) :: extent
-      integer  :: c, d, m
+      integer  :: c, d, j, m
 
       call page%file%put('')
       call page%file%put(' NATURAL MODES ABOUT THE END OF '//page%stage//'   '// &
@@ -45,6 +47,12 @@ contains
                          trim(merge('LUMPED MASS    ', 'CONSISTENT MASS', model%lumped)))
       if (size(model%interface) > 0) call page%file%put('  INTERFACE ELEMENTS IN CONTACT: '// &
          integer_text(modes%n_touching)//' OF '//integer_text(size(model%interface))//'; THE OTHERS HAVE NO STIFFNESS')
+      do j = 1, size(model%joints)
+         if (modes%steeper(j) <= steep) cycle
+         call page%file%put('  WARNING: E_U OF JOINT '//integer_text(model%joints(j)%id)//' IS THE DEFAULT, AND MAKES IT '// &
+            trim(adjustl(in_form(modes%steeper(j), '(es10.2)', 10)))//' TIMES AS STIFF AS ITS LOADING CURVES: GIVE EU ON JNORM')
+         n_warnings = n_warnings + 1
+      end do
       if (modes%counted_at < huge(1.0_wp)) then
          call page%file%put('  MODES BELOW THE FREQUENCY '//real_text(modes%counted_at)//': '//integer_text(modes%n_counted)// &
                             ', COUNTED BY THE SIGNS OF THE PIVOTS; NONE IS MISSING')

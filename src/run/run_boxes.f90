@@ -35,7 +35,6 @@ module run_boxes
                           phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
                           is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
-   use unit_watch, only: unit_words
    use vibration_tables, only: list_backbone, list_response
    use vtu_grids, only: write_piece
    use text_tools, only: integer_text
@@ -175,6 +174,7 @@ contains
       integer, allocatable :: drops(:)
       character(:), allocatable :: words
       character(:), allocatable :: loose
+      integer :: i
 
       if (is_over(run)) return
       call keep_memory()
@@ -196,7 +196,9 @@ contains
          run%ending = was_checked
       end if
       if (run%errors%any() .or. run%suggests) return
-      call tell(run, unit_words(deck))
+      do i = 1, size(model%warnings)
+         call tell(run, model%warnings(i)%words)
+      end do
       words = 'NEWTON'
       if (deck%control%method == method_step .and. any(abs(model%interface%gap) > 0.0_wp)) then
          words = 'the iterations of NEWTON, which STEP needs for gaps and interference,'

@@ -28,6 +28,7 @@ module mode_values
    use model_data, only: bar_nodes, model_type, n_bars, n_points
    use natural_modes, only: oscillating_type, spectrum_type
    use node_coupling, only: participating_nodes
+   use normal_curve, only: normal_tangent
    use normal_stiffness, only: branch_open
    use shear_loops, only: loss_of_element
    use stage_plan, only: vibration_plan_type
@@ -76,6 +77,8 @@ module mode_values
       real(wp) :: centre(3) = 0.0_wp                !! of that [length]
       real(wp) :: inertia(6) = 0.0_wp               !! about its axes: I_xx, I_yy, I_zz, I_xy, I_yz, I_zx [force time^2 length]
       integer  :: n_touching = 0                     !! interface elements in contact, which have stiffness
+      real(wp), allocatable :: steeper(:)           !! (joints) how many times stiffer the default E_u is than the loading curves
+                                                    !! there; 0: E_u is given, or the stiffness is that of loading [-]
    end type modes_type
 
 contains
@@ -164,6 +167,7 @@ contains
       modes%n_counted = spectrum%n_counted
       modes%counted_at = merge(sqrt(spectrum%counted_at)/two_pi, huge(1.0_wp), spectrum%counted_at < huge(1.0_wp))
       modes%n_touching = count(analysis%states%normal%branch /= branch_open)
+      modes%steeper = [(merge(0.0_wp, default_steepness(model, analysis, d), plan%on_loading), d = 1, size(model%joints))]
       call total_mass(model, structure%mass, modes%mass, modes%centre, modes%inertia)
       n = size(spectrum%lambda)
       allocate (u(model%dimension, model%n_nodes, n), g(model%dimension, n))
@@ -199,6 +203,30 @@ contains
          end associate
       end do
    end subroutine evaluate_modes
+
+   !> The stiffness of the elements of joint J in contact by the default E_u over that of their loading curves; 0: E_u is given.
+   pure real(wp) function default_steepness(model, analysis, j) result(ratio)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: j
+      real(wp) :: area, tangent
+      integer  :: i
+
+      ratio = 0.0_wp
+      area = 0.0_wp
+      tangent = 0.0_wp
+      associate (joint => model%joints(j), law => model%joints(j)%law%normal)
+         if (joint%e_u_given) return
+         do i = joint%first, joint%last
+            associate (state => analysis%states(i)%normal)
+               if (state%branch == branch_open) cycle
+               area = area + model%interface(i)%area
+               tangent = tangent + normal_tangent(law, model%interface(i)%area, max(0.0_wp, state%pressure), joint%p_av)
+            end associate
+         end do
+         if (tangent > 0.0_wp) ratio = law%e_u*(area/tangent)
+      end associate
+   end function default_steepness
 
    !> The values of MODE from lambda, the computed u, u^T [m] e_d as participation, the energies, F = [k] u and OF_MASS = [m] u.
    !! With NORM = MAX the shape is scaled so that its largest component at a point of the structure is 1; its sign is kept.

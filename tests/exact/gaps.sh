@@ -205,3 +205,48 @@ DECK
    run stack && ask "$solver, a stack pushed away by interference: it does not slide off" stack count 10 \
       all 'slip = 0 and abs(tau_x - 100*delta_x) <= 1e-9 and abs(delta_x) < 1e-3'
 done
+
+# Quarters of a shaft in a ring, drawn with 23 and 16 chords whose sagittas are 0.0175 and 0.0361: JGAP TRUE finds the overlap of the circles.
+# Lame, E = 210000, radii 12, 30, 55, both in plane stress: p = overlap E/(30 ((55^2 + 30^2)/(55^2 - 30^2) + (30^2 + 12^2)/(30^2 - 12^2))). Touching
+# circles are not pressed. In the plane, and in space by hexahedra; the warning names gap and sagittas.
+shrink() { # NAME DIMENSION OVERLAP
+   awk -v d="$2" -v overlap="$3" '
+      function ring(n0, e0, r1, r2, nt, mark, inner,   i, j, k, n, r, a, g, q, s) {
+         n = n0
+         for (i = 0; i <= 5; i++) for (j = 0; j <= nt; j++) for (k = 0; k <= d - 2; k++) {
+            r = r1 + (r2 - r1)*i/5; a = atan2(0, -1)/2*j/nt; g[i, j, k] = ++n
+            printf "GRID*,%d,,%.12f,%.12f,\n*,%.1f\n", n, r*cos(a), r*sin(a), 5*k
+            printf "SPC1,1,%s3,%d\n", j == 0 ? 2 : (j == nt ? 1 : ""), n
+         }
+         for (i = 0; i < 5; i++) for (j = 0; j < nt; j++) {
+            q = g[i, j, 0] "," g[i + 1, j, 0] "," g[i + 1, j + 1, 0] "," g[i, j + 1, 0]
+            if (d == 3) q = q "," g[i, j, 1] "," g[i + 1, j, 1] "\n+," g[i + 1, j + 1, 1] "," g[i, j + 1, 1]
+            printf "%s,%d,1,%s\n", d == 2 ? "CQUAD4" : "CHEXA", ++e0, q
+         }
+         i = inner ? 0 : 5
+         for (j = 0; j < nt; j++) {
+            s = inner ? g[i, j + 1, 0] "," g[i, j, 0] : g[i, j, 0] "," g[i, j + 1, 0]
+            if (d == 3) s = inner ? g[i, j, 0] "," g[i, j, 1] "," g[i, j + 1, 1] "," g[i, j + 1, 0] : g[i, j, 0] "," g[i, j + 1, 0] "," g[i, j + 1, 1] "," g[i, j, 1]
+            printf "%s,%d,%d,%s\n", d == 2 ? "CBAR" : "CQUAD4", ++e0, mark, s
+         }
+      }
+      BEGIN {
+         print "METHOD = NEWTON\nSPC = 1\nSUBCASE 1\nBEGIN BULK"
+         ring(0, 0, 12, 30 + overlap, 23, 20, 0); ring(10000, 10000, 30, 55, 16, 21, 1)
+         print d == 2 ? "PSHELL,1,1,5.0" : "PSOLID,1,1", "\nMAT1,1,210000.0,,0.3\nPMARK,20\nPMARK,21\nJOINT,1,1,20,21,0.5\nPJOINT,1,1,,,,,1.0"
+         print "JNORM,1,1.0-7,1.0,1.0+7\nJGAP,1,TRUE\nENDDATA"
+      }' > "$work/$1.bdf"
+   [ "$2" = 2 ] && sed -i 's/^\(SPC1,1,.*\)3,/\1,/; /^SPC1,1,,/d' "$work/$1.bdf"
+   run "$1"
+}
+lame=$(awk 'BEGIN { printf "%.9f", 0.02*210000/(30*((55^2 + 30^2)/(55^2 - 30^2) + (30^2 + 12^2)/(30^2 - 12^2))) }')
+for d in 2 3; do
+   shrink "shrunk$d" $d 0.02 && {
+      pressure=$lame
+      [ $d = 3 ] && pressure="$lame/(1 - 0.09)" # plane strain: both moduli over 1 - nu^2
+      near "shrink fit in $d dimensions: mean pressure" "$(value shrunk$d rows 'increment = max(increment)' by stage print 'sum(force)/sum(area)')" "$pressure" 0.01
+      ask "... the same at every node" shrunk$d rows 'increment = max(increment)' all "pressure = ($pressure) within 0.03*($pressure)"
+      says "... the sagittas are told" "$work/shrunk$d.log" 'JGAP TRUE finds gaps of -0.02.* 0.0175.* (SIDE1) and 0.0361.* (SIDE2)'
+   }
+   shrink "touching$d" $d 0.0 && ask "touching circles in $d dimensions" touching$d rows 'increment = max(increment)' all "abs(pressure) < 0.001*$lame"
+done

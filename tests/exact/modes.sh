@@ -132,3 +132,22 @@ MODES(FREE) = 4;BEGIN BULK;${case#* };MAT1,1,9500.,,.25,1.-9;EIGRL,4,,,7;ENDDATA
 DECK
    run rigid && same "without supports: ${case%% *} rigid movements" "$(awk -F, 'NR > 1 && $3 == 0' "$work/rigid.modes.csv" | wc -l)" "${case%% *}"
 done
+
+# E_u left blank is E of the bodies per unit of length, here 120000: 120000 m c/p^(1 - m) = 84.85 times the slope of loading at p = 0.5. The
+# listing says so with the law, and the modes that it rules warn of it; not where EU is given, nor where the stiffness is that of loading.
+slope_given() { # NAME EU STIFFNESS
+   cards "$1" <<DECK
+METHOD = NEWTON;SUBCASE 1;LOAD = 10;MODES = 8;STIFFNESS = $3
+BEGIN BULK;BLOCK3,1,1,2,2,3,0.0,0.0,0.0;+,100.0,100.0,300.0,,,,1,1;+,,,,,20,21;PMARK,20;PMARK,21;PSOLID,1,1;MAT1,1,120000.0,,0.0,7.2-9
+JOINT,1,1,20;PJOINT,1,1,1,1,0.2;JNORM,1,1.0-3,0.5,$2;JSHEAR,1,1000.0;FORCEM,10,5000.0,0.0,0.0,-1.0,21;EIGRL,8,,,3;ENDDATA
+DECK
+   run "$1"
+}
+slope_given blank_slope '' UNLOAD && slope_given same_slope 120000.0 UNLOAD && slope_given loading_slope '' LOAD && {
+   says 'E_u by default: its ratio to the slope of loading' "$work/blank_slope.out" 'E_U OF JOINT 1 IS THE DEFAULT, E OF THE BODIES,  8.49E+01 TIMES THE SLOPE OF LOADING'
+   says '... where it rules modes' "$work/blank_slope.out" 'WARNING: E_U OF JOINT 1 IS THE DEFAULT, AND MAKES IT 8.49E+01 TIMES AS STIFF AS ITS LOADING CURVES'
+   near '... the frequency of that E_u' "$(mode blank_slope 1 frequency)" "$(mode same_slope 1 frequency)" 1e-9
+   same '... given: no word' "$(grep -c 'DEFAULT' "$work/same_slope.out")" 0
+   same '... modes of loading: no warning' "$(grep -c 'WARNING: E_U' "$work/loading_slope.out")" 0
+   says '... the law as well' "$work/loading_slope.out" 'NOTE: E_U OF JOINT 1 IS THE DEFAULT'
+}

@@ -81,16 +81,55 @@ for case in 'bolted_cantilever 1' 'solid_bolt 2' 'lap_joint 3' 'bracket_spiders 
    run "$1" && adds_up "$1" "$2"
 done
 
-# Units looked at: kg/m3 in a deck of mm and N is told, with what it should be; the right density, in any system of units, is not.
-for case in '7850.0 2.1+5 7.850E-09' '7.85 2.1+5 7.850E-09 UNITS=MM,N' '7.85 2.1+5' '7.85-9 2.1+5' '7850.0 2.1+11' '8.0-10 21000.0' '7.35-4 3.0+7'; do
+# Units looked at: a density or an E of another system is told, with what it should be; the right ones, in any system of units, are not. The
+# waves of steel have 5172 m/s, those of E in GPa or of RHO in kg/mm3 a 32nd of that; wood, plastics, lead and beryllium are solids, rubber is
+# warned of. E and rho, UNITS, what is said.
+for case in '7850.0 2.1+5 7.850E-09' '7.85 2.1+5 7.850E-09 UNITS=MM,N' '7.85 2.1+5 7.850E-09' '7.85-6 2.1+5 7.850E-09 UNITS=MM,N' '2.7-6 7.0+4 2.700E-09 UNITS=MM,N' \
+   '7.85-9 210.0 2.100E+05 UNITS=MM,N' '7850.0 2.1+5 2.100E+11 UNITS=M,N' '7.85 2.1+11 7.850E+03 UNITS=M,N' '7.85-9 2.1+5' '7.85-9 2.1+5 - UNITS=MM,N' \
+   '7850.0 2.1+11' '7850.0 2.1+11 - UNITS=M,N' '8.0-10 21000.0' '8.0-10 21000.0 - UNITS=MM,KGF' '7.35-4 3.0+7' '7.35-4 3.0+7 - UNITS=IN,LBF' '7.85-6 210.0 - UNITS=MM,KN' \
+   '1.13-8 1.6+4 - UNITS=MM,N' '1.85-9 2.87+5 - UNITS=MM,N' '5.0-10 300.0 - UNITS=MM,N' '1.4-9 3000.0 - UNITS=MM,N'; do
    set -- $case
    cards units <<DECK
 ${4:-TITLE = UNITS};SPC = 1;LOAD = 10
 BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,$2,,0.0,$1;SPC1,1,12,1,3;FORCE,10,2,,1.0,0.0,1.0;ENDDATA
 DECK
    run units
-   if [ -n "${3:-}" ]; then says "units: $1 with $2" "$work/units.log" "There it would be $3"
-   else same "units: $1 with $2" "$(grep -c 'speed of waves' "$work/units.log")" 0; fi
+   if [ "${3:--}" != - ]; then says "units: $1 with $2" "$work/units.log" "There it would be $3"
+   else same "units: $1 with $2" "$(grep -c 'wave speed' "$work/units.log")" 0; fi
+done
+cards units <<'DECK'
+UNITS=MM,N;SPC = 1;LOAD = 10
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,5.0,,0.0,1.1-9;SPC1,1,12,1,3;FORCE,10,2,,1.0,0.0,1.0;ENDDATA
+DECK
+run units && says 'rubber: its speed' "$work/units.log" 'wave speed sqrt(E/RHO) of 6.742E+01 m/s'
+run units && says 'the listing has it' "$work/units.out" 'WARNING: MAT1 1: RHO ='
+
+# E without RHO, where UNITS tells the unit of stress: GPa and Pa in a deck of mm, N/mm2 in one of m; a power of ten stands for a rigid body.
+for case in '210.0 MM,N 1' '2.1+11 MM,N 1' '2.1+5 M,N 1' '21.4 MM,KGF 1' '2.1+5 MM,N 0' '1.0+10 MM,N 0' '1.0+12 MM,N 0' '2.14+4 MM,KGF 0' '2.1+11 M,N 0' '5.0 MM,N 0' '210.0 MM,KN 0' '210.0 , 0'; do
+   set -- $case
+   cards units <<DECK
+UNITS=$2;SPC = 1;LOAD = 10
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,$1,,0.0;SPC1,1,12,1,3;FORCE,10,2,,1.0-3,0.0,1.0;ENDDATA
+DECK
+   [ "$2" = , ] && sed -i '/^UNITS/d' "$work/units.bdf"
+   run units
+   same "E of $1 in $2" "$(grep -c 'MAT1 1: E =' "$work/units.log")" "$3"
+done
+
+# c p^m looked at, at 1 N/mm2 where UNITS tells the units, else at the first pressure against the joint: c of books in the deck as printed.
+# 8E-3 mm/(kgf/mm2)^0.5 are 0.8 micrometres/(kgf/cm2)^0.5: 0.8*1E-3*(100)^0.5. C, UNITS, warnings, what C would be.
+for case in '8.0-3 MM,KGF 0' '0.8 MM,KGF 1 8.000E-03' '1.0-3 MM,N 0' '1.0 MM,N 1 1.000E-03' '1.0-9 M,N 0' '1.0-3 M,N 1 1.000E-09' '1.0-3 , 0' '1.0 , 1'; do
+   set -- $case
+   cards units <<DECK
+UNITS=$2;METHOD = NEWTON;SPC = 1;LOAD = 10
+BEGIN BULK;BLOCK2,1,1,2,1,0.0,0.0;+,8.0,5.0;+,20;PMARK,20;PSHELL,1,1,2.0;MAT1,1,2.1+6,,0.0;SPC1,1,1,1;JOINT,1,1,20;PJOINT,1,1;JNORM,1,$1,0.5,1.0+15
+FORCE,10,2,,2.0,0.0,-1.0;FORCE,10,4,,4.0,0.0,-1.0;FORCE,10,6,,2.0,0.0,-1.0;ENDDATA
+DECK
+   [ "$2" = , ] && sed -i '/^UNITS/d' "$work/units.bdf"
+   [ "$2" = M,N ] && sed -i 's/2.1+6/2.1+11/' "$work/units.bdf"
+   run units
+   same "c of $1 in $2" "$(grep -c 'c p^m of its JNORM' "$work/units.log")" "$3"
+   [ -z "${4:-}" ] || says "c of $1 in $2: what it would be" "$work/units.log" "C would be $4"
 done
 
 # Gravity and stress looked at likewise: 9.81 is none in mm, 98.1 is 10 g in m; a stress of 6.25 is E/33.6 of 210 and E/50.4 of 315.
@@ -102,6 +141,16 @@ BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,2.1+5,,0.0;SPC
 DECK
    run units
    same "gravity: $1 in $2" "$(grep -c 'is not gravity' "$work/units.log")" "$3"
+done
+# Without UNITS the waves tell the system: 9.81 beside steel in mm is not gravity, beside steel in m it is.
+for case in '9810.0 2.1+5 7.85-9 0' '9.81 2.1+5 7.85-9 1' '9.81 2.1+11 7850.0 0' '9810.0 2.1+11 7850.0 1' '386.1 3.0+7 7.35-4 0'; do
+   set -- $case
+   cards units <<DECK
+SPC = 1;LOAD = 10
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,$2,,0.0,$3;SPC1,1,12,1,3;GRAV,10,,$1,0.0,-1.0;ENDDATA
+DECK
+   run units
+   same "gravity: $1 with E $2" "$(grep -c 'is not gravity' "$work/units.log")" "$4"
 done
 for case in '210.0 1' '315.0 0'; do
    set -- $case

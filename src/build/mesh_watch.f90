@@ -1,0 +1,239 @@
+!> Warnings about the mesh: elements on the same nodes, and coincident nodes that nothing connects.
+!! Both are left by meshes that were written twice or not merged. The stiffness of an element that is there twice counts twice;
+!! bodies whose nodes are not merged come apart as at a crack. Neither is an error: an overlay, or a crack, may be meant.
+module mesh_watch
+   use element_kinds, only: element_table
+   use kinds, only: wp
+   use lists, only: join, list_owners, root_of
+   use model_data, only: a_bar, bar_nodes, corners_of, is_face_node, model_type, n_bars, n_points, n_rotations, supported
+   use node_coupling, only: coupling_parts
+   use spatial_search, only: spatial_search_type
+   use text_tools, only: integer_text, plural
+   implicit none
+   private
+
+   public :: repeated_words, crack_words
+
+   real(wp), parameter :: coincident = 1.0e-5_wp ! of the shortest edge at a node: nodes that are nearer coincide
+   integer, parameter  :: most_named = 3         ! pairs that a warning names
+
+contains
+
+   !> A warning about elements, and bars without a BOLT, that have the nodes of another one; '' where there are none. Bars count if
+   !! their stiffness is the same too: several unlike bars may lie between two nodes.
+   function repeated_words(model) result(words)
+      type(model_type), intent(in) :: model
+      character(:), allocatable    :: words
+      character(:), allocatable :: named
+      integer, allocatable :: lowest(:, :), first(:), owners(:)
+      integer :: e, i, n
+
+      allocate (lowest(1, model%n_elements + n_bars(model)), source=0)
+      do e = 1, model%n_elements
+         lowest(1, e) = minval(corners_of(model, e))
+      end do
+      do i = 1, n_bars(model)
+         if (model%bars(i)%kind == a_bar .and. model%bars(i)%bolt == 0) &
+            lowest(1, model%n_elements + i) = minval(bar_nodes(model%bars(i)))
+      end do
+      call list_owners(model%n_nodes, lowest, first, owners)
+      n = 0
+      named = ''
+      do e = 1, size(lowest, 2)
+         if (lowest(1, e) == 0) cycle
+         do i = first(lowest(1, e)), first(lowest(1, e) + 1) - 1 ! in ascending order
+            if (owners(i) >= e) exit
+            if (.not. same_place(model, owners(i), e)) cycle
+            n = n + 1
+            call name_pair(n, name_of(model, e)//' as '//name_of(model, owners(i)), named)
+            exit
+         end do
+      end do
+      words = ''
+      if (n > 0) words = plural(n, 'element')//trim(merge(' has ', ' have', n == 1))//' the nodes of another one:'//named// &
+                         ': the stiffness there counts twice; delete one of each pair'
+   end function repeated_words
+
+   !> Add PAIR number N to the pairs that a warning names.
+   pure subroutine name_pair(n, pair, named)
+      integer, intent(in)      :: n
+      character(*), intent(in) :: pair
+      character(:), allocatable, intent(inout) :: named
+
+      if (n > 1 .and. n <= most_named + 1) named = named//','
+      if (n <= most_named) named = named//' '//pair
+      if (n == most_named + 1) named = named//' ...'
+   end subroutine name_pair
+
+   !> Whether A and B, elements or behind these bars, have the same corners.
+   pure logical function same_place(model, a, b)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: a, b
+      integer :: k
+
+      same_place = .false.
+      if ((a > model%n_elements) .neqv. (b > model%n_elements)) return
+      if (a > model%n_elements) then
+         associate (one => model%bars(a - model%n_elements), other => model%bars(b - model%n_elements))
+            same_place = (all(one%nodes == other%nodes) .or. all(one%nodes == other%nodes(2:1:-1))) .and. &
+                         .not. abs(one%stiffness - other%stiffness) > 0.0_wp
+         end associate
+         return
+      end if
+      associate (n => [element_table(model%element_kind(a))%n_corners, element_table(model%element_kind(b))%n_corners])
+         if (n(1) /= n(2)) return
+         associate (own => model%element_nodes(:n(1), a), other => model%element_nodes(:n(1), b))
+            same_place = all([(any(own(k) == other), k = 1, n(1))]) .and. all([(any(other(k) == own), k = 1, n(1))])
+         end associate
+      end associate
+   end function same_place
+
+   !> The number of element E, or of a bar behind the elements.
+   pure function name_of(model, e) result(name)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      character(:), allocatable    :: name
+
+      if (e <= model%n_elements) name = integer_text(model%element_id(e))
+      if (e > model%n_elements) name = integer_text(model%bars(e - model%n_elements)%id)
+   end function name_of
+
+   !> A warning about coincident nodes of elements that no joint, constraint equation, bar or spring connects; '' where there are
+   !! none. Nodes that are wholly supported need no connection. Bodies that joints connect may touch elsewhere, too.
+   function crack_words(model) result(words)
+      type(model_type), intent(in) :: model
+      character(:), allocatable    :: words
+      type(spatial_search_type) :: search
+      character(:), allocatable :: named
+      integer, allocatable  :: assembly(:), body(:), found(:), nodes(:), parent(:)
+      real(wp), allocatable :: reach(:)
+      integer :: i, k, n, n_found
+
+      nodes = pack([(i, i = 1, n_points(model))], [(may_part(model, i), i = 1, n_points(model))])
+      call find_reach(model, reach)
+      call search%build(model%x(:, nodes))
+      allocate (found(16), parent(0))
+      n = 0
+      named = ''
+      do i = 1, size(nodes)
+         associate (x => model%x(:, nodes(i)), r => reach(nodes(i)))
+            call search%list_meeting(x - r, x + r, found, n_found)
+         end associate
+         if (n_found < 2) cycle
+         if (size(parent) == 0) then
+            call find_connections(model, parent)
+            call find_assemblies(model, body, assembly)
+         end if
+         found(:n_found) = nodes(found(:n_found))
+         do k = 1, n_found ! a pair counts at its second node
+            if (found(k) < nodes(i) .and. .not. share(parent, found(k), nodes(i)) .and. &
+                (share(body, found(k), nodes(i)) .or. .not. share(assembly, found(k), nodes(i)))) exit
+         end do
+         if (k > n_found) cycle
+         n = n + 1
+         call name_pair(n, integer_text(model%node_id(nodes(i)))//' at '//integer_text(model%node_id(found(k))), named)
+      end do
+      words = ''
+      if (n > 0) words = plural(n, 'node')//trim(merge(' lies', ' lie ', n == 1))//' at the place of another one, and no '// &
+         'joint, rigid element, MPC, bar or spring connects them:'//named// &
+         ': the bodies come apart there; merge these nodes or give a JOINT'
+   end function crack_words
+
+   !> Whether NODE belongs to an element and is free to part from another one.
+   pure logical function may_part(model, node)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+
+      may_part = model%first_at(node + 1) > model%first_at(node)
+      if (may_part) may_part = .not. (is_face_node(model, node) .or. all(supported(model, node)))
+   end function may_part
+
+   !> The distance within which another node coincides with each node, from the shortest edge of the elements there [length].
+   pure subroutine find_reach(model, reach)
+      type(model_type), intent(in)       :: model
+      real(wp), allocatable, intent(out) :: reach(:) !! (n_nodes)
+      real(wp) :: shortest
+      integer  :: e, k
+
+      allocate (reach(model%n_nodes), source=huge(1.0_wp))
+      do e = 1, model%n_elements
+         associate (kind => element_table(model%element_kind(e)), nodes => model%element_nodes(:, e))
+            shortest = huge(1.0_wp)
+            if (kind%n_edges == 0) shortest = norm2(model%x(:, nodes(2)) - model%x(:, nodes(1))) ! a beam
+            do k = 1, kind%n_edges
+               shortest = min(shortest, norm2(model%x(:, nodes(kind%edges(1, k))) - model%x(:, nodes(kind%edges(2, k)))))
+            end do
+            reach(nodes(:kind%n_nodes)) = min(reach(nodes(:kind%n_nodes)), coincident*shortest)
+         end associate
+      end do
+   end subroutine find_reach
+
+   !> Whether A and B are in one set of the union-find PARENT.
+   pure logical function share(parent, a, b)
+      integer, intent(in) :: parent(:), a, b
+
+      share = root_of(parent, a) == root_of(parent, b)
+   end function share
+
+   !> The sets of nodes that interface elements, constraint equations, bars and springs connect: their union-find PARENT.
+   pure subroutine find_connections(model, parent)
+      type(model_type), intent(in)      :: model
+      integer, allocatable, intent(out) :: parent(:) !! (n_nodes)
+      integer :: i, k
+
+      parent = [(i, i = 1, model%n_nodes)]
+      call join_ends(model, parent)
+      do i = 1, n_bars(model)
+         call join(parent, model%bars(i)%nodes(1), model%bars(i)%nodes(2))
+      end do
+      do i = 1, model%n_nodes
+         associate (parts => coupling_parts(model, i))
+            do k = parts(1), parts(2)
+               call join(parent, i, model%coupling%node(k))
+            end do
+         end associate
+      end do
+      do k = 1, n_rotations(model)
+         call join(parent, model%rotations(k)%point, model%rotations(k)%node)
+      end do
+   end subroutine find_connections
+
+   !> The union-finds of the nodes of each BODY, and of each ASSEMBLY of bodies that joints connect.
+   pure subroutine find_assemblies(model, body, assembly)
+      type(model_type), intent(in)      :: model
+      integer, allocatable, intent(out) :: body(:), assembly(:) !! (n_nodes)
+      integer :: e, i, k
+
+      body = [(i, i = 1, model%n_nodes)]
+      do e = 1, model%n_elements
+         associate (nodes => model%element_nodes(:, e))
+            do k = 2, size(nodes)
+               call join(body, nodes(1), nodes(k))
+            end do
+         end associate
+      end do
+      if (allocated(model%faces)) then
+         do k = 1, size(model%faces)
+            call join(body, model%faces(k)%point, model%faces(k)%node)
+         end do
+      end if
+      assembly = body
+      call join_ends(model, assembly)
+   end subroutine find_assemblies
+
+   !> Unite in PARENT the nodes of each interface element.
+   pure subroutine join_ends(model, parent)
+      type(model_type), intent(in) :: model
+      integer, intent(inout)       :: parent(:)
+      integer :: i, k
+
+      do i = 1, size(model%interface)
+         associate (nodes => model%interface(i)%node)
+            do k = 2, size(nodes)
+               call join(parent, nodes(1), nodes(k))
+            end do
+         end associate
+      end do
+   end subroutine join_ends
+
+end module mesh_watch
