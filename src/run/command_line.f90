@@ -5,8 +5,9 @@ module command_line
    use terminal, only: command_reader, complain, input_argument, next_option, say, standard_input, version
    use deck_parameters, only: is_parameter_name, parameter_type
    use field_rules, only: parse_integer
+   use finished_stages, only: listing_ending
    use result_page, only: history_ending
-   use results, only: is_result_ending, listing_ending
+   use results, only: is_result_ending
    use text_tools, only: upper
    use vtu_results, only: is_vtu_ending
    implicit none
@@ -24,8 +25,9 @@ module command_line
       ''//nl// &
       'Solves each deck: a structure with flexible joints, loaded in increments. The deck `-` is read from standard'//nl// &
       'input; its listing goes to standard output. For beam.bdf the program writes beam.out (the listing),'//nl// &
-      'beam.joint.csv (every interface element after every increment), beam.stage.csv (the answer of every stage)'//nl// &
-      'and, with bolts, beam.bolt.csv. At the end the answers and the names of the files go to standard output.'//nl// &
+      'beam.joint.csv (every interface element after every increment), beam.stage.csv (the answer of every stage),'//nl// &
+      'beam.reaction.csv and, with bolts, beam.bolt.csv; others on request (--help OUTPUT). At the end the answers and the'//nl// &
+      'names of the files go to standard output.'//nl// &
       ''//nl// &
       '   -o DIR        folder of the results (default: the current folder)'//nl// &
       '   --check       read and check the decks without solving them'//nl// &
@@ -34,7 +36,7 @@ module command_line
       '   --threads N   use at most N threads (default: all cores); the results do not depend on N'//nl// &
       '   --set N=V     replace ${N} in the decks by V; N=V,V,V makes one run for each value, named beam_N=V'//nl// &
       '   --watch N,N   nodes whose displacement and stiffness are added to the answer of every stage'//nl// &
-      '   --summary F   write a table of all runs to the file F, one row for each run'//nl// &
+      '   --summary F   write a table of all runs to the file F, one row for each run; F may be new or an earlier table'//nl// &
       '   --resume      continue each deck from its restart file, beam.restart: the results are those of an'//nl// &
       '                 uninterrupted run. A deck without a restart file starts from the beginning.'//nl// &
       '   --date        print date and time in the heading of the listing'//nl// &
@@ -47,8 +49,9 @@ module command_line
       'processes: mpirun -n 4 jointfem_mpi DECK...'//nl// &
       ''//nl// &
       'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 the structure cannot be'//nl// &
-      'solved, 4 output could not be written; of several decks the highest. input/README.md is the manual of the'//nl// &
-      'cards.'
+      'solved, 4 output could not be written; of several decks the highest. At status 3, and where it is interrupted, a'//nl// &
+      'run keeps the results of its finished stages; beam.out and beam.early then say ENDED EARLY. input/README.md is the'//nl// &
+      'manual of the cards.'
 
    character(*), parameter :: summary_head = 'deck,status,stages,increments,' ! the first columns of every summary
 

@@ -29,7 +29,7 @@ module run_boxes
    use natural_modes, only: find_natural_modes, release_supports, oscillating_type, spectrum_type, start_oscillation
    use newton_method, only: seat_joints
    use restart_file, only: open_restart_file, take_up, write_restart
-   use results, only: list_results => print_increment, print_modes, print_stage, remove_old_results, start_results
+   use results, only: end_stage, list_results => print_increment, print_modes, print_stage, remove_old_results, start_results
    use run_of_deck, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, &
                           phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
                           is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
@@ -68,6 +68,7 @@ contains
             else
                call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
             end if
+            if (.not. run%failure%raised) call end_stage(plan, run%results)
             call enter(run, phase_increments)
          end if
       end associate
@@ -315,6 +316,7 @@ contains
       if (analysis%increment > 0 .and. (completes_stage .or. run%keeps_results) .and. .not. overflow%raised) then
          call enter(run, phase_write)
          call print_stage(model, plan, analysis, run%results, overflow)
+         if (completes_stage .and. .not. (run%keeps_results .or. overflow%raised)) call end_stage(plan, run%results)
       end if
       if (overflow%raised) then
          run%failure = overflow
