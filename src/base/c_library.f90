@@ -7,8 +7,8 @@ module c_library
    private
 
    public :: open_standard_outputs, read_all_bytes, create_unique, open_to_write, write_bytes, close_file, rename_file, &
-             remove_file, true_path, kind_of_file, is_regular_file, is_same_file, tell_failed_writes, at_signals, lock_folder, &
-             end_run, go_to_byte, append_bytes, c_fsync, c_isatty, c_raise, c_rename, c_truncate, c_unlink
+             remove_file, make_folders, true_path, kind_of_file, is_regular_file, is_same_file, tell_failed_writes, at_signals, &
+             lock_folder, end_run, go_to_byte, append_bytes, c_fsync, c_isatty, c_raise, c_rename, c_truncate, c_unlink
 
    !> Kinds of file that a path may lead to.
    integer, parameter, public :: no_file = 0, pipe_file = 1, device_file = 2, folder_file = 4, block_file = 6, regular_file = 8, &
@@ -72,12 +72,6 @@ module c_library
          integer(c_int64_t), value :: offset
       end function c_lseek
 
-      integer(c_int) function c_ftruncate(descriptor, length) bind(c, name='ftruncate64')
-         import :: c_int, c_int64_t
-         integer(c_int), value     :: descriptor
-         integer(c_int64_t), value :: length
-      end function c_ftruncate
-
       !> Shortens the file PATH, which ends with a null character, to LENGTH bytes; needs no memory.
       integer(c_int) function c_truncate(path, length) bind(c, name='truncate64')
          import :: c_char, c_int, c_int64_t
@@ -89,6 +83,12 @@ module c_library
          import :: c_int
          integer(c_int), value :: descriptor
       end function c_close
+
+      integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+      end function c_mkdir
 
       integer(c_int) function c_rename(old, new) bind(c, name='rename')
          import :: c_char, c_int
@@ -246,18 +246,13 @@ contains
       if (descriptor >= 0) ok = c_close(descriptor) == 0 .and. ok
    end subroutine append_bytes
 
-   !> The number of bytes written so far to DESCRIPTOR; with LENGTH the file is first shortened to so many bytes. Negative on failure.
+   !> The number of bytes before the next write to DESCRIPTOR; with LENGTH the next write is behind so many. Negative on failure.
    integer(c_int64_t) function go_to_byte(descriptor, length) result(place)
       integer, intent(in)                      :: descriptor
       integer(c_int64_t), intent(in), optional :: length
 
-      place = -1
-      if (present(length)) then
-         if (c_ftruncate(int(descriptor, c_int), length) /= 0) return
-         place = c_lseek(int(descriptor, c_int), length, 0_c_int)
-      else
-         place = c_lseek(int(descriptor, c_int), 0_c_int64_t, 1_c_int)
-      end if
+      if (present(length)) place = c_lseek(int(descriptor, c_int), length, 0_c_int)
+      if (.not. present(length)) place = c_lseek(int(descriptor, c_int), 0_c_int64_t, 1_c_int)
    end function go_to_byte
 
    !> Close DESCRIPTOR. OK is false where written bytes were lost.
@@ -291,6 +286,19 @@ contains
 
       ok = c_rename(old//c_null_char, new//c_null_char) == 0
    end subroutine rename_file
+
+   !> Make the folders of PATH, which ends with a slash, where there is nothing of their names.
+   subroutine make_folders(path)
+      character(*), intent(in) :: path
+      integer(c_int), parameter :: all_may = int(o'777', c_int) ! less the user's mask
+      integer(c_int) :: status
+      integer :: k
+
+      do k = 2, len(path)
+         if (path(k:k) /= '/') cycle
+         if (kind_of_file(path(:k - 1)) == no_file) status = c_mkdir(path(:k - 1)//c_null_char, all_may)
+      end do
+   end subroutine make_folders
 
    !> Remove the file PATH if it exists.
    subroutine remove_file(path)

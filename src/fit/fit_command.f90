@@ -112,7 +112,6 @@ contains
       integer, intent(out)                :: status
       type(command_reader) :: reader
       character(:), allocatable :: expected, option, value
-      integer :: branch
       logical :: is_missing, ok
 
       command%plot = ''
@@ -139,55 +138,18 @@ contains
             command%zero = .true.
          case ('--seat')
             command%seat = .true.
-         case ('--area')
-            call read_number(value, command%reading%area, ok)
-            ok = ok .and. command%reading%area > 0.0_wp
-            expected = 'an area above 0'
-         case ('--bulk')
-            call read_specimens(value, command%bulk, ok)
-            expected = 'modulus and height of the specimen, as 210000,40, or of two, as 210000,40,120000,25'
          case ('--unordered')
             command%unordered = .true.
          case ('--decimal-comma')
             command%reading%decimal_comma = .true.
          case ('--small', '--large')
             command%small = option == '--small'
-         case ('--id')
-            call parse_integer(value, command%id, ok)
-            ok = ok .and. command%id > 0
-            expected = 'a number of 1 or more'
-         case ('--branch', '--as')
-            branch = findloc(branch_words == upper(value), .true., 1)
-            if (option == '--branch') command%only = branch
-            if (option == '--as') command%as = branch
-            ok = branch > 0
-            expected = 'LOAD, UNLOAD or RELOAD'
-         case ('--p-tolerance')
-            call read_number(value, command%fit%p_tolerance, ok)
-            ok = ok .and. command%fit%p_tolerance >= 0.0_wp .and. command%fit%p_tolerance < 1.0_wp
-            expected = 'a number from 0 to below 1, as 0.01'
-         case ('--noise')
-            call read_number(value, command%noise, ok)
-            ok = ok .and. command%noise > 0.0_wp .and. command%noise < 0.5_wp
-            expected = 'a share of the range of the readings, above 0 and below 0.5, as 0.02'
-         case ('--dmax')
-            call read_number(value, command%d_max, ok)
-            ok = ok .and. command%d_max > 0.0_wp
-            expected = 'a number above 0'
-         case ('--units')
-            call read_system(value, command%reading%deck, ok)
-            expected = 'the units of length and force of the deck, as mm,n or mm,kgf or m,n'
-         case ('--columns')
-            command%reading%columns = value
-            ok = value /= ''
-            expected = 'the names of the columns, as ''p [MPa], lambda [um]'''
-         case ('--plot')
-            command%plot = value
-            ok = value /= ''
-            expected = 'the name of a file for gnuplot'
          case default
-            call complain(program, 'unknown option '//option)
-            return
+            if (all(option /= options_with_value)) then
+               call complain(program, 'unknown option '//option)
+               return
+            end if
+            call take_value(option, value, command, expected, ok)
          end select
          if (.not. ok) call complain(program, option//' '//value//': expected '//expected)
          if (.not. ok) return
@@ -196,6 +158,60 @@ contains
       call complete_command(command, ok)
       if (ok) status = -1
    end subroutine read_fit_command
+
+   !> Take the VALUE of an OPTION with one. OK is false where it is not as EXPECTED.
+   subroutine take_value(option, value, command, expected, ok)
+      character(*), intent(in)               :: option, value
+      type(fit_command_type), intent(inout)  :: command
+      character(:), allocatable, intent(out) :: expected
+      logical, intent(out)                   :: ok
+      integer :: branch
+
+      ok = .false.
+      expected = ''
+      select case (option)
+      case ('--id')
+         call parse_integer(value, command%id, ok)
+         ok = ok .and. command%id > 0
+         expected = 'a number of 1 or more'
+      case ('--branch', '--as')
+         branch = findloc(branch_words == upper(value), .true., 1)
+         if (option == '--branch') command%only = branch
+         if (option == '--as') command%as = branch
+         ok = branch > 0
+         expected = 'LOAD, UNLOAD or RELOAD'
+      case ('--p-tolerance')
+         call read_number(value, command%fit%p_tolerance, ok)
+         ok = ok .and. command%fit%p_tolerance >= 0.0_wp .and. command%fit%p_tolerance < 1.0_wp
+         expected = 'a number from 0 to below 1, as 0.01'
+      case ('--noise')
+         call read_number(value, command%noise, ok)
+         ok = ok .and. command%noise > 0.0_wp .and. command%noise < 0.5_wp
+         expected = 'a share of the range of the readings, above 0 and below 0.5, as 0.02'
+      case ('--dmax')
+         call read_number(value, command%d_max, ok)
+         ok = ok .and. command%d_max > 0.0_wp
+         expected = 'a number above 0'
+      case ('--area')
+         call read_number(value, command%reading%area, ok)
+         ok = ok .and. command%reading%area > 0.0_wp
+         expected = 'an area above 0'
+      case ('--bulk')
+         call read_specimens(value, command%bulk, ok)
+         expected = 'modulus and height of the specimen, as 210000,40, or of two, as 210000,40,120000,25'
+      case ('--units')
+         call read_system(value, command%reading%deck, ok)
+         expected = 'the units of length and force of the deck, as mm,n or mm,kgf or m,n'
+      case ('--columns')
+         command%reading%columns = value
+         ok = value /= ''
+         expected = 'the names of the columns, as ''p [MPa], lambda [um]'''
+      case ('--plot')
+         command%plot = value
+         ok = value /= ''
+         expected = 'the name of a file for gnuplot'
+      end select
+   end subroutine take_value
 
    !> Read TEXT, E,H or E,H,E,H and so on, of specimens on each other: their compression BULK under unit pressure, the sum of H/E.
    subroutine read_specimens(text, bulk, ok)

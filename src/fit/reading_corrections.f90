@@ -150,11 +150,11 @@ contains
       real(wp) :: before, step(3), trial(3)
       integer  :: halvings, k
 
-      call search(q, s)
+      call search(p, lambda, counts, q, s)
       ok = s < huge(s)
       if (.not. ok) return
       do k = 1, most_steps
-         call solve_least_squares(jacobian(q), lambda - curve(q), step, ok)
+         call solve_least_squares(jacobian(p, counts, q), lambda - curve(p, counts, q), step, ok)
          if (.not. ok) return
          before = s
          do halvings = 1, most_halvings
@@ -172,64 +172,6 @@ contains
 
    contains
 
-      !> The point of a grid of m and ps with the smallest S, each with its best a and l0.
-      subroutine search(best, least)
-         real(wp), intent(out) :: best(3), least
-         real(wp) :: a(2), m, ps, total
-         integer  :: i, j
-
-         least = huge(least)
-         best = 0.0_wp
-         do j = 1, merge(17, 1, counts)
-            ps = 10.0_wp**(0.25_wp*(j - 14))      ! 5.6E-4 to 5.6
-            do i = 1, 19
-               m = 0.05_wp*i
-               if (counts) then
-                  associate (g => (p + ps)**m - ps**m)
-                     a = [dot_product(g, lambda)/dot_product(g, g), 0.0_wp]
-                     total = sum((a(1)*g - lambda)**2)
-                  end associate
-               else
-                  call solve_least_squares(reshape([p**m, 0.0_wp*p + 1.0_wp], [size(p), 2]), lambda, a, ok)
-                  if (.not. ok) cycle
-                  total = sum((a(1)*p**m + a(2) - lambda)**2)
-               end if
-               if (a(1) <= 0.0_wp .or. total >= least) cycle
-               least = total
-               best = [log(a(1)), m, merge(log(ps), a(2), counts)]
-            end do
-         end do
-      end subroutine search
-
-      function curve(q) result(f)
-         real(wp), intent(in) :: q(3)
-         real(wp) :: f(size(p))
-
-         if (counts) then
-            f = exp(q(1))*((p + exp(q(3)))**q(2) - exp(q(3))**q(2))
-         else
-            f = exp(q(1))*p**q(2) + q(3)
-         end if
-      end function curve
-
-      function jacobian(q) result(j)
-         real(wp), intent(in) :: q(3)
-         real(wp) :: j(size(p), 3), x(size(p)), ps
-
-         if (counts) then
-            ps = exp(q(3))
-            x = p + ps
-            j(:, 1) = exp(q(1))*(x**q(2) - ps**q(2))
-            j(:, 2) = exp(q(1))*(x**q(2)*log(x) - ps**q(2)*log(ps))
-            j(:, 3) = exp(q(1))*q(2)*ps*(x**(q(2) - 1.0_wp) - ps**(q(2) - 1.0_wp))
-         else
-            x = max(p, tiny(p))
-            j(:, 1) = exp(q(1))*x**q(2)
-            j(:, 2) = j(:, 1)*log(x)
-            j(:, 3) = 1.0_wp
-         end if
-      end function jacobian
-
       !> Huge where the unknowns are beyond all bounds.
       real(wp) function sum_of_squares(q) result(total)
          real(wp), intent(in) :: q(3)
@@ -237,10 +179,75 @@ contains
          total = huge(total)
          if (abs(q(1)) > 300.0_wp .or. q(2) <= 0.0_wp .or. q(2) > 3.0_wp) return
          if (counts .and. (q(3) < -40.0_wp .or. q(3) > 10.0_wp)) return
-         total = sum((curve(q) - lambda)**2)
+         total = sum((curve(p, counts, q) - lambda)**2)
       end function sum_of_squares
 
    end subroutine fit_three
+
+   !> The point BEST of a grid of m and ps with the LEAST sum of squares, each with its best a and l0; see fit_three.
+   subroutine search(p, lambda, counts, best, least)
+      real(wp), intent(in)  :: p(:), lambda(:)
+      logical, intent(in)   :: counts
+      real(wp), intent(out) :: best(3), least
+      real(wp) :: a(2), m, ps, total
+      integer  :: i, j
+      logical  :: ok
+
+      least = huge(least)
+      best = 0.0_wp
+      do j = 1, merge(17, 1, counts)
+         ps = 10.0_wp**(0.25_wp*(j - 14))      ! 5.6E-4 to 5.6
+         do i = 1, 19
+            m = 0.05_wp*i
+            if (counts) then
+               associate (g => (p + ps)**m - ps**m)
+                  a = [dot_product(g, lambda)/dot_product(g, g), 0.0_wp]
+                  total = sum((a(1)*g - lambda)**2)
+               end associate
+            else
+               call solve_least_squares(reshape([p**m, 0.0_wp*p + 1.0_wp], [size(p), 2]), lambda, a, ok)
+               if (.not. ok) cycle
+               total = sum((a(1)*p**m + a(2) - lambda)**2)
+            end if
+            if (a(1) <= 0.0_wp .or. total >= least) cycle
+            least = total
+            best = [log(a(1)), m, merge(log(ps), a(2), counts)]
+         end do
+      end do
+   end subroutine search
+
+   !> The lambda of the unknowns Q at each P; see fit_three.
+   pure function curve(p, counts, q) result(f)
+      real(wp), intent(in) :: p(:), q(3)
+      logical, intent(in)  :: counts
+      real(wp) :: f(size(p))
+
+      if (counts) then
+         f = exp(q(1))*((p + exp(q(3)))**q(2) - exp(q(3))**q(2))
+      else
+         f = exp(q(1))*p**q(2) + q(3)
+      end if
+   end function curve
+
+   !> The derivatives of the curve with respect to each of Q.
+   pure function jacobian(p, counts, q) result(j)
+      real(wp), intent(in) :: p(:), q(3)
+      logical, intent(in)  :: counts
+      real(wp) :: j(size(p), 3), x(size(p)), ps
+
+      if (counts) then
+         ps = exp(q(3))
+         x = p + ps
+         j(:, 1) = exp(q(1))*(x**q(2) - ps**q(2))
+         j(:, 2) = exp(q(1))*(x**q(2)*log(x) - ps**q(2)*log(ps))
+         j(:, 3) = exp(q(1))*q(2)*ps*(x**(q(2) - 1.0_wp) - ps**(q(2) - 1.0_wp))
+      else
+         x = max(p, tiny(p))
+         j(:, 1) = exp(q(1))*x**q(2)
+         j(:, 2) = j(:, 1)*log(x)
+         j(:, 3) = 1.0_wp
+      end if
+   end function jacobian
 
    !> The F of one numerator and NU denominator degrees of freedom that chance exceeds in one of 1000 tests: the square of Student's
    !! t at 0.9995. Source: Abramowitz and Stegun, 26.7.5, to 1 % from 6 degrees on; below 6 the values of tables.

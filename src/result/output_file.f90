@@ -1,7 +1,8 @@
 !> Result files that appear under their names only when complete: written as NAME.abcdef.part, closed, and renamed at the end of
 !! the run. Without a name the lines go to the standard output at the end.
 module output_file
-   use c_library, only: close_file, go_to_byte, open_to_write, remove_file, write_bytes
+   use, intrinsic :: iso_c_binding, only: c_null_char
+   use c_library, only: c_truncate, close_file, go_to_byte, open_to_write, remove_file, write_bytes
    use incomplete_results, only: create_part, name_part
    use kinds, only: long
    use restart_stream, only: restart_stream_type
@@ -199,7 +200,8 @@ contains
          self%used = int(self%kept)
       else
          self%used = 0
-         self%fault = go_to_byte(self%descriptor, self%kept) /= self%kept
+         self%fault = c_truncate(self%part//c_null_char, self%kept) /= 0
+         if (.not. self%fault) self%fault = go_to_byte(self%descriptor, self%kept) /= self%kept
       end if
    end subroutine return_to_mark
 

@@ -29,7 +29,7 @@ module command_line
       'beam.reaction.csv and, with bolts, beam.bolt.csv; others on request (--help OUTPUT). At the end the answers and the'//nl// &
       'names of the files go to standard output.'//nl// &
       ''//nl// &
-      '   -o DIR        folder of the results (default: the current folder)'//nl// &
+      '   -o DIR        folder of the results, made if it is not there (default: the current folder)'//nl// &
       '   --check       read and check the decks without solving them'//nl// &
       '   --joints      print cards for joints where bodies face each other, without solving'//nl// &
       '   -q            do not show progress on the terminal'//nl// &

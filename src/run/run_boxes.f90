@@ -4,7 +4,7 @@
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use backbone, only: backbone_type, find_loop, finish_backbone, start_backbone
-   use c_library, only: end_run, open_standard_outputs, tell_failed_writes
+   use c_library, only: end_run, make_folders, open_standard_outputs, tell_failed_writes
    use case_control, only: method_back, method_newton
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use condensed_interface, only: condense_on_joints
@@ -221,6 +221,7 @@ contains
       run%solver = system%description
       call date_and_time(date, time)
       if (run%is_dated) run%results%page%date = date(:4)//'-'//date(5:6)//'-'//date(7:8)//' '//time(:2)//':'//time(3:4)
+      call make_folders(run%argument%base(:index(run%argument%base, '/', back=.true.)))
       call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
       if (ok .and. run%argument%of > 1 .and. run%argument%base /= '') then
          call run%results%page%screen%put('')

@@ -247,7 +247,13 @@ check 'a full standard error' 2
 # ---- output that cannot be written ----
 
 fresh results
-run -o nowhere good.bdf;              check 'a folder that is not there' 4 'nowhere/good.out'
+run -o nowhere/deeper good.bdf;       check 'a folder that is not there is made' 0
+holds nowhere/deeper 'a folder that is not there: it has the results' good.joint.csv good.out good.reaction.csv good.stage.csv
+rm -rf nowhere
+run -o nowhere --check good.bdf;      check 'a folder that is not there, --check' 0
+run -o nowhere faulty.bdf;            check 'a folder that is not there, a faulty deck' 2
+if [ -e nowhere ]; then fail 'a folder is made without results'; else pass; fi
+run -o good.bdf/deeper good.bdf;      check 'a folder in a file' 4 'good.bdf/deeper/good.out'
 run -o good.bdf good.bdf;             check 'a file for a folder' 4
 cmp -s good.bdf other.bdf || fail 'a file for a folder: the deck is destroyed'
 mkdir results/good.out
