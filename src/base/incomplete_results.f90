@@ -133,7 +133,7 @@ contains
          return
       end if
       is_changing = .true.
-      call create_unique(path, suffix, part, descriptor)
+      if (interrupt == 0) call create_unique(path, suffix, part, descriptor) ! else another thread is removing the files
       if (descriptor >= 0) call note(part)
       call end_of_change()
    end subroutine create_part
