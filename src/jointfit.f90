@@ -12,6 +12,7 @@ program jointfit
    use law_cards, only: write_cards
    use machine, only: use_threads
    use output_file, only: output_file_type
+   use reading_corrections, only: take_off_seat, take_off_specimens
    use surface_fit, only: check_slopes, fit_surface, surface_fit_type
    use terminal, only: complain_of_input
    use test_branches, only: find_branches
@@ -67,8 +68,14 @@ contains
             return
          end if
 
+         ! --------------------------------------------------------------- COMPRESSION OF THE SPECIMENS
+         call take_off_specimens(data, command, errors)
+
          ! --------------------------------------------------------------- WHICH BRANCH IS WHICH?
          call find_branches(data, command, errors)
+
+         ! --------------------------------------------------------------- ZEROED UNDER LOAD?
+         call take_off_seat(data, command, errors)
 
          ! --------------------------------------------------------------- LEAST SQUARES
          if (.not. errors%any()) call fit_surface(data, command, fit, errors)

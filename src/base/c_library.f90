@@ -1,20 +1,20 @@
 !> Declares the services of the C library that Fortran lacks: files by bytes, paths, signals and terminals.
 !! Files are read and written with every failure reported, renamed, removed and identified.
 module c_library
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_int8_t, c_int16_t, c_intptr_t, c_null_char, &
-                                          c_null_funptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_int8_t, c_int16_t, c_int64_t, c_intptr_t, &
+                                          c_null_char, c_null_funptr, c_ptr, c_size_t
    implicit none
    private
 
    public :: open_standard_outputs, read_all_bytes, create_unique, open_to_write, write_bytes, close_file, rename_file, &
-             remove_file, true_path, kind_of_file, is_regular_file, is_same_file, tell_failed_writes, at_signals, lock_folder, &
-             end_run, c_fsync, c_isatty, c_raise, c_unlink
+             remove_file, make_folders, true_path, kind_of_file, is_regular_file, is_same_file, tell_failed_writes, at_signals, &
+             lock_folder, end_run, go_to_byte, append_bytes, c_fsync, c_isatty, c_raise, c_rename, c_truncate, c_unlink
 
    !> Kinds of file that a path may lead to.
    integer, parameter, public :: no_file = 0, pipe_file = 1, device_file = 2, folder_file = 4, block_file = 6, regular_file = 8, &
                                  link_file = 10, socket_file = 12 !! S_IFMT of Linux, by 4096
 
-   integer(c_int), parameter :: to_read = 0, to_write = 1 ! O_RDONLY, O_WRONLY of open
+   integer(c_int), parameter :: to_read = 0, to_write = 1, to_append = 1025 ! O_RDONLY, O_WRONLY, O_APPEND of open
    integer(c_intptr_t), parameter :: ignored = 1          ! SIG_IGN
 
    logical, public, protected :: has_ended = .false. !! set by end_run
@@ -65,10 +65,30 @@ module c_library
          integer(c_int), value :: descriptor
       end function c_fsync
 
+      !> Moves the place of the next write to byte OFFSET behind the start (WHENCE 0) or the present place (1); gives that place.
+      integer(c_int64_t) function c_lseek(descriptor, offset, whence) bind(c, name='lseek64')
+         import :: c_int, c_int64_t
+         integer(c_int), value     :: descriptor, whence
+         integer(c_int64_t), value :: offset
+      end function c_lseek
+
+      !> Shortens the file PATH, which ends with a null character, to LENGTH bytes; needs no memory.
+      integer(c_int) function c_truncate(path, length) bind(c, name='truncate64')
+         import :: c_char, c_int, c_int64_t
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int64_t), value          :: length
+      end function c_truncate
+
       integer(c_int) function c_close(descriptor) bind(c, name='close')
          import :: c_int
          integer(c_int), value :: descriptor
       end function c_close
+
+      integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+      end function c_mkdir
 
       integer(c_int) function c_rename(old, new) bind(c, name='rename')
          import :: c_char, c_int
@@ -214,6 +234,27 @@ contains
       end do
    end subroutine write_bytes
 
+   !> Write BYTES behind the last byte of the existing file PATH, which ends with a null character; needs no memory.
+   subroutine append_bytes(path, bytes, ok)
+      character(*), intent(in) :: path, bytes
+      logical, intent(out)     :: ok
+      integer(c_int) :: descriptor
+
+      descriptor = c_open(path, to_append)
+      ok = descriptor >= 0
+      if (ok) call write_bytes(int(descriptor), bytes, ok)
+      if (descriptor >= 0) ok = c_close(descriptor) == 0 .and. ok
+   end subroutine append_bytes
+
+   !> The number of bytes before the next write to DESCRIPTOR; with LENGTH the next write is behind so many. Negative on failure.
+   integer(c_int64_t) function go_to_byte(descriptor, length) result(place)
+      integer, intent(in)                      :: descriptor
+      integer(c_int64_t), intent(in), optional :: length
+
+      if (present(length)) place = c_lseek(int(descriptor, c_int), length, 0_c_int)
+      if (.not. present(length)) place = c_lseek(int(descriptor, c_int), 0_c_int64_t, 1_c_int)
+   end function go_to_byte
+
    !> Close DESCRIPTOR. OK is false where written bytes were lost.
    subroutine close_file(descriptor, ok)
       integer, intent(in)  :: descriptor
@@ -245,6 +286,19 @@ contains
 
       ok = c_rename(old//c_null_char, new//c_null_char) == 0
    end subroutine rename_file
+
+   !> Make the folders of PATH, which ends with a slash, where there is nothing of their names.
+   subroutine make_folders(path)
+      character(*), intent(in) :: path
+      integer(c_int), parameter :: all_may = int(o'777', c_int) ! less the user's mask
+      integer(c_int) :: status
+      integer :: k
+
+      do k = 2, len(path)
+         if (path(k:k) /= '/') cycle
+         if (kind_of_file(path(:k - 1)) == no_file) status = c_mkdir(path(:k - 1)//c_null_char, all_may)
+      end do
+   end subroutine make_folders
 
    !> Remove the file PATH if it exists.
    subroutine remove_file(path)

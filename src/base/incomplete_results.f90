@@ -1,4 +1,5 @@
-!> Removes incomplete result files where the program fails, is interrupted or runs out of memory.
+!> Removes incomplete result files where the program fails, is interrupted or runs out of memory; the part of them that belongs to
+!! finished stages can be kept.
 !! An allocation that fails unchecked is the last case. The run-time library then ends the program with exit status 1 and its own
 !! message. Where the compiler allocates on assignment without a check, the program uses a null address instead. Both become a message
 !! of the program here, with the exit status of a problem that cannot be solved.
@@ -8,13 +9,15 @@
 module incomplete_results
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_funloc, c_funptr, c_int, c_null_char, c_null_funptr, &
                                           c_null_ptr, c_ptr
-   use c_library, only: at_signals, block_file, c_raise, c_unlink, create_unique, device_file, folder_file, has_ended, &
-                        kind_of_file, no_file, pipe_file, regular_file, remove_file, rename_file, write_bytes
+   use c_library, only: append_bytes, at_signals, block_file, c_raise, c_rename, c_truncate, c_unlink, create_unique, device_file, &
+                        folder_file, has_ended, kind_of_file, no_file, pipe_file, regular_file, remove_file, rename_file, &
+                        write_bytes
+   use kinds, only: long
    implicit none
    private
 
    public :: create_part, name_part, remove_incomplete, give_up_parts, remove_old, all_complete, watch_ends, what_is_in_the_way, &
-             say_at_interrupts
+             say_at_interrupts, keep_at_ends, forget_kept, keep_finished
 
    character(*), parameter, public :: suffix = '.part' !! of an incomplete file
    integer, parameter :: replaceable(2) = [no_file, regular_file] ! a result may take the place of these; links are followed
@@ -23,6 +26,14 @@ module incomplete_results
    character(:), allocatable :: in_the_way ! what blocks the name of the first file that could not be created
 
    character(:), allocatable :: last_words ! message at an interrupt, with its end of line
+   character(:), allocatable :: kept_words ! likewise, of the finished stages
+
+   !> A file that is kept where the run is interrupted or runs out of memory: its first LENGTH bytes, and TAIL behind them.
+   type :: kept_file
+      character(:), allocatable :: part, path, tail ! PART and PATH end with a null character
+      integer(long) :: length = 0
+   end type kept_file
+   type(kept_file), allocatable :: kept(:)
 
    logical, volatile        :: is_changing = .false. ! NAMES is about to change
    integer(c_int), volatile :: interrupt = 0         ! signal that came during the change
@@ -58,6 +69,48 @@ contains
       call end_of_change()
    end subroutine say_at_interrupts
 
+   !> Keep the first LENGTH bytes of PART, with TAIL behind them, as PATH where the run is interrupted or runs out of memory; an
+   !! interrupt says WORDS.
+   subroutine keep_at_ends(part, path, length, tail, words)
+      character(*), intent(in)  :: part, path, tail, words
+      integer(long), intent(in) :: length
+      type(kept_file), allocatable :: more(:)
+      integer :: k
+
+      is_changing = .true.
+      if (.not. allocated(kept)) allocate (kept(0))
+      allocate (more(size(kept) + 1))
+      do k = 1, size(kept)
+         more(k) = kept(k)
+      end do
+      more(size(more)) = kept_file(part//c_null_char, path//c_null_char, tail, length)
+      call move_alloc(more, kept)
+      kept_words = words//new_line('a')
+      call end_of_change()
+   end subroutine keep_at_ends
+
+   !> Keep nothing of what KEEP_AT_ENDS has named.
+   subroutine forget_kept()
+      is_changing = .true.
+      if (allocated(kept)) deallocate (kept)
+      call end_of_change()
+   end subroutine forget_kept
+
+   !> Give the kept files their names. Needs no memory.
+   subroutine keep_finished()
+      integer :: k
+      integer(c_int) :: status
+      logical :: ok
+
+      if (.not. allocated(kept)) return
+      do k = 1, size(kept)
+         ok = c_truncate(kept(k)%part, kept(k)%length) == 0
+         if (ok .and. len(kept(k)%tail) > 0) call append_bytes(kept(k)%part, kept(k)%tail, ok)
+         if (ok) status = c_rename(kept(k)%part, kept(k)%path)
+         if (.not. ok .or. status /= 0) return ! the first is the mark ENDED EARLY: no file is kept without it
+      end do
+   end subroutine keep_finished
+
    !> Create the file PART, which will become PATH. DESCRIPTOR is negative on failure, and where PATH exists and is a folder, a pipe
    !! or a device, which cannot be replaced.
    subroutine create_part(path, part, descriptor)
@@ -80,7 +133,7 @@ contains
          return
       end if
       is_changing = .true.
-      call create_unique(path, suffix, part, descriptor)
+      if (interrupt == 0) call create_unique(path, suffix, part, descriptor) ! else another thread is removing the files
       if (descriptor >= 0) call note(part)
       call end_of_change()
    end subroutine create_part
@@ -136,6 +189,7 @@ contains
       is_changing = .true.
       call remove_incomplete()
       if (allocated(names)) deallocate (names)
+      if (allocated(kept)) deallocate (kept)
       call end_of_change()
    end subroutine give_up_parts
 
@@ -144,6 +198,7 @@ contains
       is_changing = .true.
       if (allocated(names)) deallocate (names)
       if (allocated(in_the_way)) deallocate (in_the_way)
+      if (allocated(kept)) deallocate (kept)
       call end_of_change()
    end subroutine all_complete
 
@@ -180,10 +235,13 @@ contains
 
       interrupt = signal
       if (is_changing) return
+      call keep_finished()
       call remove_incomplete()
       if (allocated(last_words)) then
-         if (len(last_words) > 1) call write_bytes(2, new_line('a')//last_words, ok)
+         if (allocated(kept) .or. len(last_words) > 1) call write_bytes(2, new_line('a'), ok) ! behind the progress line
+         if (len(last_words) > 1) call write_bytes(2, last_words, ok)
       end if
+      if (allocated(kept)) call write_bytes(2, kept_words, ok)
       call at_signals([signal], c_null_funptr) ! SIG_DFL
       status = c_raise(signal)
       if (status /= 0) return ! the signal was not delivered
@@ -207,10 +265,16 @@ contains
       logical :: ok
 
       if (has_ended .or. c_associated(argument)) return
+      if (status == status_of_library) call keep_finished()
       call remove_incomplete()
       if (status /= status_of_library) return
-      call write_bytes(2, 'the memory of the machine, or the permitted part of it, does not suffice; no results'// &
-                       new_line('a'), ok)
+      if (allocated(kept)) then
+         call write_bytes(2, 'the memory of the machine, or the permitted part of it, does not suffice'//new_line('a'), ok)
+         call write_bytes(2, kept_words, ok)
+      else
+         call write_bytes(2, 'the memory of the machine, or the permitted part of it, does not suffice; no results'// &
+                          new_line('a'), ok)
+      end if
       call c_exit_at_once(status_unsolved)
    end subroutine end_without_memory
 

@@ -30,13 +30,14 @@ contains
       character(:), allocatable, intent(inout) :: bytes
       type(parameter_type), intent(inout)      :: parameters(:)
       character(:), allocatable, intent(out)   :: fault
-      character(:), allocatable :: filled, line
-      integer(long) :: finish, start
+      character(:), allocatable :: filled, line, wider
+      integer(long) :: finish, start, used
       integer :: n
 
       fault = ''
       if (index(bytes, '${') == 0) return
-      filled = ''
+      allocate (character(len(bytes, long) + len(bytes, long)/8 + 80) :: filled) ! a copy for each line would be quadratic in time
+      used = 0
       start = 1
       n = 0
       do while (start <= len(bytes, long))
@@ -45,28 +46,36 @@ contains
          if (finish < start) finish = len(bytes, long)
          line = bytes(start:finish)
          if (index(line, '${') > 0) call fill_line(line, n, parameters, fault)
-         filled = filled//line
+         if (used + len(line) > len(filled, long)) then
+            allocate (character(2*len(filled, long) + len(line)) :: wider)
+            wider(:used) = filled(:used)
+            call move_alloc(wider, filled)
+         end if
+         filled(used + 1:used + len(line)) = line
+         used = used + len(line)
          start = finish + 1
       end do
-      call move_alloc(filled, bytes)
+      bytes = filled(:used)
    end subroutine fill_parameters
 
-   !> Put the values into one LINE, number N of its file.
+   !> Put the values into one LINE, number N of its file. A value is not searched for parameters.
    subroutine fill_line(line, n, parameters, fault)
       character(:), allocatable, intent(inout) :: line
       integer, intent(in)                      :: n
       type(parameter_type), intent(inout)      :: parameters(:)
       character(:), allocatable, intent(inout) :: fault
       character(:), allocatable :: name, rest, value
-      integer :: at, blanks, closing, k, width
+      integer :: at, blanks, closing, done, k, width
       logical :: is_fixed
 
+      done = 0 ! characters of the line behind which parameters are searched
       is_fixed = index(line, ',') == 0
       rest = ''
       value = ''
       do
-         at = index(line, '$')
-         if (at == 0 .or. at /= index(line, '${')) return ! a comment
+         at = index(line(done + 1:), '$')
+         if (at == 0 .or. at /= index(line(done + 1:), '${')) return ! a comment
+         at = done + at
          closing = index(line(at:), '}')
          if (closing < 3) return
          name = line(at + 2:at + closing - 2)
@@ -89,6 +98,7 @@ contains
             rest = rest(1 + min(blanks, len(value) - closing):)
          end if
          line = line(:at - 1)//value//repeat(' ', width - len(value))//rest
+         done = at - 1 + len(value)
       end do
    end subroutine fill_line
 

@@ -38,31 +38,33 @@ module data_columns
 
    !> The columns of a file, each a power of stress times a power of length, and the kinds of file.
    integer, parameter, public :: column_d = 1, column_tau = 2, column_p = 3, column_lambda = 4, column_c(3) = [5, 6, 7], &
-                                 column_branch = 8, column_run = 9, n_columns = 9
+                                 column_branch = 8, column_run = 9, column_k = 10, n_columns = 10
    character(6), parameter, public :: column_names(n_columns) = [character(6) :: 'D', 'TAU', 'P', 'LAMBDA', 'C1', 'C2', 'C3', &
-                                                                 'BRANCH', 'RUN']
+                                                                 'BRANCH', 'RUN', 'K']
    character(6), parameter, public :: column_symbols(n_columns) = [character(6) :: 'd', 'tau', 'p', 'lambda', 'c1', 'c2', 'c3', &
-                                                                   'branch', 'run'] !! the names in running text
-   integer, parameter         :: stress_power(n_columns) = [0, 1, 1, 0, 1, 1, 1, 0, 0]
-   integer, parameter         :: length_power(n_columns) = [1, 0, 0, 1, -1, -2, -3, 0, 0]
-   integer, parameter, public :: data_shear = 1, data_normal = 2, data_cubics = 3
-   integer, parameter         :: needed(3) = [sum(2**[column_d, column_tau, column_p]), sum(2**[column_lambda, column_p]), &
-                                              sum(2**[column_c, column_p, column_branch])]
-   integer, parameter         :: allowed(3) = needed + sum(2**[column_branch, column_run])*[1, 1, 0]
+                                                                   'branch', 'run', 'k'] !! the names in running text
+   integer, parameter         :: stress_power(n_columns) = [0, 1, 1, 0, 1, 1, 1, 0, 0, 1]
+   integer, parameter         :: length_power(n_columns) = [1, 0, 0, 1, -1, -2, -3, 0, 0, -1]
+   integer, parameter, public :: data_shear = 1, data_normal = 2, data_cubics = 3, data_stiffness = 4
+   integer, parameter         :: needed(4) = [sum(2**[column_d, column_tau, column_p]), sum(2**[column_lambda, column_p]), &
+                                              sum(2**[column_c, column_p, column_branch]), sum(2**[column_k, column_p])]
+   integer, parameter         :: allowed(4) = needed + sum(2**[column_branch, column_run])*[1, 1, 0, 0]
    character(*), parameter, public :: known_headers = 'expected a line with the names of the columns: '// &
-      '''d tau p branch'', ''lambda p'' or ''c1 c2 c3 p branch'', or --columns with them'
+      '''d tau p branch'', ''lambda p'', ''k p'' or ''c1 c2 c3 p branch'', or --columns with them'
 
    !> The options of the command for reading its files.
    type, public :: reading_type
       type(unit_system) :: deck                 !! --units
       character(:), allocatable :: columns      !! --columns: the header of every file, empty: in the file
       logical :: decimal_comma = .false.        !! --decimal-comma
+      real(wp) :: area = 0.0_wp                 !! --area: of the joint, where the column is a force [length^2]; 0: not given
    end type reading_type
 
    type, public :: header_type
       integer :: line   = 0                     !! in the text of the file
       integer :: part   = 0                     !! part of the file that the header begins, 0: no header yet
-      integer :: kind   = 0                     !! data_shear, data_normal or data_cubics
+      integer :: kind   = 0                     !! data_shear, data_normal, data_cubics or data_stiffness
+      logical :: of_force = .false.             !! the column of p holds a force: p is the force over the area
       integer :: holds  = 0                     !! sum of 2**column
       logical :: decimal_comma = .false.        !! of the rows below the header
       integer, allocatable :: columns(:)        !! (entries of a row) 0: ignored; of size 0: the header is wrong
@@ -120,6 +122,30 @@ contains
       if (length > 0.0_wp) value = unit_value(word(:slash - 1), of_force)/length**2
    end function unit_value
 
+   !> UNIT of a stiffness per area in SI units, as N/um/mm2, MPa/um or N/mm3; 0 where it is none.
+   pure real(wp) function stiffness_value(unit) result(value)
+      character(*), intent(in) :: unit
+      character(:), allocatable :: word
+      real(wp) :: length
+      integer  :: last, middle, slash
+
+      word = plain(unit)
+      value = 0.0_wp
+      slash = index(word, '/', back=.true.)
+      last = len(word)
+      if (slash < 2 .or. slash == last) return
+      length = unit_value(word(slash + 1:), of_length)
+      if (length > 0.0_wp) value = unit_value(word(:slash - 1), of_stress)/length
+      length = unit_value(word(slash + 1:last - 1), of_length)
+      if (length <= 0.0_wp .or. value > 0.0_wp) return
+      middle = index(word(:slash - 1), '/')
+      if (word(last:last) == '3') value = unit_value(word(:slash - 1), of_force)/length**3
+      if (word(last:last) /= '2' .or. middle < 2 .or. middle == slash - 1) return
+      value = unit_value(word(:middle - 1), of_force)/length**2
+      length = unit_value(word(middle + 1:slash - 1), of_length)
+      value = merge(value/max(length, tiny(length)), 0.0_wp, length > 0.0_wp)
+   end function stiffness_value
+
    !> Whether a unit of force exists with which LENGTH and STRESS [SI] are consistent units of a deck.
    pure logical function has_force(length, stress)
       real(wp), intent(in) :: length, stress
@@ -161,14 +187,18 @@ contains
       character(:), allocatable     :: name, unit
       integer, allocatable          :: columns(:)
       integer :: errors_before, holds, k, kind
+      logical :: is_force
 
       errors_before = errors%n
+      is_force = .false.
       call split_entries(line, entries, .true.)
       columns = [(0, k = 1, size(entries))]
       do k = 1, size(entries)
          associate (first => entries(k)%first, last => entries(k)%last)
             call split_unit(line(first:last), name, unit)
             columns(k) = findloc(column_names == upper(name), .true., 1)
+            if (upper(name) == 'F') columns(k) = column_p
+            if (upper(name) == 'F') is_force = .true.
             if (name == '-') then
                cycle
             else if (columns(k) == 0) then
@@ -192,6 +222,9 @@ contains
             call errors%add(at, 'these columns are not a known combination; '//known_headers)
          else if (header%holds /= 0 .and. holds /= header%holds) then
             call errors%add(at, 'a header of a different kind: expected one kind of data in a file')
+         else if (is_force .neqv. reading%area > 0.0_wp) then
+            call errors%add(at, trim(merge('a column f, a force, needs --area, the area of the joint', &
+                                           '--area needs a column f, a force, in place of p         ', is_force)))
          end if
       end if
       header%line = at
@@ -202,6 +235,7 @@ contains
       if (errors%n > errors_before) return
       header%kind = kind
       header%holds = holds
+      header%of_force = is_force
    end subroutine read_header
 
    !> The factors from the units of the data, given in the headings or in the line UNITS = of FILE, to the units of the cards.
@@ -213,6 +247,7 @@ contains
       real(wp) :: unit
       integer  :: column, k
 
+      if (header%of_force) header%factors(column_p) = 1.0_wp/reading%area
       if (reading%deck%length <= 0.0_wp) return
       do k = 1, size(header%columns)
          column = header%columns(k)
@@ -220,11 +255,15 @@ contains
          unit = unit_in(file, column)
          if (header%units(column) /= '' .and. length_power(column) >= 0) &
             unit = unit_value(trim(header%units(column)), stress_power(column))
+         if (header%units(column) /= '' .and. column == column_k) unit = stiffness_value(trim(header%units(column)))
+         if (header%of_force .and. column == column_p) unit = unit_value(trim(header%units(column)), of_force)/ &
+                                                              (reading%area*reading%deck%length**2)
          header%factors(column) = unit/unit_in(reading%deck, column)
          if (unit > 0.0_wp) cycle
          if (header%units(column) /= '') then
             call errors%add(header%line, ''''//trim(header%units(column))//''' is no unit of '//trim(column_symbols(column))// &
-                            ' known to --units: expected um, mm, m, in; MPa, kgf/cm2, bar, psi and the like')
+                            ' known to --units: expected um, mm, m, in; MPa, kgf/cm2, bar, psi, of f N, of k N/um/mm2 and '// &
+                            'the like')
          else
             call errors%add(header%line, 'the unit of '//trim(column_symbols(column))//' is missing, and --units needs it: '// &
                'expected a heading as lambda [um], here or in --columns, or a line UNITS = um, MPa')

@@ -14,8 +14,9 @@ module fit_command
 
    character(*), parameter :: program = 'jointfit', nl = new_line('a')
    character(*), parameter :: standard_output = '/dev/stdout'
-   character(13), parameter :: options_with_value(9) = [character(13) :: '--id', '--branch', '--as', '--p-tolerance', '--dmax', &
-                                                        '--noise', '--units', '--columns', '--plot']
+   character(13), parameter :: options_with_value(11) = [character(13) :: '--id', '--branch', '--as', '--p-tolerance', '--dmax', &
+                                                        '--noise', '--units', '--columns', '--plot', '--area', &
+                                                         '--bulk']
    integer, parameter :: largest_in_small_field = 99999999
 
    character(*), parameter :: help = &
@@ -27,9 +28,11 @@ module fit_command
       ''//nl// &
       '   d tau p             points of shear tests: a JSHEAR card'//nl// &
       '   lambda p            points of normal tests: a JNORM card'//nl// &
+      '   k p                 stiffnesses k = dp/dlambda of normal tests: a JNORM card'//nl// &
       '   c1 c2 c3 p branch   cubics tau = c1 d + c2 d^2 + c3 d^3 published for several p: a JSHEAR card'//nl// &
       ''//nl// &
-      'Points may have two further columns:'//nl// &
+      'A column f in place of p holds the normal force; --area is the area under it. Points may have two further'//nl// &
+      'columns:'//nl// &
       ''//nl// &
       '   branch   LOAD, UNLOAD or RELOAD: consecutive rows of one branch and pressure are a run; rows in no order'//nl// &
       '            share one run'//nl// &
@@ -54,6 +57,14 @@ module fit_command
       '                     first reading less below zero is an offset (default: from the record, at least 0.01)'//nl// &
       '   --zero            subtract the first reading of each test from all its readings'//nl// &
       '   --unordered       rows without a branch are in no order: all are loading'//nl// &
+      ''//nl// &
+      'normal tests:'//nl// &
+      '   --area A          area of the joint, in the units of the cards, for a column f'//nl// &
+      '   --bulk E,H        compression of a specimen between the gauges, taken off lambda: modulus and height, in the'//nl// &
+      '                     units of the cards; E,H,E,H for two specimens'//nl// &
+      '   --seat            fit an offset of lambda, or of lambda and p, and take it off: the test was zeroed under a'//nl// &
+      '                     seating load, or a gauge was not at zero. All tests of a file share it. Without --seat an'//nl// &
+      '                     offset that an F test finds significant is told'//nl// &
       ''//nl// &
       'shear:'//nl// &
       '   --joint-fit       fit the coefficients to all points of a branch at once, instead of straight lines'//nl// &
@@ -83,6 +94,8 @@ module fit_command
       real(wp) :: d_max     = 0.0_wp     !! --dmax: DMAX of the card [length], 0: the largest d of the data
       real(wp) :: noise     = 0.0_wp     !! --noise: noise as a share of the range of the readings, 0: estimated
       logical  :: zero      = .false.    !! --zero: subtract the first reading of a test from all its readings
+      logical  :: seat      = .false.    !! --seat: fit the offset of a normal test
+      real(wp) :: bulk      = 0.0_wp     !! --bulk: compression of the specimens under unit pressure [length/pressure]
       logical  :: unordered = .false.    !! --unordered: rows that do not name their branch are loading
       character(:), allocatable :: plot  !! --plot: a file for gnuplot, empty: none
       type(fit_choice)   :: fit          !! --p-tolerance, --joint-fit, --one-pressure
@@ -99,7 +112,6 @@ contains
       integer, intent(out)                :: status
       type(command_reader) :: reader
       character(:), allocatable :: expected, option, value
-      integer :: branch
       logical :: is_missing, ok
 
       command%plot = ''
@@ -124,48 +136,20 @@ contains
             command%fit%one_pressure = .true.
          case ('--zero')
             command%zero = .true.
+         case ('--seat')
+            command%seat = .true.
          case ('--unordered')
             command%unordered = .true.
          case ('--decimal-comma')
             command%reading%decimal_comma = .true.
          case ('--small', '--large')
             command%small = option == '--small'
-         case ('--id')
-            call parse_integer(value, command%id, ok)
-            ok = ok .and. command%id > 0
-            expected = 'a number of 1 or more'
-         case ('--branch', '--as')
-            branch = findloc(branch_words == upper(value), .true., 1)
-            if (option == '--branch') command%only = branch
-            if (option == '--as') command%as = branch
-            ok = branch > 0
-            expected = 'LOAD, UNLOAD or RELOAD'
-         case ('--p-tolerance')
-            call read_number(value, command%fit%p_tolerance, ok)
-            ok = ok .and. command%fit%p_tolerance >= 0.0_wp .and. command%fit%p_tolerance < 1.0_wp
-            expected = 'a number from 0 to below 1, as 0.01'
-         case ('--noise')
-            call read_number(value, command%noise, ok)
-            ok = ok .and. command%noise > 0.0_wp .and. command%noise < 0.5_wp
-            expected = 'a share of the range of the readings, above 0 and below 0.5, as 0.02'
-         case ('--dmax')
-            call read_number(value, command%d_max, ok)
-            ok = ok .and. command%d_max > 0.0_wp
-            expected = 'a number above 0'
-         case ('--units')
-            call read_system(value, command%reading%deck, ok)
-            expected = 'the units of length and force of the deck, as mm,n or mm,kgf or m,n'
-         case ('--columns')
-            command%reading%columns = value
-            ok = value /= ''
-            expected = 'the names of the columns, as ''p [MPa], lambda [um]'''
-         case ('--plot')
-            command%plot = value
-            ok = value /= ''
-            expected = 'the name of a file for gnuplot'
          case default
-            call complain(program, 'unknown option '//option)
-            return
+            if (all(option /= options_with_value)) then
+               call complain(program, 'unknown option '//option)
+               return
+            end if
+            call take_value(option, value, command, expected, ok)
          end select
          if (.not. ok) call complain(program, option//' '//value//': expected '//expected)
          if (.not. ok) return
@@ -174,6 +158,85 @@ contains
       call complete_command(command, ok)
       if (ok) status = -1
    end subroutine read_fit_command
+
+   !> Take the VALUE of an OPTION with one. OK is false where it is not as EXPECTED.
+   subroutine take_value(option, value, command, expected, ok)
+      character(*), intent(in)               :: option, value
+      type(fit_command_type), intent(inout)  :: command
+      character(:), allocatable, intent(out) :: expected
+      logical, intent(out)                   :: ok
+      integer :: branch
+
+      ok = .false.
+      expected = ''
+      select case (option)
+      case ('--id')
+         call parse_integer(value, command%id, ok)
+         ok = ok .and. command%id > 0
+         expected = 'a number of 1 or more'
+      case ('--branch', '--as')
+         branch = findloc(branch_words == upper(value), .true., 1)
+         if (option == '--branch') command%only = branch
+         if (option == '--as') command%as = branch
+         ok = branch > 0
+         expected = 'LOAD, UNLOAD or RELOAD'
+      case ('--p-tolerance')
+         call read_number(value, command%fit%p_tolerance, ok)
+         ok = ok .and. command%fit%p_tolerance >= 0.0_wp .and. command%fit%p_tolerance < 1.0_wp
+         expected = 'a number from 0 to below 1, as 0.01'
+      case ('--noise')
+         call read_number(value, command%noise, ok)
+         ok = ok .and. command%noise > 0.0_wp .and. command%noise < 0.5_wp
+         expected = 'a share of the range of the readings, above 0 and below 0.5, as 0.02'
+      case ('--dmax')
+         call read_number(value, command%d_max, ok)
+         ok = ok .and. command%d_max > 0.0_wp
+         expected = 'a number above 0'
+      case ('--area')
+         call read_number(value, command%reading%area, ok)
+         ok = ok .and. command%reading%area > 0.0_wp
+         expected = 'an area above 0'
+      case ('--bulk')
+         call read_specimens(value, command%bulk, ok)
+         expected = 'modulus and height of the specimen, as 210000,40, or of two, as 210000,40,120000,25'
+      case ('--units')
+         call read_system(value, command%reading%deck, ok)
+         expected = 'the units of length and force of the deck, as mm,n or mm,kgf or m,n'
+      case ('--columns')
+         command%reading%columns = value
+         ok = value /= ''
+         expected = 'the names of the columns, as ''p [MPa], lambda [um]'''
+      case ('--plot')
+         command%plot = value
+         ok = value /= ''
+         expected = 'the name of a file for gnuplot'
+      end select
+   end subroutine take_value
+
+   !> Read TEXT, E,H or E,H,E,H and so on, of specimens on each other: their compression BULK under unit pressure, the sum of H/E.
+   subroutine read_specimens(text, bulk, ok)
+      character(*), intent(in) :: text
+      real(wp), intent(out)    :: bulk
+      logical, intent(out)     :: ok
+      real(wp) :: values(2)
+      integer  :: first, k, n
+
+      bulk = 0.0_wp
+      first = 1
+      n = 0
+      do
+         do k = 1, 2
+            n = index(text(first:)//',', ',')
+            call read_number(text(first:min(first + n - 2, len(text))), values(k), ok)
+            ok = ok .and. (k == 2 .or. first + n - 1 <= len(text))
+            if (ok) ok = values(k) > 0.0_wp
+            if (.not. ok) return
+            first = first + n
+         end do
+         bulk = bulk + values(2)/values(1)
+         if (first > len(text) + 1) return
+      end do
+   end subroutine read_specimens
 
    !> Complete the command: check that the options go together, and that no output would replace a data file under any name; OK is
    !! false, with a message, where they do not.

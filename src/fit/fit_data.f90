@@ -7,14 +7,14 @@ module fit_data
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type, read_deck_text
    use kinds, only: wp
-   use text_tools, only: integer_text, upper
+   use text_tools, only: integer_text, real_text, upper
    implicit none
    private
 
    public :: read_test_data
 
    type, public :: test_data_type
-      integer :: kind = 0                        !! data_shear, data_normal or data_cubics
+      integer :: kind = 0                        !! data_shear, data_normal, data_cubics or data_stiffness
       integer :: n    = 0                        !! rows
       logical :: has_branch = .false.            !! the rows name their branches
       logical :: has_run = .false.               !! the rows have run numbers
@@ -117,6 +117,9 @@ contains
          call errors%add(data%line(row), 'BRANCH: a number, but other rows name it: expected one or the other in all rows')
       data%unit_read = header%units
       data%unit = header%units
+      if (header%of_force) data%unit(column_p) = ''
+      if (header%of_force .and. header%units(column_p) /= '') data%unit_read(column_p) = trim(header%units(column_p))//' / area'
+      if (header%of_force) call data%notes%add(0, 'p is the force f over the area '//real_text(reading%area)//' (--area)')
       if (reading%deck%length > 0.0_wp) then
          data%unit([column_d, column_lambda]) = upper(reading%deck%length_name)
          data%unit([column_p, column_tau]) = upper(reading%deck%stress_name)

@@ -1,8 +1,8 @@
 !> Writes a gnuplot script that plots the data and the fit of a surface: the test points, and lines through the fit at these points.
 module fit_plot
    use branch_cubic, only: cubic, cubic_value
-   use data_columns, only: branch_letters, branch_words, column_d, column_lambda, column_p, column_symbols, column_tau, &
-                           data_normal, data_shear, fit_load, fit_reload
+   use data_columns, only: branch_letters, branch_words, column_d, column_k, column_lambda, column_p, column_symbols, column_tau, &
+                           data_normal, data_shear, data_stiffness, fit_load, fit_reload
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
@@ -40,7 +40,12 @@ contains
 
       ! blocks of points with the fit at each of them
       plots = ''
-      if (fit%kind == data_normal) then
+      if (data%kind == data_stiffness) then
+         rows = [(i, i = 1, data%n)]
+         p = data%value(column_p, rows)
+         fitted = p**(1.0_wp - fit%normal%m)/(fit%normal%m*fit%normal%c)
+         call put_block(out, plots, 'k', [fit_load, fit_load], p, data%value(column_k, rows), p, fitted)
+      else if (fit%kind == data_normal) then
          associate (loops => fit%normal%loops)
             do k = 0, size(loops%lines)
                rows = pack([(i, i = 1, data%n)], loops%line_of == k)
@@ -79,6 +84,7 @@ contains
       call out%put('set title '//quoted(command%files(number)%name))
       axes = [column_p, 0] ! 0: coefficients
       if (fit%kind == data_normal) axes = [column_lambda, column_p]
+      if (data%kind == data_stiffness) axes = [column_p, column_k]
       if (fit%kind == data_shear) axes = [column_d, column_tau]
       do k = 1, count(axes > 0)
          label = column_symbols(axes(k))

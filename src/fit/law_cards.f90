@@ -74,11 +74,11 @@ contains
       character(14) :: cells(6)
       integer :: k
 
-      points = plural(fit%n_points, 'point')
-      if (size(fit%loops%lines) > 0) points = points//' of loading'
+      points = plural(fit%n_points, 'point')//trim(merge(' of loading', repeat(' ', 11), size(fit%loops%lines) > 0))
       call comment(out, 'law', 'lambda = c p^m, c = '//real_text(fit%c)//', m = '//real_text(fit%m))
-      call comment(out, 'data', points//', p '//range_text(fit%p_low, fit%p_high)//', lambda to '//real_text(fit%lambda_high))
-      call comment(out, 'residual', 'of lambda: rms '//real_text(fit%residual%rms)//', largest '// &
+      points = points//', p '//range_text(fit%p_low, fit%p_high)//', '//trim(fit%reading)//' to '//real_text(fit%high)
+      call comment(out, 'data', points)
+      call comment(out, 'residual', 'of '//trim(fit%reading)//': rms '//real_text(fit%residual%rms)//', largest '// &
                    real_text(fit%residual%largest)//' at p = '//real_text(fit%p_largest))
       associate (loops => fit%loops, lines => fit%loops%lines) ! the lines of unloading and reloading do not contribute to c and m
          if (size(lines) == 0) return

@@ -1,37 +1,24 @@
-!> Fits the laws of one surface to its test data: the shear branches and the power law lambda = c p^m (Eq. 1).
+!> Fits the laws of one surface to its test data: the branches of the shear law; normal_fit has the power law.
 !! Warns where the slope of a fitted cubic turns negative in the range of the card: a joint has no negative stiffness.
 module surface_fit
    use branch_cubic, only: cubic
    use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_none, fault_one_pressure, fit_lines_only, &
-                         fit_loops, fit_points, loop_fit_type, residual_of, residual_type
-   use data_columns, only: branch_words, column_c, column_d, column_lambda, column_p, column_tau, data_normal, data_shear, &
+                         fit_points
+   use data_columns, only: branch_words, column_c, column_d, column_p, column_tau, data_normal, data_shear, data_stiffness, &
                            fit_load, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
    use field_rules, only: largest_size, smallest_size
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
-   use normal_curve, only: least_power
-   use numbers, only: fit_line, solve_least_squares
+   use normal_fit, only: check_residual, fit_normal_test, normal_fit_type
    use shear_loops, only: loop_closure, wide_gap, worst_closure
    use shear_stiffness, only: shear_law
    use text_tools, only: plural, real_text
    implicit none
    private
 
-   public :: fit_surface, fit_power_law, fit_proportional, check_slopes, find_slope_loss
-
-   real(wp), parameter :: much = 0.05_wp ! a residual above this share of the largest reading is reported
-
-   type, public :: normal_fit_type
-      real(wp) :: c = 0.0_wp, m = 0.0_wp           !! lambda = c p^m
-      integer  :: n_points = 0
-      real(wp) :: p_low = 0.0_wp, p_high = 0.0_wp  !! [pressure]
-      real(wp) :: lambda_high = 0.0_wp             !! [length]
-      type(residual_type) :: residual              !! of lambda [length]
-      real(wp) :: p_largest = 0.0_wp               !! p of the largest residual [pressure]
-      type(loop_fit_type) :: loops                 !! lines of unloading and reloading
-   end type normal_fit_type
+   public :: fit_surface, check_slopes, find_slope_loss, normal_fit_type
 
    type, public :: surface_fit_type
       integer :: kind = 0                          !! data_normal, or a shear law
@@ -45,10 +32,6 @@ module surface_fit
       type(normal_fit_type) :: normal
       type(deck_error_list) :: warnings
    end type surface_fit_type
-
-   integer, parameter  :: most_steps = 200, most_halvings = 60
-   real(wp), parameter :: settled = 1.0e-14_wp   ! change of ln c and m in one step
-   real(wp), parameter :: m_rounding = 1.0e-9_wp ! an m above 1 by less counts as 1
 
 contains
 
@@ -64,17 +47,12 @@ contains
 
       fit%kind = data%kind
       fit%warnings = data%warnings
-      if (data%kind /= data_normal) then
-         call fit_shear(data, command, fit, errors)
-      else if (command%only > 0) then
-         call errors%add(0, 'points of normal tests have no branch: --branch is for shear tests')
+      if (any(data%kind == [data_normal, data_stiffness])) then
+         fit%kind = data_normal ! the card
+         if (command%only > 0) call errors%add(0, 'points of normal tests have no branch: --branch is for shear tests')
+         if (command%only == 0) call fit_normal_test(data, fit%normal, errors, fit%warnings)
       else
-         associate (p => data%value(column_p, :data%n), lambda => data%value(column_lambda, :data%n), &
-                    branch => data%branch(:data%n))
-            call fit_loops(p, lambda, branch, data%run(:data%n), data%joined(:data%n), fit%normal%loops)
-            call fit_normal(pack(p, branch == fit_load), pack(lambda, branch == fit_load), fit%normal, errors, fit%warnings)
-            call check_residual('lambda', 'lambda', fit%normal%residual%largest, maxval(abs(lambda)), fit%warnings)
-         end associate
+         call fit_shear(data, command, fit, errors)
       end if
       if (errors%any()) return
       largest = max(fit%normal%c, fit%normal%loops%e_u, maxval(abs(fit%card)), fit%p_max, fit%d_max)
@@ -136,16 +114,6 @@ contains
          call fit%warnings%add(0, 'the cubics are given, there are no points for --joint-fit: the lines are on the card')
       if (command%d_max > 0.0_wp) fit%d_max = command%d_max
    end subroutine fit_shear
-
-   !> Warn where readings lie far off the fit.
-   subroutine check_residual(subject, reading, residual, largest, warnings)
-      character(*), intent(in)             :: subject, reading  !! 'LOAD: tau', 'tau'
-      real(wp), intent(in)                 :: residual, largest !! largest deviation from the law; largest reading
-      type(deck_error_list), intent(inout) :: warnings
-
-      if (residual > much*largest) call warnings%add(0, subject//' lies up to '//real_text(residual)//' off the law on the card'// &
-         ', more than 5 % of the largest '//reading//', '//real_text(largest))
-   end subroutine check_residual
 
    !> Fit a branch of the card to the rows of branch SOURCE.
    subroutine fit_branch(data, command, source, fit, errors)
@@ -218,109 +186,6 @@ contains
       end function returns
 
    end subroutine fit_branch
-
-   !> Fit the power law to points of loading, with m at most 1. Missing data go to ERRORS, an m held at 1 goes to WARNINGS.
-   subroutine fit_normal(p, lambda, fit, errors, warnings)
-      real(wp), intent(in)                 :: p(:)      !! [pressure]; noise below 0 counts as 0
-      real(wp), intent(in)                 :: lambda(:) !! [length]
-      type(normal_fit_type), intent(inout) :: fit
-      type(deck_error_list), intent(inout) :: errors, warnings
-      real(wp) :: slope
-      logical  :: ok
-
-      call fit_power_law(p, lambda, fit%c, fit%m, ok)
-      if (.not. ok) then
-         call errors%add(0, 'the points do not fix c and m: expected two or more different p above 0 with lambda above 0')
-         return
-      else if (fit%m < least_power) then
-         call errors%add(0, 'lambda does not grow with p: m = '//real_text(fit%m)//', expected at least '// &
-                         real_text(least_power)//' and not above 1')
-         return
-      else if (fit%m > 1.0_wp) then
-         if (fit%m > 1.0_wp + m_rounding) call warnings%add(0, 'the fit gives m = '//real_text(fit%m)// &
-            ', but the law allows at most 1: m is set to 1; use --zero if the readings do not begin at zero')
-         fit%m = 1.0_wp
-         fit%c = fit_proportional(p, lambda)
-      end if
-      fit%residual = residual_of(lambda - fit%c*max(p, 0.0_wp)**fit%m)
-      fit%p_largest = p(fit%residual%at)
-      fit%n_points = size(p)
-      fit%p_low = minval(p)
-      fit%p_high = maxval(p)
-      fit%lambda_high = maxval(lambda)
-      if (size(fit%loops%lines) == 0) return
-      slope = fit%p_high**(1.0_wp - fit%m)/(fit%m*fit%c)
-      if (fit%loops%e_u <= 0.0_wp) then
-         call warnings%add(0, 'lambda does not fall with p in unloading: EU is left blank')
-      else if (fit%loops%e_u < slope) then ! unloading is less steep than loading
-         call warnings%add(0, 'E_u = '//real_text(fit%loops%e_u)//' is below the slope of the loading curve at p = '// &
-                           real_text(fit%p_high)//', '//real_text(slope)//': the set would be negative')
-      end if
-   end subroutine fit_normal
-
-   !> The c and m that minimize the sum of (c p^m - lambda)^2. The start is the straight line through ln lambda over ln p.
-   !! Gauss-Newton steps in lambda follow; a step that increases the sum is halved. Points with p <= 0 or lambda <= 0 have no
-   !! logarithm and are left out of the start; for p <= 0 the law is zero for any c and m. OK is false where fewer than two
-   !! different p > 0 have lambda > 0, or the steps do not converge.
-   subroutine fit_power_law(p, lambda, c, m, ok)
-      real(wp), intent(in)  :: p(:)      !! [pressure]
-      real(wp), intent(in)  :: lambda(:) !! [length]
-      real(wp), intent(out) :: c         !! [length/pressure^m]
-      real(wp), intent(out) :: m         !! [-]
-      logical, intent(out)  :: ok
-      real(wp), allocatable :: jacobian(:, :), law(:), x(:), y(:)
-      real(wp) :: before, mean, now, q(2), step(2)  ! q: ln c at the mean of ln p, and m
-      logical  :: above(size(p))
-      integer  :: halvings, k
-
-      c = 0.0_wp
-      m = 0.0_wp
-      above = p > 0.0_wp .and. lambda > 0.0_wp
-      ok = count(above) >= 2
-      if (.not. ok) return
-      x = log(pack(p, above))
-      mean = sum(x)/size(x)      ! at the mean of ln p the two unknowns are almost independent
-      call fit_line(x - mean, log(pack(lambda, above)), q, ok)
-      if (.not. ok) return
-      x = log(pack(p, p > 0.0_wp)) - mean
-      y = pack(lambda, p > 0.0_wp)
-      before = sum_of_squares(q)
-      do k = 1, most_steps
-         law = exp(q(1) + q(2)*x)
-         jacobian = reshape([law, law*x], [size(x), 2])
-         call solve_least_squares(jacobian, y - law, step, ok)
-         if (.not. ok) exit
-         do halvings = 1, most_halvings
-            now = sum_of_squares(q + step)
-            if (now <= before) exit
-            step = 0.5_wp*step
-         end do
-         if (now > before) exit  ! no direction of descent is left: q is the minimum to rounding
-         q = q + step
-         before = now
-         if (maxval(abs(step)) <= settled) exit
-      end do
-      ok = ok .and. k <= most_steps
-      m = q(2)
-      c = exp(q(1) - m*mean)
-
-   contains
-
-      real(wp) function sum_of_squares(trial) result(total)
-         real(wp), intent(in) :: trial(2)
-
-         total = huge(total)
-         if (maxval(abs(trial(1) + trial(2)*x)) < 300.0_wp) total = sum((exp(trial(1) + trial(2)*x) - y)**2)
-      end function sum_of_squares
-
-   end subroutine fit_power_law
-
-   !> The c of lambda = c p, the law with m = 1 [length/pressure].
-   pure real(wp) function fit_proportional(p, lambda) result(c)
-      real(wp), intent(in) :: p(:), lambda(:)
-
-      c = dot_product(p, lambda)/dot_product(p, p)
-   end function fit_proportional
 
    !> Check the slope of every fitted branch in the range of its data and, if it is positive there, in the range of the card: p from
    !! 0 to PMAX, d to DMAX, and d below zero too for unloading and reloading, because these branches extend past zero to the mirror

@@ -4,7 +4,7 @@ module test_branches
    use branch_cubic, only: cubic, cubic_value
    use branch_fit, only: find_turns, fit_cubic, group_by_pressure, scatter_of
    use data_columns, only: column_d, column_lambda, column_p, column_symbols, column_tau, data_cubics, data_normal, data_shear, &
-                           fit_load, fit_reload, fit_unload
+                           data_stiffness, fit_load, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
@@ -39,7 +39,8 @@ contains
       integer :: i, n_tests, runs, t, test(data%n)
       logical :: faulty, is_noisy
 
-      if (data%kind == data_cubics .or. data%n == 0) return
+      if (data%kind == data_stiffness) data%branch = fit_load
+      if (any(data%kind == [data_cubics, data_stiffness]) .or. data%n == 0) return
       faulty = errors%any()
       data%in_order = .not. (data%has_branch .or. command%unordered)
       data%is_record = data%in_order .and. .not. data%has_run

@@ -70,7 +70,7 @@ contains
             call table%add([joint%gap])
             call add_node(joint%open_at)
             call table%add([joint%slipping], [joint%normal, joint%shear, joint%moment])
-            call table%add([joint%safety, min(joint%safety, 999999.0_wp)], where=spread(joint%has_safety, 1, 2))
+            call table%add([joint%safety, min(joint%safety, 1.0e6_wp)], where=spread(joint%has_safety, 1, 2))
             call table%add(trim(merge('  CLOSED', '        ', frame%closed)))
             call table%add([joint%force, joint%movement, joint%tangent], where=[frame%exists, frame%exists, frame%exists])
             call table%add(joint%secant, where=joint%has_secant)
@@ -186,7 +186,7 @@ contains
                call table%add([bolt%share, bolt%stress, bolt%edge_stress, bolt%use, 100.0_wp*bolt%use], &
                               where=[bolt%has_share, .true., bolt%has_moment, bolt%has_strength, bolt%has_strength])
                call table%add([bolt%joint], where=[clamps])
-               call table%add([bolt%clamping, bolt%loss, 100.0_wp*bolt%loss, bolt%safety, min(bolt%safety, 999999.0_wp)], &
+               call table%add([bolt%clamping, bolt%loss, 100.0_wp*bolt%loss, bolt%safety, min(bolt%safety, 1.0e6_wp)], &
                               where=[clamps, clamps, clamps, bolt%has_safety, bolt%has_safety])
             end associate
             if (in_answer) call table%print_row(page%screen)

@@ -45,9 +45,9 @@ contains
       call find_marks(model, sides, mark)
       associate (bulk => deck%bulk)
          next%element = 1 + maxval([0, model%element_id, bulk%edge%id, bulk%element%id, bulk%rigid%id, &
-                                    bulk%conrod%id, bulk%spring%id])
+                                    bulk%conrod%id, bulk%spring%id, bulk%mass%id, bulk%cjoint%id])
          next%mark = 1 + maxval([0, bulk%pmark%id, bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, &
-                                 bulk%beam_property%id])
+                                 bulk%beam_property%id, bulk%spring_property%id])
          next%joint = 1 + maxval([0, bulk%joint%id])
          if (size(bulk%pjoint) > 0) next%law = bulk%pjoint(1)%id
       end associate

@@ -1,7 +1,8 @@
 !> Result files that appear under their names only when complete: written as NAME.abcdef.part, closed, and renamed at the end of
 !! the run. Without a name the lines go to the standard output at the end.
 module output_file
-   use c_library, only: close_file, open_to_write, remove_file, write_bytes
+   use, intrinsic :: iso_c_binding, only: c_null_char
+   use c_library, only: c_truncate, close_file, go_to_byte, open_to_write, remove_file, write_bytes
    use incomplete_results, only: create_part, name_part
    use kinds, only: long
    use restart_stream, only: restart_stream_type
@@ -19,6 +20,7 @@ module output_file
       logical, public :: is_open = .false.
       logical :: waits = .false.                 ! complete and closed, not yet named
       logical, public :: is_named = .false.      !! has its name
+      integer(long), public :: kept = 0          !! bytes up to the last mark
    contains
       procedure :: start
       procedure :: put
@@ -27,6 +29,8 @@ module output_file
       procedure :: close
       procedure :: finish
       procedure :: discard
+      procedure :: mark
+      procedure :: return_to_mark
       procedure :: record
    end type output_file_type
 
@@ -43,6 +47,7 @@ contains
       logical :: exists
 
       self%is_named = .false.
+      self%kept = 0
       call self%discard()
       self%path = path
       if (allocated(self%buffer)) deallocate (self%buffer)
@@ -173,12 +178,42 @@ contains
       self%waits = .false.
    end subroutine discard
 
+   !> Mark the present end of the file: of a run that ends early the bytes up to here are kept.
+   subroutine mark(self)
+      class(output_file_type), intent(inout) :: self
+
+      if (.not. self%is_open) return
+      if (self%path == '') then
+         self%kept = self%used
+      else
+         call empty(self)
+         if (.not. self%fault) self%kept = go_to_byte(self%descriptor)
+      end if
+   end subroutine mark
+
+   !> Drop what was written behind the mark.
+   subroutine return_to_mark(self)
+      class(output_file_type), intent(inout) :: self
+
+      if (.not. self%is_open .or. self%fault) return
+      if (self%path == '') then
+         self%used = int(self%kept)
+      else
+         self%used = 0
+         self%fault = c_truncate(self%part//c_null_char, self%kept) /= 0
+         if (.not. self%fault) self%fault = go_to_byte(self%descriptor, self%kept) /= self%kept
+      end if
+   end subroutine return_to_mark
+
    !> Write the present content of the file to a restart file, or replace it by that of the restart file; the file is then open.
    subroutine record(self, stream)
       class(output_file_type), intent(inout)   :: self
       type(restart_stream_type), intent(inout) :: stream
       character(:), allocatable :: text
+      integer(long) :: kept
 
+      kept = self%kept
+      call stream%item(kept)
       if (self%path == '') then
          if (stream%writes) text = self%buffer(:self%used)
          call stream%any_text(text)
@@ -187,12 +222,14 @@ contains
          call make_room(self, len(text))
          self%used = len(text)
          self%buffer(:self%used) = text
+         self%kept = min(kept, len(text, long))
       else if (stream%writes) then
          if (self%is_open) call empty(self)
          call stream%file(self%part, self%descriptor)
       else
          call self%start(self%path)
          if (self%is_open) call stream%file(self%part, self%descriptor)
+         self%kept = kept
       end if
    end subroutine record
 

@@ -8,6 +8,8 @@ module results
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
+   use finished_stages, only: count_increment, count_type, early_ending, finished_type, listing_end, listing_ending, &
+                              mark_finished, name_companion, record_digest, record_finished, return_to_finished
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
    use joint_resultants, only: find_cuts
    use joint_tables, only: list_energy, list_joints, plot_joint, write_history
@@ -28,7 +30,7 @@ module results
    use support_reactions, only: find_reactions, reactions_type
    use symmetry_planes, only: cut_type, symmetry_plane
    use table_writer, only: csv_titles, table_type
-   use text_tools, only: integer_text, plural, real_text, upper
+   use text_tools, only: integer_text, real_text, upper
    use vibration_tables, only: list_modes
    use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, record_vtu, remove_old_vtu, start_vtu, vtu_names, &
                           vtu_results_type, write_modes, write_vtu
@@ -36,30 +38,20 @@ module results
    implicit none
    private
 
-   public :: start_results, print_increment, print_stage, print_modes, finish_results, &
+   public :: start_results, print_increment, print_stage, print_modes, end_stage, keep_finished_stages, finish_results, &
              discard_results, record_results, remove_old_results, show_answers, is_result_ending
 
-   character(*), parameter, public :: listing_ending = '.out', restart_ending = '.restart'
-
-   !> The values of a run in a row of a batch.
-   type, public :: digest_type
-      integer  :: stages = 0, increments = 0, iterations = 0 !! completed; iterations or re-analyses
-      real(wp) :: u_max = 0.0_wp, mises_max = 0.0_wp         !! the largest at the end of any stage [length], [pressure]
-      real(wp) :: strained = 0.0_wp                          !! largest von Mises stress over E, likewise
-      real(wp) :: contact = 1.0_wp                           !! smallest share of any joint, likewise
-      real(wp) :: safety = huge(1.0_wp)                      !! smallest against slip, likewise; huge: none
-      real(wp) :: frequency = -1.0_wp                        !! the first nonzero one of the last stage with modes [1/time]
-   end type digest_type
+   character(*), parameter, public :: restart_ending = '.restart'
 
    type, public :: results_type
-      type(digest_type)      :: digest
+      type(count_type)       :: counts
+      type(finished_type)    :: finished            !! what the stages have that have ended
       type(page_type)        :: page
       type(watch_answer)     :: watched             !! of the last stage with watched nodes
       type(range_watch_type) :: watch
       character(:), allocatable :: missing_vtu      !! why requested files for ParaView are missing; '': they exist
       character(:), allocatable :: base             !! beginning of the names of the files, folder included
       integer, private :: method = 0                ! of case control
-      integer, private :: n_removed = 0             ! interface elements
       type(table_type), private :: stage_tables(n_stage_tables) ! of the stage so far
       type(vtu_results_type), private :: vtu
       type(bolt_history), private     :: bolts
@@ -131,9 +123,7 @@ contains
       type(bolt_answer_type), allocatable :: bolts(:)
       character(40) :: words
 
-      results%digest%increments = results%digest%increments + 1
-      results%digest%iterations = results%digest%iterations + analysis%record%n_iterations
-      results%n_removed = results%n_removed + analysis%record%n_removed
+      call count_increment(analysis%record%n_iterations, analysis%record%n_removed, results%counts)
       associate (stage => plan%stages(analysis%stage), page => results%page)
          ! what the page shows in this increment, and the scale of its forces
          page%stage_id = stage%id
@@ -220,8 +210,8 @@ contains
          end if
          call page%file%put_lines(page%screen%text_behind(before)) ! the answer is repeated in the listing
       end associate
-      associate (digest => results%digest)
-         digest%stages = digest%stages + 1
+      associate (digest => results%counts%digest)
+         if (.not. analysis%record%ends_early) digest%stages = digest%stages + 1
          digest%u_max = max(digest%u_max, answer%displacement%value)
          digest%mises_max = max(digest%mises_max, answer%at_node%value)
          digest%strained = max(digest%strained, answer%strained)
@@ -243,14 +233,32 @@ contains
       integer :: m
 
       m = findloc(modes%modes%is_rigid, .false., dim=1)
-      results%digest%frequency = -1.0_wp
-      if (m > 0) results%digest%frequency = modes%modes(m)%frequency
+      results%counts%digest%frequency = -1.0_wp
+      if (m > 0) results%counts%digest%frequency = modes%modes(m)%frequency
       associate (planned => plan%stages(stage), page => results%page)
          page%stage_id = planned%id
          call list_modes(page, model, planned%vibration, modes, results%watch%n_warnings)
          if (results%base /= '' .and. planned%output%vtu) call write_modes(results%vtu, model, planned%id, modes)
       end associate
    end subroutine print_modes
+
+   !> All of a stage of PLAN is in the files: they are kept up to here if the run ends early.
+   subroutine end_stage(plan, results)
+      type(stage_plan_type), intent(in) :: plan
+      type(results_type), intent(inout) :: results
+
+      results%counts%n_warnings = results%watch%n_warnings
+      call mark_finished(results%base, results%page, results%vtu, size(plan%stages), results%counts, results%finished)
+   end subroutine end_stage
+
+   !> The run cannot continue: keep what the finished stages have. ANY_ENDED is false where none has ended.
+   subroutine keep_finished_stages(results, any_ended)
+      type(results_type), intent(inout) :: results
+      logical, intent(out)              :: any_ended
+
+      call return_to_finished(results%page, results%vtu, results%counts, results%finished, any_ended)
+      if (any_ended) results%watch%n_warnings = results%counts%n_warnings
+   end subroutine keep_finished_stages
 
    !> Give the files their names, all or none: OK is false where a file could not be written. Files for ParaView, the largest,
    !! are an exception: where they cannot be written the tables and the listing stay, and MISSING_VTU gives the reason.
@@ -264,7 +272,8 @@ contains
 
       call lock_folder(results%base(:index(results%base, '/', back=.true.))//'.', hold)
       call remove_all(results%base) ! of two runs of one name the later one leaves its own files only
-      ok = .true.
+      results%counts%n_warnings = results%watch%n_warnings
+      call name_companion(results%base, results%page, failure, results%finished, ok)
       do i = 1, size(table_endings)
          if (ok .and. results%page%tables(i)%is_open) call results%page%tables(i)%finish(ok)
       end do
@@ -275,15 +284,7 @@ contains
       end if
       if (ok) then
          associate (file => results%page%file)
-            call file%put('')
-            if (failure%raised) then
-               call file%put(' *** THE RUN ENDED EARLY, ABOVE IS THE LAST STATE IN EQUILIBRIUM ***')
-               call file%put('  '//upper(failure%message))
-               call file%put('')
-            end if
-            call file%put(trim(merge(' ENDED EARLY   ', ' END OF LISTING', failure%raised))//'   '// &
-               upper(plural(size(plan%stages), 'stage')//', '//plural(results%digest%increments, 'increment')//', '// &
-               plural(results%n_removed, 'interface element'))//' REMOVED, '//upper(plural(results%watch%n_warnings, 'warning')))
+            call file%put_lines(listing_end(size(plan%stages), results%counts, results%page%place, failure))
             call file%finish(ok)
          end associate
       end if
@@ -306,8 +307,10 @@ contains
       do i = joint_table + 1, size(table_endings)
          if (results%page%tables(i)%is_named) names = names//', '//trim(table_endings(i))
       end do
+      names = names//vtu_names(results%vtu)
+      if (results%finished%is_named()) names = names//', '//early_ending//' (ENDED EARLY)'
       call results%page%screen%put('')
-      call results%page%screen%put(' RESULTS: '//names//vtu_names(results%vtu))
+      call results%page%screen%put(' RESULTS: '//names)
       call results%page%screen%finish(ok)
    end subroutine show_answers
 
@@ -332,7 +335,7 @@ contains
       type(results_type), intent(inout)        :: results
       integer :: i, n_shown
 
-      associate (page => results%page, watch => results%watch, d => results%digest)
+      associate (page => results%page, watch => results%watch, d => results%counts%digest)
          call page%file%record(stream)
          n_shown = -1
          if (allocated(page%shown)) n_shown = size(page%shown)
@@ -342,11 +345,12 @@ contains
          if (n_shown >= 0) call stream%item(page%shown)
          call stream%any_text(page%stage)
          call stream%any_text(page%now)
+         call stream%any_text(page%place)
          call stream%any_text(watch%farthest%quantity)
          call stream%any_text(watch%farthest%place)
          call stream%any_text(watch%poor_condition)
          call stream%any_text(watch%divided)
-         call stream%item(page%largest_force, watch%farthest%relative, watch%farthest%node, d%increments, results%n_removed)
+         call stream%item(page%largest_force, watch%farthest%relative, watch%farthest%node, d%increments, results%counts%n_removed)
          do i = 1, n_stage_tables
             call results%stage_tables(i)%record(stream)
          end do
@@ -360,8 +364,8 @@ contains
          associate (before => results%watched_before)
             if (allocated(before%u)) call stream%item(before%u, before%force, before%movement, before%tension)
          end associate
-         call stream%item(d%stages, d%increments, d%iterations, d%u_max, d%mises_max, d%contact)
-         call stream%item(d%safety, d%frequency, d%strained)
+         call record_digest(stream, d)
+         call record_finished(stream, results%base, page, results%finished)
       end associate
    end subroutine record_results
 
@@ -388,13 +392,15 @@ contains
          call remove_old(base//trim(table_endings(i)))
       end do
       call remove_old_vtu(base)
+      call remove_old(base//early_ending)
    end subroutine remove_all
 
    !> Whether ENDING, behind the base, is that of a result file.
    pure logical function is_result_ending(ending)
       character(*), intent(in) :: ending
 
-      is_result_ending = any(ending == [character(22) :: listing_ending, restart_ending, table_endings]) .or. is_vtu_ending(ending)
+      is_result_ending = any(ending == [character(22) :: listing_ending, restart_ending, early_ending, &
+                              table_endings]) .or. is_vtu_ending(ending)
    end function is_result_ending
 
 end module results

@@ -219,16 +219,21 @@ contains
       end do
    end subroutine add_reals
 
-   !> VALUE in the format FORM of WIDTH characters; a value too wide is given an exponent and fewer digits, after a blank.
+   !> VALUE in the format FORM of WIDTH characters; a value too wide is given an exponent and fewer digits, after a blank. So is a
+   !! value of more than seven digits in a wide format f: rounding leaves no more of a quotient of forces.
    pure function in_form(value, form, width) result(field)
       real(wp), intent(in)     :: value
       character(*), intent(in) :: form  !! '(f9.3)'
       integer, intent(in)      :: width
       character(width) :: field
+      integer :: k
 
       write (field, form) value
-      if (index(field, '*') == 0) return
-      field = fitted_text(value, width - 1)
+      if (index(field, '*') > 0) then
+         field = fitted_text(value, width - 1)
+      else if (form(2:2) == 'f' .and. width >= 11 .and. count([(index('0123456789', field(k:k)) > 0, k=1, width)]) > 7) then
+         write (field, '(es11.4)') value
+      end if
       field = adjustr(field)
    end function in_form
 

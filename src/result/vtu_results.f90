@@ -21,7 +21,8 @@ module vtu_results
    implicit none
    private
 
-   public :: start_vtu, write_vtu, write_modes, finish_vtu, discard_vtu, record_vtu, vtu_names, is_vtu_ending, remove_old_vtu
+   public :: start_vtu, write_vtu, write_modes, finish_vtu, discard_vtu, mark_vtu, return_to_mark_vtu, record_vtu, vtu_names, &
+             is_vtu_ending, remove_old_vtu
 
    integer, parameter :: of_bodies = 0, of_joints = 1, of_modes = 2 ! parts of one time
 
@@ -41,6 +42,7 @@ module vtu_results
       type(label_type) :: labels
       type(part_type), allocatable :: parts(:)
       integer :: n = 0
+      integer :: n_kept = 0                       ! files up to the last mark
       logical :: many = .false.                   ! more than one stage, or every increment of one
       logical :: is_listed = .false.              ! the list has its name
       class(subdomain_output_type), allocatable :: subdomains ! allocated where the bodies are written in pieces
@@ -61,6 +63,7 @@ contains
       results%name = name
       results%labels = labels
       results%n = 0
+      results%n_kept = 0
       results%is_listed = .false.
       results%many = size(plan%stages) > 1 .or. any(plan%stages%output%steps)
       if (allocated(results%subdomains)) deallocate (results%subdomains)
@@ -258,6 +261,27 @@ contains
       results%n = 0
    end subroutine discard_vtu
 
+   !> Mark the files so far: a run that ends early keeps them.
+   pure subroutine mark_vtu(results)
+      type(vtu_results_type), intent(inout) :: results
+
+      results%n_kept = results%n
+   end subroutine mark_vtu
+
+   !> Discard the files behind the mark, none of which has a name yet.
+   subroutine return_to_mark_vtu(results)
+      type(vtu_results_type), intent(inout) :: results
+      integer :: i, k
+
+      do i = results%n_kept + 1, results%n
+         if (.not. allocated(results%parts(i)%files)) cycle
+         do k = 1, size(results%parts(i)%files)
+            call results%parts(i)%files(k)%discard()
+         end do
+      end do
+      results%n = results%n_kept
+   end subroutine return_to_mark_vtu
+
    !> Write the files so far to a restart file, or read them.
    subroutine record_vtu(results, stream)
       type(vtu_results_type), intent(inout)    :: results
@@ -267,6 +291,7 @@ contains
       n = results%n
       call stream%extent(n, 64)
       n = min(n, size(results%parts))
+      call stream%item(results%n_kept)
       do i = 1, n
          associate (part => results%parts(i))
             call stream%text(part%ending)

@@ -1,12 +1,13 @@
 !> Reads the command line of jointfem, its options and decks.
 module command_line
-   use c_library, only: true_path
+   use c_library, only: is_regular_file, is_same_file, read_all_bytes, true_path
    use card_manual, only: manual_entry, manual_names
    use terminal, only: command_reader, complain, input_argument, next_option, say, standard_input, version
    use deck_parameters, only: is_parameter_name, parameter_type
    use field_rules, only: parse_integer
+   use finished_stages, only: listing_ending
    use result_page, only: history_ending
-   use results, only: is_result_ending, listing_ending
+   use results, only: is_result_ending
    use text_tools, only: upper
    use vtu_results, only: is_vtu_ending
    implicit none
@@ -24,17 +25,18 @@ module command_line
       ''//nl// &
       'Solves each deck: a structure with flexible joints, loaded in increments. The deck `-` is read from standard'//nl// &
       'input; its listing goes to standard output. For beam.bdf the program writes beam.out (the listing),'//nl// &
-      'beam.joint.csv (every interface element after every increment), beam.stage.csv (the answer of every stage)'//nl// &
-      'and, with bolts, beam.bolt.csv. At the end the answers and the names of the files go to standard output.'//nl// &
+      'beam.joint.csv (every interface element after every increment), beam.stage.csv (the answer of every stage),'//nl// &
+      'beam.reaction.csv and, with bolts, beam.bolt.csv; others on request (--help OUTPUT). At the end the answers and the'//nl// &
+      'names of the files go to standard output.'//nl// &
       ''//nl// &
-      '   -o DIR        folder of the results (default: the current folder)'//nl// &
+      '   -o DIR        folder of the results, made if it is not there (default: the current folder)'//nl// &
       '   --check       read and check the decks without solving them'//nl// &
       '   --joints      print cards for joints where bodies face each other, without solving'//nl// &
       '   -q            do not show progress on the terminal'//nl// &
       '   --threads N   use at most N threads (default: all cores); the results do not depend on N'//nl// &
       '   --set N=V     replace ${N} in the decks by V; N=V,V,V makes one run for each value, named beam_N=V'//nl// &
       '   --watch N,N   nodes whose displacement and stiffness are added to the answer of every stage'//nl// &
-      '   --summary F   write a table of all runs to the file F, one row for each run'//nl// &
+      '   --summary F   write a table of all runs to the file F, one row for each run; F may be new or an earlier table'//nl// &
       '   --resume      continue each deck from its restart file, beam.restart: the results are those of an'//nl// &
       '                 uninterrupted run. A deck without a restart file starts from the beginning.'//nl// &
       '   --date        print date and time in the heading of the listing'//nl// &
@@ -47,8 +49,11 @@ module command_line
       'processes: mpirun -n 4 jointfem_mpi DECK...'//nl// &
       ''//nl// &
       'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 the structure cannot be'//nl// &
-      'solved, 4 output could not be written; of several decks the highest. input/README.md is the manual of the'//nl// &
-      'cards.'
+      'solved, 4 output could not be written; of several decks the highest. At status 3, and where it is interrupted, a'//nl// &
+      'run keeps the results of its finished stages; beam.out and beam.early then say ENDED EARLY. input/README.md is the'//nl// &
+      'manual of the cards.'
+
+   character(*), parameter :: summary_head = 'deck,status,stages,increments,' ! the first columns of every summary
 
    !> One deck of the command.
    type, extends(input_argument), public :: deck_argument
@@ -162,6 +167,11 @@ contains
       values = text(equals + 1:)//','
       ok = equals > 1 .and. equals < len(text) .and. verify(text, ' ') > 0
       if (ok) ok = is_parameter_name(text(:equals - 1)) .and. index(','//values, ',,') == 0
+      if (ok .and. scan(values, '$'//achar(9)//achar(10)//achar(13)) > 0) then
+         ok = .false.
+         call complain(program, '--set '//text//': a value is a number or a word, without $, tab or line end')
+         return
+      end if
       if (.not. ok) then
          call complain(program, '--set '//text//': expected NAME=VALUE, or NAME=VALUE,VALUE,... for a run with each')
          return
@@ -224,8 +234,38 @@ contains
             end if
          end do
       end do
-      ok = .true.
+      ok = may_write_summary(command)
    end subroutine plan_runs
+
+   !> Whether the file of --summary may be written, with a message where not: it may be new, empty or an earlier summary, but no deck
+   !! and no result of the command. (`--summary *.bdf` takes the first deck for the name of the summary.)
+   logical function may_write_summary(command)
+      type(command_type), intent(in) :: command
+      character(:), allocatable :: bytes, path
+      integer :: i, slash
+      logical :: is_deck, is_result, ok
+
+      may_write_summary = .true.
+      if (command%summary == '') return
+      slash = index(command%summary, '/', back=.true.)
+      path = true_path(command%summary)
+      if (.not. is_regular_file(command%summary)) path = true_path(command%summary(:slash)//'.')//'/'//command%summary(slash + 1:)
+      do i = 1, size(command%decks)
+         is_deck = is_same_file(command%summary, command%decks(i)%path)
+         is_result = is_result_of(path, command%decks(i))
+         may_write_summary = .not. (is_deck .or. is_result)
+         if (may_write_summary) cycle
+         call complain(program, '--summary '//command%summary//' would overwrite the deck '//command%decks(i)%name// &
+                       ' or a file of its results')
+         return
+      end do
+      if (.not. is_regular_file(command%summary)) return
+      call read_all_bytes(command%summary, bytes, ok)
+      may_write_summary = ok
+      if (ok) may_write_summary = len_trim(bytes) == 0 .or. index(bytes, summary_head) == 1
+      if (.not. may_write_summary) call complain(program, '--summary '//command%summary// &
+                                                ': the file exists and is no summary; expected a new name, or an earlier summary')
+   end function may_write_summary
 
    !> Set the parameters of DECK to combination RUN = 0, 1, ... of the values of SETTINGS, the last setting changing fastest. The
    !! values of a setting with several values become part of its name and its base.

@@ -4,7 +4,7 @@
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use backbone, only: backbone_type, find_loop, finish_backbone, start_backbone
-   use c_library, only: end_run, open_standard_outputs, tell_failed_writes
+   use c_library, only: end_run, make_folders, open_standard_outputs, tell_failed_writes
    use case_control, only: method_back, method_newton, method_step
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use condensed_interface, only: condense_on_joints
@@ -30,7 +30,7 @@ module run_boxes
    use newton_method, only: seat_joints
    use openblas, only: prepare_openblas, tell_kernel
    use restart_file, only: open_restart_file, take_up, write_restart
-   use results, only: list_results => print_increment, print_modes, print_stage, remove_old_results, start_results
+   use results, only: end_stage, list_results => print_increment, print_modes, print_stage, remove_old_results, start_results
    use run_of_deck, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, &
                           phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
                           is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
@@ -68,6 +68,7 @@ contains
             else
                call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
             end if
+            if (.not. run%failure%raised) call end_stage(plan, run%results)
             call enter(run, phase_increments)
          end if
       end associate
@@ -235,6 +236,7 @@ contains
       run%solver = system%description
       call date_and_time(date, time)
       if (run%is_dated) run%results%page%date = date(:4)//'-'//date(5:6)//'-'//date(7:8)//' '//time(:2)//':'//time(3:4)
+      call make_folders(run%argument%base(:index(run%argument%base, '/', back=.true.)))
       call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
       if (ok .and. run%argument%of > 1 .and. run%argument%base /= '') then
          call run%results%page%screen%put('')
@@ -330,6 +332,7 @@ contains
       if (analysis%increment > 0 .and. (completes_stage .or. run%keeps_results) .and. .not. overflow%raised) then
          call enter(run, phase_write)
          call print_stage(model, plan, analysis, run%results, overflow)
+         if (completes_stage .and. .not. (run%keeps_results .or. overflow%raised)) call end_stage(plan, run%results)
       end if
       if (overflow%raised) then
          run%failure = overflow

@@ -10,6 +10,7 @@ module run_of_deck
    use distribution, only: leave_processes, memory_of_all
    use equation_solver, only: failure_type, solver_description
    use error_report, only: print_errors
+   use finished_stages, only: digest_type, listing_ending
    use incomplete_results, only: say_at_interrupts, what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
@@ -19,7 +20,7 @@ module run_of_deck
    use range_watch, only: distance_words, tetra_words
    use restart_stream, only: restart_stream_type
    use result_page, only: history_ending
-   use results, only: digest_type, discard_results, finish_results, listing_ending, restart_ending, results_type, show_answers
+   use results, only: discard_results, finish_results, keep_finished_stages, restart_ending, results_type, show_answers
    use stage_plan, only: stage_plan_type
    use table_writer, only: column, column_type, csv, csv_titles, heading, table_type
    use terminal, only: clear_line, complain_of_input, open_line, say_line, show_line
@@ -52,6 +53,7 @@ module run_of_deck
       type(results_type) :: results
       integer :: ending = goes_on
       logical :: keeps_results = .false.       !! the run ended early, but its last equilibrium is a result
+      logical :: keeps_stages = .false.        !! ... or its finished stages are
       integer(long) :: deck_sum = 0            !! checksum of the deck
       type(restart_stream_type) :: restart     !! the restart file to continue from, while it is read
       logical :: resumes = .false.             !! there is such a file
@@ -70,6 +72,7 @@ module run_of_deck
    type, public :: summary_row
       private
       character(:), allocatable :: name
+      character(:), allocatable :: ended               ! how, where the status is not 0
       integer  :: status = 0
       type(digest_type) :: digest
       logical  :: is_there(5) = .false.                ! u_max, mises_max, contact, safety, frequency
@@ -195,14 +198,16 @@ contains
       integer(long) :: now, rate
       logical :: ok, shown
 
-      if (run%keeps_results .or. .not. is_over(run)) then
+      run%keeps_stages = run%failure%raised .and. run%ending == goes_on .and. .not. run%keeps_results
+      if (run%keeps_stages) call keep_finished_stages(run%results, run%keeps_stages)
+      if (run%keeps_stages .or. run%keeps_results .or. .not. is_over(run)) then
          call enter(run, phase_write)
          call finish_results(plan, run%failure, run%results, ok)
          call end_progress(run)
          associate (watch => run%results%watch)
             if (watch%n_warnings > 0) call tell(run, plural(watch%n_warnings, 'warning')//' in the listing')
             call tell(run, watch%poor_condition)
-            call tell(run, stress_words(run%results%digest%strained))
+            call tell(run, stress_words(run%results%counts%digest%strained))
             call tell(run, watch%divided)
             call tell(run, distance_words(watch%farthest))
          end associate
@@ -227,9 +232,12 @@ contains
       row%status = status_of(run%ending)
       call system_clock(now, rate)
       row%seconds = real(now - run%began, wp)/real(rate, wp)
-      row%digest = run%results%digest
+      row%digest = run%results%counts%digest
+      row%ended = ''
+      if (row%status /= 0) row%ended = 'NO RESULTS'
+      if (run%results%finished%is_named()) row%ended = 'ENDED EARLY at '//run%results%page%place
       associate (digest => row%digest)
-         if (digest%stages == 0) return
+         if (digest%stages == 0 .and. .not. run%keeps_results) return
          row%is_there = [.true., model%n_elements > 0, size(model%joints) > 0, digest%safety < huge(1.0_wp), &
                          digest%frequency >= 0.0_wp]
       end associate
@@ -295,9 +303,14 @@ contains
             call run%suggestions%finish(ok)
             if (.not. ok) call miss_output(run)
          case (is_unsolved)
-            call tell(run, run%failure%message//trim(merge('; the results end there', '; no results           ', &
-                                                           run%keeps_results)))
-            if (.not. run%keeps_results) call discard_results(run%results)
+            if (run%keeps_results) then
+               call tell(run, run%failure%message//'; the results end there')
+            else if (run%keeps_stages) then
+               call tell(run, run%failure%message//'; the results end at '//run%results%page%place)
+            else
+               call tell(run, run%failure%message//'; no results')
+               call discard_results(run%results)
+            end if
          case (is_unwritten)
             if (base == '') then
                call tell(run, 'the listing cannot be written to the standard output')
@@ -333,7 +346,7 @@ contains
                  column('U MAX', 'es12.4', name='u_max'), column('MISES MAX', 'es12.4', name='mises_max'), &
                  csv('contact'), column('CONTACT %', 'f10.2'), csv('safety'), column('MU N/T', 'f10.3'), &
                  column('FREQUENCY', 'es12.4', name='frequency'), csv(['watched', 'along  ']), &
-                 column('STIFFNESS', 'es12.4', name='stiffness'), csv('seconds')]
+                 column('STIFFNESS', 'es12.4', name='stiffness'), csv(['seconds', 'ended  '])]
       call table%start('', columns, screen)
       if (summary%is_open) call summary%put(csv_titles(columns))
       do i = 1, size(rows)
@@ -347,8 +360,10 @@ contains
             call table%add([row%node], where=[row%node > 0])
             call table%add([row%watched%along, row%watched%stiffness], where=[row%watched%is_loaded, row%watched%moves])
             call table%add([row%seconds])
+            call table%add('"'//row%ended//'"')
          end associate
          call table%print_row(screen, summary)
+         if (rows(i)%ended /= '') call screen%put('     '//rows(i)%ended)
       end do
       ok = .true.
       shown = .true.

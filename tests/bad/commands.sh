@@ -24,6 +24,9 @@ for s in '' T =3 T= 'T=1,,2' 'T T=1' T=,1; do
    run --set "$s" good.bdf;            check "--set '$s'" 1 "--set $s: expected NAME=VALUE"
 done
 run --set T=1 --set T=2 good.bdf;     check '--set twice' 1 'given twice'
+for s in 'T=${T}' 'T=1,${Q}' 'T=20$' $'T=1\t2' $'T=1\n2'; do
+   LIMIT=20 run --set "$s" good.bdf;   check "--set '$s'" 1 'a value is a number or a word'
+done
 for s in '' x 1,b '3 4'; do
    run --watch "$s" good.bdf;          check "--watch '$s'" 1 "--watch $s: expected node numbers"
 done
@@ -112,6 +115,36 @@ untouched() {
    else check "$what" 1 "$text"
    fi
 }
+
+# refused FILE WHAT TEXT ARGUMENTS: untouched, with the decks good.bdf and other.bdf in the folder over
+refused() {
+   local file=$1
+   fresh over
+   cp good.bdf other.bdf over
+   mkdir over/sub
+   case $file in
+      *.inc) sed '/^GRID/!d' good.bdf > "over/$file"; sed -i "s/^GRID    1 .*/INCLUDE '$file'/; /^GRID/d" over/good.bdf;;
+      notes) echo 'what was measured' > over/notes;;
+      *.csv) echo 'stage,increment,load' > "over/$file";;
+      *) cp -n good.bdf "over/$file";;
+   esac
+   untouched "$@"
+   if [ "$(ls over | grep -c '\.out$')" -ne 0 ]; then fail "$2: a deck ran"; else pass; fi
+}
+refused first.bdf '--summary *.bdf' 'first.bdf: the file exists and is no summary' --summary first.bdf good.bdf other.bdf
+refused good.bdf '--summary of a deck of the run' 'would overwrite the deck good.bdf' --summary ./good.bdf good.bdf other.bdf
+refused good.inc '--summary of an INCLUDE file' 'is no summary' --summary good.inc good.bdf
+refused notes '--summary of notes' 'is no summary' --summary notes good.bdf
+refused old.joint.csv '--summary of a history' 'is no summary' --summary old.joint.csv good.bdf
+for name in good.out good.joint.csv good.stage.csv sub/../good.restart good.vtu; do
+   refused other.bdf "--summary $name beside good.bdf" 'would overwrite the deck good.bdf or a file of its results' --summary $name good.bdf
+done
+fresh results
+run --summary results/runs.csv -o results good.bdf; check '--summary' 0
+run --summary results/runs.csv -o results good.bdf other.bdf; check '--summary over an earlier summary' 0
+if [ "$(wc -l < results/runs.csv)" -eq 3 ]; then pass; else fail '--summary over an earlier summary: not three lines'; fi
+: > results/empty
+run --summary results/empty -o results good.bdf; check '--summary over an empty file' 0
 
 # unharmed WHAT DECK ARGUMENTS: the same for DECK, a copy of good.bdf or $from, beside good.bdf; link leads to where they stand
 unharmed() {
@@ -214,7 +247,13 @@ check 'a full standard error' 2
 # ---- output that cannot be written ----
 
 fresh results
-run -o nowhere good.bdf;              check 'a folder that is not there' 4 'nowhere/good.out'
+run -o nowhere/deeper good.bdf;       check 'a folder that is not there is made' 0
+holds nowhere/deeper 'a folder that is not there: it has the results' good.joint.csv good.out good.reaction.csv good.stage.csv
+rm -rf nowhere
+run -o nowhere --check good.bdf;      check 'a folder that is not there, --check' 0
+run -o nowhere faulty.bdf;            check 'a folder that is not there, a faulty deck' 2
+if [ -e nowhere ]; then fail 'a folder is made without results'; else pass; fi
+run -o good.bdf/deeper good.bdf;      check 'a folder in a file' 4 'good.bdf/deeper/good.out'
 run -o good.bdf good.bdf;             check 'a file for a folder' 4
 cmp -s good.bdf other.bdf || fail 'a file for a folder: the deck is destroyed'
 mkdir results/good.out

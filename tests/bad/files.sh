@@ -87,6 +87,42 @@ if grep -q 'keeps.restart keeps the state behind stage 1, increment [1-9][0-9]*:
 else fail 'an interrupted run names its restart file'; fi
 rm -f results/keeps.restart
 rm -f results/*.part
+
+# of two stages the first is kept, and marked; a run that goes on to the end from its restart file has no mark
+{ sed -n '1,/^BEGIN/p' good.bdf | sed 's/^\(  \)*INCR.*//; s/^LOAD = .*//; s/^SUBCASE.*//; s/^BEGIN.*//'
+  echo 'SUBCASE 1'; echo '  LOAD = 10'; echo '  INCR = 5'; echo 'SUBCASE 2'; echo '  LOAD = 20'; echo '  INCR = 6'; echo 'BEGIN BULK'
+  sed '1,/^BEGIN/d; /^ENDDATA/d' long.bdf; echo 'LOAD,20,2.,1.,10'; echo 'JINCR,6,10000,ARITH,1.0-4'; echo ENDDATA
+} | sed 's/10000   ARITH   1.0-4/20/' > stages.bdf
+sed 's/^JINCR,6,10000.*/JINCR,6,2/' stages.bdf > few.bdf
+sed '/^SUBCASE 2/,/^  INCR = 6/s/^/$/; s/^LOAD,20/$&/' stages.bdf > first.bdf
+fresh results
+run -o results first.bdf;             check 'the first stage alone' 0
+for signal in INT TERM; do
+   timeout --preserve-status -s $signal 60 "$program" -o results stages.bdf >"$work/stdout" 2>"$work/stderr" &
+   runner=$!
+   for ((i = 0; i < 600; i++)); do # until the first stage has ended
+      [ -n "$(find results -name 'stages.early.*.part')" ] && break
+      sleep 0.05
+   done
+   sleep 0.2
+   kill -s $signal $runner # which passes it on
+   { wait $runner; status=$?; } 2>/dev/null
+   check "a run of two stages that has got SIG$signal" $((128 + $(kill -l $signal))) \
+      'results/stages.out keeps the stages that had ended, up to stage 1, increment 20, marked ENDED EARLY'
+   for ending in joint.csv stage.csv reaction.csv; do
+      if cmp -s results/stages.$ending results/first.$ending; then pass; else fail "SIG$signal: stages.$ending is not that of the first stage"; fi
+      if grep -q "^stages.$ending: ENDED EARLY at stage 1, increment 20$" results/stages.early; then pass; else fail "SIG$signal: stages.early does not mark $ending"; fi
+   done
+   if tail -n 1 results/stages.out | grep -q '^ ENDED EARLY   AT STAGE 1, INCREMENT 20: 2 STAGES, 20 INCREMENTS,'; then pass; else fail "SIG$signal: the listing is not marked"; fi
+   holds results "SIG$signal: nothing else is kept" first.joint.csv first.out first.reaction.csv first.stage.csv \
+      stages.early stages.joint.csv stages.out stages.reaction.csv stages.stage.csv
+done
+cp few.bdf stages.bdf
+run -o results stages.bdf;            check 'the stages again, with few increments' 0
+if [ -e results/stages.early ]; then fail 'a complete run leaves the mark of an earlier one'; else pass; fi
+fresh results
+rm -f first.bdf few.bdf stages.bdf
+
 mv short.bdf long.bdf
 run -o results long.bdf;              check 'the same deck again, with fewer increments' 0
 holds results 'the same deck again' long.joint.csv long.out long.reaction.csv long.stage.csv

@@ -44,6 +44,11 @@ says '...' "$work/varied.log" 'there is no ${Q} in the deck'
 "$program" -q -o "$work" --set T=2.0 --set C=1.23456789 --set EU=1.0 --set F=1.0 "$work/varied.bdf" > "$work/varied.log" 2>&1
 same 'a value that does not fit' "$?" 2
 says '...' "$work/varied.log" 'does not fit in front of what follows'
+# 200,000 lines behind a parameter are read as fast as without: a copy of all lines for each of them took minutes
+{ sed '/^ENDDATA/d' "$work/varied.bdf"; awk 'BEGIN { for (i = 1; i <= 200000; i++) printf "GRID    %-8d        1.0     2.0\n", 1000 + i; print "ENDDATA" }'
+} > "$work/many.bdf"
+timeout 10 "$program" -q --check --set T=2.0 --set C=1.0 --set EU=1.0 --set F=1.0 "$work/many.bdf" > "$work/varied.log" 2>&1
+same '200,000 lines with parameters' "$?" 0
 # a deck that cannot be solved has its row too
 sed 's/^SPC = 1/TITLE = FREE/' "$work/varied.bdf" > "$work/free.bdf"
 "$program" -q -o "$work" --set T=2.0 --set C=1.0 --set EU=1.0 --set F=1.0 --summary "$work/sum.csv" "$work/free.bdf" "$work/varied.bdf" > "$work/varied.log" 2>&1

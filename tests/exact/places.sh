@@ -87,6 +87,14 @@ same '--joints writes nothing' "$(ls "$work"/loose_blocks.*.csv "$work"/loose_bl
 run pasted && near '--joints: its joint bears the load' "$(value pasted rows 'increment = 2' print 'sum(force)' | tail -1)" 1200 1e-6
 "$program" --joints "$work/pasted.bdf" > "$work/pasted.cards"
 says '--joints: what is there' "$work/pasted.cards" 'JOINT 1 of the deck connects them there'
+# the numbers of its elements are above those of each kind of card that shares them, its marks above those of properties
+spring='PELAS,800,1.;CELAS1,900,800,25,1,26,1'
+for taken in 'CONM2,900,25,,1.-9' 'CMASS2,900,1.-9,25,1' 'CELAS2,900,1.,25,1,26,1' 'CONROD,900,1,27,1,1.' 'RBE2,900,27,3,26' 'CROD,900,7,1,27;PROD,7,1,1.' "$spring"; do
+   { sed '/^ENDDATA/d' "$work/loose_blocks.bdf"; echo "$taken" | tr ';' '\n'; echo ENDDATA; } > "$work/taken.bdf"
+   "$program" --joints "$work/taken.bdf" > "$work/taken.cards" 2> "$work/taken.log"
+   same "--joints beside ${taken%%,*}: numbers of elements" "$(awk -F, '/^CQUAD4/ && (!n || $2 < n) { n = $2 } END { print n }' "$work/taken.cards")" 901
+done
+same '--joints: marks above those of springs' "$(awk -F, '/^PMARK/ { print $2; exit }' "$work/taken.cards")" 801
 sed '/^SPC = 1/d; /^SPC1/d' "$work/loose_blocks.bdf" > "$work/loose.bdf"
 sed -i 's/;SPC = 1//' "$work/loose.bdf"
 "$program" --joints "$work/loose.bdf" > "$work/loose.cards"

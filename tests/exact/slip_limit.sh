@@ -1,4 +1,4 @@
-# What was in equilibrium is kept where NEWTON cannot go on. A block pressed by 1,000 and pushed by up to 500 with mu = 0.2 slips as a
+# What is kept where a run cannot go on: finished stages by any method, by NEWTON also what was in equilibrium; all is marked. A block pressed by 1,000 and pushed by up to 500 with mu = 0.2 slips as a
 # whole at 200, at 0.4 of the push; pulled by up to 4,000 instead, it is loose at 1,000, at 0.25.
 
 limit() { # NAME FX FY
@@ -48,3 +48,48 @@ run oblique && {
    ask 'at the limit' oblique rows 'stage = 2' all 'tau_x*tau_x + tau_y*tau_y = 0.09*pressure*pressure within 1e-9*pressure*pressure'
    ask 'in the direction of the laws' oblique rows 'stage = 2' all 'tau_y*1000*delta_x = tau_x*40000*delta_y within 1e-7*pressure'
 }
+
+# ---- a stage that ends early after others that have ended: STEP lifts a block off its base in stage 3 ----
+
+lifted() { # NAME STAGES ENTRIES
+   cards "$1" <<END
+METHOD = STEP;SPC = 1;INCR = 2;$3;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 2;$( [ "$2" = 3 ] && echo 'SUBCASE 3;  LOAD = 3' || echo '$;$')
+BEGIN BULK;BLOCK2,1,1,4,1,0.,0.;+,40.,10.;+,20,,21;PMARK,20;PMARK,21;PSHELL,1,1,10.;MAT1,1,210000.,,0.0,7.85-9;JOINT,1,1,20
+PJOINT,1,1;JNORM,1,8.-3,0.5,9500.;SPC1,1,1,1;FORCEM,1,1000.,0.,-1.,0.,21;FORCEM,2,1500.,0.,-1.,0.,21;FORCEM,3,2000.,0.,1.,0.,21
+JINCR,2,4;ENDDATA
+END
+}
+lifted lifted 2 ''
+run lifted
+for ending in out joint.csv stage.csv reaction.csv; do mv "$work/lifted.$ending" "$work/whole.$ending"; done
+lifted lifted 3 ''
+"$program" -q -o "$work" --summary "$work/lifted_runs.csv" "$work/lifted.bdf" > "$work/lifted.log" 2>&1
+same 'a mechanism in stage 3: status' $? 3
+says '... the terminal says where the results end' "$work/lifted.log" 'stage 3, increment [0-9]*: .*; the results end at stage 2, increment 4$'
+for ending in joint.csv stage.csv reaction.csv; do
+   same "... $ending has the two stages, to the last byte" "$(cmp "$work/lifted.$ending" "$work/whole.$ending" 2>&1)" ''
+   says '... and its companion the mark' "$work/lifted.early" "^lifted.$ending: ENDED EARLY at stage 2, increment 4\$"
+done
+says '... the companion has the reason' "$work/lifted.early" '^ENDED EARLY at stage 2, increment 4. Reason: stage 3, increment [0-9]*: '
+says '... the listing is marked' "$work/lifted.out" '^ ENDED EARLY   AT STAGE 2, INCREMENT 4: 3 STAGES, 8 INCREMENTS, '
+same '... and has no end as of others' "$(grep -c '^ END OF LISTING' "$work/lifted.out")" 0
+same '... up to the end it is that of two stages' "$(tables_of() { sed -n '/ANSWER AT THE END OF STAGE 1/,/^ \(\*\*\*\|END OF\)/p' "$1" | grep -v '^ \(\*\*\*\|END OF\)'; }
+   diff <(tables_of "$work/lifted.out") <(tables_of "$work/whole.out"))" ''
+same '... the summary is marked' "$(tail -n 1 "$work/lifted_runs.csv" | cut -d, -f2-4)$(tail -n 1 "$work/lifted_runs.csv" | grep -o ',"ENDED EARLY at stage 2, increment 4"')" \
+   '3,2,8,"ENDED EARLY at stage 2, increment 4"'
+same '... the terminal names two answers' "$(grep -c '^ ANSWER AT THE END OF STAGE' "$work/lifted.log")" 2
+lifted lifted 2 ''
+run lifted && same 'a later run that ends removes the mark' "$(ls "$work/lifted.early" 2> /dev/null)" ''
+# taken up again from a restart file the run ends in the same files, also where that file was written within stage 3 or before it
+lifted resumed 3 'RESTART = 1;OUTPUT = VTU, STEPS'
+run resumed 3
+mkdir -p "$work/once" "$work/again"
+for file in "$work"/resumed.*; do case $file in *.bdf | *.log | *.restart) ;; *) mv "$file" "$work/once/" ;; esac; done
+same 'files for ParaView of finished stages stay' "$(grep -c 'resumed.[12].[1-4].joint.vtu' "$work/once/resumed.pvd")" 8
+same '... and no others' "$(ls "$work/once" | grep -c 'resumed.3')" 0
+run resumed 3
+"$program" -q --resume -o "$work" "$work/resumed.bdf" > "$work/resumed.log" 2>&1
+same 'resumed where it cannot go on: status' $? 3
+says '... it was taken up' "$work/resumed.log" 'resumed from .*resumed.restart after stage'
+for file in "$work"/once/*; do same "... ${file##*/}" "$(cmp "$file" "$work/${file##*/}" 2>&1)" ''; done
+rm -rf "$work/once" "$work/again"

@@ -346,6 +346,7 @@ holds 'several files: the rest still runs, the highest status is returned' [ $st
 near 'several files: ids count up' 1e-10 both
 
 . "$here/records.sh"
+. "$here/corrections.sh"
 
 # ---- the cards are read by jointfem ----
 

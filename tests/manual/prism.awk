@@ -1,7 +1,8 @@
 # The worked example, computed independently of the program, for chapter 11 of the manual: 10 x 4 rectangles in plane stress,
-# condensed on the 11 nodes of the joint, then the step-wise method in N increments, or (N = 0) Newton's method for the whole load
-# under the exact law.
+# condensed on the 11 nodes of the joint, then the step-wise method in N increments, or (N = 0) Newton's method under the exact law in
+# M equal increments (default 1). The exact law remembers the largest lambda of each node at equilibrium, its point A.
 #    awk -v n=5 -f prism.awk          prints node, lambda, p, branch of the nodes 1, 6, ..., 51
+#    awk -v n=0 -v m=40 -f prism.awk
 function gauss(k) { return k % 2 ? 1/sqrt(3) : -1/sqrt(3) }
 
 # stiffness of a rectangle W x H, thickness T: dofs ux, uy of its corners, counter-clockwise
@@ -72,19 +73,26 @@ function step_wise(   i, s, share, db, x) {
       for (i = 1; i <= 11; i++) { before[i] = lambda[i]; lambda[i] -= x[i]; sigmaf[i] = sumf[i]; sumf[i] -= kn[i]*x[i]; kn[i] = norm(i) }
    }
 }
-function newton(   i, r, u, x, pass) {
-   for (i = 1; i <= 11; i++) u[i] = -0.01
-   for (pass = 1; pass <= 60; pass++) {
-      for (i = 1; i <= 11; i++) {
-         r[i] = g[i]; for (j = 1; j <= 11; j++) r[i] -= k[inner + i, inner + j]*u[j]
-         lambda[i] = -u[i]; sumf[i] = lambda[i] > 0 ? area[i]*(lambda[i]/C)^2 : 0; kn[i] = lambda[i] > 0 ? 2*area[i]*lambda[i]/C^2 : 0
-         r[i] += sumf[i]; branch[i] = lambda[i] > 0 ? "LOAD" : "OPEN"
+function newton(   i, j, r, u, x, s, p_a, pass) {
+   for (i = 1; i <= 11; i++) { u[i] = -0.01; a_lambda[i] = 0 }
+   for (s = 1; s <= m; s++) {
+      for (pass = 1; pass <= 60; pass++) {
+         for (i = 1; i <= 11; i++) {
+            r[i] = s/m*g[i]; for (j = 1; j <= 11; j++) r[i] -= k[inner + i, inner + j]*u[j]
+            lambda[i] = -u[i]; p_a = (a_lambda[i]/C)^2
+            branch[i] = lambda[i] >= a_lambda[i] ? "LOAD" : p_a + E*(lambda[i] - a_lambda[i]) > 0 ? "UNLOAD" : "OPEN"
+            if (branch[i] == "LOAD") { sumf[i] = area[i]*(lambda[i]/C)^2; kn[i] = 2*area[i]*lambda[i]/C^2 }
+            else if (branch[i] == "UNLOAD") { sumf[i] = area[i]*(p_a + E*(lambda[i] - a_lambda[i])); kn[i] = E*area[i] }
+            else sumf[i] = kn[i] = 0
+            r[i] += sumf[i]
+         }
+         solve(kn, r, x); for (i = 1; i <= 11; i++) u[i] += x[i]
       }
-      solve(kn, r, x); for (i = 1; i <= 11; i++) u[i] += x[i]
+      for (i = 1; i <= 11; i++) if (lambda[i] > a_lambda[i]) a_lambda[i] = lambda[i]
    }
 }
 BEGIN {
-   E = 9500; nu = 0.25; C = 8e-3
+   E = 9500; nu = 0.25; C = 8e-3; if (!m) m = 1
    form(); eliminate(inner)
    for (i = 1; i <= 11; i++) { g[i] = f[inner + i]; area[i] = (i == 1 || i == 11 ? 7.5 : 15)*20; lambda[i] = sumf[i] = 0 }
    if (n) step_wise(); else newton()
