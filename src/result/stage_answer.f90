@@ -178,23 +178,28 @@ contains
    !! delta_y, lambda as in the joint history) by least squares weighted with their areas. The translation at the centroid s of
    !! these elements is the mean of {d}. The rotation is the smallest {t} with [J] {t} = sum a (r - s) x {d}, [J] their inertia. The
    !! result is the movement of the point at the centroid of the joint. Elements on one line do not determine the rotation about
-   !! it: it is set to 0 [length; radians].
+   !! it: it is set to 0. The determinant of [J] goes with the 15th power of a length: areas and vectors are divided by powers of
+   !! two near the largest, which changes no digit [length; radians].
    pure function rigid_movement(model, analysis, joint) result(q)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(joint_type), intent(in)    :: joint
-      real(wp) :: q(6), area, arm(3), d(3), determinant, inertia(3, 3), j, mean(3), minors(3, 3), moment(3), place(3)
+      real(wp) :: q(6), a, area, arm(3), d(3), determinant, inertia(3, 3), j, mean(3), minors(3, 3), moment(3), place(3)
+      real(wp) :: unit_area, unit_length
       integer  :: i
 
       q = 0.0_wp
+      unit_length = 2.0_wp**exponent(joint%frame%extent)
+      unit_area = 2.0_wp**exponent(joint%area)
       area = 0.0_wp
       place = 0.0_wp
       mean = 0.0_wp
       do i = joint%first, joint%last
          if (analysis%states(i)%normal%branch == branch_open) cycle
-         area = area + model%interface(i)%area
-         place = place + model%interface(i)%area*arm_of(model, joint%frame, i)
-         mean = mean + model%interface(i)%area*deflection_of(model, analysis, joint, i)
+         a = model%interface(i)%area/unit_area
+         area = area + a
+         place = place + a*(arm_of(model, joint%frame, i)/unit_length)
+         mean = mean + a*deflection_of(model, analysis, joint, i)
       end do
       if (.not. area > 0.0_wp) return
       place = place/area
@@ -203,14 +208,14 @@ contains
       moment = 0.0_wp
       do i = joint%first, joint%last
          if (analysis%states(i)%normal%branch == branch_open) cycle
-         arm = arm_of(model, joint%frame, i) - place
+         a = model%interface(i)%area/unit_area
+         arm = arm_of(model, joint%frame, i)/unit_length - place
          d = deflection_of(model, analysis, joint, i) - mean
-         inertia = inertia + model%interface(i)%area* &
-                   (dot_product(arm, arm)*identity - spread(arm, 2, 3)*spread(arm, 1, 3))
-         moment = moment + model%interface(i)%area*cross(arm, d)
+         inertia = inertia + a*(dot_product(arm, arm)*identity - spread(arm, 2, 3)*spread(arm, 1, 3))
+         moment = moment + a*cross(arm, d)
       end do
       j = 0.5_wp*(inertia(1, 1) + inertia(2, 2) + inertia(3, 3))
-      if (j > straight*area*joint%frame%extent**2) then  ! else all elements are at one point
+      if (j > straight*area*(joint%frame%extent/unit_length)**2) then  ! else all elements are at one point
          minors(:, 1) = cross(inertia(:, 2), inertia(:, 3))
          minors(:, 2) = cross(inertia(:, 3), inertia(:, 1))
          minors(:, 3) = cross(inertia(:, 1), inertia(:, 2))
@@ -223,6 +228,7 @@ contains
       end if
       q(4:) = merge(q(4:), 0.0_wp, joint%frame%exists(4:))
       q(:3) = merge(mean - cross(q(4:), place), 0.0_wp, joint%frame%exists(:3))
+      q(4:) = q(4:)/unit_length
    end function rigid_movement
 
    !> Deflection of interface element I in the axes of JOINT [length].
