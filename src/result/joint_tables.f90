@@ -217,8 +217,8 @@ contains
       end associate
    end subroutine add_shear
 
-   !> Work on the joints in the stage, by normal forces, by shear and on friction. Over a closed loop the difference of work put
-   !! in and given back is lost; the work on friction is lost at once.
+   !> Work on the joints in the stage: put in = given back + kept + lost by sliding. Over a closed loop of the branches what is kept
+   !! is dissipated too.
    subroutine list_energy(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model

@@ -34,10 +34,10 @@ energies() {
 # Pressed by 400 and pushed by 200 in proportion: at the limit from the beginning, at the end T = 120; the spring of the branch has
 # 120^2/160000, and what slides, 0.004 - 0.0015, takes 60 on the mean. Along (3, 4) in the plane of the joint the same.
 for increments in 1 3 20; do
-   for along in 200,0 120,160 -160,120; do
-      slider together NEWTON $increments 2.-4,1.,5000. 400,$along &&
+   for sideways in 200,0 120,160 -160,120; do
+      slider together NEWTON $increments 2.-4,1.,5000. 400,$sideways &&
          energies "pressed and pushed together in $increments, NEWTON" together 1 2e-6 0.32 0 0.24 0 0.09 0.15
-      slider together STEP $increments 2.-4,1.,5000. 400,$along &&
+      slider together STEP $increments 2.-4,1.,5000. 400,$sideways &&
          energies "pressed and pushed together in $increments, STEP" together 1 2e-6 0.32 0 0.24 0 0.09 0.15
    done
    # the pressure grows along whatever law: p lambda/3 for m = 1/2
