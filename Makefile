@@ -4,6 +4,8 @@ FC        ?= gfortran
 ifeq ($(origin FC),default)
 FC         = gfortran
 endif
+# make's own rules are left out: one takes a .mod file for a source of Modula-2
+MAKEFLAGS += -r
 # A `make` without -j builds on all cores. GNU make 4.3 does not show -j in MAKEFLAGS while it reads this file, so that the command line
 # is asked, and the MAKEFLAGS of a make that has started this one.
 JOBS_ASKED := $(shell { tr '\0' '\n' < /proc/$$PPID/cmdline; printf '%s\n' $$MAKEFLAGS; } | \

@@ -3,7 +3,7 @@ module results
    use analysis_state, only: analysis_type
    use answer_tables, only: print_answer, print_bolts, print_reactions, print_watched
    use body_tables, only: list_bodies, list_condensed
-   use bolt_answers, only: bolt_answer_type, bolt_history, end_stage, find_bolt_answers, record_bolts, start_bolts
+   use bolt_answers, only: bolt_answer_type, bolt_history, end_bolts => end_stage, find_bolt_answers, record_bolts, start_bolts
    use c_library, only: close_file, lock_folder
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
@@ -218,7 +218,7 @@ contains
          digest%contact = min(digest%contact, minval(answer%joints%contact))
          digest%safety = min(digest%safety, minval(answer%joints%safety, mask=answer%joints%has_safety))
       end associate
-      call end_stage(answer%bolts, results%bolts)
+      call end_bolts(answer%bolts, results%bolts)
       if (plan%has_watched_nodes) results%watched_before = state_at_end(model, analysis)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
