@@ -4,16 +4,40 @@
 module rod_torsion
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: a_spring, bar_type, model_type, n_bars, n_rotations
+   use model_data, only: a_spring, bar_type, model_type, n_bars, n_rotations, rotation_type
    use unknowns, only: node_axes, rotation_at
    implicit none
    private
 
-   public :: add_torsion, leave_out_untwisted, twisted_nodes
+   public :: add_torsion, add_twisted, leave_out_untwisted
 
    real(wp), parameter :: rounding = 1.0e-9_wp ! of the stiffness of a rotation, relative to the largest at its node
 
 contains
+
+   !> Append to ROTATIONS(:N) those of the nodes that have rotations because of rods with J.
+   pure subroutine add_twisted(deck, model, rotations, n)
+      type(checked_deck), intent(in)     :: deck
+      type(model_type), intent(inout)    :: model
+      type(rotation_type), intent(inout) :: rotations(:)
+      integer, intent(inout)             :: n
+      logical :: twisted(model%n_nodes)
+      integer :: end, i
+
+      twisted = twisted_nodes(deck, model, model%rotation_of > 0)
+      do i = 1, n_bars(model)
+         if (.not. model%bars(i)%torsion > 0.0_wp) cycle
+         do end = 1, 2
+            associate (node => model%bars(i)%nodes(end))
+               if (.not. twisted(node) .or. model%rotation_of(node) > 0) cycle
+               n = n + 1
+               model%rotation_of(node) = n
+               rotations(n) = rotation_type(point=node, of_element=.true., of_rods=.true., &
+                  arm=norm2(model%x(:, model%bars(i)%nodes(2)) - model%x(:, model%bars(i)%nodes(1))))
+            end associate
+         end do
+      end do
+   end subroutine add_twisted
 
    !> The nodes that have rotations because of rods with J; HAS tells those that have rotations anyway.
    pure function twisted_nodes(deck, model, has) result(more)

@@ -8,9 +8,9 @@ module structural_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, is_beam, is_shell, model_type, n_bars, n_rotations, rotation_type
+   use model_data, only: corners_of, is_beam, is_shell, model_type, n_rotations, rotation_type
    use node_build, only: append_unknowns
-   use rod_torsion, only: leave_out_untwisted, twisted_nodes
+   use rod_torsion, only: add_twisted, leave_out_untwisted
    use shell_membrane, only: shell_law
    use text_tools, only: integer_text
    use unknowns, only: node_axes
@@ -41,7 +41,7 @@ contains
       integer, allocatable :: elements(:), n_elements(:), points(:)
       real(wp) :: square(model%n_nodes)
       integer  :: count_of(model%n_nodes), e, i, k, n, node
-      logical  :: turns, twisted(model%n_nodes)
+      logical  :: turns
 
       if (model%axisymmetric) return
       if (size(deck%rigid) == 0 .and. all(model%properties%state < shell) .and. all(model%bars%torsion <= 0.0_wp)) return
@@ -94,21 +94,7 @@ contains
          end if
          rotations(model%rotation_of(node))%of_element = .true.
       end do
-      twisted = twisted_nodes(deck, model, model%rotation_of > 0)
-      do i = 1, n_bars(model)
-         associate (ends => model%bars(i)%nodes)
-            do k = 1, 2
-               if (any(ends == 0)) cycle ! reported already
-               if (.not. twisted(ends(k))) cycle
-               if (model%rotation_of(ends(k)) == 0) then
-                  n = n + 1
-                  model%rotation_of(ends(k)) = n
-                  rotations(n) = rotation_type(point=ends(k), of_element=.true., of_rods=.true., &
-                                               arm=norm2(model%x(:, ends(2)) - model%x(:, ends(1))))
-               end if
-            end do
-         end associate
-      end do
+      call add_twisted(deck, model, rotations, n)
       if (n == 0) then
          deallocate (model%rotation_of)
          return

@@ -166,7 +166,6 @@ contains
       if (model%n_filled > 0) call count_line(file, '   OF THESE MADE AT THE MIDDLE OF EDGES', int(model%n_filled, long))
       if (any(model%duplicate > 0)) &
          call count_line(file, '   OF THESE DOUBLED AT SPLIT SURFACES', count(model%duplicate > 0, kind=long))
-
       ! the elements, those of bodies by kind and formulation, and the constraints
       call count_line(file, 'BODY ELEMENTS', int(model%n_elements, long))
       n = 0
