@@ -24,6 +24,9 @@ module vibration_tables
    real(wp), parameter :: no_mass = 1.0e-12_wp     ! of the mass of the structure: rounding, in full precision
    real(wp), parameter :: steep = 2.0_wp           ! times the stiffness of the loading curves: a stiffer default is warned of
    real(wp), parameter :: tiny_share = 1.0e-7_wp   ! of an amplitude, of a loss: rounding
+   real(wp), parameter :: least_loss = 1.0e-6_wp   ! loss factor: a smaller one has no shares
+   real(wp), parameter :: wide_gap = 0.01_wp       ! of q: a loop with a wider one does not close
+   integer, parameter  :: few = 5                  ! interface elements: the curve is that of the mesh where fewer slip
 
 contains
 
@@ -181,7 +184,7 @@ contains
             call table%start('SHARE OF THE LOSS BY JOINT', [column('AMPLITUDE', 'es14.5', page%labels%length), &
                              column('JOINT', 'i11'), column('SHARE', 'f10.2', 'PERCENT')], page%file)
             do i = 1, size(found%loops)
-               do k = 1, merge(size(model%joints), 0, found%loops(i)%loss > 0.0_wp)
+               do k = 1, merge(size(model%joints), 0, found%loops(i)%loss > least_loss)
                   call table%add([found%loops(i)%q*found%peak])
                   call table%add([model%joints(k)%id])
                   call table%add([percent*found%loops(i)%shares(k)], tiny_share)
@@ -191,6 +194,7 @@ contains
          end if
          if (allocated(found%answers)) call list_resonances(page, model, found)
       end if
+      call judge_loops(page, model, found, n_warnings)
       if (found%problem /= '') n_warnings = n_warnings + 1
       if (found%is_limited) then
          call page%file%put('  WARNING: LARGER AMPLITUDES HAVE NO EQUILIBRIUM; THE LAST ROW IS FOR THE LARGEST LOAD FOUND')
@@ -207,6 +211,41 @@ contains
          end do
       end do
    end subroutine list_backbone
+
+   !> Notes and warnings on the loops of FOUND: gaps, negative losses, slip of single nodes. N_WARNINGS counts warnings.
+   subroutine judge_loops(page, model, found, n_warnings)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(backbone_type), intent(in) :: found
+      integer, intent(inout)          :: n_warnings
+      character(:), allocatable :: amplitude
+      integer :: i, n
+
+      n = size(model%interface)
+      do i = 1, size(found%loops)
+         associate (loop => found%loops(i))
+            amplitude = real_text(loop%q*found%peak)
+            if (abs(loop%gap) > wide_gap) call warn('THE LOOP OF AMPLITUDE '//amplitude//' DOES NOT CLOSE: AFTER '// &
+               integer_text(loop%n_loops)//' LOOPS THE STRUCTURE STILL MOVES BY '//in_form(loop%gap, '(f7.4)', 7)//' OF Q A LOOP')
+            if (loop%loss < -least_loss) call warn('THE LAWS GIVE BACK MORE THAN THEY ABSORB AT AMPLITUDE '//amplitude// &
+               ', LOSS FACTOR '//in_form(loop%loss, '(es11.4)', 11)//': UNLOADING IS LESS STEEP THAN LOADING')
+         end associate
+      end do
+      i = findloc([(nint(found%loops(i)%slipping*n) > 0 .and. nint(found%loops(i)%slipping*n) < min(few, n), &
+                    i = 1, size(found%loops))], .true., dim=1, back=.true.)
+      if (i > 0) call page%file%put('  NOTE: UP TO AMPLITUDE '//real_text(found%loops(i)%q*found%peak)//' FEWER THAN '// &
+         integer_text(min(few, n))//' INTERFACE ELEMENTS SLIP: SHIFT AND LOSS ARE STEPS OF SINGLE NODES OF THIS MESH')
+
+   contains
+
+      subroutine warn(words)
+         character(*), intent(in) :: words
+
+         n_warnings = n_warnings + 1
+         call page%file%put('  WARNING: '//words)
+      end subroutine warn
+
+   end subroutine judge_loops
 
    !> The resonances of the mode alone, with the frequency and loss of the backbone, under the oscillating load.
    subroutine list_resonances(page, model, found)
@@ -262,7 +301,7 @@ contains
          end do
       end do
       if (.not. response%is_complete) call page%file%put( &
-         '  BY THESE MODES ALONE: AN UNSUPPORTED STRUCTURE HAS NO STATIC RESPONSE')
+         '  BY THESE MODES ALONE: THE STATIC PART OF THE OTHER MODES NEEDS ALL RIGID-BODY MODES AND ONE MODE WITH STRAIN')
       do i = 1, size(response%missed)
          associate (peak => response%missed(i))
             amplitude = in_form(peak%amplitude, '(es12.5)', 12)

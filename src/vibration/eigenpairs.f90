@@ -14,7 +14,7 @@ module eigenpairs
    implicit none
    private
 
-   public :: find_eigenpairs, needs_all, all_displacements, on_equations
+   public :: find_eigenpairs, residual_displacements, needs_all, all_displacements, on_equations
 
    interface
 
@@ -50,6 +50,7 @@ module eigenpairs
    integer, parameter  :: zero_vector = -9, exhausted = -9999 ! codes of ARPACK: no more vectors with mass
    integer, parameter  :: restarts_used_up = 1                           ! likewise: restarts used up, perhaps there are no more
    real(wp), parameter :: tolerance = 1.0e-13_wp     ! of nu: the error estimate of Lanczos
+   real(wp), parameter :: settled = 1.0e-10_wp       ! of displacements: the change of the last iteration
    real(wp), parameter :: finite = 1.0e-12_wp        ! of the largest nu: smaller values have no significant mass
 
 contains
@@ -204,6 +205,37 @@ contains
       lambda = system%shift + 1.0_wp/nu(n:n - i + 1:-1)
       x = matmul(v, t(:, n:n - i + 1:-1))
    end subroutine solve_in_subspace
+
+   !> The displacements U under LOAD less the load that the MODES balance, rigid-body modes among them: the residual flexibility of an
+   !! unsupported structure by inertia relief, [k] u = f - [m] phi (phi . f). Each iteration solves with the factor of SYSTEM, whose
+   !! shift sigma is negative, ([k] - sigma [m]) u = ... - sigma [m] u; it leaves |sigma|/(lambda + |sigma|) of the error, lambda the
+   !! lowest eigenvalue not among the MODES.
+   subroutine residual_displacements(model, mass, system, modes, load, u)
+      type(model_type), intent(in)       :: model
+      type(mass_matrix_type), intent(in) :: mass
+      class(equation_system), intent(in) :: system      !! factorised
+      real(wp), intent(in)               :: modes(:, :) !! (equations, modes) x^T [m] x = 1
+      real(wp), intent(in)               :: load(:)     !! (equations) [force]
+      real(wp), intent(out)              :: u(:)        !! (equations) [length]
+      real(wp) :: before(size(u)), of_mass(size(u), size(modes, 2)), rest(size(u))
+      integer  :: i
+
+      of_mass = modes
+      do i = 1, size(modes, 2)
+         call times_mass(model, mass, system, of_mass(:, i))
+      end do
+      rest = load - matmul(of_mass, matmul(load, modes))
+      u = 0.0_wp
+      do i = 1, most_restarts
+         before = u
+         call times_mass(model, mass, system, u)
+         u = rest - system%shift*u
+         call system%solve_by_factor(u)
+         u(system%locked) = 0.0_wp
+         u = u - matmul(modes, matmul(u, of_mass))
+         if (norm2(u - before) <= settled*norm2(u)) exit
+      end do
+   end subroutine residual_displacements
 
    !> Replace X by [m] X on the equations; zero where locked.
    subroutine times_mass(model, mass, system, x)

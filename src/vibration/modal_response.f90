@@ -9,11 +9,12 @@
 !!    viscous damping:    g_r of a TABDMP1, NASTRAN's B = g omega_r m, which is g at omega = omega_r
 !!
 !! u_rest is the static contribution of the modes that are not computed: the static response less that of the computed modes,
-!! phi_r q_r/(m_r lambda_r).
+!! phi_r q_r/(m_r lambda_r). An unsupported structure has no static response; its u_rest is that to the part of the load which the
+!! inertia forces of the computed modes, rigid-body modes among them, do not balance (inertia relief).
 !! Source: R. W. Clough and J. Penzien, Dynamics of Structures, sections 4-3 and 13-3; MSC Nastran, Dynamic Analysis User's Guide,
 !! modal frequency response.
 module modal_response
-   use eigenpairs, only: all_displacements
+   use eigenpairs, only: all_displacements, residual_displacements
    use equation_solver, only: equation_system, failure_type
    use kinds, only: wp
    use mode_values, only: modes_type
@@ -138,7 +139,7 @@ contains
       class(equation_system), allocatable :: unshifted
       type(modal_system) :: superposed
       type(failure_type) :: loose
-      real(wp), allocatable :: at_rest(:, :), x(:)
+      real(wp), allocatable :: x(:), u_rest(:, :)
       complex(wp) :: u(model%dimension*size(plan%nodes))
       real(wp) :: large(size(u))
       integer  :: d, f, m, n
@@ -167,22 +168,28 @@ contains
          end associate
       end do
 
-      ! u_rest: the static response, which exists for a supported structure, less that of the modes
+      ! u_rest: the static response of a supported structure less that of the modes; without supports by inertia relief
       if (allocated(spectrum%at_rest)) then
          x = spectrum%at_rest
-      else if (system%shift >= 0.0_wp) then
-         call factorise_at(model, structure, 0.0_wp, unshifted, loose)
+      else if (system%shift >= 0.0_wp .or. (spectrum%n_before == 0 .and. spectrum%n_rigid <= size(modes%modes) .and. &
+                                            spectrum%n_rigid < size(spectrum%lambda))) then
+         call factorise_at(model, structure, min(0.0_wp, system%shift), unshifted, loose)
          if (.not. loose%raised) then
             x = spectrum%load
-            call unshifted%solve_by_factor(x)
+            if (system%shift >= 0.0_wp) then
+               call unshifted%solve_by_factor(x)
+            else
+               call residual_displacements(model, structure%mass, unshifted, spectrum%x(:, :size(modes%modes)), spectrum%load, x)
+            end if
             deallocate (unshifted)
          end if
       end if
       response%is_complete = allocated(x)
       if (response%is_complete) then
          x(system%locked) = 0.0_wp
-         allocate (at_rest, source=all_displacements(model, system, x))
-         superposed%rest = pack(at_rest(:, plan%nodes), .true.) - static_share(superposed)
+         allocate (u_rest, source=all_displacements(model, system, x))
+         superposed%rest = pack(u_rest(:, plan%nodes), .true.)
+         if (system%shift >= 0.0_wp) superposed%rest = superposed%rest - static_share(superposed)
       end if
       response%node = model%node_id(plan%nodes)
       response%frequency = asked_frequencies(plan, modes%modes%frequency)

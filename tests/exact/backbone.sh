@@ -5,9 +5,9 @@ backbone() { awk -F, -v name="$2" -v row="${3:-1}" 'NR == 1 { for (i = 1; i <= N
                 "$work/$1.backbone.csv"; }
 
 # pushed_mass NAME ELEMENTS LAW... : a mass of 0.02 on CJOINTs 1 to ELEMENTS of area 100, pressed by 130; the cards of their laws and more
-pushed_mass() { # NAME JAMPL CARDS [METHOD]
+pushed_mass() { # NAME JAMPL CARDS [METHOD [ENTRY OF CASE CONTROL]]
    cards "$1" <<DECK
-METHOD = ${4:-NEWTON};SUBCASE 1;  LOAD = 10;  MODES = 5;  BACKBONE = 6;BEGIN BULK;GRID,1;FORCE,10,1,,1.0,0.0,-130.0
+METHOD = ${4:-NEWTON};${5:-ECHO = NONE};SUBCASE 1;  LOAD = 10;  MODES = 5;  BACKBONE = 6;BEGIN BULK;GRID,1;FORCE,10,1,,1.0,0.0,-130.0
 CONM2,4,1,,0.02;EIGRL,5,,,2;$2;$3;ENDDATA
 DECK
    run "$1"
@@ -55,7 +55,7 @@ pushed_mass iwan JAMPL,6,1,0.1,21,0.001 "$two;JSHEAR,2,25.0;JSHEAR,4,15.0;CELAS2
 for x in 0.003 0.006 0.01 0.015; do
    b=$(awk -v x=$x 'BEGIN { a1 = 100; a2 = -2e3; a3 = 1e4; b1 = a1 + a2*x + 0.75*a3*x^2; b2 = (a2 + 1.5*a3*x)/2
       printf "+,%.15e,,%.15e,,%.15e;+,%.15e,,%.15e,,%.15e", b1, -b2, a3/4, b1, b2, a3/4 }')
-   pushed_mass masing "JAMPL,6,1,$x,1" "CJOINT,1,1,1,,100.0,0.0,-1.0;PJOINT,1,1,2;JNORM,1,8.0-3,0.5,500.0
+   pushed_mass masing "JAMPL,6,1,$x,1;+,1.0-6" "CJOINT,1,1,1,,100.0,0.0,-1.0;PJOINT,1,1,2;JNORM,1,8.0-3,0.5,500.0
 JSHEAR,2,100.0,,-2.0E3,,1.0E4;$b" &&
       judge_rows masing 1 '100*(100 - 2e3*x + 1e4*x*x)' '100*(4/3*2e3*x^3 - 2*1e4*x^4)'
 done
@@ -153,7 +153,7 @@ run lap_beams && {
 
 # ---- The loss of many elements, whose slip and opening change the path of the others, does not depend on the increments
 for n in 1 3 8; do
-   awk -v n=$n '/^JAMPL/ { print "JAMPL,6,1,1.0,2,0.1,0," n; next } { print }' input/bolted_lap.bdf > "$work/halved_$n.bdf"
+   awk -v n=$n '/^JAMPL/ { print "JAMPL,6,1,1.0,2,0.1,0," n "\n+,1.0-6"; next } { print }' input/bolted_lap.bdf > "$work/halved_$n.bdf"
    run halved_$n
    for row in 1 2; do
       near "increments from rest $n: frequency of amplitude $row" "$(backbone halved_$n frequency $row)" "$(backbone halved_1 frequency $row)" 1e-8
@@ -165,7 +165,7 @@ done
 run_input bolted_lap && {
    near 'bolted lap: smallest amplitude' "$(backbone bolted_lap frequency 1)" "$(awk -F, '$2 == 1 { f = $3 } END { print f }' "$work/bolted_lap.modes.csv")" 1e-6
    for solver in TREE SKYLINE; do
-      sed "s/^METHOD.*/&\nSOLVER = $solver/; s/^JAMPL.*/JAMPL,6,1,1.0,3,0.01,0,2/" input/bolted_lap.bdf > "$work/lap_$solver.bdf"
+      sed "s/^METHOD.*/&\nSOLVER = $solver/; s/^JAMPL.*/JAMPL,6,1,1.0,3,0.01,0,2\n+,1.0-6/" input/bolted_lap.bdf > "$work/lap_$solver.bdf"
       run lap_$solver
    done
    for row in 1 2 3; do
@@ -195,3 +195,55 @@ pushed_mass bend JAMPL,6,1,0.1,201,0.001 "$joint;JSHEAR,2,40.0;CELAS2,2,1000.0,1
       END { if (peaks != 1 || n < 1000) print peaks " peaks, " n " rows"; print "checked " n + peaks }' "$work/bend.backbone.response.csv"
    says 'response by the backbone: the listing' "$work/bend.out" 'RESPONSE OF THIS MODE ALONE BY ITS BACKBONE'
 }
+
+# ---- Normal modes: E_u above the tangent, 285, of the law at rest. The first push sets the joint; from then on it moves along E_u
+# without loss, and its loops lie beside the state at rest
+for e_u in 300 580 600 2850 28500; do
+   pushed_mass bounces_$e_u "JAMPL,6,1,$(number "0.3/$e_u"),5" "CJOINT,1,1,1,,100.0,0.0,-1.0;SPC1,1,1,1;PJOINT,1,1;JNORM,1,8.0-3,0.5,$e_u.0" NEWTON 'SPC = 1' &&
+      judge_rows bounces_$e_u 5 100*$e_u 0
+   near "E_u $e_u: the largest amplitude" "$(backbone bounces_$e_u amplitude 5)" 0.3/$e_u 1e-5
+done
+
+# ---- A static shear of 10 or -10 beside the joint that slips at 26: from its first slip on the loop is that without static shear
+for shear in 10.0 -10.0; do
+   pushed_mass sheared JAMPL,6,1,0.1,21,0.001 "$joint;JSHEAR,2,40.0;CELAS2,2,1000.0,1,1;FORCE,10,1,,$shear,1.0,0.0" &&
+      judge_rows sheared 21 'min(4000, 26/x) + 1000' '4*26*max(0, x - 26/4000)'
+done
+
+# ---- A rigid block that rocks, slips and opens: the same rows by any number of increments; a block pushed aside and its mirror image
+rocking() { # NAME SHEAR INCREMENTS
+   cards "$1" <<DECK
+METHOD = NEWTON;OUTPUT = NONE;SUBCASE 1;  LOAD = 10;  INCR = 3;  MODES = 5;  BACKBONE = 6;BEGIN BULK;JINCR,3,60,GEOM,1.0-4
+$(for i in 1 2 3 4 5 6; do echo "GRID,$i,,$((14*i - 49)).0,0.0;CJOINT,1$i,1,$i,,250.0,0.0,-1.0"; done)
+GRID,100,,0.0,50.0;RBE2,50,100,12,1,2,3,4,5;+,6;FORCE,10,100,,1.0,$2,-2200.0;CONM2,4,100,,0.02;+,,,,,,30.0;EIGRL,5,,,3
+JAMPL,6,1,0.0010,1,,20,$3;PJOINT,1,1,2,,0.3;JNORM,1,2.0-3,0.5,4000.0;JSHEAR,2,800.0,500.0;ENDDATA
+DECK
+   run "$1"
+}
+for n in 2 5 60; do
+   rocking rocks_$n 0.0 $n && {
+      near "rocking, increments $n: amplitude" "$(backbone rocks_$n amplitude)" 0.0010 2e-5
+      near "rocking, increments $n: frequency" "$(backbone rocks_$n frequency)" "$(backbone rocks_2 frequency)" 2e-5
+      near "rocking, increments $n: loss" "$(backbone rocks_$n loss_factor)" "$(backbone rocks_2 loss_factor)" 0.01
+   }
+done
+rocking aside 90.0 2 && rocking mirrored -90.0 2 && {
+   for figure in amplitude frequency distortion; do
+      near "mirror images: $figure" "$(backbone aside $figure)" "$(backbone mirrored $figure)" 1e-4
+   done
+   near 'mirror images: loss' "$(backbone aside loss_factor)" "$(backbone mirrored loss_factor)" 1e-3
+   says 'a loop that moves on: the warning' "$work/aside.out" 'WARNING: THE LOOP OF AMPLITUDE .* DOES NOT CLOSE'
+}
+
+# ---- Joints at random against a direct integration of their laws: direct_loops.f90. DIRECT=n: the first n of its models
+if ${FC:-gfortran} -O2 -std=f2018 -Wall -Wextra -Werror -fno-backtrace -o "$work/direct_loops" tests/exact/direct_loops.f90; then
+   for seed in $(seq 1 "${DIRECT:-20}"); do
+      "$work/direct_loops" deck "$seed" > "$work/direct.bdf" && run direct &&
+         "$work/direct_loops" judge "$seed" "$work/direct.backbone.csv" "$work/direct.loop.csv" > "$work/direct.log"
+      if [ "$(grep -c -v '^checked [0-9]' "$work/direct.log")" -eq 0 ]; then passed=$((passed + 1)); else
+         grep '^skipped' "$work/direct.log" && ! grep -q '^seed' "$work/direct.log" || { cat "$work/direct.log"; fail "direct integration, model $seed"; }
+      fi
+   done
+else
+   fail 'direct_loops.f90 does not compile'
+fi
