@@ -34,6 +34,7 @@ module incomplete_results
       integer(long) :: length = 0
    end type kept_file
    type(kept_file), allocatable :: kept(:)
+   logical :: is_kept = .false.            ! all of KEPT have their names
 
    logical, volatile        :: is_changing = .false. ! NAMES is about to change
    integer(c_int), volatile :: interrupt = 0         ! signal that came during the change
@@ -102,6 +103,7 @@ contains
       integer(c_int) :: status
       logical :: ok
 
+      is_kept = .false.
       if (.not. allocated(kept)) return
       do k = 1, size(kept)
          ok = c_truncate(kept(k)%part, kept(k)%length) == 0
@@ -109,6 +111,7 @@ contains
          if (ok) status = c_rename(kept(k)%part, kept(k)%path)
          if (.not. ok .or. status /= 0) return ! the first is the mark ENDED EARLY: no file is kept without it
       end do
+      is_kept = .true.
    end subroutine keep_finished
 
    !> Create the file PART, which will become PATH. DESCRIPTOR is negative on failure, and where PATH exists and is a folder, a pipe
@@ -238,10 +241,10 @@ contains
       call keep_finished()
       call remove_incomplete()
       if (allocated(last_words)) then
-         if (allocated(kept) .or. len(last_words) > 1) call write_bytes(2, new_line('a'), ok) ! behind the progress line
+         if (is_kept .or. len(last_words) > 1) call write_bytes(2, new_line('a'), ok) ! behind the progress line
          if (len(last_words) > 1) call write_bytes(2, last_words, ok)
       end if
-      if (allocated(kept)) call write_bytes(2, kept_words, ok)
+      if (is_kept) call write_bytes(2, kept_words, ok)
       call at_signals([signal], c_null_funptr) ! SIG_DFL
       status = c_raise(signal)
       if (status /= 0) return ! the signal was not delivered
@@ -268,7 +271,7 @@ contains
       if (status == status_of_library) call keep_finished()
       call remove_incomplete()
       if (status /= status_of_library) return
-      if (allocated(kept)) then
+      if (is_kept) then
          call write_bytes(2, 'the memory of the machine, or the permitted part of it, does not suffice'//new_line('a'), ok)
          call write_bytes(2, kept_words, ok)
       else
