@@ -80,7 +80,7 @@ $(BIN)/jointfem: src/jointfem.f90 $(RELEASE_OBJECTS)
 # The program on several processes
 .PHONY: mpi
 mpi:
-	@pkg-config --exists petsc || { echo 'make mpi needs PETSc: apt-get install libpetsc-real-dev'; exit 1; }
+	@pkg-config --exists petsc || { echo 'make mpi needs PETSc and pkg-config: apt-get install libpetsc-real-dev pkg-config'; exit 1; }
 	@$(MAKE) --no-print-directory PETSC="$$(pkg-config --libs petsc)" PETSC_MODULES="$$(pkg-config --cflags-only-I petsc)" \
 	   $(BIN)/jointfem_mpi
 
@@ -217,8 +217,8 @@ sanitize: bin/jointfem
 
 # CASE=prism05: the results of this deck become its reference; ACCEPT=failed: those of all that failed the last `make check`
 .PHONY: accept
-accept: bin/jointfem
-	@TABLES='$(TABLES)' tests/compare/accept.sh bin/jointfem $(BUILD)/accept $(if $(filter failed,$(ACCEPT)),--failed $(BUILD)/check,'$(CASE)')
+accept: bin/jointfem $(COMPARE)
+	@TABLES='$(TABLES)' tests/compare/accept.sh bin/jointfem $(COMPARE) $(BUILD)/accept $(if $(filter failed,$(ACCEPT)),--failed $(BUILD)/check,'$(CASE)')
 
 # The verification manual, its numbers from runs
 .PHONY: manual

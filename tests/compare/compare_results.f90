@@ -1,11 +1,12 @@
 !> Compares a result file with its reference, number by number, with a tolerance for each quantity.
 !!
-!!     compare_results TOLERANCES REFERENCE ACTUAL
+!!     compare_results TOLERANCES REFERENCE ACTUAL [MERGED]
 !!
 !! Files that end in `.csv` are compared by column name, all others line by line as listings. Differences are also: missing or
 !! surplus lines, rows, columns or words; another word; a word for a number; NaN, Infinity or an overflow field (****) in either
-!! file, even in both; an empty file. Exit status: 0 equal within tolerance; 1 different, the differences on standard output; 2
-!! wrong usage or unreadable file.
+!! file, even in both; an empty file. MERGED receives REFERENCE, with the lines of ACTUAL in place of those that differ; it stands for
+!! ACTUAL only where both have as many lines, so that the caller compares the two. Exit status: 0 equal within tolerance; 1
+!! different, the differences on standard output; 2 wrong usage or unreadable file.
 program compare_results
    use, intrinsic :: iso_fortran_env, only: real64
    use comparison_rules, only: rule, rule_set, read_rules, csv_rule, listing_rule, find_block, allowed
@@ -28,9 +29,11 @@ program compare_results
    type(text_file) :: reference, actual
    type(findings) :: found
    character(len=:), allocatable :: message
+   integer :: merged = 0                           ! unit, 0: none
 
    ! ---- what to compare ----
-   if (command_argument_count() /= 3) call give_up('usage: compare_results TOLERANCES REFERENCE ACTUAL')
+   if (command_argument_count() < 3 .or. command_argument_count() > 4) &
+      call give_up('usage: compare_results TOLERANCES REFERENCE ACTUAL [MERGED]')
    if (is_csv(argument(2)) .neqv. is_csv(argument(3))) call give_up('one file is a .csv, the other is not')
    call read_rules(argument(1), rules, message)
    if (message /= '') call give_up(message)
@@ -39,6 +42,7 @@ program compare_results
    call open_text(actual, argument(3), message)
    if (message /= '') call give_up(message)
    found%file = actual%name
+   if (command_argument_count() == 4) call open_merged(argument(4), merged)
 
    ! ---- compare ----
    if (is_csv(actual%name)) then
@@ -49,6 +53,7 @@ program compare_results
    call compare_length(reference, actual, found)
    call close_text(reference)
    call close_text(actual)
+   if (merged /= 0) close (merged)
 
    ! ---- tell ----
    if (found%count == 0) stop 0, quiet=.true.
@@ -65,7 +70,7 @@ contains
       type(text_file), intent(inout) :: reference, actual
       type(findings), intent(inout) :: found
       character(len=:), allocatable :: line_r, line_a
-      integer :: table, block, first, last, position
+      integer :: table, block, first, last, position, before
       logical :: more, row_seen
 
       table = 0
@@ -73,6 +78,7 @@ contains
       do
          call next_pair(reference, actual, line_r, line_a, found, more)
          if (.not. more) return
+         before = found%count
          block = find_block(rules, line_r)
          if (block == 0) then
             position = 1
@@ -93,17 +99,19 @@ contains
          else
             call compare_tokens(rules, block, line_r, line_a, found)
          end if
+         call merge_lines(found%count == before, line_r, line_a)
          if (table == 0) cycle
          if (.not. rules%blocks(table)%is_path) cycle
-         found%surplus = found%surplus + path_rows(reference, found) - path_rows(actual, found)
+         found%surplus = found%surplus + path_rows(reference, found, merged) - path_rows(actual, found, 0)
          table = 0
       end do
    end subroutine compare_listing
 
    !> Read past the table of a path, up to the blank line below its rows: how many there are. A row is made of numbers.
-   integer function path_rows(file, found) result(rows)
+   integer function path_rows(file, found, copy) result(rows)
       type(text_file), intent(inout) :: file
       type(findings), intent(inout) :: found
+      integer, intent(in) :: copy                  !! unit that receives the lines, 0: none
       character(len=:), allocatable :: line, message
       integer :: position, first, last
       logical :: more
@@ -116,6 +124,7 @@ contains
          position = 1
          if (more) call next_token(line, position, first, last)
          if (.not. more) exit
+         if (copy /= 0) write (copy, '(a)') line
          if (first == 0 .and. rows > 0) exit
          if (first == 0) cycle
          call report_defect(line, line, found)
@@ -164,11 +173,13 @@ contains
       type(rule), allocatable :: columns(:)
       integer :: i, at, first, last
       logical :: more, usable
+      integer :: before
 
       call next_pair(reference, actual, line_r, line_a, found, more)
       if (.not. more) return
       call report_defect(line_r, line_a, found)
       usable = same_text(line_r, line_a)
+      call merge_lines(usable, line_r, line_a)
       if (.not. usable) call report(found, 'header', line_r, line_a, 'the same header')
       allocate (columns(count([(line_r(i:i) == ',', i=1, len(line_r))]) + 1))
       at = 1
@@ -180,13 +191,37 @@ contains
       do
          call next_pair(reference, actual, line_r, line_a, found, more)
          if (.not. more) return
+         before = found%count
          if (same_text(line_r, line_a)) then
             call report_defect(line_r, line_a, found)
          else if (usable) then
             call compare_fields(columns, line_r, line_a, found)
          end if
+         call merge_lines(usable .and. found%count == before, line_r, line_a)
       end do
    end subroutine compare_csv
+
+   subroutine open_merged(name, unit)
+      character(len=*), intent(in) :: name
+      integer, intent(out) :: unit
+      integer :: status
+
+      open (newunit=unit, file=name, access='stream', form='formatted', action='write', status='replace', iostat=status)
+      if (status /= 0) call give_up(name//': cannot be written')
+   end subroutine open_merged
+
+   !> One line of MERGED, where it is wanted: that of the reference, or where they are not equal that of the actual file.
+   subroutine merge_lines(equal, line_r, line_a)
+      logical, intent(in) :: equal
+      character(len=*), intent(in) :: line_r, line_a
+
+      if (merged == 0) return
+      if (equal) then
+         write (merged, '(a)') line_r
+      else
+         write (merged, '(a)') line_a
+      end if
+   end subroutine merge_lines
 
    !> One row of a CSV file.
    subroutine compare_fields(columns, line_r, line_a, found)

@@ -387,6 +387,66 @@ sed '2,51s/ROW/RAW/; $d' "$work/long.out" >"$work/copy.out"
 damaged '51 differences' "$tolerances" "$work/long.out" "$work/copy.out" ': 51, shown: 21'
 if [ "$(wc -l <"$work/said")" -eq 22 ]; then pass; else fail '51 differences: not 20 lines, the number of lines and the count'; fi
 
+# ---- new references: accept.sh ----
+
+accept=$(realpath "$(dirname "$0")/accept.sh")
+place=$work/accept
+mkdir -p "$place/input" "$place/reference_output" "$place/made" "$place/before"
+: >"$place/input/sample.bdf"
+printf '#!/bin/sh\ncp made/* "$3"\n' >"$place/program"
+chmod +x "$place/program"
+cat >"$place/before/sample.out" <<'END'
+ STAGE 1
+
+ TOTAL FORCE   -5.74070E+02   REACTION   1.20000E-03
+
+ ITERATIONS
+   ITER  LEFT
+      1  2.00000E+01
+      2  3.00000E-09
+
+ ELEMENT  BRANCH      LAMBDA
+       1  LOAD     5.74070E-03
+       2  UNLOAD   3.12000E-03
+       3  UNLOAD   3.15000E-03
+END
+cp "$work/sample.joint.csv" "$place/before"
+# what another processor makes of the same program: last digits, and an iteration more
+noise='s/5\.7407123456789012E-03/5.7407123456789099E-03/; s/2\.0000000000000000E+01/1.9999999999999996E+01/
+   s/-5\.74070E+02/-5.74071E+02/; s/5\.74070E-03/5.74071E-03/; s/^ *2  3\.00000E-09/&\n      3  1.00000E-12/'
+# accepted WHAT SCRIPT [SAID]: the results are the references, with that noise, changed by the sed SCRIPT: this change alone is written
+accepted() {
+   local file
+   cp "$place"/before/* "$place/reference_output"
+   for file in sample.out sample.joint.csv; do sed "$noise" "$place/before/$file" | sed "$2" >"$place/made/$file"; done
+   if (cd "$place" && "$accept" ./program "$program" build sample) >"$work/said" 2>&1; then pass; else fail "accept, $1: ended with a status"; fi
+   if grep -qF -- "${3:-lines differ}" "$work/said"; then pass; else fail "accept, $1: not told '${3:-lines differ}'"; fi
+   for file in sample.out sample.joint.csv; do
+      cp "$place/reference_output/$file" "$work/taken.${file##*.}"
+      sed "$2" "$place/before/$file" | diff - "$work/taken.${file##*.}" >"$work/said" && pass || fail "accept, $1: $file is not the reference with this change"
+   done
+}
+accepted 'the same program' '' 'nothing is written'
+if find "$place/reference_output" -newer "$place/made/sample.out" | grep -q csv; then fail 'accept: a file that is equal is written'; else pass; fi
+accepted 'a number' 's/7\.0000000000000007E-02/7.1E-02/; s/3\.15000E-03/3.16000E-03/' 'sample.joint.csv: 1 of 4 lines'
+accepted 'a line more' 's/^       3  UNLOAD .*/&\n       4  OPEN     0.00000E+00/'
+accepted 'a line less' '/ 3  UNLOAD/d' '1 of it are gone'
+accepted 'a row more' '2s/.*/&\n1,1,0.05,9,9,99,,0.0,0.0,0.0,25.0,OPEN,0.0,0.0,0.0,0.0,,0.0,0.0,0.0,,0.0,0.0,0.0,0/'
+accepted 'another branch' 's/UNLOAD/RELOAD/'
+accepted 'a word' 's/STAGE 1/STAGE 2/; s/UNLOAD,3/LOAD,3/'
+# not its rows: they belong to the columns of another program
+cp "$place"/before/* "$place/reference_output"
+sed "1s/slip/slipped/; $noise" "$place/before/sample.joint.csv" >"$place/made/sample.joint.csv"
+(cd "$place" && "$accept" ./program "$program" build sample) >"$work/said" 2>&1
+if cmp "$place/made/sample.joint.csv" "$place/reference_output/sample.joint.csv" >"$work/said" 2>&1; then pass; else fail 'accept: another header, other rows'; fi
+rm "$place/reference_output/sample.out"
+cp "$place/made/sample.joint.csv" "$place/made/sample.stage.csv"
+(cd "$place" && TABLES=stage "$accept" ./program "$program" build sample) >"$work/said" 2>&1
+for file in sample.out sample.stage.csv; do
+   if cmp "$place/made/$file" "$place/reference_output/$file" >"$work/said" 2>&1; then pass; else fail "accept: a first $file"; fi
+done
+if (cd "$place" && "$accept" ./program "$program" build none) >"$work/said" 2>&1; then fail 'accept: no deck'; else pass; fi
+
 # ---- exit status 2 ----
 
 expect 2 'a missing reference' "$tolerances" "$work/none.out" "$work/sample.out" none.out
@@ -394,7 +454,7 @@ expect 2 'a missing result' "$tolerances" "$work/sample.out" "$work/none.out" no
 expect 2 'missing tolerances' "$work/none.txt" "$work/sample.out" "$work/sample.out" none.txt
 expect 2 'a folder for a file' "$tolerances" "$work" "$work/sample.out"
 expect 2 'a history against a listing' "$tolerances" "$work/sample.joint.csv" "$work/sample.out"
-for arguments in "" "$tolerances" "$tolerances a" "$tolerances a b c"; do
+for arguments in "" "$tolerances" "$tolerances a" "$tolerances a b c d"; do
    # shellcheck disable=SC2086
    "$program" $arguments >"$work/said" 2>&1
    if [ $? -eq 2 ] && grep -q usage: "$work/said"; then pass; else fail "arguments '$arguments': not told how to use it"; fi

@@ -2,10 +2,11 @@
 #
 # Included by the Makefile, which sets BUILD, FC and the rules of the programs. AGAIN=1 tries anew what the last run left alive.
 
-N     = 150
-SEED  = 1
 JOBS  = 1
 AGAIN =
+mutants mutants-run: N    = 150
+mutants mutants-run: SEED = 1
+$(call whole_number,N SEED JOBS)
 MUTANT_FLAGS = -O1 -fopenmp -w -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero
 
 .PHONY: mutants mutants-run
@@ -15,4 +16,4 @@ mutants: bin/jointfem bin/jointfit $(COMPARE) $(QUERY)
 
 mutants-run: $(CHECKED_LIBRARY) $(UNIT_PROGRAM)
 	@FC='$(FC)' FLAGS='$(FFLAGS_CHECKED)' LIBRARIES='$(LIBRARIES)' AGAIN='$(AGAIN)' JOBS='$(JOBS)' \
-	   tests/source/mutants.sh $(BUILD) $(RELEASE) $(COMPARE) $(QUERY) $(N) $(SEED)
+	   tests/source/mutants.sh $(BUILD) $(RELEASE) $(COMPARE) $(QUERY) '$(N)' '$(SEED)'

@@ -21,6 +21,14 @@ slow_suites="tree_solver|front_kernel|law_error|fitted_joints|joints_on_lists|ne
 passed_over='unit tests|modules use|runner itself|decks against their|processors|run-time checks|comparison|queries|benchmark|do not fit'
 passed_over+='|TREE and SKYLINE|STEP tends|errors of elements|Gmsh|pyNastran|at random|fuzzer|tour|pictures'
 without=${WITHOUT:+|$WITHOUT}                    # more parts of run_all.sh that are passed over
+# A mutant that hangs is ended after so many seconds of processor time in its unit tests, in its decks, in one program of another part:
+# measure_limits.
+unit_limit=3600 deck_limit=3600 rest_limit=3600
+
+for number in "N $n 1" "SEED $seed 0" "JOBS $JOBS 1"; do
+   read -r name value least <<< "$number"
+   [[ $value =~ ^(0|[1-9][0-9]{0,8})$ ]] && [ "$value" -ge "$least" ] || { echo "mutants: $name is '$value', expected a whole number, $least or more" >&2; exit 2; }
+done
 
 mkdir -p "$tree"
 rm -rf "${tree:?}"/*
@@ -77,7 +85,8 @@ other_suites() {
 suites_fail() {
    [ $# -gt 0 ] || return 1
    rm -rf "$work/scratch"; mkdir "$work/scratch"
-   (cd "$tree"; ulimit -t 60; UNIT_SCRATCH=$work/scratch exec "$work/unit_tests" "$@" 2>&1) | tee "$work/unit.log" | awk '/ FAILED$/ { exit 1 }' || return 0
+   (cd "$tree"; ulimit -t $unit_limit; UNIT_SCRATCH=$work/scratch TIMEFORMAT='%U %S'; export UNIT_SCRATCH
+    time "$work/unit_tests" "$@" 2>&1) 2>> "$work/unit.seconds" | tee "$work/unit.log" | awk '/ FAILED$/ { exit 1 }' || return 0
    ! tail -n 1 "$work/unit.log" | grep -q '^[1-9][0-9]* passed, 0 failed$'
 }
 
@@ -85,7 +94,8 @@ suites_fail() {
 decks_fail() {
    local name suffix
    rm -rf "$work/check"; mkdir "$work/check"
-   (cd "$tree"; ulimit -t 90; exec "$work/jointfem" -q -o "$work/check" $(printf 'input/%s.bdf ' "$@")) > "$work/decks.log" 2>&1 || return 0
+   (cd "$tree"; ulimit -t $deck_limit; TIMEFORMAT='%U %S'
+    time "$work/jointfem" -q -o "$work/check" $(printf 'input/%s.bdf ' "$@") > "$work/decks.log" 2>&1) 2>> "$work/deck.seconds" || return 0
    for name; do
       for suffix in out joint.csv; do
          cmp -s "$tree/reference_output/$name.$suffix" "$work/check/$name.$suffix" ||
@@ -102,7 +112,7 @@ rest_fails() {
    rm -rf "$work/test"
    mkdir -p "$work/checked" "$work/test"
    ln -f "$work/jointfem" "$work/jointfit" "$work/checked"
-   (cd "$tree"; ulimit -t 60
+   (cd "$tree"; ulimit -t $rest_limit
     WITHOUT="$passed_over$1" \
        TOGETHER=1 until_failure "$work/test/logs" tests/run_all.sh "$own/jointfem" "$own/checked/jointfem" "$compare" "$query" "$own")
    [ $? -ne 0 ]
@@ -113,7 +123,7 @@ fate() {
    local file=$1 line=$2 now=$3 module decks
    module=$(basename "$file" .f90)
    line=$line now=$now awk 'NR == ENVIRON["line"] + 0 { print ENVIRON["now"]; next } { print }' "$tree/src/$file" > "$work/$module.f90"
-   (cd "$work" && timeout 300 $FC $FLAGS -I"$checked" -J"$work/modules" -c -o mutant.o "$module.f90") > "$work/build.log" 2>&1 ||
+   (cd "$work" && ulimit -t 300 && $FC $FLAGS -I"$checked" -J"$work/modules" -c -o mutant.o "$module.f90") > "$work/build.log" 2>&1 ||
       { echo unbuilt; return; }
    (cd "$work" && $FC $program_flags -I"$release" -J"$work/modules" -c -o program.o "$module.f90") >> "$work/build.log" 2>&1
    $FC $FLAGS -o "$work/unit_tests" "$build/chosen_tests.main.o" $unit_objects "$work/mutant.o" "$checked/libjointfem.a" $LIBRARIES \
@@ -150,12 +160,24 @@ worker() {
 
 # Unchanged, all tests must pass; else every mutant would seem killed.
 sound() {
-   work=$build/work0
-   mkdir -p "$work/modules"
    local result
    result=$(fate base/kinds.f90 0 '')
    [ "$result" = survived ] || { echo "mutants: the tests do not pass on the unchanged source: $result"; return 1; }
+   measure_limits
 }
+
+# Limits of processor time, from what the unchanged source took
+measure_limits() {
+   local units decks
+   units=$(seconds unit.seconds) decks=$(seconds deck.seconds)
+   unit_limit=$((30 + 3*units)) deck_limit=$((30 + 3*decks)) rest_limit=$((30 + 3*(units + decks)))
+   echo "the unchanged source: $units s of processor time in unit tests, $decks s in decks; a mutant may take $unit_limit s and $deck_limit s"
+}
+seconds() { awk 'NF == 2 { t += $1 + $2 } END { print int(t) + 1 }' "$work/$1"; }
+
+work=$build/work0
+rm -rf "$work"
+mkdir -p "$work/modules"
 # (part of the checks of the engine itself: SOUND= passes it over)
 [ -n "${SOUND-1}" ] && { sound || exit 1; }
 for ((k = 1; k <= JOBS; k++)); do worker $k & done
