@@ -4,7 +4,7 @@ module pressure_loads
    use deck_check, only: checked_deck
    use displacement_systems, only: rectangular_axes
    use element_build, only: is_face
-   use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_tetra4, max_side_nodes
+   use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_pyram5, kind_tetra4, max_side_nodes
    use isoparametric, only: side_forces
    use kinds, only: wp
    use lists, only: id_table_type
@@ -274,8 +274,10 @@ contains
                select case (kind%linear)
                case (kind_tetra4)            ! G4 is the corner opposite to the face
                   fits = corner(2) > 0 .and. all(own /= corner(2))
-               case (kind_hexa8, kind_penta6)
-                  if (size(own) == 3) then
+               case (kind_hexa8, kind_penta6, kind_pyram5)
+                  if (size(own) == 3 .and. kind%linear == kind_pyram5) then ! G1 and G3 are those of the base
+                     fits = any(own(:2) == corner(1)) .and. any(own(:2) == corner(2)) .and. corner(1) /= corner(2)
+                  else if (size(own) == 3) then
                      fits = corner(2) == 0
                   else                       ! G3 is opposite to G1
                      fits = own(modulo(findloc(own, corner(1), dim=1) + 1, 4) + 1) == corner(2)
@@ -296,6 +298,8 @@ contains
             expected = 'expected in G1 a corner of the face and in G4 the opposite corner'
          case (kind_hexa8)
             expected = 'expected in G1 and G3 two opposite corners of a face'
+         case (kind_pyram5)
+            expected = 'expected two opposite corners of the base, or the two corners of a triangular face at the base'
          case (kind_penta6)
             expected = 'expected two opposite corners of a quadrilateral face, or in G1 alone a corner of a triangular one'
          case default

@@ -121,10 +121,9 @@ module bulk_data
 
    type, public :: mat1_card
       integer  :: line = 0, id = 0
-      logical  :: bars_only = .false.                   ! only E is given
+      logical  :: bars_only = .false., reference_given = .false. ! only E is given; TREF is given
       real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF
-      logical  :: reference_given = .false.
       real(wp) :: damping = 0.0_wp                      ! GE
       real(wp) :: strength = 0.0_wp                     ! ST, 0: blank
    end type mat1_card

@@ -66,7 +66,7 @@ contains
       call add(['GRID'], read_grid)
       call add(['GRDSET'], read_grid_defaults)
       call add(system_names, read_system)
-      call add(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA '], read_element)
+      call add(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
       call add(['CBAR ', 'CBEAM', 'CROD '], read_edge)
       call add(['BAROR ', 'BEAMOR'], read_edge_defaults)
       call add(['BLOCK2', 'BLOCK3'], read_block)

@@ -5,7 +5,8 @@
 module mesh_cards
    use bulk_data, only: bulk_data_type, edge_cbar, edge_cbeam, edge_crod, plate_card, system_card
    use card_fields, only: card_fields_type
-   use element_kinds, only: element_table, kind_hexa20, kind_penta15, kind_quad4, kind_quad8, kind_tria3, kind_tria6, max_nodes
+   use element_kinds, only: element_table, kind_hexa20, kind_penta15, kind_pyram5, kind_quad4, kind_quad8, kind_tria3, &
+                            kind_tria6, max_nodes
    use field_rules, only: parse_integer, positive
    use kinds, only: wp
    use text_tools, only: integer_text
@@ -136,7 +137,10 @@ contains
          complete = 0 ! nodes of complete second order, on faces and in the centre too, as Gmsh writes it
          if (kind == kind_hexa20) complete = 27
          if (kind == kind_penta15) complete = 18
-         if (complete == 0) then
+         if (kind == kind_pyram5 .and. card%n > 2 + n) then
+            call card%error_at(3 + n, 'G6: a pyramid of second order, of up to 13 nodes; expected 5: mesh bodies that have '// &
+                               'pyramids with first-order elements')
+         else if (complete == 0) then
             call card%finish(element%line)
          else if (card%n == 2 + complete) then
             call card%error_at(3 + n, 'a complete element of '//integer_text(complete)//' nodes; expected at most '// &

@@ -3,10 +3,11 @@
 !! Corners are numbered as on the cards: plane elements counter-clockwise; solids with the base counter-clockwise as seen
 !! from the opposite face or corner, then that face in the same sense. The corners of a second-order kind are followed by the
 !! mid-edge nodes, in the order of the edges below.
-!! Source: MSC Nastran Quick Reference Guide, CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA, CHEXA; VTK file formats, linear and
-!! quadratic cell types.
+!! Source: MSC Nastran Quick Reference Guide, CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA, CPYRAM, CHEXA; VTK file formats,
+!! linear and quadratic cell types.
 !! Local coordinates of edge, quadrilateral and hexahedron: each from -1 to 1. Triangle and tetrahedron: from 0 to 1, corner 1 at
-!! the origin. Wedge: a triangle in r, s, and t from -1 to 1. Mid-edge nodes lie at the middle of the edges.
+!! the origin. Wedge: a triangle in r, s, and t from -1 to 1. Pyramid: those of a hexahedron whose upper corners, t = 1, are one.
+!! Mid-edge nodes lie at the middle of the edges.
 module element_kinds
    use kinds, only: wp
    implicit none
@@ -15,10 +16,10 @@ module element_kinds
    public :: side_kind
 
    integer, parameter, public :: kind_tria3 = 1, kind_quad4 = 2     !! plane or axisymmetric
-   integer, parameter, public :: kind_tetra4 = 3, kind_penta6 = 4, kind_hexa8 = 5
-   integer, parameter, public :: kind_tria6 = 6, kind_quad8 = 7     !! second order, serendipity
-   integer, parameter, public :: kind_tetra10 = 8, kind_penta15 = 9, kind_hexa20 = 10
-   integer, parameter, public :: n_kinds = 10, n_linear_kinds = 5
+   integer, parameter, public :: kind_tetra4 = 3, kind_penta6 = 4, kind_hexa8 = 5, kind_pyram5 = 6
+   integer, parameter, public :: kind_tria6 = 7, kind_quad8 = 8     !! second order, serendipity
+   integer, parameter, public :: kind_tetra10 = 9, kind_penta15 = 10, kind_hexa20 = 11
+   integer, parameter, public :: n_kinds = 11, n_linear_kinds = 6
    integer, parameter, public :: kind_edge2 = n_kinds + 1, kind_edge3 = n_kinds + 2 !! sides of plane elements, no body kinds
    integer, parameter, public :: n_shapes = n_kinds + 2             !! all kinds with shape functions: body elements and edges
 
@@ -55,6 +56,7 @@ module element_kinds
    integer, parameter :: quad(2, 12) = reshape([1, 2, 2, 3, 3, 4, 4, 1], [2, 12], pad=no)
    integer, parameter :: tetra(2, 12) = reshape([1, 2, 2, 3, 3, 1, 1, 4, 2, 4, 3, 4], [2, 12], pad=no)
    integer, parameter :: penta(2, 12) = reshape([1, 2, 2, 3, 3, 1, 1, 4, 2, 5, 3, 6, 4, 5, 5, 6, 6, 4], [2, 12], pad=no)
+   integer, parameter :: pyram(2, 12) = reshape([1, 2, 2, 3, 3, 4, 4, 1, 1, 5, 2, 5, 3, 5, 4, 5], [2, 12], pad=no)
    integer, parameter :: hexa(2, 12) = reshape([1, 2, 2, 3, 3, 4, 4, 1, 1, 5, 2, 6, 3, 7, 4, 8, 5, 6, 6, 7, 7, 8, 8, 5], [2, 12])
 
    type(element_kind), parameter, public :: element_table(n_kinds + 1) = [ &
@@ -71,6 +73,9 @@ module element_kinds
          [4, 4, 4, 4, 4, 4], &
          reshape([1, 4, 3, 2, no(:4), 5, 6, 7, 8, no(:4), 1, 2, 6, 5, no(:4), 2, 3, 7, 6, no(:4), 3, 4, 8, 7, no(:4), 4, 1, 5, 8], &
                  [8, 6], pad=no)), &
+      element_kind('CPYRAM', 3, 5, 5, kind_pyram5, 8, 5, 8, 14, [in_turn(:5), no, no(:7)], pyram, [4, 3, 3, 3, 3, 0], &
+         [4, 3, 3, 3, 3, 0], &
+         reshape([1, 4, 3, 2, no(:4), 1, 2, 5, no(:5), 2, 3, 5, no(:5), 3, 4, 5, no(:5), 4, 1, 5], [8, 6], pad=no)), &
       element_kind('CTRIA6', 2, 6, 3, kind_tria3, 1, 3, 3, 22, [in_turn(:6), no, no(:6)], tria, [2, 2, 2, 0, 0, 0], &
          [3, 3, 3, 0, 0, 0], reshape([1, 2, 4, no(:5), 2, 3, 5, no(:5), 3, 1, 6], [8, 6], pad=no)), &
       element_kind('CQUAD8', 2, 8, 4, kind_quad4, 4, 4, 4, 23, [in_turn(:8), no, no(:4)], quad, [2, 2, 2, 2, 0, 0], &
@@ -99,6 +104,7 @@ module element_kinds
       0, 0, -1,  1, 0, -1,  0, 1, -1,  0, 0, 1,  1, 0, 1,  0, 1, 1], [3, 6])
    real(wp), parameter :: hexa_at(3, 8) = reshape([real(wp) :: &
       -1, -1, -1,  1, -1, -1,  1, 1, -1,  -1, 1, -1,  -1, -1, 1,  1, -1, 1,  1, 1, 1,  -1, 1, 1], [3, 8])
+   real(wp), parameter :: pyram_at(3, 5) = reshape([real(wp) :: -1, -1, -1,  1, -1, -1,  1, 1, -1,  -1, 1, -1,  0, 0, 1], [3, 5])
    real(wp), parameter :: of_tria(3, 3) = half*(tria_at + tria_at(:, [2, 3, 1]))
    real(wp), parameter :: of_quad(3, 4) = half*(quad_at + quad_at(:, [2, 3, 4, 1]))
    real(wp), parameter :: of_tetra(3, 6) = half*(tetra_at(:, [1, 2, 3, 1, 2, 3]) + tetra_at(:, [2, 3, 1, 4, 4, 4]))
@@ -110,6 +116,7 @@ module element_kinds
    !> Local coordinates of the nodes: (coordinate, node, kind), 0 beyond the nodes of the kind.
    real(wp), parameter, public :: node_point(3, max_nodes, n_shapes) = reshape([ &
       tria_at, none(:, 4:), quad_at, none(:, 5:), tetra_at, none(:, 5:), penta_at, none(:, 7:), hexa_at, none(:, 9:), &
+      pyram_at, none(:, 6:), &
       tria_at, of_tria, none(:, 7:), quad_at, of_quad, none(:, 9:), tetra_at, of_tetra, none(:, 11:), &
       penta_at, of_penta, none(:, 16:), &
       hexa_at, of_hexa, edge_at, none(:, 3:), edge_at, none(:, 3:)], [3, max_nodes, n_shapes])
@@ -117,6 +124,7 @@ module element_kinds
    !> Local coordinates of the centre: (coordinate, kind).
    real(wp), parameter, public :: centre_point(3, n_shapes) = reshape([real(wp) :: &
       third, third, 0,  0, 0, 0,  0.25_wp, 0.25_wp, 0.25_wp,  third, third, 0,  0, 0, 0, &
+      0, 0, -0.5_wp, &
       third, third, 0,  0, 0, 0,  0.25_wp, 0.25_wp, 0.25_wp,  third, third, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0], [3, n_shapes])
 
 contains

@@ -5,7 +5,7 @@
 !! Dunavant, High degree efficient symmetrical Gaussian quadrature rules for the triangle, Int. J. Numer. Meth. Engng 21 (1985)
 !! 1129-1148, p = 6, its numbers to 20 digits from the equations of the moments.
 module quadrature
-   use element_kinds, only: kind_tria3, kind_tria6, n_kinds, n_linear_kinds, n_shapes
+   use element_kinds, only: kind_pyram5, kind_tria3, kind_tria6, n_kinds, n_linear_kinds, n_shapes
    use kinds, only: wp
    implicit none
    private
@@ -53,6 +53,8 @@ module quadrature
    type(integration_rule), parameter :: hexahedron_8 = integration_rule(8, &
       reshape(gauss*[-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1], [3, 27], pad=[o]), &
       reshape([real(wp) :: 1, 1, 1, 1, 1, 1, 1, 1], [27], pad=[o]))
+   type(integration_rule), parameter :: pyramid_1 = integration_rule(1, & ! at its centroid
+      reshape([real(wp) :: 0, 0, -0.5_wp], [3, 27], pad=[o]), reshape([real(wp) :: 8], [27], pad=[o]))
    type(integration_rule), parameter :: hexahedron_27 = integration_rule(27, &
       reshape(h*[-1, -1, -1, 0, -1, -1, 1, -1, -1, -1, 0, -1, 0, 0, -1, 1, 0, -1, -1, 1, -1, 0, 1, -1, 1, 1, -1, &
                  -1, -1, 0, 0, -1, 0, 1, -1, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 1, 0, 0, 1, 0, 1, 1, 0, &
@@ -96,13 +98,14 @@ module quadrature
    type(integration_rule), parameter :: none = integration_rule(0, o, o)
    type(integration_rule), parameter :: of_body(0:n_kinds) = &
       [none, triangle_1, quadrilateral_4, tetrahedron_1, wedge_6, hexahedron_8, &
+       hexahedron_8, & ! a pyramid is a hexahedron whose upper corners are one
        triangle_3, quadrilateral_9, tetrahedron_4, wedge_9, hexahedron_27]
    type(integration_rule), parameter :: of_volume(n_linear_kinds + 1:n_kinds) = &
       [triangle_7, quadrilateral_9, tetrahedron_15, wedge_21, hexahedron_27]
    type(integration_rule), parameter :: of_stress(n_kinds) = &
-      [of_body(1:5), triangle_3, quadrilateral_4, tetrahedron_4, wedge_6, hexahedron_8]
+      [of_body(1:5), pyramid_1, triangle_3, quadrilateral_4, tetrahedron_4, wedge_6, hexahedron_8]
    type(integration_rule), parameter :: of_side(0:n_shapes) = &
-      [none, triangle_3, quadrilateral_4, none, none, none, triangle_7, quadrilateral_9, none, none, none, edge_2, edge_3]
+      [none, triangle_3, quadrilateral_4, none, none, none, none, triangle_7, quadrilateral_9, none, none, none, edge_2, edge_3]
 
 contains
 
@@ -145,12 +148,17 @@ contains
    end subroutine volume_rule
 
    !> The rule for products of two shape functions over the body of an element: that of the second-order kind with the same
-   !! corners. The mass of a linear element of any shape is exact, and so are its first and second moments.
+   !! corners, of a pyramid that of the hexahedron. The mass of a linear element of any shape is exact, and so are its first and
+   !! second moments.
    pure subroutine mass_rule(kind, rule)
       integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa20
       type(integration_rule), intent(out) :: rule
 
-      call volume_rule(merge(kind + n_linear_kinds, kind, kind <= n_linear_kinds), .false., rule)
+      if (kind == kind_pyram5) then
+         call take(hexahedron_27, rule)
+      else
+         call volume_rule(merge(kind + n_linear_kinds, kind, kind <= n_linear_kinds), .false., rule)
+      end if
    end subroutine mass_rule
 
    !> The points at which stresses are evaluated for extrapolation to the nodes, one per corner or one alone: there second-order

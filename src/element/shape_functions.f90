@@ -1,9 +1,12 @@
 !> Shape functions of every kind of element and edge, and their derivatives with respect to local coordinates.
 !! Second-order functions are complete on the triangle and the tetrahedron, serendipity functions on the other kinds.
-!! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., chapters 4 and 5, sections 4.6 to 4.12.
+!! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., chapters 4 and 5, sections 4.6 to 4.12; of the pyramid:
+!! Bedrosian, Shape functions and integration formulas for three-dimensional finite element analysis, Int. J. Numer. Meth. Engng 35
+!! (1992) 95-108: those of a hexahedron whose upper corners are one are rational functions of x, y, z that fit all neighbours.
 module shape_functions
    use element_kinds, only: element_table, kind_edge2, kind_edge3, kind_hexa20, kind_hexa8, kind_penta15, kind_penta6, kind_quad4, &
-                            kind_quad8, kind_tetra10, kind_tetra4, kind_tria3, kind_tria6, max_edges, max_nodes, node_point
+                            kind_pyram5, kind_quad8, kind_tetra10, kind_tetra4, kind_tria3, kind_tria6, max_edges, max_nodes, &
+                            node_point
    use kinds, only: wp
    implicit none
    private
@@ -93,6 +96,11 @@ contains
             do i = 1, 8
                n(i) = 0.125_wp*(1.0_wp + r*corner(1, i))*(1.0_wp + s*corner(2, i))*(1.0_wp + t*corner(3, i))
             end do
+         case (kind_pyram5) ! of a hexahedron, those of its upper corners added up
+            do i = 1, 4
+               n(i) = 0.125_wp*(1.0_wp + r*corner(1, i))*(1.0_wp + s*corner(2, i))*(1.0_wp - t)
+            end do
+            n(5) = 0.5_wp*(1.0_wp + t)
          case (kind_edge2)
             n(:2) = [0.5_wp*(1.0_wp - r), 0.5_wp*(1.0_wp + r)]
          case (kind_edge3)
@@ -159,6 +167,15 @@ contains
                dn(2, i) = 0.125_wp*node_point(2, i, kind_hexa8)*c*a
                dn(3, i) = 0.125_wp*node_point(3, i, kind_hexa8)*a*b
             end do
+         case (kind_pyram5)
+            do i = 1, 4
+               a = 1.0_wp + r*node_point(1, i, kind_pyram5)
+               b = 1.0_wp + s*node_point(2, i, kind_pyram5)
+               dn(1, i) = 0.125_wp*node_point(1, i, kind_pyram5)*b*(1.0_wp - t)
+               dn(2, i) = 0.125_wp*node_point(2, i, kind_pyram5)*a*(1.0_wp - t)
+               dn(3, i) = -0.125_wp*a*b
+            end do
+            dn(:, 5) = [0.0_wp, 0.0_wp, 0.5_wp]
          case (kind_edge2)
             dn(1, :2) = [-0.5_wp, 0.5_wp]
          case (kind_edge3)

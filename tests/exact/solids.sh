@@ -322,3 +322,36 @@ DECK
    [ "${case##*,}" = 15 ] && weight=5
    run accelerated && near "weight by ${case%%,*}" "$(awk -F, '$2 == "LOADS" { print $11 }' "$work/accelerated.reaction.csv")" "-$weight" 1e-10
 done
+
+# Pyramids: a cube of six round a node out of the centre with a hexahedron on top, pressed evenly on a rigid base: p = 2 everywhere, the top goes
+# down by lambda + p H/E and grows sideways by nu p/E; the weight is the volume, of one pyramid a third of its box; PLOAD4 on triangles.
+pyramids() { # NAME MORE-CARDS
+   cards "$1" <<DECK
+METHOD = NEWTON;TOL = 1.E-13;SPC = 1;SUBCASE 1;LOAD = 10;INCR = 4;OUTPUT = LAST,STRESS,VTU;SUBCASE 2;LOAD = 13;INCR = 4
+BEGIN BULK;GRID,1,,0.,0.,0.;GRID,2,,10.,0.,0.;GRID,3,,10.,10.,0.;GRID,4,,0.,10.,0.;GRID,5,,0.,0.,10.;GRID,6,,10.,0.,10.;GRID,7,,10.,10.,10.
+GRID,8,,0.,10.,10.;GRID,9,,4.,5.5,6.;GRID,11,,20.,0.,0.;GRID,12,,30.,0.,0.;GRID,13,,30.,10.,0.;GRID,14,,20.,10.,0.;GRID,15,,25.,5.,10.
+GRID,35,,0.,0.,25.;GRID,36,,10.,0.,25.;GRID,37,,10.,10.,25.;GRID,38,,0.,10.,25.
+CPYRAM,1,1,1,2,3,4,9;CPYRAM,2,1,8,7,6,5,9;CPYRAM,3,1,1,5,6,2,9;CPYRAM,4,1,2,6,7,3,9;CPYRAM,5,1,3,7,8,4,9;CPYRAM,6,1,4,8,5,1,9
+CHEXA,8,1,5,6,7,8,35,36;+,37,38;CPYRAM,7,1,11,12,13,14,15;CQUAD4,101,20,1,2,3,4;CQUAD4,102,21,11,12,13,14;PMARK,20;PMARK,21;PSOLID,1,1
+MAT1,1,200000.,,0.3,1.-7;JOINT,1,1,20;JOINT,2,1,21;PJOINT,1,1;JNORM,1,2.-3,0.5,2.+5;SPC1,1,12,1,11;SPC1,1,2,2,12;PLOAD4,11,8,2.,,,,35,37
+PLOAD4,11,7,2.,,,,11,12;PLOAD4,11,7,2.,,,,13,12;PLOAD4,11,7,2.,,,,14,13;PLOAD4,11,7,2.,,,,14,11;GRAV,12,,1.+4,0.,0.,-1.
+LOAD,10,1.,1.,11;LOAD,13,1.,1.,11,1.,12;JINCR,4,3;${2:-$ no more};ENDDATA
+DECK
+}
+pyramids pyramids && run pyramids && {
+   ask 'pyramids: an even pressure' pyramids rows 'joint = 1 and stage = 1' count 12 \
+      all 'pressure = 2*load within 1e-11 and lambda = 2e-3*(2*load)^0.5 within 1e-13'
+   near 'pyramids: the top' "$(table pyramids 'DISPLACEMENTS OF NODES' | awk '$1 == 37 && !v { v = $NF } END { print v }')" '-(2e-3*2^0.5 + 2*25/200000)' 2e-6
+   near 'pyramids: sideways' "$(table pyramids 'DISPLACEMENTS OF NODES' | awk '$1 == 7 && !v { v = $(NF - 1) } END { print v }')" '0.3*2/200000*10' 2e-6
+   ask 'pyramids: pressure on triangles' pyramids rows 'joint = 2 and stage = 1' by increment all 'sum(force) = 200*load within 1e-9'
+   ask 'pyramids: volume of six and a hexahedron' pyramids rows 'joint = 1 and stage = 2' by increment all 'sum(force) = 200 + 2.5*load within 1e-9'
+   ask 'pyramids: volume of one' pyramids rows 'joint = 2 and stage = 2' by increment all 'sum(force) = 200 + load/3 within 1e-9'
+   od -An -v -tx1 "$work/pyramids.1.vtu" | tr -d ' \n' > "$work/pyramids.hex"
+   says 'pyramids for ParaView' "$work/pyramids.hex" '0e0e0e0e0e0e0e0c'
+}
+pyramids more_nodes 'CPYRAM,70,1,11,12,13,14,15,1;+,2' && run more_nodes 2 && says 'a pyramid of thirteen nodes' "$work/more_nodes.log" \
+   'CPYRAM, field 9, G6: a pyramid of second order, of up to 13 nodes; expected 5'
+pyramids turned_round 'CPYRAM,70,1,14,13,12,11,15' && run turned_round 2 && says 'a pyramid turned round' "$work/turned_round.log" \
+   'element 70 has no positive volume at some integration point'
+pyramids no_face 'PLOAD4,11,7,2.,,,,11,15' && run no_face 2 && says 'a face that is none' "$work/no_face.log" 'expected two opposite corners of the base, or the two'
+pyramids twice 'CPYRAM,70,1,12,13,14,11,15' && run twice && says 'two pyramids on the same nodes' "$work/twice.log" '70 as 7'

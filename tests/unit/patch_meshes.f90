@@ -4,7 +4,8 @@
 !! and Design 1 (1985) 3-20.
 module patch_meshes
    use blas_lapack, only: dpotrf, dtrsm
-   use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3, max_dofs, node_point
+   use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_pyram5, kind_quad4, kind_tetra4, kind_tria3, max_dofs, &
+                            node_point
    use element_mapping, only: element_law
    use isoparametric, only: stiffness
    use kinds, only: wp
@@ -67,6 +68,7 @@ contains
             end associate
          end do
          if (element_table(kind)%linear == kind_tetra4) call cut_in_tetrahedra(mesh)
+         if (kind == kind_pyram5) call cut_in_pyramids(mesh)
       end select
       if (element_table(kind)%linear /= kind) call add_middles(kind, mesh)
    end function patch_mesh
@@ -108,6 +110,8 @@ contains
       case (kind_penta6)
          mesh = mesh_type(kind_penta6, mesh%x, reshape([cells([1, 2, 3, 5, 6, 7], :), cells([1, 3, 4, 5, 7, 8], :)], &
                                                        [6, 2*size(cells, 2)]))
+      case (kind_pyram5)
+         call cut_in_pyramids(mesh)
       case (kind_tetra4)
          call cut_in_tetrahedra(mesh)
       end select
@@ -152,6 +156,22 @@ contains
       end do
       mesh = mesh_type(kind_tetra4, reshape([mesh%x, centre], [3, m + size(centre, 2)]), cells)
    end subroutine cut_in_tetrahedra
+
+   !> Every hexahedron of MESH cut in six round a node of its own.
+   pure subroutine cut_in_pyramids(mesh)
+      type(mesh_type), intent(inout) :: mesh
+      integer  :: cells(5, 6*size(mesh%cells, 2)), c, m, side
+      real(wp) :: centre(3, size(mesh%cells, 2))
+
+      m = size(mesh%x, 2)
+      do c = 1, size(mesh%cells, 2)
+         centre(:, c) = sum(mesh%x(:, mesh%cells(:, c)), dim=2)/8.0_wp
+         do side = 1, 6
+            cells(:, 6*(c - 1) + side) = [mesh%cells(element_table(kind_hexa8)%side_nodes(4:1:-1, side), c), m + c]
+         end do
+      end do
+      mesh = mesh_type(kind_pyram5, reshape([mesh%x, centre], [3, m + size(centre, 2)]), cells)
+   end subroutine cut_in_pyramids
 
    !> A node at the middle of every edge of a linear MESH.
    pure subroutine add_middles(kind, mesh)
