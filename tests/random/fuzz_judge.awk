@@ -67,7 +67,7 @@ match($0, /^[^ ]*fuzz_[0-9]+\.bdf: /) {
    words = substr($0, RSTART + RLENGTH)
    if (words ~ /^[0-9]+ errors?, nothing solved$/) said[deck] = 2
    else if (words ~ /; no results$/) { said[deck] = 3; if (words ~ /NaN|Infinity|\*\*\*/) fault(deck, "it says '" words "'") }
-   else if (words ~ /; the results end there$/) { said[deck] = 3; keeps[deck] = 1; if (words ~ /NaN|Infinity|\*\*\*/) fault(deck, "it says '" words "'") }
+   else if (words ~ /; the results end (there|at stage [0-9]+, increment [0-9]+)$/) { said[deck] = 3; keeps[deck] = 1; if (words ~ /NaN|Infinity|\*\*\*/) fault(deck, "it says '" words "'") }
    else if (words ~ /its results would overwrite/) said[deck] = 1
    else if (words ~ /cannot be written/) said[deck] = 4
    else if (words ~ /cannot be (read|opened)/) said[deck] = 1
@@ -81,6 +81,7 @@ END {
          if (!has_listing) { fault(deck, "ended without a word and without results"); said[deck] = "-" }
       } else if (files[deck] != "" && !keeps[deck]) fault(deck, "refused, and left" files[deck])
       else if (keeps[deck] && !has_listing) fault(deck, "results said to be there are not")
+      else if (keeps[deck] && files[deck] !~ /\.early/) fault(deck, "its results have no mark ENDED EARLY")
       if (kind[deck] == "bad" && said[deck] != 2) fault(deck, "no valid deck, and ended with status " said[deck])
       if (has_listing) read_listing(deck, results "/" deck ".out")
       names = split(files[deck], file, " ")

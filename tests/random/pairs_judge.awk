@@ -12,8 +12,8 @@ FILENAME != ARGV[1] {
    sub(/\.bdf.*/, "", name)
    if (/errors?, nothing solved/) ended[name] = "refused"
    else if (/; no results$/) ended[name] = "unsolved"
-   else if (/; the results end there$/) ended[name] = "unsolved early"
-   if (/; no results$|; the results end there$/) why[name] = $0
+   else if (/; the results end (there|at stage [0-9]+, increment [0-9]+)$/) ended[name] = "unsolved early"
+   if (/; no results$|; the results end (there|at stage [0-9]+, increment [0-9]+)$/) why[name] = $0
    next
 }
 { line[++lines] = $0 }

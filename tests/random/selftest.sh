@@ -55,12 +55,15 @@ finds() { grep -q "$1" verdict; }
 
 refusal='fuzz_1.bdf: 2 errors, nothing solved'
 unsolved='fuzz_1.bdf: node 3 has no stiffness along y; no results'
-early='fuzz_1.bdf: no equilibrium; the results end there'
 
 run 2 bad "$refusal"; holds 'a deck refused' good
 run 0 mild '' fuzz_1.out ' A' fuzz_1.joint.csv 1,2; holds 'a deck solved' good
 run 3 wild "$unsolved"; holds 'a structure refused' good
-run 3 wild "$early" fuzz_1.out ' *** THE RUN ENDED EARLY ***'; holds 'a run that ended early' good
+for at in there 'at stage 2, increment 5'; do
+   early="fuzz_1.bdf: no equilibrium; the results end $at"
+   run 3 wild "$early" fuzz_1.out ' *** THE RUN ENDED EARLY ***' fuzz_1.early 'ENDED EARLY'; holds "a run that ended early, $at" good
+done
+run 3 wild "$early" fuzz_1.out ' *** THE RUN ENDED EARLY ***'; holds 'a run that ended early' finds 'its results have no mark ENDED EARLY'
 run 0 mild '' fuzz_1.out "$(printf ' DECK ECHO\nGRID****** NaN\n  TOTAL COUNT 1 CARDS\n 1.0')"; holds 'an echo that looks bad' good
 run 0 mild ''; holds 'no word, no result' finds 'without a word'
 run 2 wild "$refusal" fuzz_1.out ' A'; holds 'a result of a refused deck' finds 'refused, and left'
