@@ -224,7 +224,7 @@ for n in 2 5 60; do
    rocking rocks_$n 0.0 $n && {
       near "rocking, increments $n: amplitude" "$(backbone rocks_$n amplitude)" 0.0010 2e-5
       near "rocking, increments $n: frequency" "$(backbone rocks_$n frequency)" "$(backbone rocks_2 frequency)" 2e-5
-      near "rocking, increments $n: loss" "$(backbone rocks_$n loss_factor)" "$(backbone rocks_2 loss_factor)" 0.01
+      near "rocking, increments $n: loss" "$(backbone rocks_$n loss_factor)" "$(backbone rocks_2 loss_factor)" 0.01 1e-6
    }
 done
 rocking aside 90.0 2 && rocking mirrored -90.0 2 && {
