@@ -174,8 +174,8 @@ contains
       if (loop%n_loops == 0) loop = coarse
    end subroutine reach_amplitude
 
-   !> Try loads until the loop has the amplitude of SEARCH within TOLERANCE, by coarse increments, or by FINE ones from that loop on.
-   !! LOOP is the nearest one.
+   !> Try loads until the loop has the amplitude of SEARCH within TOLERANCE, by coarse increments, or by FINE ones from that loop
+   !! on. LOOP is the nearest one.
    subroutine try_loads(model, wanted, tolerance, search, found, loop, fine)
       type(model_type), intent(in)          :: model
       type(backbone_plan), intent(in)       :: wanted
@@ -212,9 +212,9 @@ contains
       is_nearer = abs(a - search%amplitude) < abs(b - search%amplitude)
    end function is_nearer
 
-   !> Judge the AMPLITUDE under the present load, huge where the structure does not carry the load, and choose the next load: by the
-   !! secant through the last two, between the loads found too small and too large. The search ends within TOLERANCE of the requested
-   !! amplitude, and where no load is left between the two.
+   !> Judge the AMPLITUDE under the present load, huge where the structure does not carry the load, and choose the next load: by
+   !! the secant through the last two, between the loads found too small and too large. The search ends within TOLERANCE of the
+   !! requested amplitude, and where no load is left between the two.
    subroutine judge(search, amplitude, tolerance)
       class(search_type), intent(inout) :: search
       real(wp), intent(in)              :: amplitude, tolerance
