@@ -120,9 +120,9 @@ contains
       loss = max(0.0_wp, cubic_loop(loading, reach, p) + 4.0_wp*cubic_value(loading, reach, p)*(d - reach))
    end function loss_beyond
 
-   !> Loss of one cycle of shear per area of an element whose two ends oscillate with the amplitude MOVEMENT in its plane. The limit
-   !! is that of the resultant of the two stresses: both stay constant from the fraction of MOVEMENT on at which the resultant reaches
-   !! it [pressure x length].
+   !> Loss of one cycle of shear per area of an element whose two ends oscillate with the amplitude MOVEMENT in its plane. The
+   !! limit is that of the resultant of the two stresses: both stay constant from the fraction of MOVEMENT on at which the
+   !! resultant reaches it [pressure x length].
    pure real(wp) function loss_of_element(law, p, movement) result(loss)
       type(joint_law), intent(in) :: law
       real(wp), intent(in)        :: p           !! present pressure, >= 0 [pressure]

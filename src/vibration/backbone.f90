@@ -8,7 +8,7 @@ module backbone
    use equation_solver, only: equation_system, failure_type
    use kinds, only: wp
    use modal_loops, only: choose_sense, loop_type, run_loops
-   use modal_path, only: modal_load_type, start_modal_load
+   use modal_path, only: modal_load_type, reverse, start_modal_load
    use mode_values, only: modes_type
    use model_data, only: model_type, n_points
    use stage_plan, only: backbone_plan, loss_at, stage_plan_type, vibration_plan_type
@@ -131,7 +131,7 @@ contains
       real(wp), allocatable :: numbers(:)
 
       numbers = [loop%alpha, loop%q, loop%omega_squared, loop%loss, loop%centre, loop%gap, loop%distortion, loop%slipping, &
-                 loop%open, real(loop%n_loops, wp), loop%lost, loop%shares, loop%way]
+                 loop%open, real(loop%n_loops, wp), loop%shares, loop%way]
    end function numbers_of
 
    pure type(loop_type) function taken_up(n_joints, numbers) result(loop)
@@ -139,8 +139,8 @@ contains
       real(wp), intent(in) :: numbers(:)
 
       loop = loop_type(numbers(1), numbers(2), numbers(3), numbers(4), numbers(5), numbers(6), numbers(7), numbers(8), numbers(9), &
-                       nint(numbers(10)), numbers(11), shares=numbers(12:11 + n_joints), &
-                       way=reshape(numbers(12 + n_joints:), [2, (size(numbers) - 11 - n_joints)/2]))
+                       nint(numbers(10)), shares=numbers(11:10 + n_joints), &
+                       way=reshape(numbers(11 + n_joints:), [2, (size(numbers) - 10 - n_joints)/2]))
    end function taken_up
 
    !> The LOOP of this AMPLITUDE. Loops of coarse increments find about the load. From there on increments are halved to the
@@ -155,6 +155,7 @@ contains
       type(search_type) :: search
       type(loop_type)   :: coarse
 
+      if (found%modal%sense < 0.0_wp) call reverse(found%modal) ! a resumed run begins so, too
       search%amplitude = amplitude
       search%now%alpha = found%omega_squared*amplitude/found%peak
       if (size(found%loops) > 0) then
@@ -174,8 +175,8 @@ contains
       if (loop%n_loops == 0) loop = coarse
    end subroutine reach_amplitude
 
-   !> Try loads until the loop has the amplitude of SEARCH within TOLERANCE, by coarse increments, or by FINE ones from that loop on.
-   !! LOOP is the nearest one.
+   !> Try loads until the loop has the amplitude of SEARCH within TOLERANCE, by coarse increments, or by FINE ones from that loop
+   !! on. LOOP is the nearest one.
    subroutine try_loads(model, wanted, tolerance, search, found, loop, fine)
       type(model_type), intent(in)          :: model
       type(backbone_plan), intent(in)       :: wanted
@@ -212,9 +213,9 @@ contains
       is_nearer = abs(a - search%amplitude) < abs(b - search%amplitude)
    end function is_nearer
 
-   !> Judge the AMPLITUDE under the present load, huge where the structure does not carry the load, and choose the next load: by the
-   !! secant through the last two, between the loads found too small and too large. The search ends within TOLERANCE of the requested
-   !! amplitude, and where no load is left between the two.
+   !> Judge the AMPLITUDE under the present load, huge where the structure does not carry the load, and choose the next load: by
+   !! the secant through the last two, between the loads found too small and too large. The search ends within TOLERANCE of the
+   !! requested amplitude, and where no load is left between the two.
    subroutine judge(search, amplitude, tolerance)
       class(search_type), intent(inout) :: search
       real(wp), intent(in)              :: amplitude, tolerance

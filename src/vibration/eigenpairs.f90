@@ -206,10 +206,10 @@ contains
       x = matmul(v, t(:, n:n - i + 1:-1))
    end subroutine solve_in_subspace
 
-   !> The displacements U under LOAD less the load that the MODES balance, rigid-body modes among them: the residual flexibility of an
-   !! unsupported structure by inertia relief, [k] u = f - [m] phi (phi . f). Each iteration solves with the factor of SYSTEM, whose
-   !! shift sigma is negative, ([k] - sigma [m]) u = ... - sigma [m] u; it leaves |sigma|/(lambda + |sigma|) of the error, lambda the
-   !! lowest eigenvalue not among the MODES.
+   !> The displacements U under LOAD less the load that the MODES balance, rigid-body modes among them: the residual flexibility
+   !! of an unsupported structure by inertia relief, [k] u = f - [m] phi (phi . f). Each iteration solves with the factor of
+   !! SYSTEM, whose shift sigma is negative, ([k] - sigma [m]) u = ... - sigma [m] u; it leaves |sigma|/(lambda + |sigma|) of the
+   !! error, lambda the lowest eigenvalue not among the MODES.
    subroutine residual_displacements(model, mass, system, modes, load, u)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass

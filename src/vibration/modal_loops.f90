@@ -4,11 +4,11 @@
 !!
 !!    omega^2 = alpha/q     zeta = D/(2 pi omega^2 q^2), q half the mean length of the strokes, D the loss of the joints
 !!
-!! D is what the laws of the elements absorb in the loop: the work done on them, less what they hold more at its end and would give
-!! back. A loop that does not close moves the forces at rest, and their work is part of D: it is the loss of an element that ratchets.
-!! Source: H. Festjens, G. Chevallier, J.-L. Dion, A numerical quasi-static method for the identification of frictional dissipation
-!! in bolted joints, ASME DETC 2012-70583 and Int. J. Solids Struct. 2013; R. M. Lacayo, M. S. Allen, Mech. Syst. Signal Process.
-!! 118 (2019) 133-157; E. Jewell, M. S. Allen, I. Zare, M. Wall, J. Sound Vib. 479 (2020) 115376.
+!! D is what the laws of the elements absorb in the loop: the work done on them, less what they hold more at its end and would
+!! give back. A loop that does not close moves the forces at rest, and their work is part of D: it is the loss of an element that
+!! ratchets. Source: H. Festjens, G. Chevallier, J.-L. Dion, A numerical quasi-static method for the identification of frictional
+!! dissipation in bolted joints, ASME DETC 2012-70583 and Int. J. Solids Struct. 2013; R. M. Lacayo, M. S. Allen, Mech. Syst.
+!! Signal Process. 118 (2019) 133-157; E. Jewell, M. S. Allen, I. Zare, M. Wall, J. Sound Vib. 479 (2020) 115376.
 module modal_loops
    use analysis_state, only: analysis_type
    use element_mapping, only: two_pi
@@ -55,8 +55,8 @@ module modal_loops
 
 contains
 
-   !> Choose the sense of the first push of MODAL, up to about the load of the loop COARSE: that in which the structure is softer, so
-   !! that the loops of a structure and of its mirror image are mirror images. The present sense remains where both are equal.
+   !> Choose the sense of the first push of MODAL, up to about the load of the loop COARSE: that in which the structure is softer,
+   !! so that the loops of a structure and of its mirror image are mirror images. The present sense remains where both are equal.
    subroutine choose_sense(model, modal, wanted, coarse)
       type(model_type), intent(in)         :: model
       type(modal_load_type), intent(inout) :: modal
@@ -121,8 +121,8 @@ contains
       end do
    end subroutine run_loops
 
-   !> Take the tolerances of work and q of MODAL from the loop LIKE. Where D is small, an error of q is a large share of it; D of less
-   !! than LEAST of alpha q does not tighten the tolerances.
+   !> Take the tolerances of work and q of MODAL from the loop LIKE. Where D is small, an error of q is a large share of it; D of
+   !! less than LEAST of alpha q does not tighten the tolerances.
    pure subroutine be_precise(wanted, like, least, modal)
       type(backbone_plan), intent(in)      :: wanted
       type(loop_type), intent(in)          :: like
@@ -203,9 +203,10 @@ contains
       error = max(no_area*area, modal%work_noise, modal%q_noise*area)
    end function rounding_of_work
 
-   !> What is to be added to the work of the forces beyond those at rest, F - F_0, for the loss of a loop that has led from the states
-   !! START and the movements FROM to NOW, by element. The change of F is elastic, dF/k: the element gives back F dF/k, F the mean, if
-   !! F falls again. F_0 does work on the movement that remains. No large numbers are subtracted where the loop closes to rounding.
+   !> What is to be added to the work of the forces beyond those at rest, F - F_0, for the loss of a loop that has led from the
+   !! states START and the movements FROM to NOW, by element. The change of F is elastic, dF/k: the element gives back F dF/k, F
+   !! the mean, if F falls again. F_0 does work on the movement that remains. No large numbers are subtracted where the loop
+   !! closes to rounding.
    function at_rest(model, modal, start, from, now) result(lost)
       type(model_type), intent(in)      :: model
       type(modal_load_type), intent(in) :: modal

@@ -1,8 +1,7 @@
-!> Paths of the structure under alpha [M] {phi}, phi a natural mode, from the state at the end of a stage.
-!! The structure is held at the load of the end of the stage; phi has generalised mass 1. NEWTON iterates every increment of alpha to
-!! equilibrium. The paths use copies: the state of the stage is not changed. The modal coordinate is q = phi^T [M] (u - u_0).
-!! Unknowns inside condensed bodies contribute to q: K_gg^-1 of their forces, which is linear in alpha, so that an increment costs
-!! no recovery.
+!> Paths of the structure under alpha [M] {phi}, phi a natural mode, from the state at the end of a stage. The structure is held
+!! at the load of the end of the stage; phi has generalised mass 1. NEWTON iterates every increment of alpha to equilibrium. The
+!! paths use copies: the state of the stage is not changed. The modal coordinate is q = phi^T [M] (u - u_0). Unknowns inside
+!! condensed bodies contribute to q: K_gg^-1 of their forces, which is linear in alpha, so that an increment costs no recovery.
 !! The work of an element counts the forces beyond those at rest: F - F_0 over the movement. Preloads times a movement of rounding
 !! would exceed the work of small loops. What the forces at rest contribute to the loss of a loop is in absorbed_at_rest.
 module modal_path

@@ -116,3 +116,40 @@ BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,9500.0,,0.0,8.
 FORCE,10,4,,1.0,0.0,1.0;EIGRL,4,,,1;FREQ2,5,10.0,10000.0,3;TABDMP1,6;+,0.0,0.01,1.0+6,0.01,ENDT;ENDDATA
 DECK
 run decades && same 'FREQ2: three decades' "$(awk -F, 'NR > 1 && !seen[$2 + 0]++ { printf "%.6g ", $2 }' "$work/decades.response.csv")" '10 100 1000 10000 '
+
+# ---- A mode that neither load nor damping reaches: a mass on two rods at right angles, turned by 30 degrees; GE in one of them, the load
+# along it. The mode along the other one has no response, by either solver; the response at resonance is F/(k eta)
+for solver in SKYLINE TREE; do
+   printf '%b\n' "SOLVER = $solver\nMODEL = PLANE\nSPC = 1\nSET 1 = 1\nSUBCASE 1\n  MODES = 5\n$asked\nBEGIN BULK" 'GRID,1,,0.0,0.0\nGRID,2,,-86.60254037844386,-50.0' \
+      'GRID,3,,50.0,-86.60254037844386\nCROD,1,1,2,1\nCROD,2,2,3,1\nPROD,1,1,100.0\nPROD,2,2,100.0\nMAT1,1,3000.0,,,,,,0.05\nMAT1,2,2000.0' \
+      'CONM2,4,1,,0.02\nSPC1,1,12,2,3\nEIGRL,5,,,2\nFREQ4,7,,,0.05,3\nFORCE,20,1,,3.0,0.8660254037844386,0.5\nENDDATA' > "$work/apart.bdf"
+   run apart && judge "a mode without load and damping, $solver" -F, 'NR == 1 { next } { n++; if ($5 > most) most = $5; if ($5 > 3/(3000*0.05)*1.0001) print $0 }
+      END { if ((most/(3/(3000*0.05)*sqrt(3)/2) - 1)^2 > 1e-8) print "largest " most; print "checked " n }' "$work/apart.response.csv"
+   same "a mode without damping, $solver" "$(number "$(mode apart 1 loss_factor)")" 0
+done
+
+# ---- A bar without supports: the response by 8 modes with the residual flexibility is that by all modes
+free_bar() { # NAME MODES
+   { printf '%b\n' "MODEL = PLANE\nMASS = CONSISTENT\nSPC = 1\nSET 1 = 1, 11, 41\nSUBCASE 1\n  MODES(FREE) = 5\n$asked\nBEGIN BULK"
+     for i in $(seq 1 41); do echo "GRID,$i,,$((5*i)).0,0.0"; [ "$i" -lt 41 ] && echo "CBAR,$i,1,$i,$((i + 1))"; done
+     printf '%b\n' "PBAR,1,1,100.0,1.0E4,1.0E4,1.0E4\nMAT1,1,2.0E5,,0.3,7.85E-9\nSPC1,1,123456,1\nPARAM,G,0.02\nEIGRL,5,,,$2\nFREQ1,7,500.0,500.0,4\nFORCE,20,1,,3.0,1.0\nFORCE,20,11,,-1.0,1.0\nENDDATA"; } > "$work/$1.bdf"
+   run "$1"
+}
+free_bar free_all 120 && for n in 8 20; do
+   free_bar free_$n $n && judge "without supports, $n modes" -F, -v within=0.05 'NR == FNR { a[$2 $3 $4] = $5; next }
+      FNR > 1 && $4 == "x" { n++; b = a[$2 $3 $4]; if ((($5 - b)/b)^2 > within^2) print $0 ", by all modes " b } END { print "checked " n }' \
+      "$work/free_all.response.csv" "$work/free_$n.response.csv"
+   same "without supports, $n modes: nothing is missing" "$(grep -c 'BY THESE MODES ALONE' "$work/free_$n.out")" 0
+done
+
+# ---- The loss of a joint with AMPLITUDE, the mode turned against its axes: the limit is that of the resultant
+for angle in 0 30 45 70; do
+   printf '%b\n' "METHOD = NEWTON\nMODEL = SPACE\nSPC = 1\nSUBCASE 1\n  LOAD = 10\n  MODES = 5\n  AMPLITUDE = 0.02\nBEGIN BULK" \
+      "GRID,1,,0.0,0.0,0.0\nGRID,2,,$(number "100*cos($angle*$pi/180)"),$(number "100*sin($angle*$pi/180)"),0.0\nCROD,1,1,1,2\nPROD,1,1,100.0\nMAT1,1,1000.0,,0.3\nSPC1,1,123,2" \
+      'CJOINT,11,1,1,,100.0,0.0,0.0,-1.0\nPJOINT,1,1,2,2,0.2\nJNORM,1,8.0-3,0.5,50000.0\nJSHEAR,2,40.0\nFORCE,10,1,,1.0,0.0,0.0,-130.0\nCONM2,4,1,,0.02\nEIGRL,5,,,2\nENDDATA' |
+      awk 'length($0) > 0' > "$work/turned_loss.bdf"
+   run turned_loss && {
+      near "loss across the rod, $angle degrees" "$(mode turned_loss 1 loss_factor)" '4*26*(0.02 - 26/4000)/('$pi'*4000*0.02^2)' 1e-6
+      near "loss along the rod, $angle degrees" "$(mode turned_loss 2 loss_factor)" '4*26*(0.02 - 26/4000)/('$pi'*5000*0.02^2)' 1e-6
+   }
+done
