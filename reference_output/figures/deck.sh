@@ -27,6 +27,9 @@ fi
 [ -s "$tables/joints" ] || [ -s "$tables/responses" ] || [ -s "$tables/backbones" ] ||
    { echo "$deck has no joint, nor a response: nothing is drawn"; exit 1; }
 touch "$tables/joints" "$tables/responses" "$tables/backbones"
+for table in backbone loop; do
+   [ ! -s "$work/$name.$table.csv" ] || awk -f "$here/rounded.awk" "$work/$name.$table.csv" "$work/$name.$table.csv" > "$tables/$name.$table.csv"
+done
 # in the listing: UNITS, LABELS ONLY: LENGTH MM, FORCE KGF
 read -r length force <<< "$(sed -n 's/^ *UNITS, LABELS ONLY: LENGTH \([^,]*\), FORCE \(.*\)/\1 \2/p' "$work/$name.out" |
    tr 'A-Z' 'a-z' | sed -E 's/ ([km]?)n *$/ \1N/; q')"
@@ -55,6 +58,6 @@ while read -r stage; do
 done < "$tables/responses"
 while read -r stage; do
    for picture in backbone loops; do
-      draw "$work/$name.$picture.$stage.png" "stage = '$stage'; folder = $(quoted "$work/")" $picture.inc
+      draw "$work/$name.$picture.$stage.png" "stage = '$stage'" $picture.inc
    done
 done < "$tables/backbones"

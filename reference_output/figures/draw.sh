@@ -2,7 +2,10 @@
 # The pictures of this folder, PNG and SVG, from the joint histories of the decks. Needs gnuplot.
 #
 #    draw.sh PROGRAM FIT QUERY WORK_FOLDER
+#
+# The pictures depend on seven digits of the results (rounded.awk), so that another processor draws the same.
 set -eu
+export LC_ALL=C
 program=$1 fit=$2 query=$3 work=$4
 source tests/exact/contact_edges.sh
 here=$(dirname "$0")
@@ -75,6 +78,10 @@ column 8000 > "$work/welded.csv"
 sed -E 's/^JAMPL.*/JAMPL,6,1,1.0,3,0.03,2,16/' input/bolted_lap.bdf > "$work/bolted_loops.bdf"
 "$program" -q -o "$work" "$work/bolted_loops.bdf" > /dev/null 2>&1
 
+rm -rf "$work/drawn"
+mkdir "$work/drawn"
+for table in "$work"/*.csv; do awk -f "$here/rounded.awk" "$table" "$table" > "$work/drawn/${table##*/}"; done
+
 for chart in a b c; do
    awk -v title="Fig. 6($chart)" -f "$here/chart.awk" "$here/README.md" > "$here/fig6$chart.svg"
    echo "$here/fig6$chart.svg"
@@ -84,7 +91,7 @@ for script in "$here"/*.gp; do
    for terminal in 'pngcairo size 1000,700 font "DejaVu Sans,14"' 'svg size 1000,700 font "Helvetica,14" background "white"'; do
       suffix=${terminal%% *}
       suffix=${suffix%cairo}
-      gnuplot -e "set terminal $terminal; set output '$here/$name.$suffix'; folder = '$work/'; includes = '$here/'" \
+      gnuplot -e "set terminal $terminal; set output '$here/$name.$suffix'; folder = '$work/drawn/'; includes = '$here/'" \
          "$here/style.inc" "$script"
    done
    echo "$here/$name.png, .svg"

@@ -28,6 +28,11 @@ holds 'stretches of one branch are runs, from 1 on' \
 fit record.dat
 says 'a record: its turns and its noise band are said' cards '195 rows in the order of time, 3 tests, 15 turns; noise band 1 % of the range' \
    '3E-4 of d, 0.03015 of tau'
+# deflections that run against their stresses: no loading curve lies ahead of a path that turns back
+awk 'NR > 1 { $1 = -$1 } { print }' record.dat > against.dat
+fit --zero against.dat
+holds 'd against tau: told that the slope is negative' [ "$status" -eq 0 ]
+says 'd against tau: told that the slope is negative' stderr 'LOAD: the slope of tau becomes zero or negative'
 awk -v form=unloading -f "$here/fig1b.awk" > unloading.dat
 fit unloading.dat
 says 'unloading alone: the continuation' cards 'The UNLOAD continuation' 'b1 = 40 + 90 p' 'b2 = 100 + 50 p' 'b3 = 2000 + 0 p'

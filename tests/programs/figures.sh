@@ -30,6 +30,13 @@ awk -v joint=1 -f $figures/joint_loops.awk "$work/chosen" reference_output/shear
 same 'the loops of an element: its name, rest, every increment' "$(wc -l < "$work/loops")" 83
 same 'they begin at rest' "$(head -n 2 "$work/loops" | tail -n 1)" '0,0,0,0,0,0'
 
+# seven digits, whatever the processor makes of the ones behind; ids, words and blanks stay
+rounded() { awk -f $figures/rounded.awk "$work/$1" "$work/$1" | tr '\n' ' '; }
+printf '%s\n' id,branch,a,b 12345678,LOAD,9.9999999951278209E-005,1.0000000000014009E+000 7,,-3.0000000000E-012,0.0 8,OPEN,-0.25,-2.5E-03 > "$work/one.csv"
+printf '%s\n' id,branch,a,b 12345678,LOAD,1.0000000001278209E-004,9.9999999999914009E-001 7,,4.0000000000E-017,-0.0 8,OPEN,-0.25000000000001,-2.5E-03 > "$work/other.csv"
+same 'rounded' "$(rounded one.csv)" 'id,branch,a,b 12345678,LOAD,0.0001,1 7,,0.0,0.0 8,OPEN,-0.25,-0.0025 '
+same 'rounded, on another processor' "$(rounded other.csv)" "$(rounded one.csv)"
+
 # the response of a stage: a block for every component that moves
 mkdir -p "$work/response"
 printf '%s\n' stage,frequency,node,component,amplitude,phase 2,5,7,x,0.5,0 2,5,7,y,0,0 2,5,9,x,0.25,-90 2,10,7,x,0.75,-180 2,10,7,y,0,0 \
@@ -56,6 +63,15 @@ if command -v gnuplot > /dev/null; then
       same "$quantity is a PNG" "$(head -c 4 "$picture" | tail -c 3)" PNG
    done
    same 'nothing else is said' "$(wc -l < "$work/said")" 4
+   # the axes of a backbone do not end a decade later for the last digit of an amplitude
+   for end in 9.9999999995E-005,170.0,0.0:1.0000000000014E+000 1.0000000000E-004,169.99999999999,1E-17:9.9999999999914E-001; do
+      printf '%s\n' amplitude,frequency,loss_factor "${end%:*}" "1.0E-002,150.0,0.05" "${end#*:},140.0,0.07" | sed '1s/^/stage,/; 2,$s/^/2,/' > "$work/ends.csv"
+      awk -f $figures/rounded.awk "$work/ends.csv" "$work/ends.csv" > "$work/ends.backbone.csv"
+      gnuplot -e "set terminal svg; set output '$work/ends.svg'; folder = '$work/'; deck = 'ends'; stage = '2'; length_unit = ''" \
+         $figures/style.inc $figures/backbone.inc
+      cksum < "$work/ends.svg"
+   done > "$work/ends"
+   same 'the picture of a backbone hangs on no last digit' "$(sort -u "$work/ends" | wc -l) $([ "$(grep -c gpPt "$work/ends.svg")" -gt 6 ] && echo drawn)" '1 drawn'
 fi
 
 # every word of a chart in characters is in the SVG file, which is the one that the script makes of it

@@ -19,6 +19,16 @@ while getopts 's:m:n:f:k:a:j:' option; do
    esac
 done
 shift $((OPTIND - 1))
+# whole NAME OPTION VALUE LEAST: the name of make and the option for it
+whole() {
+   [[ $3 =~ ^(0|[1-9][0-9]{0,14})$ ]] && [ "$3" -ge "$4" ] || { echo "fuzz.sh: $1 ($2) is '$3', expected a whole number, $4 or more" >&2; exit 2; }
+}
+whole SEED -s "$seed" 0
+whole MINUTES -m "$minutes" 1
+whole DECKS -n "$decks" 0
+whole FROM -f "$from" 1
+whole EVERY -a "$every" 1
+whole JOBS -j "$jobs" 1
 [ $# -ge 2 ] || { sed -n 's/^#     fuzz.sh/usage: fuzz.sh/p' "$0" >&2; exit 2; }
 mkdir -p "$1/failed" || exit 2
 folder=$(realpath "$1")

@@ -18,6 +18,12 @@ while getopts 's:n:f:x' option; do
    esac
 done
 shift $((OPTIND - 1))
+# whole NAME OPTION VALUE LEAST: the name of make and the option for it
+whole() {
+   [[ $3 =~ ^(0|[1-9][0-9]{0,14})$ ]] && [ "$3" -ge "$4" ] || { echo "pairs.sh: $1 ($2) is '$3', expected a whole number, $4 or more" >&2; exit 2; }
+}
+whole SEED -s "$seed" 0
+whole N -n "$decks" 1; for start in "${from%%,*}" ${from//,/ }; do whole FROM -f "$start" 1; done
 [ $# -eq 2 ] && [ -x "$1" ] || { sed -n 's/^#     pairs.sh/usage: pairs.sh/p' "$0" >&2; exit 2; }
 program=$(realpath "$1")
 mkdir -p "$2/failed" || exit 2

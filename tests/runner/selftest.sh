@@ -1,6 +1,7 @@
 #!/bin/bash
-# Tests the test runner: in a small project in a temporary folder, what must pass passes, and what must fail fails. Runs the
-# fallback, and pFUnit too where PFUNIT_DIR is set.
+# Tests the test runner: in a small project in a temporary folder, what must pass passes, and what must fail fails; what is compiled
+# again after a change, and what make -q says. Runs the fallback, and pFUnit too where PFUNIT_DIR is set. Then what the project's own
+# makefile makes of -j and of the numbers on its command line.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d) || exit 1
@@ -25,20 +26,36 @@ contains
    end subroutine quit
 end module subject
 END
+cat > src/caller.f90 <<'END'
+module caller
+   use subject, only: quit
+   implicit none
+   private
+   public :: quit_for_good
+contains
+   subroutine quit_for_good()
+      call quit()
+   end subroutine quit_for_good
+end module caller
+END
 cat > Makefile <<END
 FC              := ${FC:-gfortran}
 FFLAGS_CHECKED  := -O1 -g -std=f2018 -Wall -Wextra -fcheck=all -ffpe-trap=invalid,zero
 BUILD           := build
 CHECKED_MODULES := build/checked
 CHECKED_LIBRARY := build/checked/libsubject.a
-CHECKED_OBJECTS := build/checked/subject.o
+CHECKED_OBJECTS := build/checked/subject.o build/checked/caller.o
 PF_FILES        := \$(sort \$(wildcard tests/unit/*.pf))
 include $here/compile.mk
 include $here/unit_tests.mk
-\$(CHECKED_OBJECTS): src/subject.f90
-	mkdir -p \$(@D) && \$(FC) \$(FFLAGS_CHECKED) -J\$(@D) -c \$< -o \$@
+\$(CHECKED_OBJECTS): build/checked/%.o: src/%.f90
+	@mkdir -p \$(@D)
+	\$(call compile,\$(FC) \$(FFLAGS_CHECKED) -J\$(@D) -c \$<)
+build/checked/dependencies.mk: src/subject.f90 src/caller.f90
+	@mkdir -p \$(@D) && awk -f $here/dependencies.awk -v folder=\$(@D) -v objects='\$(CHECKED_OBJECTS)' \$^ > \$@
+-include build/checked/dependencies.mk
 \$(CHECKED_LIBRARY): \$(CHECKED_OBJECTS)
-	ar rcs \$@ \$<
+	ar rcs \$@ \$^
 END
 
 # Write a test file from the routines on standard input; its first line becomes line 10.
@@ -100,6 +117,10 @@ check() {
 
 # The closing line and the success of the last run.
 ended() { [ "$closing" = "$1" ] && if [ "$2" = success ]; then [ $status -eq 0 ]; else [ $status -ne 0 ]; fi; }
+# make -q says that there is nothing to do, make -n names no command of the compiler
+up_to_date() {
+   make -q RUNNER=$runner build/unit-$runner/unit_tests && ! make -n RUNNER=$runner build/unit-$runner/unit_tests | grep -F -- ' -o '
+}
 shows() { grep -qF -- "$1" <<< "$output"; }
 lacks() { ! shows "$1"; }
 
@@ -370,12 +391,24 @@ END
    run
    check "$runner: a changed file is built" shows test_other
    check "$runner: nothing else is built" lacks "-o build/unit-$runner/test_case.o"
+   check "$runner: after that nothing is to be built" up_to_date
    touch src/subject.f90
+   check "$runner: a change is to be built" eval '! up_to_date > /dev/null'
    run
    check "$runner: what uses a module whose interface is as before is not built" lacks "-o build/unit-$runner/test_case.o"
+   check "$runner: after a touched source nothing is to be built" up_to_date
+   sed -i "s/^ *stop.*/      if (index('$runner', 'f') > 0) stop/" src/subject.f90
+   run
+   check "$runner: another body of a routine: its module is built" shows '-o build/checked/subject.o'
+   check "$runner: another body of a routine: no module that uses it" lacks '-o build/checked/caller.o'
+   check "$runner: another body of a routine: no test that uses it" lacks "-o build/unit-$runner/test_case.o"
+   check "$runner: another body of a routine: the program is linked" shows "-o build/unit-$runner/unit_tests"
+   check "$runner: after another body nothing is to be built" up_to_date
    sed -i "0,/^contains/s//   integer, parameter, public :: later_$runner = 1\ncontains/" src/subject.f90
    run
    check "$runner: what uses a changed module is built" shows "-o build/unit-$runner/test_case.o"
+   check "$runner: a module that uses a changed module is built" shows '-o build/checked/caller.o'
+   check "$runner: after another interface nothing is to be built" up_to_date
    sed -i 's/subroutine unused/subroutine also_unused/; s/call quit/call unused/; s/use subject.*/use test_case, only: unused/' \
       tests/unit/test_other.pf
    run
@@ -459,6 +492,49 @@ END
    refused "$(wc -l < $pf)" 'a restricted use of funit'
 }
 
+# ---- The makefile of the project ---------------------------------------------------------------------
+
+# asked given|'' ARGUMENT...: whether the project's makefile sees that the arguments give a number of jobs; else it takes all cores
+asked() {
+   local jobs=$1 is
+   shift
+   output=$(env ${SETTING:+"$SETTING"} make -C "$here/../.." BUILD="$work/project" "$@" -pn help 2>&1)
+   is=$(sed -n 's/^JOBS_ASKED := *//p' <<< "$output")
+   output="JOBS_ASKED is '$is'"
+   check "make $* ${SETTING:-}" [ "${is:+given}" = "$jobs" ]
+}
+
+# ends_with PATTERN ARGUMENTS: what make ARGUMENTS would do ends with a command that fits the PATTERN
+ends_with() {
+   output=$(make -C "$here/../.." BUILD="$work/project" -n $2 2>&1 | grep -A 1 -E '(pairs|fuzz|mutants)[.]sh')
+   check "make $2" grep -qE -- "$1" <<< "$output"
+}
+
+check_project() {
+   local wish
+   asked ''
+   asked '' -k
+   for wish in -j1 -j3 --jobs=2 -kj2; do asked given $wish; done
+   for wish in -j1 j2 kj2; do SETTING=MAKEFLAGS=$wish asked given; done
+
+   # numbers: each target has its own defaults, the command line rules
+   ends_with "pairs.sh -s '[0-9]{9,}' -f '1' -n '1000' " pairs
+   ends_with "pairs.sh -s '3' -f '7' -n '20' " 'pairs SEED=3 FROM=7 N=20'
+   ends_with "fuzz.sh -s '[0-9]{9,}' -f '1' -m '5' " fuzz
+   ends_with "fuzz.sh -s '9' -f '1' -m '2' " 'fuzz SEED=9 MINUTES=2'
+   ends_with "fuzz.sh -s '9' -f '1' -n '100' " 'fuzz SEED=9 DECKS=100'
+   ends_with "mutants.sh .* '150' '1'\$" mutants-run
+   ends_with "mutants.sh .* '3' '2026'\$" 'mutants-run N=3 SEED=2026'
+   for wish in 'pairs N=abc' 'pairs SEED=x' 'pairs N=' 'fuzz MINUTES=abc' 'fuzz MINUTES=1.5' 'fuzz DECKS=-1' 'mutants JOBS=two'; do
+      output=$(make -C "$here/../.." BUILD="$work/project" -n $wish 2>&1)
+      status=$?
+      check "make $wish: refused" [ $status -eq 2 ]
+      check "make $wish: told why" shows "${wish#* }: expected a whole number"
+      check "make $wish: nothing begins" lacks ' -o '
+   done
+}
+
+check_project
 for runner in fallback ${PFUNIT_DIR:+pfunit}; do
    check_runner
 done

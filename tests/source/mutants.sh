@@ -27,7 +27,7 @@ unit_limit=3600 deck_limit=3600 rest_limit=3600
 
 for number in "N $n 1" "SEED $seed 0" "JOBS $JOBS 1"; do
    read -r name value least <<< "$number"
-   [[ $value =~ ^(0|[1-9][0-9]{0,8})$ ]] && [ "$value" -ge "$least" ] || { echo "mutants: $name is '$value', expected a whole number, $least or more" >&2; exit 2; }
+   [[ $value =~ ^(0|[1-9][0-9]{0,14})$ ]] && [ "$value" -ge "$least" ] || { echo "mutants: $name is '$value', expected a whole number, $least or more" >&2; exit 2; }
 done
 
 mkdir -p "$tree"
