@@ -6,13 +6,13 @@ module constraint_equations
    use kinds, only: wp
    use model_data, only: a_rotation, model_type, node_kind, point_of
    use node_coupling, only: couple_node
-   use numbers, only: by_rotation, identity
+   use numbers, only: identity
    use text_tools, only: integer_text
    use unknowns, only: component_place, node_axes
    implicit none
    private
 
-   public :: add_dependence, add_expansion, add_term, check_dependences, eliminate, mean_motion, solve_for
+   public :: add_dependence, add_expansion, add_term, check_dependences, eliminate, solve_for
 
    !> What a rigid element adds to a constraint equation when it is warmed: GROWTH times T - REFERENCE, T the mean of two POINTS.
    type, public :: expansion_type
@@ -346,75 +346,5 @@ contains
          a(j, :) = row
       end do
    end subroutine reduce
-
-   !> [T] of RBE3, {u, theta} = sum of T(:, :, i) {c_i}: the rigid-body motion, displacement and rotation at the reference point,
-   !! that fits the measured displacements in the sense of least squares. Point i lies at the arm R(:, i) from the reference point;
-   !! c_i are its displacements along the directions AXES(:, 1 to 3, i), of which those USED count, with WEIGHT(i).
-   !!    sum of w G^T (G {u, theta} - c) = 0,  G = directions^T [1 W]
-   !! A component that this equation does not determine is not DETERMINED, and its row is zero: for collinear points the rotation
-   !! about their line.
-   pure subroutine mean_motion(r, axes, used, weight, t, determined)
-      real(wp), intent(in)  :: r(:, :)       !! (3, points) [length]
-      real(wp), intent(in)  :: axes(:, :, :) !! (3, 3, points), unit
-      logical, intent(in)   :: used(:, :)    !! (3, points)
-      real(wp), intent(in)  :: weight(:)     !! > 0
-      real(wp), intent(out) :: t(:, :, :)    !! (6, 3, points) [-], rotations [1/length]
-      logical, intent(out)  :: determined(6)
-      real(wp) :: g(6, 3, size(weight)), a(6, 6), inverse(6, 6), extent
-      integer  :: c, i
-
-      extent = sqrt(sum(r**2)/size(weight))
-      if (extent <= 0.0_wp) extent = 1.0_wp
-      a = 0.0_wp
-      do i = 1, size(weight)
-         g(:3, :, i) = axes(:, :, i)
-         g(4:, :, i) = matmul(transpose(by_rotation(r(:, i)/extent)), axes(:, :, i)) ! rotations times the size: one unit
-         do c = 1, 3
-            if (.not. used(c, i)) g(:, c, i) = 0.0_wp
-         end do
-         a = a + weight(i)/sum(weight)*matmul(g(:, :, i), transpose(g(:, :, i)))
-      end do
-      call invert_where_determined(a, inverse, determined)
-      do i = 1, size(weight)
-         t(:, :, i) = weight(i)/sum(weight)*matmul(inverse, g(:, :, i))
-         t(4:, :, i) = t(4:, :, i)/extent
-      end do
-   end subroutine mean_motion
-
-   !> Rows of the INVERSE of A, symmetric and positive semidefinite, for the components of x that A x = b determines; the other rows
-   !! are zero. Row j is the solution y of A y = e_j where it exists. Elimination takes the largest remaining pivot.
-   pure subroutine invert_where_determined(a, inverse, determined)
-      real(wp), intent(in)  :: a(6, 6)
-      real(wp), intent(out) :: inverse(6, 6)
-      logical, intent(out)  :: determined(6)
-      real(wp), parameter :: rounding = 1.0e-12_wp ! of the largest entry: a smaller pivot is zero
-      real(wp) :: m(6, 12), pivot_row(12), residual(6)
-      logical  :: done(6)
-      integer  :: i, j, p
-
-      m(:, :6) = a
-      m(:, 7:) = 0.0_wp
-      do i = 1, 6
-         m(i, 6 + i) = 1.0_wp
-      end do
-      done = .false.
-      do j = 1, 6
-         p = maxloc([(m(i, i), i = 1, 6)], dim=1, mask=.not. done)
-         if (m(p, p) <= rounding*maxval(abs(a))) exit
-         done(p) = .true.
-         pivot_row = m(p, :)/m(p, p)
-         do i = 1, 6
-            m(i, :) = m(i, :) - m(i, p)*pivot_row
-         end do
-         m(p, :) = pivot_row
-      end do
-      do j = 1, 6
-         inverse(j, :) = merge(m(:, 6 + j), 0.0_wp, done) ! y, with its undetermined components zero
-         residual = matmul(a, inverse(j, :))
-         residual(j) = residual(j) - 1.0_wp
-         determined(j) = done(j) .and. maxval(abs(residual)) <= 1.0e-8_wp
-         if (.not. determined(j)) inverse(j, :) = 0.0_wp
-      end do
-   end subroutine invert_where_determined
 
 end module constraint_equations

@@ -4,7 +4,7 @@
 module rigid_elements
    use bulk_data, only: equation_card, rigid_card
    use constraint_equations, only: add_dependence, add_expansion, add_term, check_dependences, dependence_list, eliminate, &
-                                   expansion_type, mean_motion, solve_for
+                                   expansion_type, solve_for
    use deck_check, only: checked_deck
    use field_rules, only: has_component
    use kinds, only: wp
@@ -13,6 +13,7 @@ module rigid_elements
    use shell_ties, only: add_ties, tie_type
    use support_build, only: check_sums, summed_sets
    use surface_build, only: find_surface, surface_node_list, surface_nodes
+   use rigid_fit, only: mean_motion
    use text_tools, only: integer_text
    use unknowns, only: component_place, node_axes, place_of_component, rotation_at, third_axis
    implicit none

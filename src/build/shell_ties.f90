@@ -5,13 +5,14 @@
 !! that fits them best (mean_motion). Its rotations are therefore those of the face over the thickness, and its forces and moments
 !! act on the face in equilibrium.
 module shell_ties
-   use constraint_equations, only: add_dependence, add_term, dependence_list, mean_motion
+   use constraint_equations, only: add_dependence, add_term, dependence_list
    use deck_check, only: checked_deck
    use element_kinds, only: kind_tria3, kind_tria6, max_nodes
    use face_overlap, only: face_frame, find_point, in_frame, make_frame, map_point, seen_face
    use kinds, only: wp
    use model_data, only: corners_of, is_shell, model_type, surface_type
    use numbers, only: identity
+   use rigid_fit, only: mean_motion
    use shell_membrane, only: shell_frame, shell_frame_of
    use surface_build, only: find_surface
    use text_tools, only: integer_text, real_text

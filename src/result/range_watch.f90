@@ -331,6 +331,11 @@ contains
       type(restart_stream_type), intent(inout) :: stream
       type(range_watch_type), intent(inout)    :: watch
 
+      call stream%any_text(watch%farthest%quantity)
+      call stream%any_text(watch%farthest%place)
+      call stream%any_text(watch%poor_condition)
+      call stream%any_text(watch%divided)
+      call stream%item(watch%farthest%relative, watch%farthest%node)
       call watch%rows%record(stream)
       call stream%item(watch%n_warnings, watch%stage, watch%tallies, watch%soft_line, watch%first_of, watch%soft_unloading)
    end subroutine record_watch

@@ -281,8 +281,6 @@ contains
          call finish_vtu(results%vtu, has_vtu)
          if (.not. has_vtu) results%missing_vtu = what_is_in_the_way()
          if (.not. has_vtu .and. results%missing_vtu == '') results%missing_vtu = 'is there room on the disk?'
-      end if
-      if (ok) then
          associate (file => results%page%file)
             call file%put_lines(listing_end(size(plan%stages), results%counts, results%page%place, failure))
             call file%finish(ok)
@@ -346,11 +344,7 @@ contains
          call stream%any_text(page%stage)
          call stream%any_text(page%now)
          call stream%any_text(page%place)
-         call stream%any_text(watch%farthest%quantity)
-         call stream%any_text(watch%farthest%place)
-         call stream%any_text(watch%poor_condition)
-         call stream%any_text(watch%divided)
-         call stream%item(page%largest_force, watch%farthest%relative, watch%farthest%node, d%increments, results%counts%n_removed)
+         call stream%item(page%largest_force, d%increments, results%counts%n_removed)
          do i = 1, n_stage_tables
             call results%stage_tables(i)%record(stream)
          end do
