@@ -69,7 +69,7 @@ contains
    pure logical function same_place(model, a, b)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: a, b
-      integer :: k
+      integer :: k, n
 
       same_place = .false.
       if ((a > model%n_elements) .neqv. (b > model%n_elements)) return
@@ -80,11 +80,10 @@ contains
          end associate
          return
       end if
-      associate (n => [element_table(model%element_kind(a))%n_corners, element_table(model%element_kind(b))%n_corners])
-         if (n(1) /= n(2)) return
-         associate (own => model%element_nodes(:n(1), a), other => model%element_nodes(:n(1), b))
-            same_place = all([(any(own(k) == other), k = 1, n(1))]) .and. all([(any(other(k) == own), k = 1, n(1))])
-         end associate
+      n = element_table(model%element_kind(a))%n_corners
+      if (n /= element_table(model%element_kind(b))%n_corners) return
+      associate (own => model%element_nodes(:n, a), other => model%element_nodes(:n, b))
+         same_place = all([(any(own(k) == other), k = 1, n)]) .and. all([(any(other(k) == own), k = 1, n)])
       end associate
    end function same_place
 
