@@ -266,7 +266,7 @@ contains
       character(:), allocatable :: twins, words
       integer, allocatable :: corners(:), nodes(:)
       real(wp) :: off, largest
-      integer  :: i, k, worst
+      integer  :: distinct, i, k, worst
 
       allocate (nodes, source=corners_of(model, e))
       associate (kind => element_table(model%element_kind(e)))
@@ -275,15 +275,17 @@ contains
                                                  kind%dimension == 3))
          if (kind%dimension == 2 .and. kind%linear == model%element_kind(e)) words = ' has no positive area at some corner'
          twins = ''
+         distinct = size(corners)
          do i = 1, size(corners) - 1
             do k = i + 1, size(corners)
-               if (norm2(model%x(:, corners(k)) - model%x(:, corners(i))) < coincident*longest_edge(model, e)) &
-                  twins = twins//', G'//integer_text(i)//' and G'//integer_text(k)
+               if (norm2(model%x(:, corners(k)) - model%x(:, corners(i))) >= coincident*longest_edge(model, e)) cycle
+               twins = twins//', G'//integer_text(i)//' and G'//integer_text(k)
+               distinct = distinct - 1
             end do
          end do
-         if (twins /= '') then
-            words = words//': it has corners in one place'//twins//'; expected an element of fewer corners, such as '// &
-                    trim(merge('CPENTA', 'CTRIA3', kind%dimension == 3))
+         if (twins /= '') words = words//': it has corners in one place'//twins
+         if (twins /= '' .and. distinct > kind%dimension) then
+            words = words//'; expected an element of fewer corners, such as '//trim(merge('CPENTA', 'CTRIA3', kind%dimension == 3))
             return
          end if
          if (size(nodes) > size(corners)) then
