@@ -273,7 +273,7 @@ contains
       type(component_place), intent(in)    :: places(:)
       integer, intent(in)                  :: at(:) !! (places)
       logical, intent(out)                 :: ok
-      type(dependence_list) :: solved
+      type(dependence_list), allocatable :: solved ! on the heap: the compiler warns of its bounds where it is a local variable
       real(wp) :: a(size(places), 2*size(places))
       integer  :: i, j, k, n
 
@@ -292,6 +292,7 @@ contains
       end do
       call reduce(a, ok)
       if (.not. ok) return
+      allocate (solved)
       do i = 1, n
          call add_dependence(solved, places(i), list%item(first)%line, at(i))
          do j = 1, n

@@ -14,7 +14,7 @@ module back_method
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: back_stiffness, exceeds_limit, rest_margin, stiffness_matrices
+   use joint_laws, only: back_stiffness, exceeds_limit, limit_cuts, rest_margin, stiffness_matrices
    use joint_work, only: work_of_secants
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
@@ -128,7 +128,8 @@ contains
             state%shear%delta = deflection(:2)
             state%shear%k_s = k(:2, i)
             state%shear%tau = state%shear%k_s*deflection(:2)/element%area
-            state%slips = exceeds_limit(law, state, rest_margin)
+            state%slips = exceeds_limit(law, state, rest_margin) .or. &
+                          limit_cuts(law, state%normal%pressure, deflection(:2))
             if (state%slips) then
                call stand_at_limit(law%shear, max(0.0_wp, state%normal%pressure), state%shear)
                state%shear%slid = state%shear%delta_0

@@ -12,7 +12,7 @@ module joint_laws
 
    public :: norm_and_shear, start_shear, stiffness_at_rest, stiffness_matrices, follow_element, force_of
    public :: rest_when_open, is_apart
-   public :: friction_limit, friction_excess, exceeds_limit
+   public :: friction_limit, friction_excess, exceeds_limit, limit_cuts
    public :: back_stiffness
 
    real(wp), parameter :: slip_margin = 1.0e-9_wp ! of the limit: rounding does not cause slip
@@ -221,5 +221,16 @@ contains
       if (law%has_friction .and. moved > 0.0_wp) k(:2) = min(k(:2), friction_limit(law, p)*area/moved)
       k(3) = normal_secant(law%normal, area, p)
    end function back_stiffness
+
+   !> Whether the Coulomb limit cuts the secants of BACK at this DEFLECTION and PRESSURE, as in back_stiffness: the element slides.
+   pure logical function limit_cuts(law, pressure, deflection) result(cuts)
+      type(joint_law), intent(in) :: law
+      real(wp), intent(in)        :: pressure, deflection(2) !! [pressure], along x and y [length]
+      real(wp), parameter :: margin = 1.0e-4_wp ! of the secant; deflections are settled to less
+
+      cuts = .false.
+      if (law%has_friction) cuts = any(friction_limit(law, pressure) < &
+         (1.0_wp - margin)*norm2(deflection)*cubic_secant(law%shear%load, abs(deflection), pressure))
+   end function limit_cuts
 
 end module joint_laws
