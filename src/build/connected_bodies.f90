@@ -7,7 +7,7 @@ module connected_bodies
    implicit none
    private
 
-   public :: find_bodies, find_parts, number_parts
+   public :: find_bodies, find_parts, join_coupled, number_parts
 
 contains
 
@@ -61,16 +61,7 @@ contains
          if (model%bars(k)%nodes(2) == 0) cycle ! the ground
          if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
       end do
-      do node = 1, model%n_nodes
-         associate (parts => coupling_parts(model, node))
-            do k = parts(1), parts(2)
-               call join(parent, node, model%coupling%node(k))
-            end do
-         end associate
-      end do
-      do k = 1, n_rotations(model)
-         call join(parent, model%rotations(k)%point, model%rotations(k)%node)
-      end do
+      call join_coupled(model, parent)
       allocate (part(model%n_nodes), source=0)
       n_parts = 0
       do node = 1, model%n_nodes
@@ -82,6 +73,24 @@ contains
          part(node) = part(root)
       end do
    end subroutine number_parts
+
+   !> Join dependent nodes with the nodes that they depend on, and points with their rotations, in the union-find PARENT.
+   pure subroutine join_coupled(model, parent)
+      type(model_type), intent(in) :: model
+      integer, intent(inout)       :: parent(:) !! (n_nodes)
+      integer :: k, node
+
+      do node = 1, model%n_nodes
+         associate (parts => coupling_parts(model, node))
+            do k = parts(1), parts(2)
+               call join(parent, node, model%coupling%node(k))
+            end do
+         end associate
+      end do
+      do k = 1, n_rotations(model)
+         call join(parent, model%rotations(k)%point, model%rotations(k)%node)
+      end do
+   end subroutine join_coupled
 
    !> Join the nodes of every element, and WITH_BOLTS the halves of each solid bolt. For an element behind a pretension section the
    !! section node replaces the nodes that are cut.

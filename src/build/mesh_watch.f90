@@ -2,11 +2,11 @@
 !! Both are left by meshes that were written twice or not merged. The stiffness of an element that is there twice counts twice;
 !! bodies whose nodes are not merged come apart as at a crack. Neither is an error: an overlay, or a crack, may be meant.
 module mesh_watch
+   use connected_bodies, only: join_coupled
    use element_kinds, only: element_table
    use kinds, only: wp
    use lists, only: join, list_owners, root_of
-   use model_data, only: a_bar, bar_nodes, corners_of, is_face_node, model_type, n_bars, n_points, n_rotations, supported
-   use node_coupling, only: coupling_parts
+   use model_data, only: a_bar, bar_nodes, corners_of, is_face_node, model_type, n_bars, n_points, supported
    use spatial_search, only: spatial_search_type
    use text_tools, only: integer_text, plural
    implicit none
@@ -69,7 +69,7 @@ contains
    pure logical function same_place(model, a, b)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: a, b
-      integer :: k
+      integer :: k, n
 
       same_place = .false.
       if ((a > model%n_elements) .neqv. (b > model%n_elements)) return
@@ -80,11 +80,10 @@ contains
          end associate
          return
       end if
-      associate (n => [element_table(model%element_kind(a))%n_corners, element_table(model%element_kind(b))%n_corners])
-         if (n(1) /= n(2)) return
-         associate (own => model%element_nodes(:n(1), a), other => model%element_nodes(:n(1), b))
-            same_place = all([(any(own(k) == other), k = 1, n(1))]) .and. all([(any(other(k) == own), k = 1, n(1))])
-         end associate
+      n = element_table(model%element_kind(a))%n_corners
+      if (n /= element_table(model%element_kind(b))%n_corners) return
+      associate (own => model%element_nodes(:n, a), other => model%element_nodes(:n, b))
+         same_place = all([(any(own(k) == other), k = 1, n)]) .and. all([(any(other(k) == own), k = 1, n)])
       end associate
    end function same_place
 
@@ -179,23 +178,15 @@ contains
    pure subroutine find_connections(model, parent)
       type(model_type), intent(in)      :: model
       integer, allocatable, intent(out) :: parent(:) !! (n_nodes)
-      integer :: i, k
+      integer :: i
 
       parent = [(i, i = 1, model%n_nodes)]
       call join_ends(model, parent)
       do i = 1, n_bars(model)
+         if (model%bars(i)%nodes(2) == 0) cycle ! the ground
          call join(parent, model%bars(i)%nodes(1), model%bars(i)%nodes(2))
       end do
-      do i = 1, model%n_nodes
-         associate (parts => coupling_parts(model, i))
-            do k = parts(1), parts(2)
-               call join(parent, i, model%coupling%node(k))
-            end do
-         end associate
-      end do
-      do k = 1, n_rotations(model)
-         call join(parent, model%rotations(k)%point, model%rotations(k)%node)
-      end do
+      call join_coupled(model, parent)
    end subroutine find_connections
 
    !> The union-finds of the nodes of each BODY, and of each ASSEMBLY of bodies that joints connect.

@@ -144,6 +144,8 @@ contains
       real(wp) :: enough, first
       integer  :: i
 
+      attempt%gain = 1.0_wp
+      if (.not. now%size > 0.0_wp) return ! in equilibrium to the last digit: no share of a residual is left
       first = next%size/now%size
       attempt%gain = first**2
       enough = max(half*far_below*analysis%tolerance, attempt%noise)

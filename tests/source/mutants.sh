@@ -46,8 +46,9 @@ awk 'BEGIN { print "program chosen_tests\n   use funit, only: finish_tests\n   i
    }' $(basename -s .pf tests/unit/*.pf) > "$build/chosen_tests.f90"
 rm -f "$build/librelease.a"
 ar rcs "$build/librelease.a" "$release"/*.o || exit 1
-for main in "$build/chosen_tests.f90" src/jointfem.f90 src/jointfit.f90; do
-   $FC $FLAGS -I"$checked" -I"$units" -J"$build" -c -o "$build/$(basename "$main" .f90).main.o" "$main" || exit 1
+$FC $FLAGS -I"$checked" -I"$units" -J"$build" -c -o "$build/chosen_tests.main.o" "$build/chosen_tests.f90" || exit 1
+for main in jointfem jointfit; do # without traps, as the program
+   $FC $program_flags -I"$release" -J"$build" -c -o "$build/$main.main.o" "src/$main.f90" || exit 1
 done
 unit_objects=$(for file in tests/unit/*.pf tests/unit/*.f90; do file=${file##*/}; echo "$units/${file%.*}.o"; done; echo "$units/funit.o")
 
