@@ -258,6 +258,19 @@ contains
 
    end subroutine check_elements
 
+   !> The element of one DIMENSION whose corners stand in that many PLACES.
+   pure function element_of(places, dimension) result(words)
+      integer, intent(in) :: places, dimension
+      character(:), allocatable :: words
+
+      words = 'corners in different places'
+      if (dimension == 2 .and. places == 3) words = 'CTRIA3'
+      if (dimension == 3 .and. places == 4) words = 'CTETRA'
+      if (dimension == 3 .and. places == 5) words = 'CPYRAM'
+      if (dimension == 3 .and. places >= 6) words = 'CPENTA'
+      if (words(:1) == 'C') words = 'an element of fewer corners, such as '//words
+   end function element_of
+
    !> What is wrong with the shape of element E, and what was expected: coincident corners, mid-side nodes where the element with
    !! straight edges is sound, or the order of the nodes.
    function shape_fault(model, e) result(words)
@@ -266,7 +279,7 @@ contains
       character(:), allocatable :: twins, words
       integer, allocatable :: corners(:), nodes(:)
       real(wp) :: off, largest
-      integer  :: distinct, i, k, worst
+      integer  :: i, k, places, worst
 
       allocate (nodes, source=corners_of(model, e))
       associate (kind => element_table(model%element_kind(e)))
@@ -275,17 +288,17 @@ contains
                                                  kind%dimension == 3))
          if (kind%dimension == 2 .and. kind%linear == model%element_kind(e)) words = ' has no positive area at some corner'
          twins = ''
-         distinct = size(corners)
-         do i = 1, size(corners) - 1
-            do k = i + 1, size(corners)
-               if (norm2(model%x(:, corners(k)) - model%x(:, corners(i))) >= coincident*longest_edge(model, e)) cycle
-               twins = twins//', G'//integer_text(i)//' and G'//integer_text(k)
-               distinct = distinct - 1
+         places = size(corners)
+         do k = 2, size(corners)
+            do i = 1, k - 1
+               if (norm2(model%x(:, corners(k)) - model%x(:, corners(i))) < coincident*longest_edge(model, e)) exit
             end do
+            if (i == k) cycle
+            places = places - 1
+            twins = twins//', G'//integer_text(i)//' and G'//integer_text(k)
          end do
-         if (twins /= '') words = words//': it has corners in one place'//twins
-         if (twins /= '' .and. distinct > kind%dimension) then
-            words = words//'; expected an element of fewer corners, such as '//trim(merge('CPENTA', 'CTRIA3', kind%dimension == 3))
+         if (twins /= '') then
+            words = words//': it has corners in one place'//twins//'; expected '//element_of(places, kind%dimension)
             return
          end if
          if (size(nodes) > size(corners)) then

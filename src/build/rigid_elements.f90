@@ -329,7 +329,7 @@ contains
          end do
          if (has_rotation) then
             call deck%field_error(card%line, card%at(i), 'its components C, '//integer_text(card%directions(i))// &
-               ', are rotations too, which this node has, as the reference node of a rigid element; expected C of 1 to 3', &
+               ', are rotations too, which this node has; expected C of 1 to 3', &
                called='G')
             return
          else if (no_displacement(model, card%directions(i))) then
