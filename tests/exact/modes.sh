@@ -90,11 +90,11 @@ mass_on_joint answers '' && {
       done
    }
 }
-# free in space there is no static answer, and none at all at rest
+# free in space the static part is that of inertia relief, and there is no answer at rest
 oscillating_bar bound 40 CONSISTENT 'MODES(FREE)' && {
    sed -i 's/^MASS.*/&\nSET 1 = 41/; s/^  LOAD.*/&\n  FREQUENCY = 7\n  DLOAD = 10\n  SDAMPING = 8\n  RESPONSE = SET 1/; s/^EIGRL.*/&\nFREQ1,7,50.0,100.0,4\nTABDMP1,8,G\n+,0.0,0.02,1.0E5,0.02,ENDT/' \
       "$work/bound.bdf"
-   run bound && says 'free bar: its response has no static part' "$work/bound.out" 'BY THESE MODES ALONE'
+   run bound && same 'free bar: its response has its static part' "$(grep -c 'BY THESE MODES ALONE' "$work/bound.out")" 0
    sed -i 's/^FREQ1,7,50.0/FREQ1,7,0.0/' "$work/bound.bdf"
    run bound 3 && says 'free bar: no response at rest' "$work/bound.log" 'at 0 the response is unbounded'
 }
@@ -147,7 +147,7 @@ slope_given blank_slope '' UNLOAD && slope_given same_slope 120000.0 UNLOAD && s
    says 'E_u by default: its ratio to the slope of loading' "$work/blank_slope.out" 'E_U OF JOINT 1 IS THE DEFAULT, E OF THE BODIES,  8.49E+01 TIMES THE SLOPE OF LOADING'
    says '... where it rules modes' "$work/blank_slope.out" 'WARNING: E_U OF JOINT 1 IS THE DEFAULT, AND MAKES IT 8.49E+01 TIMES AS STIFF AS ITS LOADING CURVES'
    near '... the frequency of that E_u' "$(mode blank_slope 1 frequency)" "$(mode same_slope 1 frequency)" 1e-9
-   same '... given: no word' "$(grep -c 'DEFAULT' "$work/same_slope.out")" 0
+   same '... given: no word' "$(grep -c 'IS THE DEFAULT' "$work/same_slope.out")" 0
    same '... modes of loading: no warning' "$(grep -c 'WARNING: E_U' "$work/loading_slope.out")" 0
    says '... the law as well' "$work/loading_slope.out" 'NOTE: E_U OF JOINT 1 IS THE DEFAULT'
 }
