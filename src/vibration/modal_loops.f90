@@ -29,6 +29,7 @@ module modal_loops
 
    real(wp), parameter :: settled_q = 0.3_wp         ! of the tolerance: change of q from loop to loop
    real(wp), parameter :: settled_area = 10.0_wp     ! likewise, of the area of a loop
+   real(wp), parameter :: steady = 0.01_wp           ! of the gap: change of the gap of a loop that moves on for ever
    real(wp), parameter :: not_known = 0.9_wp         ! ratio of the changes of two loops, where there are but two
    real(wp), parameter :: slowest = 0.97_wp          ! likewise: a larger one counts as this
    real(wp), parameter :: coarsely_settled = 0.01_wp ! of the area: coarse loops only look for the load
@@ -83,7 +84,8 @@ contains
 
    !> 0 -> ALPHA -> -ALPHA -> ALPHA, then the same loop repeated until it has settled, at most for the cycles of WANTED. FINE, the
    !! loop of about this load that coarse increments have found: increments are halved to the tolerance of WANTED. FAILURE where
-   !! the structure does not carry ALPHA.
+   !! the structure does not carry ALPHA. The change of q passes through zero while the loop still moves: it must close to the same
+   !! tolerance, or its gap must be steady.
    subroutine run_loops(model, modal, wanted, alpha, loop, failure, fine)
       type(model_type), intent(in)          :: model
       type(modal_load_type), intent(inout)  :: modal
@@ -95,7 +97,7 @@ contains
       type(analysis_type), allocatable :: now
       type(path_type) :: path
       real(wp) :: settled(2)                        ! changes of q and D that count as none, of themselves
-      real(wp) :: change(2), change_before(2), before(2) ! of q and D, and these of the loop before
+      real(wp) :: change(3), change_before(3), before(3) ! of q, D and gap, and these of the loop before
 
       modal%finest_work = 0.0_wp
       settled = [coarsely_settled, coarsely_settled]
@@ -110,14 +112,16 @@ contains
       if (present(fine)) call be_precise(wanted, fine, least_loss, modal)
       change = huge(1.0_wp)
       do while (.not. failure%raised .and. loop%n_loops < 2 + wanted%cycles)
-         before = [loop%q, loop%lost]
+         before = [loop%q, loop%lost, loop%gap*loop%q]
          change_before = change
          call run_loop(model, modal, wanted%increments, now, loop, failure)
          if (failure%raised) exit
          if (present(fine)) call be_precise(wanted, loop, least_loss, modal)
          if (loop%n_loops < 2) cycle
-         change = abs([loop%q, loop%lost] - before)
-         if (all(left(change, change_before) <= max(settled*[loop%q, abs(loop%lost)], [0.0_wp, negligible*alpha*loop%q]))) exit
+         change = abs([loop%q, loop%lost, loop%gap*loop%q] - before)
+         if (all(left(change, change_before) <= [max(settled*[loop%q, abs(loop%lost)], [0.0_wp, negligible*alpha*loop%q]), &
+                                                 merge(steady*abs(loop%gap)*loop%q, huge(1.0_wp), &
+                                                       abs(loop%gap) > settled(1))])) exit
       end do
    end subroutine run_loops
 

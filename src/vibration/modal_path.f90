@@ -25,6 +25,7 @@ module modal_path
 
    real(wp), parameter :: finest_step = 1.0e-7_wp    ! of alpha: a smaller step is not halved
    real(wp), parameter :: coarsest_step = 0.125_wp   ! likewise: a larger one is, for elements may slip and stick within it
+   real(wp), parameter :: closing_step = 1.0e-4_wp   ! likewise where an element closes
    real(wp), parameter :: exact = 1.0e-10_wp         ! TOL at most
    real(wp), parameter :: finest = 1.0e-13_wp        ! limit of TOL relative to the held load
    real(wp), parameter :: margin = 10.0_wp           ! of rounding errors
@@ -147,7 +148,8 @@ contains
             straight = now
             call load_increment(model, modal, at, straight, work, failure)
             if (failure%raised) return
-            call refine_increment(model, modal, at, [work, coordinate(modal, straight, at(2))], now, path, failure)
+            call refine_increment(model, modal, at, &
+                                  [work, coordinate(modal, straight, at(2)) - coordinate(modal, now, at(1))], now, path, failure)
          else
             call load_increment(model, modal, at, now, work, failure)
             call add_work(now, work, path)
@@ -157,19 +159,21 @@ contains
       end do
    end subroutine follow_path
 
-   !> Go from alpha = ENDS(1) to ENDS(2). As one increment, the joints take the work and q becomes what WHOLE says. The increment is
-   !! halved until halving has no effect on the work of the elements and on q. The remaining error of the work falls by four in each
-   !! halving; a third of the last difference is subtracted.
+   !> Go from alpha = ENDS(1) to ENDS(2). As one increment, the joints take the work and q grows by what WHOLE says. The increment is
+   !! halved until halving has no effect on the work of the elements and on the growth of q: the error of q at the start of an
+   !! increment is not that of the increment. Where an element closes, its shear deflection counts from the start of the increment,
+   !! and the error does not show before the element reverses: such an increment is halved to CLOSING_STEP. The remaining error of the work falls by four in each halving; a third of the last
+   !! difference is subtracted.
    recursive subroutine refine_increment(model, modal, ends, whole, now, path, failure)
       type(model_type), intent(in)         :: model
       type(modal_load_type), intent(inout) :: modal
       real(wp), intent(in)                 :: ends(2)
-      real(wp), intent(in)                 :: whole(:) !! (elements) [force x length], and q
+      real(wp), intent(in)                 :: whole(:) !! (elements) [force x length], and growth of q
       type(analysis_type), intent(inout)   :: now
       type(path_type), intent(inout)       :: path
       type(failure_type), intent(inout)    :: failure
       type(analysis_type), allocatable :: half, end
-      real(wp) :: first(size(whole)), second(size(whole)), difference(size(whole)), middle, share
+      real(wp) :: first(size(whole)), second(size(whole)), difference(size(whole)), coarsest, middle, share
       integer  :: n
 
       n = size(model%interface)
@@ -179,13 +183,14 @@ contains
       end = half
       call load_increment(model, modal, [middle, ends(2)], end, second(:n), failure)
       if (failure%raised) return
-      first(n + 1) = coordinate(modal, half, middle)
-      second(n + 1) = coordinate(modal, end, ends(2))
-      difference(:n) = first(:n) + second(:n) - whole(:n)
-      difference(n + 1) = second(n + 1) - whole(n + 1)
+      first(n + 1) = coordinate(modal, half, middle) - coordinate(modal, now, ends(1))
+      second(n + 1) = coordinate(modal, end, ends(2)) - coordinate(modal, half, middle)
+      difference = first + second - whole
       share = abs(ends(2) - ends(1))/modal%largest
-      if (share <= coarsest_step .and. (share <= finest_step .or. (sum(abs(difference(:n))) <= modal%finest_work &
-                                                                   .and. abs(difference(n + 1)) <= modal%finest_q))) then
+      coarsest = merge(closing_step, coarsest_step, any(now%states%normal%branch == branch_open .and. &
+                                                        end%states%normal%branch /= branch_open))
+      if (share <= coarsest .and. (share <= finest_step .or. (sum(abs(difference(:n))) <= modal%finest_work &
+                                                              .and. abs(difference(n + 1)) <= modal%finest_q))) then
          call add_work(half, first(:n), path)
          call add_work(end, second(:n) + difference(:n)/3.0_wp, path)
          now = end

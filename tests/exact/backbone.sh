@@ -235,10 +235,10 @@ rocking aside 90.0 2 && rocking mirrored -90.0 2 && {
    says 'a loop that moves on: the warning' "$work/aside.out" 'WARNING: THE LOOP OF AMPLITUDE .* DOES NOT CLOSE'
 }
 
-# ---- Joints at random against a direct integration of their laws: direct_loops.f90. DIRECT="1 2 7": these of its models. Some models with E_u
-# far above the tangent (14, 17, 19) settle over 40 loops and more, and both integrations end them on the way
+# ---- Joints at random against a direct integration of their laws: direct_loops.f90. DIRECT="1 2 7": these of its models. In 47 and 85 elements
+# close within an increment; in 14 the change of q passes through zero while the loop still moves
 if ${FC:-gfortran} -O2 -std=f2018 -Wall -Wextra -Werror -fno-backtrace -o "$work/direct_loops" tests/exact/direct_loops.f90; then
-   for seed in ${DIRECT:-$(seq 1 13)}; do
+   for seed in ${DIRECT:-$(seq 1 14) 47 85}; do
       "$work/direct_loops" deck "$seed" > "$work/direct.bdf" && run direct &&
          "$work/direct_loops" judge "$seed" "$work/direct.backbone.csv" "$work/direct.loop.csv" > "$work/direct.log"
       if [ "$(grep -c -v '^checked [0-9]' "$work/direct.log")" -eq 0 ]; then passed=$((passed + 1)); else
