@@ -17,7 +17,7 @@ module incomplete_results
    private
 
    public :: create_part, name_part, remove_incomplete, give_up_parts, remove_old, all_complete, watch_ends, what_is_in_the_way, &
-             say_at_interrupts, keep_at_ends, forget_kept, keep_finished
+             watch_interrupts, say_at_interrupts, keep_at_ends, forget_kept, keep_finished
 
    character(*), parameter, public :: suffix = '.part' !! of an incomplete file
    integer, parameter :: replaceable(2) = [no_file, regular_file] ! a result may take the place of these; links are followed
@@ -225,9 +225,14 @@ contains
       integer(c_int) :: status
 
       status = c_on_exit(c_funloc(end_without_memory), c_null_ptr)
+      call watch_interrupts()
+   end subroutine watch_ends
+
+   !> Watch interrupts alone: once more where a library has set handlers of its own since, as that of MPI does.
+   subroutine watch_interrupts()
       call at_signals([sigsegv], c_funloc(end_at_no_address))
       call at_signals([1, 2, 15], c_funloc(end_by_interrupt)) ! SIGHUP, SIGINT, SIGTERM of Linux
-   end subroutine watch_ends
+   end subroutine watch_interrupts
 
    !> Called when SIGNAL interrupts the program. The program ends as without a handler, but leaves no incomplete file. While the list
    !! of files changes the end has to wait.

@@ -15,7 +15,7 @@ module run_boxes
    use equations, only: form_body_stiffness, start_equations
    use facing_bodies, only: loose_words
    use finite_state, only: check_state
-   use incomplete_results, only: say_at_interrupts, watch_ends
+   use incomplete_results, only: say_at_interrupts, watch_ends, watch_interrupts
    use joint_suggestions, only: suggest_joints
    use kinds, only: wp
    use law_error, only: follow_laws
@@ -132,6 +132,7 @@ contains
       call watch_ends()
       call prepare_openblas()
       call join_processes(write_piece)
+      call watch_interrupts()
       call read_command_line(command, status)
       if (status >= 0) then
          call leave_processes()
