@@ -9,6 +9,7 @@ module openblas
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
    use machine, only: address_space_left, kernel_figure, no_figure, openblas_set_num_threads, reserve_for_threads
+   use terminal, only: argument_text
    implicit none
    private
 
@@ -222,15 +223,13 @@ contains
       character(:), allocatable, target :: texts ! the arguments, one behind the other
       type(c_ptr), allocatable :: arguments(:)
       integer, allocatable :: first(:)
-      integer :: i, length, status
+      integer :: i, status
 
       allocate (first(0:command_argument_count()))
       texts = ''
       do i = 0, command_argument_count()
          first(i) = len(texts) + 1
-         call get_command_argument(i, length=length)
-         texts = texts//repeat(c_null_char, length + 1)
-         if (length > 0) call get_command_argument(i, texts(first(i):first(i) + length - 1))
+         texts = texts//argument_text(i)//c_null_char
       end do
       arguments = [(c_loc(texts(first(i):first(i))), i = 0, command_argument_count()), c_null_ptr]
       status = c_execv('/proc/self/exe'//c_null_char, arguments)
