@@ -9,7 +9,7 @@ program jointfem
    use equation_solver, only: equation_system
    use load_path, only: start_increment, start_stage
    use model_data, only: model_type
-   use newton_method, only: newton_increment
+   use newton_method, only: close_gaps, crosses_gaps, newton_increment
    use run_boxes, only: another_increment, another_stage, build_structure, form_bodies, go_on, print_increment, read_data, &
                         start_joints, start_program
    use run_of_deck, only: end_program, finish_run, run_type, summary_row
@@ -66,13 +66,18 @@ contains
                call structure_stiffness(model, plan, analysis, system, run%failure)
 
                ! --------------------------------------------------------- SOLVE [k_s] {du} = {dF}
-               call solve_increment(model, plan, system, analysis, run%failure)
+               call solve_increment(model, system, analysis, run%failure)
 
-               ! --------------------------------------------------------- ACCUMULATE {u}, DEFLECTIONS, FORCES
-               call accumulate(model, system, analysis, run%failure)
+               if (crosses_gaps(analysis, run%failure)) then
+                  ! ------------------------------------------------------ NOT IN THE CHART: GAPS CLOSE, NO TANGENT LEADS ACROSS
+                  call close_gaps(model, plan, analysis, system, run%failure)
+               else
+                  ! ------------------------------------------------------ ACCUMULATE {u}, DEFLECTIONS, FORCES
+                  call accumulate(model, system, analysis, run%failure)
 
-               ! --------------------------------------------------------- COULOMB LIMIT EXCEEDED: RE-ANALYSE
-               call limit_friction(model, plan, system, analysis, run%failure)
+                  ! ------------------------------------------------------ COULOMB LIMIT EXCEEDED: RE-ANALYSE
+                  call limit_friction(model, plan, system, analysis, run%failure)
+               end if
 
                ! --------------------------------------------------------- NORM, SHEAR: BRANCHES, NEXT STIFFNESS
                call interface_stiffness(model, system, analysis, run%failure)

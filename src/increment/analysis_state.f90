@@ -5,14 +5,13 @@ module analysis_state
    use condition_estimate, only: condition_type
    use equation_solver, only: equation_system, failure_type
    use interface_operator, only: add_global_force, interface_element, joint_movement
-   use joint_laws, only: element_state, is_apart, start_shear
+   use joint_laws, only: element_state, norm_and_shear
    use joint_work, only: joint_energy
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections, temperature_type
    use normal_curve, only: normal_secant
-   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin, norm
+   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin
    use numbers, only: is_measure
-   use shear_stiffness, only: shear
    use terminal, only: show_line
    use text_tools, only: integer_text, real_text
    implicit none
@@ -91,7 +90,6 @@ module analysis_state
       real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced; BACK: of the
                                                     !! largest pressure by which the laws may differ from the secants
       real(wp) :: tolerance = 0.0_wp                !! the same as a force, for the largest load so far
-      logical  :: crosses_gaps = .false.            !! STEP: this increment is iterated because gaps leave a body loose
       logical  :: is_loose = .false.                !! interference has pushed a body away until nothing presses it
       real(wp) :: loose_force = 0.0_wp              !! then p_av a_i of its joints: a small part of it counts as zero [force]
       ! over all nodes, from the last recover_bodies
@@ -179,9 +177,8 @@ contains
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(in)     :: failure
-      logical  :: was_apart, was_open
-      real(wp) :: p
-      integer  :: d, i
+      logical :: was_open
+      integer :: i
 
       if (failure%raised) return
       analysis%record%n_removed = 0
@@ -189,17 +186,8 @@ contains
          associate (area => model%interface(i)%area, law => model%joints(model%interface(i)%joint)%law, &
                     state => analysis%states(i), k => analysis%k(:, i))
             was_open = state%normal%branch == branch_open
-            was_apart = is_apart(state)
-            k(:2) = 0.0_wp
-            call norm(law%normal, area, analysis%eq10, state%normal, k(3))
-            call start_shear(law, area, was_apart, analysis%movement(:, i), state, p)
-            if (state%normal%branch /= branch_open) then
-               do d = 1, 2
-                  call shear(law%shear(d), area, p, state%shear(d), k(d))
-               end do
-            else if (.not. was_open) then
-               analysis%record%n_removed = analysis%record%n_removed + 1
-            end if
+            call norm_and_shear(law, area, analysis%eq10, analysis%movement(:, i), state, k)
+            if (state%normal%branch == branch_open .and. .not. was_open) analysis%record%n_removed = analysis%record%n_removed + 1
             analysis%next_kind(i) = kind_on_branch(state%normal%branch)
             if (is_virgin(area, state%normal) .and. k(3) <= normal_secant(law%normal, area, state%normal%p_av)) &
                analysis%next_kind(i) = secant_stiffness

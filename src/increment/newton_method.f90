@@ -5,7 +5,7 @@ module newton_method
    use analysis_state, only: all_held, analysis_type, free_norm
    use equations, only: equation_system, form_structure_stiffness
    use equation_solver, only: failure_type
-   use joint_laws, only: stiffness_at_rest, stiffness_matrices
+   use joint_laws, only: is_apart, stiffness_at_rest, stiffness_matrices
    use kinds, only: wp
    use load_path, only: go_back
    use model_data, only: joint_node_id, model_type
@@ -20,7 +20,7 @@ module newton_method
    implicit none
    private
 
-   public :: newton_increment, seat_joints, free_idle_joints
+   public :: newton_increment, seat_joints, crosses_gaps, close_gaps
 
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
@@ -81,6 +81,29 @@ contains
       end do
       call form_structure_stiffness(model, stiffness_matrices(k), attempt%where, system, failure, one_solution=.true.)
    end subroutine newton_increment
+
+   !> STEP: whether no tangent leads through the increment, because open gaps leave a body loose: the structure has no stiffness, and
+   !! FAILURE is raised.
+   pure logical function crosses_gaps(analysis, failure)
+      type(analysis_type), intent(in) :: analysis
+      type(failure_type), intent(in)  :: failure
+
+      crosses_gaps = failure%raised .and. (analysis%is_loose .or. any(is_apart(analysis%states)))
+   end function crosses_gaps
+
+   !> STEP: an increment that closes gaps is iterated to equilibrium, so that nothing is left to accumulate.
+   subroutine close_gaps(model, plan, analysis, system, failure)
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      type(analysis_type), intent(inout)    :: analysis
+      class(equation_system), intent(inout) :: system
+      type(failure_type), intent(inout)     :: failure !! raised where the tangents have no stiffness: it is overcome here
+
+      failure%raised = .false.
+      call newton_increment(model, plan, analysis, system, failure)
+      call free_idle_joints(model, analysis)
+      analysis%record%n_iterations = 0 ! these are not re-analyses
+   end subroutine close_gaps
 
    !> Interference presses before any load: the equilibrium at rest becomes the initial state of STEP and NEWTON. Nothing is
    !! done where no joint has a negative gap. If nothing presses at equilibrium, interference has pushed bodies away from all

@@ -4,11 +4,10 @@ module step_method
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: element_state, exceeds_limit, flag_margin, friction_excess, friction_limit, is_apart, stiffness_matrices
+   use joint_laws, only: element_state, exceeds_limit, flag_margin, friction_excess, friction_limit, stiffness_matrices
    use joint_work, only: work_of_tangents
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
-   use newton_method, only: free_idle_joints, newton_increment
    use normal_stiffness, only: pressure_reached
    use numbers, only: first_largest
    use stage_entries, only: output_joint
@@ -26,51 +25,28 @@ contains
 
    !> [k_s] = sum [k_b] + sum [k_int], ready to solve.
    subroutine structure_stiffness(model, plan, analysis, system, failure)
-      type(model_type), intent(in)         :: model
-      type(stage_plan_type), intent(in)    :: plan
-      type(analysis_type), intent(inout)   :: analysis !! crosses_gaps: there is no stiffness to solve with
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      type(analysis_type), intent(in)       :: analysis
       class(equation_system), intent(inout) :: system
-      type(failure_type), intent(inout)    :: failure
-      type(failure_type) :: trouble
+      type(failure_type), intent(inout)     :: failure !! raised: there is no stiffness to solve with
 
+      if (analysis%is_loose) call failure%raise('interference has pushed a body away from all joints')
       if (failure%raised) return
-      analysis%crosses_gaps = analysis%is_loose
-      if (analysis%crosses_gaps) return
       call form_structure_stiffness(model, stiffness_matrices(analysis%k), where_in_plan(plan, analysis%stage, &
-                                    analysis%increment), system, trouble, &
+                                    analysis%increment), system, failure, &
                                     one_solution=.not. any(model%joints%law%has_friction))
-      call decide_on(trouble, analysis, failure)
    end subroutine structure_stiffness
 
-   !> TROUBLE with the stiffness is a failure, unless open gaps leave bodies loose: then this increment is iterated across the
-   !! gaps.
-   subroutine decide_on(trouble, analysis, failure)
-      type(failure_type), intent(in)     :: trouble
-      type(analysis_type), intent(inout) :: analysis
-      type(failure_type), intent(inout)  :: failure
-
-      analysis%crosses_gaps = trouble%raised .and. any(is_apart(analysis%states))
-      if (trouble%raised .and. .not. analysis%crosses_gaps) failure = trouble
-   end subroutine decide_on
-
-   !> {du} from [k_s] {du} = {dF}; across gaps by NEWTON, to equilibrium, with nothing to accumulate.
-   subroutine solve_increment(model, plan, system, analysis, failure)
-      type(model_type), intent(in)       :: model
-      type(stage_plan_type), intent(in)  :: plan
+   !> {du} from [k_s] {du} = {dF}.
+   subroutine solve_increment(model, system, analysis, failure)
+      type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
-      type(analysis_type), intent(inout) :: analysis
-      type(failure_type), intent(inout)  :: failure
-      type(failure_type) :: trouble
+      type(analysis_type), intent(inout)    :: analysis
+      type(failure_type), intent(inout)     :: failure
 
       if (failure%raised) return
-      if (.not. analysis%crosses_gaps) then
-         call solve_equations(model, system, analysis%change, analysis%du, trouble, moved=analysis%move)
-         call decide_on(trouble, analysis, failure)
-      end if
-      if (.not. analysis%crosses_gaps) return
-      call newton_increment(model, plan, analysis, system, failure)
-      call free_idle_joints(model, analysis)
-      analysis%record%n_iterations = 0 ! these are not re-analyses
+      call solve_equations(model, system, analysis%change, analysis%du, failure, moved=analysis%move)
    end subroutine solve_increment
 
    !> Add the increment's displacements, deflections and forces to their sums.
@@ -81,7 +57,7 @@ contains
       type(failure_type), intent(in)     :: failure
       integer :: i
 
-      if (failure%raised .or. analysis%crosses_gaps) return
+      if (failure%raised) return
       analysis%record%kind = analysis%next_kind
       do i = 1, size(model%interface)
          associate (state => analysis%states(i))
@@ -133,7 +109,7 @@ contains
       type(failure_type), intent(inout)  :: failure
       integer :: i
 
-      if (failure%raised .or. analysis%crosses_gaps) return
+      if (failure%raised) return
       if (any(model%joints%law%has_friction)) call relieve(model, plan, system, analysis, failure)
       do i = 1, size(model%interface)
          associate (element => model%interface(i))

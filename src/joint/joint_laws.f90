@@ -10,7 +10,7 @@ module joint_laws
    implicit none
    private
 
-   public :: norm_and_shear, start_shear, stiffness_at_rest, stiffness_matrices, follow_element, force_of
+   public :: norm_and_shear, stiffness_at_rest, stiffness_matrices, follow_element, force_of
    public :: rest_when_open, is_apart
    public :: friction_limit, friction_excess, exceeds_limit, limit_cuts
    public :: back_stiffness

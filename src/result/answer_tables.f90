@@ -2,34 +2,41 @@
 !! NAME.stage.csv, .bolt.csv, .reaction.csv, .watch.csv and .watch.energy.csv.
 module answer_tables
    use analysis_state, only: analysis_type
+   use body_values, only: body_values_type, peak_type
    use bolt_answers, only: bolt_answer_type
+   use joint_answers, only: joint_answer
    use kinds, only: wp
    use model_data, only: joint_node_id, joint_type, model_type
-   use result_page, only: bolt_block_2, bolt_table, page_type, reaction_table, split_table, stage_table, table_columns, watch_table
-   use stage_answer, only: peak_type, stage_answer_type
+   use page_lines, only: axes, heading
+   use result_page, only: bolt_table, clamping_table, movement_names, page_type, reaction_table, resultant_names, secant_names, &
+                          split_table, stage_table, table_columns, tangent_names, watch_table, xyz
    use support_reactions, only: reaction_type, reactions_type
-   use table_writer, only: axes, column, heading, table_type
+   use table_column, only: column
+   use table_writer, only: table_type
    use text_tools, only: integer_text
    use watched_nodes, only: watch_answer
    implicit none
    private
 
-   public :: print_answer, print_bolts, print_reactions, print_watched
+   public :: print_answer, print_bolts, print_reactions, print_watched, write_bolts
 
    integer, parameter :: most_reactions = 40 ! rows of the block; the file has all rows
 
 contains
 
-   !> Print ANSWER under TITLE on the screen, and its rows into the file of the stages; without joints one row, with joint 0. The
+   !> Print the answer for BODIES and JOINTS under TITLE on the screen, and its rows into the file of the stages; without joints one row, with joint 0. The
    !! file has the share in contact and the safety as numbers; the block has the share in per cent and the safety below a million.
-   subroutine print_answer(page, title, model, answer)
-      type(page_type), intent(inout)      :: page
-      character(*), intent(in)            :: title
-      type(model_type), intent(in)        :: model
-      type(stage_answer_type), intent(in) :: answer
+   subroutine print_answer(page, title, model, bodies, joints)
+      type(page_type), intent(inout)     :: page
+      character(*), intent(in)           :: title
+      type(model_type), intent(in)       :: model
+      type(body_values_type), intent(in) :: bodies
+      type(joint_answer), intent(in)     :: joints(:)
       character(31), parameter :: names(3) = [character(31) :: 'LARGEST DISPLACEMENT', 'LARGEST VON MISES, CENTRES', &
                                               'LARGEST VON MISES, NODES']
       character(8), parameter  :: kinds(3) = [character(8) :: 'NODE', 'ELEMENT', 'NODE']
+      character(13), parameter :: columns(2, 3) = reshape([character(13) :: 'u_max', 'u_node', 'mises_centre', 'mises_element', &
+                                                                            'mises_max', 'mises_node'], [2, 3])
       character(12)    :: units(3)
       type(peak_type)  :: peaks(3)
       type(table_type) :: table
@@ -37,49 +44,60 @@ contains
 
       ! the largest displacement and stresses
       units = [character(12) :: page%labels%length, page%labels%pressure, page%labels%pressure]
-      peaks = [answer%displacement, answer%at_centre, answer%at_node]
+      peaks = [bodies%displacement, bodies%at_centre, bodies%at_node]
       call heading(page%screen, title)
-      call table%start('', [column('', 'a33'), column('VALUE', 'es13.4'), column('', 'a13'), column('AT', 'a8'), &
-                            column('NUMBER', 'i11'), column(axes(:model%dimension), 'es13.5', page%labels%length)], page%screen)
+      call table%start('', [column('', 'a33', key='what'), column('VALUE', 'es13.4'), column('', 'a13', key='unit'), &
+                            column('AT', 'a8'), column('NUMBER', 'i11'), &
+                            column(axes(:model%dimension), 'es13.5', page%labels%length)], page%screen)
       do k = 1, 3
          if (.not. peaks(k)%is_there) cycle
-         call table%add(names(k), [peaks(k)%value])
-         call table%add(units(k))
-         call table%add(trim(kinds(k)))
-         call table%add([peaks(k)%id], peaks(k)%x(:model%dimension))
+         call table%put('what', names(k))
+         call table%put('VALUE', peaks(k)%value)
+         call table%put('unit', units(k))
+         call table%put('AT', trim(kinds(k)))
+         call table%put('NUMBER', peaks(k)%id)
+         call table%put(axes(:model%dimension), peaks(k)%x(:model%dimension))
          call table%print_row(page%screen)
       end do
 
       ! the joints
       call table%start('', table_columns(stage_table, page%labels, model))
-      if (size(answer%joints) == 0) then
+      if (size(joints) == 0) then
          call begin_row(0)
+         call table%leave_rest()
          call table%print_row(csv_file=page%tables(stage_table))
          return
       end if
       call page%screen%put('')
       call table%print_head(page%screen)
-      do j = 1, size(answer%joints)
+      do j = 1, size(joints)
          call begin_row(model%joints(j)%id)
-         associate (joint => answer%joints(j), frame => model%joints(j)%frame)
-            call table%add([model%joints(j)%area, frame%centroid])
-            call table%add([merge(1, 0, frame%closed)])
-            call table%add(frame%axes(:, 3), where=spread(.not. frame%closed, 1, 3))
-            call table%add([joint%contact, 100.0_wp*joint%contact, joint%pressure])
-            call add_node(joint%pressed_at)
-            call table%add([joint%gap])
-            call add_node(joint%open_at)
-            call table%add([joint%slipping], [joint%normal, joint%shear, joint%moment])
-            call table%add([joint%safety, min(joint%safety, 1.0e6_wp)], where=spread(joint%has_safety, 1, 2))
-            call table%add(trim(merge('  CLOSED', '        ', frame%closed)))
-            call table%add([joint%force, joint%movement, joint%tangent], where=[frame%exists, frame%exists, frame%exists])
-            call table%add(joint%secant, where=joint%has_secant)
+         associate (joint => joints(j), now => joints(j)%now, frame => model%joints(j)%frame)
+            call table%put('area', model%joints(j)%area)
+            call table%put(xyz, frame%centroid)
+            call table%put('closed', merge(1, 0, frame%closed))
+            call table%put('normal_'//xyz, frame%axes(:, 3), where=spread(.not. frame%closed, 1, 3))
+            call table%put('contact', now%contact)
+            call table%put('CONTACT %', 100.0_wp*now%contact)
+            call table%put('p_max', now%pressure)
+            call table%put('p_node', joint_node_id(model, max(now%pressed_at, 1), 1), where=now%pressed_at > 0)
+            call table%put('gap_max', now%gap)
+            call table%put('gap_node', joint_node_id(model, max(now%open_at, 1), 1), where=now%open_at > 0)
+            call table%put('slipping', now%slipping)
+            call table%put(['n', 't', 'm'], [joint%normal, joint%shear, joint%moment])
+            call table%put('safety', joint%safety, where=joint%has_safety)
+            call table%put('MU N/T', min(joint%safety, 1.0e6_wp), where=joint%has_safety)
+            call table%put('ring', trim(merge('  CLOSED', '        ', frame%closed)))
+            call table%put(resultant_names, joint%force, where=frame%exists)
+            call table%put(movement_names, joint%movement, where=frame%exists)
+            call table%put(tangent_names, joint%tangent, where=frame%exists)
+            call table%put(secant_names, joint%secant, where=joint%has_secant)
          end associate
          call table%print_row(page%screen, page%tables(stage_table))
       end do
-      call note_cuts(page, 'THE BODIES OF JOINT', model%joints%id, merge(answer%joints%n_cuts, 0, has_shear(model%joints)), &
+      call note_cuts(page, 'THE BODIES OF JOINT', model%joints%id, merge(joints%n_cuts, 0, has_shear(model%joints)), &
                      'T AND MU N/T LEAVE OUT THE SHEAR FORCE THAT THE MIRROR IMAGE BALANCES')
-      call print_stiffnesses(page, model, answer)
+      call print_stiffnesses(page, model, joints)
 
    contains
 
@@ -87,19 +105,13 @@ contains
       subroutine begin_row(joint)
          integer, intent(in) :: joint
 
-         call table%add([page%stage_id, joint])
+         call table%put('stage', page%stage_id)
+         call table%put('joint', joint)
          do k = 1, 3
-            call table%add([peaks(k)%value], where=[peaks(k)%is_there])
-            call table%add([peaks(k)%id], where=[peaks(k)%is_there])
+            call table%put(trim(columns(1, k)), peaks(k)%value, where=peaks(k)%is_there)
+            call table%put(trim(columns(2, k)), peaks(k)%id, where=peaks(k)%is_there)
          end do
       end subroutine begin_row
-
-      !> Add the node of interface element I, or an empty field.
-      subroutine add_node(i)
-         integer, intent(in) :: i
-
-         call table%add([joint_node_id(model, max(i, 1), 1)], where=[i > 0])
-      end subroutine add_node
 
    end subroutine print_answer
 
@@ -124,10 +136,10 @@ contains
    end subroutine note_cuts
 
    !> Print stiffnesses about the centroids.
-   subroutine print_stiffnesses(page, model, answer)
-      type(page_type), intent(inout)      :: page
-      type(model_type), intent(in)        :: model
-      type(stage_answer_type), intent(in) :: answer
+   subroutine print_stiffnesses(page, model, joints)
+      type(page_type), intent(inout) :: page
+      type(model_type), intent(in)   :: model
+      type(joint_answer), intent(in) :: joints(:)
       character(14), parameter :: names(6) = [character(14) :: 'ALONG X', 'ALONG Y', 'NORMAL', 'TILT ABOUT X', 'TILT ABOUT Y', &
                                               'TWIST']
       type(table_type) :: table
@@ -135,67 +147,117 @@ contains
       integer :: c, j
       logical :: shown(6)
 
-      shown = [(any([(model%joints(j)%frame%exists(c), j = 1, size(answer%joints))]), c = 1, 6)]
+      shown = [(any([(model%joints(j)%frame%exists(c), j = 1, size(joints))]), c = 1, 6)]
       unit(:3) = page%labels%stiffness
       unit(4:) = page%labels%moment
       call page%screen%put('')
       call table%start('', [column('JOINT', 'i11'), column('STIFFNESS', 'a10'), &
                             column(pack(names, shown), 'es14.4', pack(unit, shown))], page%screen)
-      do j = 1, size(answer%joints)
-         associate (joint => answer%joints(j))
-            call table%add([model%joints(j)%id])
-            call table%add('TANGENT')
-            call table%add(pack(joint%tangent, shown), where=pack(model%joints(j)%frame%exists, shown))
+      do j = 1, size(joints)
+         associate (joint => joints(j))
+            call table%put('JOINT', model%joints(j)%id)
+            call table%put('STIFFNESS', 'TANGENT')
+            call table%put(pack(names, shown), pack(joint%tangent, shown), where=pack(model%joints(j)%frame%exists, shown))
             call table%print_row(page%screen)
-            call table%add([model%joints(j)%id])
-            call table%add('SECANT')
-            call table%add(pack(joint%secant, shown), where=pack(joint%has_secant, shown))
+            call table%put('JOINT', model%joints(j)%id)
+            call table%put('STIFFNESS', 'SECANT')
+            call table%put(pack(names, shown), pack(joint%secant, shown), where=pack(joint%has_secant, shown))
             call table%print_row(page%screen)
          end associate
       end do
    end subroutine print_stiffnesses
 
-   !> Print the BOLTS of ANALYSIS: in the answer of a stage on the screen, after every increment in their file.
-   subroutine print_bolts(page, model, analysis, bolts, in_answer)
+   !> Print the BOLTS in the answer of a stage: forces, then what is known of bolts that have been tightened.
+   subroutine print_bolts(page, model, analysis, bolts)
       type(page_type), intent(inout)     :: page
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
       type(bolt_answer_type), intent(in) :: bolts(:)
-      logical, intent(in)                :: in_answer
       type(table_type) :: table
-      integer :: block, i
+      integer :: i
 
       if (size(bolts) == 0) return
-      do block = 1, merge(2, 1, in_answer .and. any(bolts%is_locked))
-         call table%start('', table_columns(merge(bolt_table, bolt_block_2, block == 1), page%labels, model))
-         if (in_answer) call page%screen%put('')
-         if (in_answer) call table%print_head(page%screen)
-         do i = 1, size(bolts)
-            if (block == 2 .and. .not. bolts(i)%is_locked) cycle
-            associate (bolt => bolts(i), clamps => bolts(i)%joint > 0)
-               call table%add([page%stage_id, analysis%increment], [analysis%fraction])
-               call table%add([bolt%id])
-               call table%add([bolt%element, bolt%surface], where=[bolt%element, bolt%surface] > 0)
-               call table%add([bolt%force, bolt%change])
-               call table%add([bolt%load_change], where=[bolt%has_load])
-               call table%add([bolt%ratio, bolt%moment], where=[bolt%has_ratio, bolt%has_moment])
-               call table%add([bolt%longer])
-               call table%add([bolt%element, bolt%surface])
-               call table%add([bolt%tightened, bolt%largest, bolt%load], &
-                              where=[bolt%is_locked, bolt%is_locked, bolt%is_locked .and. bolt%has_load])
-               call table%add([bolt%share, bolt%stress, bolt%edge_stress, bolt%use, 100.0_wp*bolt%use], &
-                              where=[bolt%has_share, .true., bolt%has_moment, bolt%has_strength, bolt%has_strength])
-               call table%add([bolt%joint], where=[clamps])
-               call table%add([bolt%clamping, bolt%loss, 100.0_wp*bolt%loss, bolt%safety, min(bolt%safety, 1.0e6_wp)], &
-                              where=[clamps, clamps, clamps, bolt%has_safety, bolt%has_safety])
-            end associate
-            if (in_answer) call table%print_row(page%screen)
-            if (.not. in_answer) call table%print_row(csv_file=page%tables(bolt_table))
-         end do
+      call page%screen%put('')
+      call table%start('', table_columns(bolt_table, page%labels, model), page%screen)
+      do i = 1, size(bolts)
+         call fill_bolt_row(page%stage_id, analysis, bolts(i), table)
+         call table%print_row(page%screen)
       end do
-      if (in_answer) call note_cuts(page, 'BOLT', bolts%id, bolts%n_cuts, &
-         'FORCES AND BENDING ARE OF ITS PART IN THE MODEL, STRESS AND MU N/T OF THE WHOLE')
+      if (any(bolts%is_locked)) then
+         call page%screen%put('')
+         call table%start('', table_columns(clamping_table, page%labels, model), page%screen)
+         do i = 1, size(bolts)
+            associate (bolt => bolts(i), clamps => bolts(i)%joint > 0)
+               if (.not. bolt%is_locked) cycle
+               call table%put('BOLT', bolt%id)
+               call table%put('TIGHTENED', bolt%tightened)
+               call table%put('LARGEST', bolt%largest)
+               call table%put('WHOLE LOAD', bolt%load, where=bolt%has_load)
+               call table%put('SHARE', bolt%share, where=bolt%has_share)
+               call table%put('STRESS', bolt%stress)
+               call table%put('AND BENDING', bolt%edge_stress, where=bolt%has_moment)
+               call table%put('OF ST %', 100.0_wp*bolt%use, where=bolt%has_strength)
+               call table%put('JOINT', bolt%joint, where=clamps)
+               call table%put('CLAMPING', bolt%clamping, where=clamps)
+               call table%put('LOSS %', 100.0_wp*bolt%loss, where=clamps)
+               call table%put('MU N/T', min(bolt%safety, 1.0e6_wp), where=bolt%has_safety)
+               call table%print_row(page%screen)
+            end associate
+         end do
+      end if
+      call note_cuts(page, 'BOLT', bolts%id, bolts%n_cuts, &
+                     'FORCES AND BENDING ARE OF ITS PART IN THE MODEL, STRESS AND MU N/T OF THE WHOLE')
    end subroutine print_bolts
+
+   !> Write the BOLTS after an increment into their file.
+   subroutine write_bolts(page, model, analysis, bolts)
+      type(page_type), intent(inout)     :: page
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(in)    :: analysis
+      type(bolt_answer_type), intent(in) :: bolts(:)
+      type(table_type) :: table
+      integer :: i
+
+      if (size(bolts) == 0) return
+      call table%start('', table_columns(bolt_table, page%labels, model))
+      do i = 1, size(bolts)
+         call fill_bolt_row(page%stage_id, analysis, bolts(i), table)
+         call table%print_row(csv_file=page%tables(bolt_table))
+      end do
+   end subroutine write_bolts
+
+   !> Put the values of BOLT into a row of its TABLE.
+   subroutine fill_bolt_row(stage, analysis, bolt, table)
+      integer, intent(in)                :: stage !! its number
+      type(analysis_type), intent(in)    :: analysis
+      type(bolt_answer_type), intent(in) :: bolt
+      type(table_type), intent(inout)    :: table
+      logical :: clamps
+
+      clamps = bolt%joint > 0
+      call table%put('stage', stage)
+      call table%put('increment', analysis%increment)
+      call table%put('load', analysis%fraction)
+      call table%put('bolt', bolt%id)
+      call table%put(['ELEMENT', 'SURFACE'], [bolt%element, bolt%surface], where=[bolt%element, bolt%surface] > 0)
+      call table%put([character(6) :: 'force', 'change'], [bolt%force, bolt%change])
+      call table%put('load_change', bolt%load_change, where=bolt%has_load)
+      call table%put('ratio', bolt%ratio, where=bolt%has_ratio)
+      call table%put('bending', bolt%moment, where=bolt%has_moment)
+      call table%put('longer', bolt%longer)
+      call table%put(['element', 'surface'], [bolt%element, bolt%surface])
+      call table%put('tightened', bolt%tightened, where=bolt%is_locked)
+      call table%put('largest', bolt%largest, where=bolt%is_locked)
+      call table%put('whole_load', bolt%load, where=bolt%is_locked .and. bolt%has_load)
+      call table%put('share', bolt%share, where=bolt%has_share)
+      call table%put('stress', bolt%stress)
+      call table%put('edge_stress', bolt%edge_stress, where=bolt%has_moment)
+      call table%put('use', bolt%use, where=bolt%has_strength)
+      call table%put('joint', bolt%joint, where=clamps)
+      call table%put('clamping', bolt%clamping, where=clamps)
+      call table%put('loss', bolt%loss, where=clamps)
+      call table%put('safety', bolt%safety, where=bolt%has_safety)
+   end subroutine fill_bolt_row
 
    !> Print the support reactions; the last line is the balance.
    subroutine print_reactions(page, model, answer)
@@ -213,10 +275,9 @@ contains
       if (size(answer%parts) > most_reactions) call page%screen%put('  ... ALL OF THEM IN THE CSV FILE')
       call row(answer%total, size(answer%parts) > 1)
       call row(answer%loads, .true.)
-      call table%add([page%stage_id])
-      call table%add(' LEFT')
-      call table%skip(7)
-      call table%add(answer%left)
+      call table%put('kind', ' LEFT')
+      call table%put('force_'//xyz, answer%left)
+      call table%leave_rest()
       call table%print_row(page%screen)
 
    contains
@@ -225,10 +286,14 @@ contains
          type(reaction_type), intent(in) :: part
          logical, intent(in)             :: is_listed !! also in the listing, not in the file only
 
-         call table%add([page%stage_id])
-         call table%add(' '//part%kind)
-         call table%add([part%id], where=[part%id > 0])
-         call table%add([part%id, part%line, part%nodes], [part%centre, part%force, part%moment, part%about_centre])
+         call table%put('stage', page%stage_id)
+         call table%put('kind', ' '//part%kind)
+         call table%put('NUMBER', part%id, where=part%id > 0)
+         call table%put([character(5) :: 'id', 'line', 'nodes'], [part%id, part%line, part%nodes])
+         call table%put(xyz, part%centre)
+         call table%put('force_'//xyz, part%force)
+         call table%put('moment_'//xyz, part%moment)
+         call table%put('central_'//xyz, part%about_centre)
          call table%print_row(page%screen, page%tables(reaction_table), is_listed)
       end subroutine row
 
@@ -246,9 +311,16 @@ contains
       call table%start('', table_columns(watch_table, page%labels, model), page%screen)
       do k = 1, size(answer%nodes)
          associate (node => answer%nodes(k))
-            call table%add([page%stage_id, model%node_id(node%node)], [model%x(:, node%node), node%u, node%change, node%load])
-            call table%add([norm2(node%load), node%along, norm2(node%load)], where=spread(node%is_loaded, 1, 3))
-            call table%add([node%stiffness], where=[node%moves])
+            call table%put('stage', page%stage_id)
+            call table%put('node', model%node_id(node%node))
+            call table%put(xyz, model%x(:, node%node))
+            call table%put('u_'//xyz, node%u)
+            call table%put('change_'//xyz, node%change)
+            call table%put('load_'//xyz, node%load)
+            call table%put('LOAD', norm2(node%load), where=node%is_loaded)
+            call table%put('along', node%along, where=node%is_loaded)
+            call table%put('load', norm2(node%load), where=node%is_loaded)
+            call table%put('stiffness', node%stiffness, where=node%moves)
          end associate
          call table%print_row(page%screen, page%tables(watch_table))
       end do
@@ -257,11 +329,14 @@ contains
       call table%start('', table_columns(split_table, page%labels, model), page%screen)
       do k = 1, size(answer%parts)
          associate (part => answer%parts(k))
-            call table%add([page%stage_id])
-            call table%add(' '//part%kind)
-            call table%add([part%id], 100.0_wp*[sum(part%share), part%share])
-            call table%add([part%first, part%last], where=spread(part%kind == 'BODY', 1, 2))
-            call table%add([part%share, sum(part%share)*answer%work])
+            call table%put('stage', page%stage_id)
+            call table%put('kind', ' '//part%kind)
+            call table%put('id', part%id)
+            call table%put([character(8) :: 'SHARE %', 'NORMAL %', 'SHEAR %'], 100.0_wp*[sum(part%share), part%share])
+            call table%put([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], [part%first, part%last], &
+                           where=spread(part%kind == 'BODY', 1, 2))
+            call table%put(['normal', 'shear '], part%share)
+            call table%put('work', sum(part%share)*answer%work)
          end associate
          call table%print_row(page%screen, page%tables(split_table))
       end do

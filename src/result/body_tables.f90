@@ -3,19 +3,19 @@
 !! are given along the axes of the model, or with OUTPUT = CD along those of the displacement system of each node, whose number
 !! follows the row.
 module body_tables
-   use analysis_state, only: analysis_type, element_force
+   use analysis_state, only: analysis_type
    use body_elements, only: element_centre, element_stress, node_stresses, whole_stress
-   use bolt_locking, only: bar_tension
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
-   use interface_operator, only: named_node
    use kinds, only: wp
-   use model_data, only: a_point, corners_of, has_second_order, is_beam, is_shell, model_type, n_bars, &
-                         n_points, n_rotations, node_kind, supported
-   use node_coupling, only: held_forces
+   use model_data, only: corners_of, has_second_order, is_beam, is_shell, model_type, n_points, n_rotations, supported
+   use output_file, only: output_file_type
+   use page_lines, only: axes, heading, in_units, noise
    use result_page, only: page_type, shows
    use stage_entries, only: output_request
    use structural_results, only: list_beams, list_shells
-   use table_writer, only: axes, column, heading, in_units, noise, table_type
+   use support_reactions, only: balance_springs, balance_supports, balance_type, find_balance
+   use table_column, only: column
+   use table_writer, only: table_type
    use text_tools, only: clean, integer_text, upper
    use unknowns, only: node_axes
    implicit none
@@ -25,7 +25,6 @@ module body_tables
 
    ! All threads write long tables: rows are printed in blocks, and each thread writes pieces of a block.
    integer, parameter :: block_rows = 16384, piece = 512, few = 4096
-   real(wp), parameter :: of_a_sum = 1.0e-14_wp ! of the sum of amounts: rounding error of a sum
 
 contains
 
@@ -69,7 +68,9 @@ contains
                           [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')], page%file)
          do node = 1, n_points(model)
             if (model%first_at(node + 1) == model%first_at(node) .or. .not. shows(page, [node])) cycle
-            call table%add([model%node_id(node)], clean([stress(shown, node), von_mises(stress(:, node))], floor))
+            call table%put('NODE', model%node_id(node))
+            call table%put(stress_names(model), stress(shown, node), floor)
+            call table%put('VON MISES', von_mises(stress(:, node)), floor)
             call table%print_row(page%file)
          end do
       end if
@@ -88,7 +89,8 @@ contains
       logical, intent(in), optional  :: turns         !! rotations or moments; default: no
       character(1), parameter :: numbers(3) = ['1', '2', '3']
       type(table_type) :: table
-      real(wp), allocatable :: along(:, :)
+      real(wp), allocatable :: along(:, :), values(:, :)
+      character(len(words)), allocatable :: keys(:) ! of the number, the places, the components
       integer, allocatable  :: system(:)
       real(wp) :: directions(3, 3)
       integer  :: first, i, last, n_places
@@ -107,55 +109,61 @@ contains
          if (allocated(model%node_system)) system(i) = model%node_system(nodes(i))
          if (system(i) > 0) system(i) = model%systems(system(i))%id
       end do
-      associate (names => merge(numbers, axes, page%along_cd))
-         call table%start(trim(words(1))//trim(merge(' ALONG THEIR SYSTEMS CD (0: X, Y, Z)', repeat(' ', 36), page%along_cd))// &
-                          page%now//in_units(words(3)), [column('NODE', 'i11'), column(axes(:n_places), 'es13.5'), &
-                          column(words(2)(:index(words(2), '.') - 1)//names(first:last), 'es13.5'), &
-                          column('CD', 'i11', is_listed=page%along_cd)], page%file)
-      end associate
-      call print_rows(page, table, model%node_id(nodes), clean(model%x(:n_places, nodes)), &
-                      clean(along, spread(floors, 1, size(along, 1))), system)
+      allocate (keys(1 + n_places + size(along, 1)))
+      keys(1) = 'NODE'
+      keys(2:1 + n_places) = axes(:n_places)
+      keys(2 + n_places:) = words(2)(:index(words(2), '.') - 1)//merge(numbers(first:last), axes(first:last), page%along_cd)
+      call table%start(trim(words(1))//trim(merge(' ALONG THEIR SYSTEMS CD (0: X, Y, Z)', repeat(' ', 36), page%along_cd))// &
+                       page%now//in_units(words(3)), [column(keys(1), 'i11'), column(keys(2:), 'es13.5'), &
+                       column('CD', 'i11', is_listed=page%along_cd)], page%file)
+      allocate (values(n_places + size(along, 1), size(nodes)))
+      values(:n_places, :) = clean(model%x(:n_places, nodes))
+      values(n_places + 1:, :) = clean(along, spread(floors, 1, size(along, 1)))
+      call print_rows(page, table, keys, model%node_id(nodes), values, system)
    end subroutine list_vectors
 
-   !> Print the rows of TABLE: ID, the place X, VALUES, and the number of a SYSTEM if given.
-   subroutine print_rows(page, table, id, x, values, system)
+   !> Print the rows of TABLE: under the first of KEYS the ID, under the others VALUES, and the number of a SYSTEM under CD if given.
+   subroutine print_rows(page, table, keys, id, values, system)
       type(page_type), intent(inout)       :: page
       type(table_type), intent(in)         :: table
+      character(*), intent(in)             :: keys(:)      !! (n + 1)
       integer, intent(in)                  :: id(:)        !! (rows)
-      real(wp), intent(in)                 :: x(:, :)      !! (dimension, rows)
       real(wp), intent(in)                 :: values(:, :) !! (n, rows)
       integer, intent(in), optional        :: system(:)    !! (rows)
-      type(table_type), allocatable :: pieces(:)
+      type(table_type), allocatable       :: pieces(:)
+      type(output_file_type), allocatable :: lines(:)      ! of each piece
       integer :: first, k, last, part
 
-      allocate (pieces(min(block_rows, size(id) + piece - 1)/piece))
+      allocate (pieces(min(block_rows, size(id) + piece - 1)/piece), lines(min(block_rows, size(id) + piece - 1)/piece))
       pieces = table
       do first = 1, size(id), block_rows
          last = min(size(id), first + block_rows - 1)
          !$omp parallel do schedule(dynamic, 1) default(shared) private(k) if(size(id) > few)
          do part = 1, (last - first)/piece + 1
+            call lines(part)%start('')
             do k = first + (part - 1)*piece, min(last, first + part*piece - 1)
-               call pieces(part)%add([id(k)], x(:, k))
-               call pieces(part)%add(values(:, k))
-               if (present(system)) call pieces(part)%add([system(k)])
-               call pieces(part)%keep_row()
+               call pieces(part)%put(trim(keys(1)), id(k))
+               call pieces(part)%put(keys(2:), values(:, k))
+               if (present(system)) call pieces(part)%put('CD', system(k))
+               call pieces(part)%print_row(lines(part))
             end do
          end do
          !$omp end parallel do
          do part = 1, (last - first)/piece + 1
-            call pieces(part)%print_kept(page%file, as_rows=.true.)
+            call page%file%put_lines(lines(part)%text_behind(0))
          end do
       end do
    end subroutine print_rows
 
-   !> Stresses at the centres of elements, and if PRINCIPAL the principal stresses and the equivalent stress of von Mises there.
-   subroutine list_stresses(page, principal, model, analysis)
+   !> Stresses at the centres of elements, and if HAS_PRINCIPAL the principal stresses and the equivalent stress of von Mises there.
+   subroutine list_stresses(page, has_principal, model, analysis)
       type(page_type), intent(inout)  :: page
-      logical, intent(in)             :: principal
+      logical, intent(in)             :: has_principal
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
+      character(9), parameter :: principal(4) = [character(9) :: 'SIGMA 1', 'SIGMA 2', 'SIGMA 3', 'VON MISES']
       type(table_type) :: table
-      real(wp), allocatable :: stress(:, :), centre(:, :)
+      real(wp), allocatable :: stress(:, :), centre(:, :), values(:, :)
       integer, allocatable  :: list(:)
       real(wp) :: floor, full(max_stresses)
       integer  :: e, i, n
@@ -177,14 +185,18 @@ contains
                         column(stress_names(model), 'es13.5')], page%file)
       list = pack([(e, e = 1, model%n_elements)], [(shows(page, corners_of(model, e)) .and. &
                   .not. (is_shell(model, e) .or. is_beam(model, e)), e = 1, model%n_elements)])
-      call print_rows(page, table, model%element_id(list), clean(centre(:, list)), clean(stress(:n, list), floor))
-      if (.not. principal) return
+      allocate (values(model%dimension + n, size(list)))
+      values(:model%dimension, :) = clean(centre(:, list))
+      values(model%dimension + 1:, :) = clean(stress(:n, list), floor)
+      call print_rows(page, table, [character(10) :: 'ELEMENT', 'CENTRE '//axes(:model%dimension), stress_names(model)], &
+                      model%element_id(list), values)
+      if (.not. has_principal) return
       call table%start('PRINCIPAL STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
-                       [column('ELEMENT', 'i11'), &
-                        column([character(9) :: 'SIGMA 1', 'SIGMA 2', 'SIGMA 3', 'VON MISES'], 'es13.5')], page%file)
+                       [column('ELEMENT', 'i11'), column(principal, 'es13.5')], page%file)
       do i = 1, size(list)
          full = whole_stress(model, list(i), analysis%all_u, analysis%now%temperature)
-         call table%add([model%element_id(list(i))], clean([principal_stresses(full), von_mises(full)], floor))
+         call table%put('ELEMENT', model%element_id(list(i)))
+         call table%put(principal, [principal_stresses(full), von_mises(full)], floor)
          call table%print_row(page%file)
       end do
    end subroutine list_stresses
@@ -219,41 +231,27 @@ contains
       character(33), parameter :: names(5) = [character(33) :: 'LOADS', 'SUPPORTS', 'RIGID BASES, THROUGH THE JOINTS', &
                                               'GROUND, THROUGH SPRINGS', 'SUM: LEFT UNBALANCED']
       type(table_type) :: table
-      real(wp), allocatable :: held(:, :)
-      integer, allocatable  :: list(:)
-      real(wp) :: balance(model%dimension, 5), floor, floors(5), force(3)
+      type(balance_type) :: balance
+      integer, allocatable :: list(:)
+      real(wp) :: floor
       integer  :: first, i, m
 
-      floor = noise*max(page%largest_force, tiny(1.0_wp))
-      allocate (held, source=-held_forces(model, analysis%all_unbalanced))
-      balance = 0.0_wp
-      balance(:, 1) = sum(analysis%now%load(:, :n_points(model)), dim=2)
-      list = pack([(i, i = 1, n_points(model))], [(any(supported(model, i)) .and. model%used(i), i = 1, n_points(model))])
-      balance(:, 2) = sum(held(:, list), dim=2)
-      list = pack(list, [(shows(page, list(i:i)), i = 1, size(list))])
-      call list_vectors(page, model, [character(21) :: 'REACTIONS AT SUPPORTS', 'R.', page%labels%force], list, held(:, list), &
-                        spread(floor, 1, size(list)))
-      do i = 1, size(model%interface)
-         if (named_node(model%interface(i), 2) /= 0) cycle
-         force = element_force(model%interface(i), analysis%states(i))
-         balance(:, 3) = balance(:, 3) - force(:model%dimension)
-      end do
-      do i = 1, n_bars(model)
-         if (model%bars(i)%nodes(2) > 0 .or. node_kind(model, model%bars(i)%nodes(1)) /= a_point) cycle
-         balance(:, 4) = balance(:, 4) + bar_tension(model, analysis, i)*model%bars(i)%direction(:model%dimension, 1)
-      end do
-      balance(:, 5) = sum(balance, dim=2)
+      call find_balance(model, analysis, page%largest_force, balance)
+      floor = balance%floors(balance_supports)
+      list = pack(balance%supported, [(shows(page, balance%supported(i:i)), i = 1, size(balance%supported))])
+      call list_vectors(page, model, [character(21) :: 'REACTIONS AT SUPPORTS', 'R.', page%labels%force], list, &
+                        balance%held(:, list), spread(floor, 1, size(list)))
       ! the balance
       first = merge(2, 1, model%axisymmetric)
       call table%start('BALANCE OF FORCES'//page%now//in_units(page%labels%force), &
-                       [column('', 'a35'), column(axes(first:model%dimension), 'es13.5'), &
-                        column(merge('  (THE RADIAL FORCES BALANCE ROUND THE RING)', repeat(' ', 44), model%axisymmetric), 'a')], &
-                       page%file)
-      floors = floor
-      floors(1) = min(floor, of_a_sum*sum(abs(analysis%now%load)))
-      do i = 1, 5
-         if (i == 4 .and. all(model%bars%nodes(2) > 0)) cycle
-         call table%add(names(i), clean(balance(first:, i), floors(i)))
+                       [column('', 'a35', key='of'), column(axes(first:model%dimension), 'es13.5'), &
+                        column(merge('  (THE RADIAL FORCES BALANCE ROUND THE RING)', repeat(' ', 44), model%axisymmetric), 'a', &
+                               key='note')], page%file)
+      do i = 1, size(names)
+         if (i == balance_springs .and. all(model%bars%nodes(2) > 0)) cycle
+         call table%put('of', names(i))
+         call table%put(axes(first:model%dimension), balance%force(first:, i), balance%floors(i))
+         call table%leave_rest()
          call table%print_row(page%file)
       end do
       ! support moments, where any rotation is supported
@@ -262,7 +260,7 @@ contains
       m = merge(3, 1, model%dimension == 3)
       associate (rotations => model%rotations(list))
          call list_vectors(page, model, [character(19) :: 'MOMENTS AT SUPPORTS', 'M.', ''], rotations%point, &
-                           held(:m, rotations%node)*spread(rotations%arm, 1, m), floor*rotations%arm, turns=.true.)
+                           balance%held(:m, rotations%node)*spread(rotations%arm, 1, m), floor*rotations%arm, turns=.true.)
       end associate
    end subroutine list_reactions
 
@@ -272,6 +270,7 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       integer, parameter :: across = 8
+      character(10), parameter :: states(3) = [character(10) :: 'BEFORE', 'AFTER', 'DIFFERENCE']
       type(table_type) :: table
       character(12), allocatable :: names(:)
       real(wp), allocatable :: scale(:)
@@ -303,17 +302,16 @@ contains
             call table%start('[K_B] CONDENSED ON THE INTERFACE, '//page%stage, &
                              [column('UNKNOWN', 'a13'), column(names(first:last), 'es13.5', page%labels%stiffness)], page%file)
             do i = 1, n
-               call table%add(adjustr(names(i)))
-               call table%add(clean(condensed%k(i, first:last), k_floor)*scale(i)*scale(first:last))
+               call table%put('UNKNOWN', adjustr(names(i)))
+               call table%put(names(first:last), clean(condensed%k(i, first:last), k_floor)*scale(i)*scale(first:last))
                call table%print_row(page%file)
             end do
          end do
          call table%start('LOAD CONDENSED ON THE INTERFACE, '//page%stage//': AN INCREMENT BRINGS ITS SHARE OF THE DIFFERENCE', &
-                          [column('UNKNOWN', 'a13'), column([character(10) :: 'BEFORE', 'AFTER', 'DIFFERENCE'], 'es13.5', &
-                           page%labels%force)], page%file)
+                          [column('UNKNOWN', 'a13'), column(states, 'es13.5', page%labels%force)], page%file)
          do i = 1, n
-            call table%add(adjustr(names(i)))
-            call table%add(clean([condensed%load(i, :), condensed%load(i, 2) - condensed%load(i, 1)], load_floor)*scale(i))
+            call table%put('UNKNOWN', adjustr(names(i)))
+            call table%put(states, clean([condensed%load(i, :), condensed%load(i, 2) - condensed%load(i, 1)], load_floor)*scale(i))
             call table%print_row(page%file)
          end do
       end associate

@@ -13,16 +13,16 @@ module bolt_answers
    use kinds, only: wp
    use model_data, only: corners_of, model_type, section_type, temperature_type
    use node_coupling, only: corner_displacements
-   use numbers, only: cross, tie
+   use numbers, only: cross, is_measure, tie
    use passing_forces, only: forces_between, passage_type
    use restart_stream, only: restart_stream_type
    use surface_build, only: surface_node_list, surface_nodes
    use symmetry_planes, only: axis_part, cut_type, free_part, symmetry_plane
-   use text_tools, only: above
+   use text_tools, only: above, integer_text
    implicit none
    private
 
-   public :: start_bolts, find_bolt_answers, end_stage, record_bolts, bending_moment
+   public :: start_bolts, follow_bolts, end_stage, record_bolts, bending_moment, fault_of_bolts
 
    ! of forces and movements: the remainder of sums and differences that are zero but for rounding and the tolerance of iterations
    real(wp), parameter, public :: remainder = 1.0e-7_wp
@@ -132,9 +132,9 @@ contains
       if (model%axisymmetric) moment = 0.0_wp ! self-equilibrated around the ring
    end function bending_moment
 
-   !> The bolts after the completed increment, which HISTORY records. The bending of solid bolts is known only where the bodies
-   !! are recovered, at the end of a stage.
-   subroutine find_bolt_answers(model, analysis, largest_force, history, answers)
+   !> Follow the bolts through the increment just completed: their history, and their values now. The bending of solid bolts is known
+   !! only where the bodies are recovered, at the end of a stage.
+   subroutine follow_bolts(model, analysis, largest_force, history, answers)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
       real(wp), intent(in)              :: largest_force !! ever applied at a node, for the noise [force]
@@ -180,7 +180,24 @@ contains
             if (answer%has_safety) answer%safety = model%joints(bolt%joint)%law%mu*max(0.0_wp, clamping(i))/shear(i)
          end associate
       end do
-   end subroutine find_bolt_answers
+   end subroutine follow_bolts
+
+   !> What of the answers is beyond all bounds, '': nothing.
+   pure function fault_of_bolts(answers) result(words)
+      type(bolt_answer_type), intent(in) :: answers(:)
+      character(:), allocatable :: words
+      integer :: i
+
+      words = ''
+      do i = 1, size(answers)
+         associate (bolt => answers(i))
+            if (all(is_measure([bolt%force, bolt%change, bolt%load_change, bolt%ratio, bolt%moment, bolt%stress, bolt%share, &
+                                bolt%use, bolt%clamping, bolt%loss, bolt%safety]))) cycle
+            words = 'the force of bolt '//integer_text(bolt%id)
+            return
+         end associate
+      end do
+   end function fault_of_bolts
 
    !> The tension FORCE of BOLT now, and in ANSWER all that follows from it and from the bodies.
    subroutine answer_force(model, analysis, bolt, floor, force, answer)

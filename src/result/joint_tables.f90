@@ -7,11 +7,13 @@ module joint_tables
    use model_data, only: joint_node_id, joint_type, model_type
    use normal_curve, only: loading_deflection
    use normal_stiffness, only: branch_name, branch_open, branch_reload, branch_unload, force_reached
-   use result_page, only: has_gaps, joint_table, page_type, shows
+   use page_lines, only: axes, heading, noise, page_width
+   use result_page, only: has_gaps, joint_table, page_type, shows, table_columns, xyz
    use shear_stiffness, only: branch_shift, curve_deflection
    use stage_entries, only: output_request
-   use table_writer, only: axes, column, column_type, heading, noise, page_width, table_type
-   use text_tools, only: clean, csv_line_type, integer_text
+   use table_column, only: column, column_type
+   use table_writer, only: table_type
+   use text_tools, only: clean, integer_text
    implicit none
    private
 
@@ -30,34 +32,42 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      type(csv_line_type) :: line
-      integer  :: i, k, same
+      type(table_type) :: table
+      integer  :: i, k
       logical  :: gaps, slides
 
       gaps = has_gaps(model)
       slides = any(model%joints%law%has_friction)
-      call line%add([page%stage_id, analysis%increment], clean([analysis%fraction]))
-      same = line%length                  ! the columns that all rows share
+      call table%start('', table_columns(joint_table, page%labels, model))
       do i = 1, size(model%interface)
-         line%length = same
+         call table%put('stage', page%stage_id)
+         call table%put('increment', analysis%increment)
+         call table%put('load', analysis%fraction)
          associate (element => model%interface(i), state => analysis%states(i)%normal)
-            call line%add([model%joints(element%joint)%id, element%id, joint_node_id(model, i, 1), joint_node_id(model, i, 2)])
-            call line%add(clean([at_first_end(element, model%x), element%area]))
-            call line%add(branch_name(state%branch), clean([state%lambda, state%pressure, state%sumf, state%k_n]))
+            call table%put('joint', model%joints(element%joint)%id)
+            call table%put('element', element%id)
+            call table%put('node1', joint_node_id(model, i, 1))
+            call table%put('node2', joint_node_id(model, i, 2))
+            call table%put(xyz, at_first_end(element, model%x))
+            call table%put('area', element%area)
+            call table%put('branch', branch_name(state%branch))
+            call table%put('lambda', state%lambda)
+            call table%put('pressure', state%pressure)
+            call table%put('force', state%sumf)
+            call table%put('k_n', state%k_n)
          end associate
          do k = 1, 2
-            associate (state => analysis%states(i)%shear(k))
-               if (model%joints(model%interface(i)%joint)%law%shear(k)%given) then
-                  call line%add(branch_name(state%branch), clean([state%delta, state%tau, state%k_s]))
-               else                       ! without a shear law only the movement is a result
-                  call line%add('', clean([analysis%movement(k, i), 0.0_wp, 0.0_wp]))
-               end if
+            associate (state => analysis%states(i)%shear(k), has_law => model%joints(model%interface(i)%joint)%law%shear(k)%given)
+               call table%put('branch_'//xyz(k), branch_name(state%branch), where=has_law)
+               call table%put('delta_'//xyz(k), merge(state%delta, analysis%movement(k, i), has_law)) ! else only the movement
+               call table%put('tau_'//xyz(k), merge(state%tau, 0.0_wp, has_law))
+               call table%put('k_s'//xyz(k), merge(state%k_s, 0.0_wp, has_law))
             end associate
          end do
-         call line%add(merge('1', '0', analysis%states(i)%slips))
-         if (gaps) call line%add(clean([model%interface(i)%gap]))
-         if (slides) call line%add(clean(analysis%states(i)%shear%slid))
-         call page%tables(joint_table)%put(line%text(:line%length))
+         call table%put('slip', merge(1, 0, analysis%states(i)%slips))
+         if (gaps) call table%put('gap', model%interface(i)%gap)
+         if (slides) call table%put('slid_'//xyz(:2), analysis%states(i)%shear%slid)
+         call table%print_row(csv_file=page%tables(joint_table))
       end do
    end subroutine write_history
 
@@ -131,7 +141,7 @@ contains
          case (of_shear)
             columns = [column('BRANCH', 'a8'), column([character(9) :: 'DELTA', 'TAU', 'FORCE', 'K_S, USED', 'LIMIT'], 'es13.5', &
                        [labels%length, labels%pressure, labels%force, labels%stiffness, labels%pressure], unit_shift=1), &
-                       column('', 'a')]
+                       column('', 'a', key='note')]
          case (of_state)
             columns = [column('BRANCH', 'a8'), column(['SIGMAF', 'SUMF  '], 'es13.5', labels%force), &
                        column([character(8) :: 'LAMBDA A', 'P A', 'LAMBDA B'], 'es13.5', &
@@ -144,7 +154,7 @@ contains
       end associate
       call table%start(title, [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), columns], page%file)
       do i = 1, size(list)
-         call table%add([model%interface(list(i))%id, joint_node_id(model, list(i), 1)])
+         call table%put([character(7) :: 'ELEMENT', 'NODE 1'], [model%interface(list(i))%id, joint_node_id(model, list(i), 1)])
          if (present(k)) call add_shear(table, subject, model, analysis, list(i), k)
          if (.not. present(k)) call add_normal(table, subject, model, analysis, list(i))
          call table%print_row(page%file)
@@ -168,22 +178,30 @@ contains
       associate (element => model%interface(i), joint => model%joints(model%interface(i)%joint), state => analysis%states(i)%normal)
          select case (subject)
          case (of_elements)
-            call table%add([joint_node_id(model, i, 2)], at_first_end(element, model%x(:model%dimension, :)))
-            call table%add([element%area])
-            call table%add(branch_name(state%branch), clean([state%lambda, state%pressure, state%sumf, state%k_n], &
-                                                            [lambda_floor, p_floor, p_floor*joint%area, 0.0_wp]))
+            call table%put('NODE 2', joint_node_id(model, i, 2))
+            call table%put(axes(:model%dimension), at_first_end(element, model%x(:model%dimension, :)))
+            call table%put('AREA', element%area)
+            call table%put('BRANCH', branch_name(state%branch))
+            call table%put('LAMBDA', state%lambda, lambda_floor)
+            call table%put('P', state%pressure, p_floor)
+            call table%put('FORCE', state%sumf, p_floor*joint%area)
+            call table%put('K_N, USED', state%k_n)
          case (of_stiffness)
-            call table%add([state%lambda, loading_deflection(joint%law%normal, max(0.0_wp, state%pressure))], lambda_floor)
-            call table%add([state%k_n])
-            call table%add([state%lambda + state%gap, state%gap], lambda_floor)
-            call table%add(trim(kinds(analysis%record%kind(i))))
+            call table%put('LAMBDA', state%lambda, lambda_floor)
+            call table%put('C P**M', loading_deflection(joint%law%normal, max(0.0_wp, state%pressure)), lambda_floor)
+            call table%put('K_N, USED', state%k_n)
+            call table%put(['CLOSING', 'GAP    '], [state%lambda + state%gap, state%gap], lambda_floor)
+            call table%put('KIND', trim(kinds(analysis%record%kind(i))))
          case (of_removed)
-            call table%add(clean([state%sigmaf, force_reached(state), state%lambda_b], &
-                                 [p_floor*element%area, p_floor*element%area, lambda_floor]))
+            call table%put('SIGMAF', state%sigmaf, p_floor*element%area)
+            call table%put('SUMF, DECIDED', force_reached(state), p_floor*element%area)
+            call table%put('LAMBDA B', state%lambda_b, lambda_floor)
          case (of_state)
-            call table%add(branch_name(state%branch), &
-                           clean([state%sigmaf, state%sumf, state%lambda_a, state%p_a, state%lambda_b], &
-                                 [p_floor*element%area, p_floor*element%area, lambda_floor, p_floor, lambda_floor]))
+            call table%put('BRANCH', branch_name(state%branch))
+            call table%put(['SIGMAF', 'SUMF  '], [state%sigmaf, state%sumf], p_floor*element%area)
+            call table%put('LAMBDA A', state%lambda_a, lambda_floor)
+            call table%put('P A', state%p_a, p_floor)
+            call table%put('LAMBDA B', state%lambda_b, lambda_floor)
          end select
       end associate
    end subroutine add_normal
@@ -201,18 +219,22 @@ contains
       tau_floor = noise*analysis%largest_p
       associate (element => model%interface(i), law => model%joints(model%interface(i)%joint)%law, &
                  state => analysis%states(i)%shear(k), p => analysis%states(i)%normal%pressure)
-         call table%add(branch_name(state%branch))
+         call table%put('BRANCH', branch_name(state%branch))
          if (subject == of_shear) then
-            call table%add(clean([state%delta, state%tau, state%tau*element%area, state%k_s], &
-                                 [delta_floor, tau_floor, tau_floor*element%area, 0.0_wp]))
-            call table%add([friction_limit(law, p)], tau_floor, where=[law%has_friction])
-            call table%add(trim(merge('  SLIPS', '       ', analysis%states(i)%slips)))
+            call table%put('DELTA', state%delta, delta_floor)
+            call table%put('TAU', state%tau, tau_floor)
+            call table%put('FORCE', state%tau*element%area, tau_floor*element%area)
+            call table%put('K_S, USED', state%k_s)
+            call table%put('LIMIT', friction_limit(law, p), tau_floor, where=law%has_friction)
+            call table%put('note', trim(merge('  SLIPS', '       ', analysis%states(i)%slips)))
          else
             shift = branch_shift(law%shear(k), state, max(0.0_wp, p), analysis%turns(k, i)%delta, analysis%turns(k, i)%tau)
-            call table%add([nint(state%sense)], &
-                           clean([curve_deflection(state), state%sense*state%tau, state%d_r, state%tau_r, state%offset], &
-                                 [delta_floor, tau_floor, delta_floor, tau_floor, tau_floor]))
-            call table%add([shift, shift], tau_floor, where=state%branch == [branch_unload, branch_reload])
+            call table%put('SENSE', nint(state%sense))
+            call table%put('D', curve_deflection(state), delta_floor)
+            call table%put('TAU', state%sense*state%tau, tau_floor)
+            call table%put('D_R', state%d_r, delta_floor)
+            call table%put(['TAU_R', 'O    '], [state%tau_r, state%offset], tau_floor)
+            call table%put(['B0', 'C0'], [shift, shift], tau_floor, where=state%branch == [branch_unload, branch_reload])
          end if
       end associate
    end subroutine add_shear
@@ -226,7 +248,7 @@ contains
       character(10), parameter :: names(3) = [character(10) :: 'PUT IN', 'GIVEN BACK', 'KEPT']
       type(table_type) :: table
       real(wp) :: floor, kept(2)
-      integer  :: j, k
+      integer  :: j
       logical  :: slides
 
       if (size(model%joints) == 0) return
@@ -234,18 +256,19 @@ contains
       call heading(page%file, 'ENERGY OF JOINTS, '//page%stage)
       call page%file%put('                 ------------- NORMAL -------------------   -------------- SHEAR -------------------'// &
                          trim(merge('   SLIDING', '          ', slides)))
-      call table%start('', [column('JOINT', 'i11', heading_shift=-1), column(names, ['es14.5', 'es13.5', 'es13.5']), &
-                            column(names, ['es15.5', 'es13.5', 'es13.5']), column('LOST', 'es15.5', is_listed=slides)], page%file)
+      call table%start('', [column('JOINT', 'i11', heading_shift=-1), &
+                            column(names, ['es14.5', 'es13.5', 'es13.5'], key='NORMAL '//names), &
+                            column(names, ['es15.5', 'es13.5', 'es13.5'], key='SHEAR '//names), &
+                            column('LOST', 'es15.5', is_listed=slides)], page%file)
       if (page%labels%moment /= '') call page%file%put('                 ('//trim(page%labels%moment)//')')
       do j = 1, size(model%joints)
          associate (energy => analysis%energy(j))
             floor = noise*sum(energy%put_in)
             kept = energy%kept()
-            call table%add([model%joints(j)%id])
-            do k = 2, 1, -1
-               call table%add([energy%put_in(k), energy%given_back(k), kept(k)], floor)
-            end do
-            call table%add([energy%lost], floor)
+            call table%put('JOINT', model%joints(j)%id)
+            call table%put('NORMAL '//names, [energy%put_in(2), energy%given_back(2), kept(2)], floor)
+            call table%put('SHEAR '//names, [energy%put_in(1), energy%given_back(1), kept(1)], floor)
+            call table%put('LOST', energy%lost, floor)
             call table%print_row(page%file)
          end associate
       end do

@@ -17,12 +17,14 @@ module listing_opening
    use normal_curve, only: normal_tangent, pressure_floor
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
    use output_file, only: output_file_type
+   use page_lines, only: axes, cut, heading, in_form, page_width, put_lines
    use range_watch, only: tetra_words
    use result_page, only: has_gaps, page_type
    use shear_loops, only: loop_closure, worst_closure
    use shear_stiffness, only: cubic_of
    use stage_plan, only: stage_plan_type
-   use table_writer, only: axes, column, cut, heading, in_form, page_width, put_lines, table_type
+   use table_column, only: column
+   use table_writer, only: table_type
    use terminal, only: standard_input, version
    use text_tools, only: clean, integer_text, plural, real_text, upper
    implicit none
@@ -72,10 +74,10 @@ contains
             total = sum(loads%force(:, :loads%n), dim=2, mask=spread(loads%node(:loads%n) <= n_points(model), 1, 3)) ! no moments
             largest = 0.0_wp
             if (loads%n > 0) largest = maxval(abs(loads%force(:, :loads%n)))
-            call table%add([stage%id, size(stage%fractions)])
-            call table%add([stage%fractions(1), stage%fractions(size(stage%fractions))])
-            call table%add(clean(total(:model%dimension), 1.0e-9_wp*largest))
-            call table%add('   '//cut(stage%label, 33))
+            call table%put([character(10) :: 'STAGE', 'INCREMENTS'], [stage%id, size(stage%fractions)])
+            call table%put([character(11) :: 'FIRST SHARE', 'LAST SHARE'], stage%fractions([1, size(stage%fractions)]))
+            call table%put('TOTAL LOAD '//axes(:model%dimension), total(:model%dimension), 1.0e-9_wp*largest)
+            call table%put('LABEL', '   '//cut(stage%label, 33))
             call table%print_row(page%file)
          end associate
       end do
@@ -260,7 +262,10 @@ contains
           column('TO '//axes(:d), 'es12.4', page%labels%length)], page%file)
       do i = 1, merge(size(bodies), 0, size(bodies) > 1)
          associate (b => bodies(i))
-            call table%add([i, b%n_elements, b%n_nodes, b%first, b%last], clean([b%low(:d), b%high(:d)]))
+            call table%put([character(12) :: 'BODY', 'ELEMENTS', 'NODES', 'FROM ELEMENT', 'TO ELEMENT'], &
+                           [i, b%n_elements, b%n_nodes, b%first, b%last])
+            call table%put('FROM '//axes(:d), b%low(:d))
+            call table%put('TO '//axes(:d), b%high(:d))
             call table%print_row(page%file)
          end associate
       end do
@@ -269,8 +274,10 @@ contains
                        column(axes(:d), 'es14.5', page%labels%length), column('DISTANCE', 'es12.3', page%labels%length)], page%file)
       do i = 1, size(model%placed)
          associate (placed => model%placed(i), x => model%x(:, model%placed(i)%node))
-            call table%add([model%node_id(placed%node), placed%id, placed%element, placed%surface], &
-                           clean([x(:d), merge(norm2(x - placed%x), 0.0_wp, placed%id > 0)]))
+            call table%put([character(7) :: 'NODE', 'NODEAT', 'ELEMENT', 'PMARK'], &
+                           [model%node_id(placed%node), placed%id, placed%element, placed%surface])
+            call table%put(axes(:d), x(:d))
+            call table%put('DISTANCE', merge(norm2(x - placed%x), 0.0_wp, placed%id > 0))
             call table%print_row(page%file)
          end associate
       end do
@@ -295,10 +302,12 @@ contains
       end associate
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), law => model%joints(j)%law%normal)
-            call table%add([joint%id, joint%last - joint%first + 1])
-            call table%add([joint%area, law%c, law%m, law%e_u, joint%p_av, pressure_floor*joint%p_av])
-            if (joint%frame%faces_all_ways) call table%add(' CLOSED')
-            if (.not. joint%frame%faces_all_ways) call table%add(clean(joint%normal(:d), 1.0e-9_wp))
+            call table%put([character(8) :: 'JOINT', 'ELEMENTS'], [joint%id, joint%last - joint%first + 1])
+            call table%put([character(15) :: 'A_INT', 'C', 'M', 'E_U', 'FIRST P (EQ.9)', 'LEAST P ON LOAD'], &
+                           [joint%area, law%c, law%m, law%e_u, joint%p_av, pressure_floor*joint%p_av])
+            if (joint%frame%faces_all_ways) call table%put('NORMAL X', ' CLOSED')
+            if (joint%frame%faces_all_ways) call table%leave_rest()
+            if (.not. joint%frame%faces_all_ways) call table%put('NORMAL '//axes(:d), joint%normal(:d), 1.0e-9_wp)
             call table%print_row(page%file)
             lists(j) = count([(model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0, i = joint%first, joint%last)])
          end associate
@@ -320,8 +329,9 @@ contains
       do j = 1, size(model%joints)
          if (.not. shown(j)) cycle
          associate (joint => model%joints(j))
-            call table%add([joint%id, joint%last - joint%first + 1 - lists(j), lists(j)])
-            call table%add([joint%cover%share, clean(joint%cover%farthest, 1.0e-9_wp*sqrt(joint%area))])
+            call table%put(['JOINT', 'PAIRS', 'LISTS'], [joint%id, joint%last - joint%first + 1 - lists(j), lists(j)])
+            call table%put('SIDE1 COVERED', joint%cover%share)
+            call table%put('FARTHEST APART', joint%cover%farthest, 1.0e-9_wp*sqrt(joint%area))
             call table%print_row(page%file)
          end associate
       end do
@@ -342,9 +352,10 @@ contains
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), gaps => model%interface(model%joints(j)%first:model%joints(j)%last)%gap)
             if (joint%gap_kind == '') cycle
-            call table%add([joint%id])
-            call table%add(trim(joint%gap_kind), clean([minval(gaps), maxval(gaps)]))
-            call table%add([count(gaps > 0.0_wp), count(gaps < 0.0_wp)])
+            call table%put('JOINT', joint%id)
+            call table%put('GIVEN BY', trim(joint%gap_kind))
+            call table%put(['SMALLEST', 'LARGEST '], [minval(gaps), maxval(gaps)])
+            call table%put(['OPEN   ', 'PRESSED'], [count(gaps > 0.0_wp), count(gaps < 0.0_wp)])
             call table%print_row(page%file)
          end associate
       end do
@@ -355,6 +366,7 @@ contains
       type(output_file_type), intent(inout) :: file
       type(model_type), intent(in)          :: model
       integer, parameter :: branches(3) = [branch_load, branch_unload, branch_reload]
+      character(3), parameter :: cubic_names(6) = ['C11', 'C12', 'C21', 'C22', 'C31', 'C32']
       type(table_type) :: table
       character(*), parameter :: behind = repeat(' ', 17)
       character(page_width) :: line
@@ -365,7 +377,7 @@ contains
       if (.not. any(model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given .or. model%joints%law%has_friction)) return
       call table%start('SHEAR LAWS: TAU = (C11 + C12 P) D + (C21 + C22 P) D**2 + (C31 + C32 P) D**3', &
                        [column('JOINT', 'i11', heading_shift=-1), column('AXIS', 'a4'), column('BRANCH', 'a8'), &
-                        column(['C11', 'C12', 'C21', 'C22', 'C31', 'C32'], 'es13.5')], file)
+                        column(cubic_names, 'es13.5')], file)
       do j = 1, size(model%joints)
          associate (law => model%joints(j)%law)
             do k = 1, model%dimension - 1
@@ -373,9 +385,10 @@ contains
                   if (.not. shear%given) cycle
                   do b = 1, 3
                      curve = cubic_of(shear, branches(b))
-                     call table%add([model%joints(j)%id])
-                     call table%add(axes(k))
-                     call table%add(branch_name(branches(b)), pack(curve%coefficients, .true.))
+                     call table%put('JOINT', model%joints(j)%id)
+                     call table%put('AXIS', axes(k))
+                     call table%put('BRANCH', branch_name(branches(b)))
+                     call table%put(cubic_names, pack(curve%coefficients, .true.))
                      call table%print_row(file)
                   end do
                   if (shear%p_max < huge(1.0_wp)) call file%put(behind//'TESTED UP TO P ='//in_form(shear%p_max, '(es13.5)', 13))

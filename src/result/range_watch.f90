@@ -8,22 +8,24 @@ module range_watch
    use case_control, only: method_back
    use element_kinds, only: kind_tetra4
    use joint_laws, only: friction_excess, friction_limit
+   use joint_values, only: joint_values_type
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, branch_unload
    use numbers, only: tie
+   use output_file, only: output_file_type
+   use page_lines, only: axes, page_width
    use restart_stream, only: restart_stream_type
    use result_page, only: page_type
    use shear_loops, only: loop_closure, wide_gap, worst_closure
    use shear_stiffness, only: curve_deflection, shear_law, shear_slope
-   use table_writer, only: axes, page_width, table_type
-   use text_tools, only: integer_text, plural, real_text, upper
+   use text_tools, only: append, integer_text, plural, real_text, text_item, upper
    use unknowns, only: unknown_name
    implicit none
    private
 
-   public :: start_watch, watch_increment, watch_stage, record_watch, tetra_words, distance_words
+   public :: start_watch, watch_increment, watch_stage, print_warnings, record_watch, tetra_words, distance_words
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: a smaller remainder gives no warning
    real(wp), parameter :: rounding = 1.0e-9_wp
@@ -50,7 +52,7 @@ module range_watch
 
    type, public :: range_watch_type
       integer :: n_warnings = 0               !! total
-      type(table_type) :: rows                !! of the stage so far
+      type(text_item), allocatable :: lines(:) !! the warnings of the stage so far
       type(farthest_type) :: farthest
       character(:), allocatable :: poor_condition !! last warning of the condition for the screen, '': none
       character(:), allocatable :: divided    !! message about the last divided increment, '': none
@@ -74,16 +76,18 @@ contains
       allocate (watch%first_of(2, size(model%joints)), source=-1)
       if (tetra_words(model) /= '') watch%n_warnings = 1
       if (allocated(model%warnings)) watch%n_warnings = watch%n_warnings + size(model%warnings)
+      allocate (watch%lines(0))
       watch%poor_condition = ''
       watch%divided = ''
    end subroutine start_watch
 
    !> Warn of the increment just completed: of the condition of the stiffness, the poorest so far, of which only powers of ten are
    !! given, because the digits are rounding; and of a divided increment where its answer depends on the parts.
-   subroutine watch_increment(page, model, analysis, method, watch)
+   subroutine watch_increment(page, model, analysis, joints, method, watch)
       type(page_type), intent(in)           :: page
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
+      type(joint_values_type), intent(in)   :: joints(:)
       integer, intent(in)                   :: method !! of case control
       type(range_watch_type), intent(inout) :: watch
       character(:), allocatable :: first, second
@@ -108,11 +112,34 @@ contains
             watch%divided = first//', '//second
          end if
       end associate
+      call watch_distances(page%place, model, joints, watch%farthest)
       call watch_ranges(model, analysis, watch)
       if (method == method_back) return
       if (any(watch%first_of < 0)) call watch_closures(model, watch)
       call watch_unloading(page%place, model, analysis, watch)
    end subroutine watch_increment
+
+   !> Note where JOINTS are FARTHEST from their laws, at this PLACE or before.
+   subroutine watch_distances(place, model, joints, farthest)
+      character(*), intent(in)            :: place
+      type(model_type), intent(in)        :: model
+      type(joint_values_type), intent(in) :: joints(:)
+      type(farthest_type), intent(inout)  :: farthest
+      character(12), parameter :: quantities(2) = [character(12) :: 'deflection', 'shear stress']
+      integer :: j, k
+
+      do j = 1, size(joints)
+         do k = 1, 2
+            associate (distance => joints(j)%distances(k))
+               if (.not. distance%is_there .or. distance%relative <= farthest%relative) cycle
+               farthest%relative = distance%relative
+               farthest%node = joint_node_id(model, distance%element, 1)
+               farthest%quantity = trim(quantities(k))
+               farthest%place = place
+            end associate
+         end do
+      end do
+   end subroutine watch_distances
 
    !> Warn of the stage just completed: a line for each joint and bound of its shear law that elements have exceeded; the unbalanced
    !! force, and the remaining excess over the friction limits.
@@ -262,14 +289,28 @@ contains
 
       if (index(first, '  NOTE:') /= 1) watch%n_warnings = watch%n_warnings + 1
       if (.not. present(second)) then
-         call watch%rows%keep_line(first)
+         call append(watch%lines, first)
       else if (len(first) + len(second) <= page_width) then
-         call watch%rows%keep_line(first//second)
+         call append(watch%lines, first//second)
       else
-         call watch%rows%keep_line(first)
-         call watch%rows%keep_line('          '//second)
+         call append(watch%lines, first)
+         call append(watch%lines, '          '//second)
       end if
    end subroutine warn
+
+   !> Print the warnings of the stage, and forget them.
+   subroutine print_warnings(watch, file)
+      type(range_watch_type), intent(inout) :: watch
+      type(output_file_type), intent(inout) :: file
+      integer :: i
+
+      if (size(watch%lines) > 0) call file%put('')
+      do i = 1, size(watch%lines)
+         call file%put(watch%lines(i)%words(:min(page_width, len(watch%lines(i)%words))))
+      end do
+      deallocate (watch%lines)
+      allocate (watch%lines(0))
+   end subroutine print_warnings
 
    !> Warn of shear laws of which an element has begun to unload less steeply than it was loaded: there a branch leaves its loading
    !! curve on the wrong side. Warn of joints of which an element has reached a point where the loading curve is steeper than its
@@ -330,13 +371,22 @@ contains
    subroutine record_watch(stream, watch)
       type(restart_stream_type), intent(inout) :: stream
       type(range_watch_type), intent(inout)    :: watch
+      integer :: i, n
 
       call stream%any_text(watch%farthest%quantity)
       call stream%any_text(watch%farthest%place)
       call stream%any_text(watch%poor_condition)
       call stream%any_text(watch%divided)
       call stream%item(watch%farthest%relative, watch%farthest%node)
-      call watch%rows%record(stream)
+      n = size(watch%lines)
+      call stream%extent(n, 4)
+      if (.not. stream%writes) then
+         deallocate (watch%lines)
+         allocate (watch%lines(n))
+      end if
+      do i = 1, n
+         call stream%any_text(watch%lines(i)%words)
+      end do
       call stream%item(watch%n_warnings, watch%stage, watch%tallies, watch%soft_line, watch%first_of, watch%soft_unloading)
    end subroutine record_watch
 

@@ -4,7 +4,8 @@ module result_page
    use kinds, only: wp
    use model_data, only: model_type
    use output_file, only: output_file_type
-   use table_writer, only: axes, column, column_type, csv
+   use page_lines, only: axes
+   use table_column, only: column, column_type, csv
    implicit none
    private
 
@@ -12,14 +13,22 @@ module result_page
 
    character(1), parameter, public :: xyz(3) = ['x', 'y', 'z']
 
-   ! the CSV files in the order of their endings; the second block of the bolts in the listing has no file of its own
+   ! the CSV files in the order of their endings; the clamping of the bolts is a table of the listing without a file of its own
    integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
                                  response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9, watch_table = 10, &
-                                 split_table = 11, reaction_table = 12, shell_table = 13, bolt_block_2 = 14
+                                 split_table = 11, reaction_table = 12, shell_table = 13, clamping_table = 14
    character(*), parameter, public :: history_ending = '.joint.csv'
    character(22), parameter, public :: table_endings(13) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
       '.modes.csv', '.modes.energy.csv', '.response.csv', '.backbone.csv', '.loop.csv', '.backbone.response.csv', '.watch.csv', &
       '.watch.energy.csv', '.reaction.csv', '.shell.csv']
+
+   ! the six components of a joint in .stage.csv, in its axes
+   character(14), parameter, public :: &
+      resultant_names(6) = [character(14) :: 'force_x', 'force_y', 'force_n', 'moment_x', 'moment_y', 'moment_n'], &
+      movement_names(6) = [character(14) :: 'move_x', 'move_y', 'move_n', 'turn_x', 'turn_y', 'turn_n'], &
+      tangent_names(6) = [character(14) :: 'tangent_x', 'tangent_y', 'tangent_n', 'tangent_tilt_x', 'tangent_tilt_y', &
+                          'tangent_twist'], &
+      secant_names(6) = [character(14) :: 'secant_x', 'secant_y', 'secant_n', 'secant_tilt_x', 'secant_tilt_y', 'secant_twist']
 
    !> The units of the numbers of the listing, blank where the deck names none.
    type, public :: label_type
@@ -81,12 +90,10 @@ contains
       type(label_type), intent(in)   :: labels
       type(model_type), intent(in)   :: model
       type(column_type), allocatable :: columns(:)
-      logical :: along(3), about(3), first, second
+      logical :: along(3), about(3)
 
       along = [.true., .true., model%dimension == 3]
       about = [model%dimension == 3, model%dimension == 3, .true.]
-      first = table == bolt_table
-      second = table == bolt_block_2
       select case (table)
       case (joint_table) ! a row for each interface element and increment; GAP and SLID only where the deck has them
          columns = csv([character(9) :: 'stage', 'increment', 'load', 'joint', 'element', 'node1', 'node2', xyz, 'area', 'branch', &
@@ -101,25 +108,20 @@ contains
             column('P MAX', 'es12.4', labels%pressure, name='p_max'), column('AT NODE', 'i11', name='p_node'), &
             column('GAP MAX', 'es12.4', labels%length, name='gap_max'), column('AT NODE', 'i11', name='gap_node'), &
             column('SLIPPING', 'i9', name='slipping'), column(['N', 'T'], 'es12.4', labels%force, name=['n', 't']), &
-            column('M', 'es12.4', labels%moment, name='m'), csv('safety'), column('MU N/T', 'f11.3'), column('', 'a'), &
-            csv([character(14) :: 'force_x', 'force_y', 'force_n', 'moment_x', 'moment_y', 'moment_n', &
-            'move_x', 'move_y', 'move_n', 'turn_x', 'turn_y', 'turn_n', &
-            'tangent_x', 'tangent_y', 'tangent_n', 'tangent_tilt_x', 'tangent_tilt_y', 'tangent_twist', &
-            'secant_x', 'secant_y', 'secant_n', 'secant_tilt_x', 'secant_tilt_y', 'secant_twist'])]
-      case (bolt_table, bolt_block_2) ! for each bolt: forces of the stage; values since it was tightened, stress, clamping force
+            column('M', 'es12.4', labels%moment, name='m'), csv('safety'), column('MU N/T', 'f11.3'), column('', 'a', key='ring'), &
+            csv([resultant_names, movement_names, tangent_names, secant_names])]
+      case (bolt_table) ! for each bolt: the forces of the stage are listed; the file has the columns of both tables
          columns = [csv([character(9) :: 'stage', 'increment', 'load']), column('BOLT', 'i11', name='bolt'), &
-            column(['ELEMENT', 'SURFACE'], 'i11', is_listed=first), &
+            column(['ELEMENT', 'SURFACE'], 'i11'), &
             column([character(6) :: 'FORCE', 'CHANGE', 'LOAD'], 'es13.4', labels%force, &
-            name=[character(11) :: 'force', 'change', 'load_change'], is_listed=first), &
-            column('CHANGE/LOAD', 'f13.5', name='ratio', is_listed=first), &
-            column('BENDING', 'es13.4', labels%moment, name='bending', is_listed=first), csv(['longer ', 'element', 'surface']), &
-            column([character(10) :: 'TIGHTENED', 'LARGEST', 'WHOLE LOAD'], 'es12.4', labels%force, &
-            name=[character(10) :: 'tightened', 'largest', 'whole_load'], is_listed=second), &
-            column('SHARE', 'f9.5', name='share', is_listed=second), column(['STRESS     ', 'AND BENDING'], 'es12.4', &
-            labels%pressure, name=['stress     ', 'edge_stress'], is_listed=second), &
-            csv('use'), column('OF ST %', 'f9.2', is_listed=second), column('JOINT', 'i9', name='joint', is_listed=second), &
-            column('CLAMPING', 'es12.4', labels%force, name='clamping', is_listed=second), csv('loss'), &
-            column('LOSS %', 'f9.2', is_listed=second), csv('safety'), column('MU N/T', 'f11.3', is_listed=second)]
+            name=[character(11) :: 'force', 'change', 'load_change']), column('CHANGE/LOAD', 'f13.5', name='ratio'), &
+            column('BENDING', 'es13.4', labels%moment, name='bending'), csv([character(11) :: 'longer', 'element', 'surface', &
+            'tightened', 'largest', 'whole_load', 'share', 'stress', 'edge_stress', 'use', 'joint', 'clamping', 'loss', 'safety'])]
+      case (clamping_table) ! for each bolt: values since it was tightened, stress, clamping force
+         columns = [column('BOLT', 'i11'), column([character(10) :: 'TIGHTENED', 'LARGEST', 'WHOLE LOAD'], 'es12.4', &
+            labels%force), column('SHARE', 'f9.5'), column(['STRESS     ', 'AND BENDING'], 'es12.4', labels%pressure), &
+            column('OF ST %', 'f9.2'), column('JOINT', 'i9'), column('CLAMPING', 'es12.4', labels%force), &
+            column('LOSS %', 'f9.2'), column('MU N/T', 'f11.3')]
       case (reaction_table) ! for each support, their sum, the loads
          columns = [csv('stage'), column('REACTIONS', 'a9', name='kind'), column('NUMBER', 'i11'), csv(['id  ', 'line']), &
             column('NODES', 'i8', name='nodes'), csv(xyz), &

@@ -1,9 +1,11 @@
 !> The results of one deck, as the main program uses them: opened, written after every increment, closed.
 module results
    use analysis_state, only: analysis_type
-   use answer_tables, only: print_answer, print_bolts, print_reactions, print_watched
+   use answer_tables, only: print_answer, print_bolts, print_reactions, print_watched, write_bolts
    use body_tables, only: list_bodies, list_condensed
-   use bolt_answers, only: bolt_answer_type, bolt_history, end_bolts => end_stage, find_bolt_answers, record_bolts, start_bolts
+   use body_values, only: body_values_type, fault_of_bodies, find_body_values
+   use bolt_answers, only: bolt_answer_type, bolt_history, end_bolts => end_stage, fault_of_bolts, follow_bolts, record_bolts, &
+                           start_bolts
    use c_library, only: close_file, lock_folder
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
@@ -11,25 +13,26 @@ module results
    use finished_stages, only: count_increment, count_type, early_ending, finished_type, listing_end, listing_ending, &
                               mark_finished, name_companion, record_digest, record_finished, return_to_finished
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
-   use joint_resultants, only: find_cuts
+   use joint_answers, only: fault_of_joints, find_joint_answers, joint_answer
    use joint_tables, only: list_energy, list_joints, plot_joint, write_history
+   use joint_values, only: find_cuts, find_joint_values, joint_values_type
    use kinds, only: wp
    use listing_opening, only: write_opening
    use mode_values, only: modes_type
    use model_data, only: model_type
    use node_coupling, only: held_forces
-   use range_watch, only: range_watch_type, record_watch, start_watch, watch_increment, watch_stage
+   use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, watch_increment, watch_stage
    use restart_stream, only: restart_stream_type
    use result_page, only: backbone_table, bend_table, bolt_table, energy_table, joint_table, loop_table, modes_table, page_type, &
                           response_table, set_labels, shell_table, split_table, table_columns, table_endings, watch_table
-   use stage_answer, only: fault_of_answer, find_answer, stage_answer_type
    use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: stage_plan_type
    use stage_tables, only: n_stage_tables, note_stage_tables, pass_rows
    use structural_results, only: list_shell_forces
    use support_reactions, only: find_reactions, reactions_type
    use symmetry_planes, only: cut_type, symmetry_plane
-   use table_writer, only: csv_titles, table_type
+   use table_column, only: csv_titles
+   use table_writer, only: table_type
    use text_tools, only: integer_text, real_text, upper
    use vibration_tables, only: list_modes
    use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, record_vtu, remove_old_vtu, start_vtu, vtu_names, &
@@ -55,6 +58,8 @@ module results
       type(table_type), private :: stage_tables(n_stage_tables) ! of the stage so far
       type(vtu_results_type), private :: vtu
       type(bolt_history), private     :: bolts
+      type(joint_values_type), allocatable, private :: joints_now(:) ! after the last increment
+      type(bolt_answer_type), allocatable, private  :: bolts_now(:)
       type(cut_type), allocatable, private :: cuts(:) ! (joints) by planes of symmetry
       type(watch_state), private      :: watched_before ! at the end of the last stage, where nodes are watched
    end type results_type
@@ -120,7 +125,6 @@ contains
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
       type(results_type), intent(inout) :: results
-      type(bolt_answer_type), allocatable :: bolts(:)
       character(40) :: words
 
       call count_increment(analysis%record%n_iterations, analysis%record%n_removed, results%counts)
@@ -142,8 +146,10 @@ contains
          if (any(model%interface%gap < 0.0_wp)) page%largest_force = &
             max(page%largest_force, maxval(abs(analysis%states%normal%sumf)))              ! forces of interference
 
-         call note_stage_tables(page, results%method, model, analysis, results%stage_tables, results%watch%farthest)
-         call watch_increment(page, model, analysis, results%method, results%watch)
+         call find_joint_values(model, analysis, results%joints_now)
+         call follow_bolts(model, analysis, page%largest_force, results%bolts, results%bolts_now)
+         call note_stage_tables(page, results%method, model, analysis, results%joints_now, results%stage_tables)
+         call watch_increment(page, model, analysis, results%joints_now, results%method, results%watch)
          if (stage%output%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
          if (stage%output%level >= merge(output_last, output_joint, analysis%increment == size(stage%fractions))) then
             write (words, '(2(a, f8.5))') '   SHARE', analysis%increment_fraction, '   LOAD', analysis%fraction
@@ -155,10 +161,9 @@ contains
             if (stage%output%level == output_all) call list_bodies(page, stage%output, model, analysis)
          end if
          if (stage%output%steps) call write_vtu(results%vtu, model, plan, analysis)
-         call find_bolt_answers(model, analysis, page%largest_force, results%bolts, bolts)
          if (results%base == '') return
          call write_history(page, model, analysis)
-         call print_bolts(page, model, analysis, bolts, in_answer=.false.)
+         call write_bolts(page, model, analysis, results%bolts_now)
       end associate
    end subroutine print_increment
 
@@ -170,7 +175,8 @@ contains
       type(analysis_type), intent(in)   :: analysis
       type(results_type), intent(inout) :: results
       type(failure_type), intent(inout) :: failure
-      type(stage_answer_type), allocatable :: answer ! on the heap: the compiler warns of its bounds where it is a local variable
+      type(body_values_type) :: bodies
+      type(joint_answer), allocatable :: joints(:)
       type(reactions_type) :: reactions
       character(:), allocatable :: fault, title
       integer :: before, i
@@ -187,21 +193,23 @@ contains
          end if
          call watch_stage(page, model, analysis, results%watch)
          do i = 1, n_stage_tables
-            if (i == pass_rows) call results%watch%rows%print_kept(page%file)
+            if (i == pass_rows) call print_warnings(results%watch, page%file)
             call results%stage_tables(i)%print_kept(page%file)
          end do
          call list_energy(page, model, analysis)
-         allocate (answer)
-         call find_answer(model, results%cuts, analysis, results%method, page%largest_force, results%bolts, answer)
-         fault = fault_of_answer(model, answer)
+         call find_body_values(model, analysis, bodies)
+         call find_joint_answers(model, results%cuts, analysis, results%joints_now, results%method, page%largest_force, joints)
+         fault = fault_of_bodies(bodies)
+         if (fault == '') fault = fault_of_joints(model, joints)
+         if (fault == '') fault = fault_of_bolts(results%bolts_now)
          if (fault /= '') call failure%raise(page%place//': '//fault// &
                                              ' is too large; are loads, lengths and stiffnesses in consistent units?')
          title = 'ANSWER AT THE END OF '//page%stage//'   '//stage%label
          if (analysis%record%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label
          before = page%screen%used
-         call print_answer(page, title, model, answer)
-         call print_bolts(page, model, analysis, answer%bolts, in_answer=.true.)
+         call print_answer(page, title, model, bodies, joints)
+         call print_bolts(page, model, analysis, results%bolts_now)
          call find_reactions(model, analysis, page%largest_force, reactions)
          call print_reactions(page, model, reactions)
          if (allocated(stage%watched)) then
@@ -212,13 +220,13 @@ contains
       end associate
       associate (digest => results%counts%digest)
          if (.not. analysis%record%ends_early) digest%stages = digest%stages + 1
-         digest%u_max = max(digest%u_max, answer%displacement%value)
-         digest%mises_max = max(digest%mises_max, answer%at_node%value)
-         digest%strained = max(digest%strained, answer%strained)
-         digest%contact = min(digest%contact, minval(answer%joints%contact))
-         digest%safety = min(digest%safety, minval(answer%joints%safety, mask=answer%joints%has_safety))
+         digest%u_max = max(digest%u_max, bodies%displacement%value)
+         digest%mises_max = max(digest%mises_max, bodies%at_node%value)
+         digest%strained = max(digest%strained, bodies%strained)
+         digest%contact = min(digest%contact, minval(joints%now%contact))
+         digest%safety = min(digest%safety, minval(joints%safety, mask=joints%has_safety))
       end associate
-      call end_bolts(answer%bolts, results%bolts)
+      call end_bolts(results%bolts_now, results%bolts)
       if (plan%has_watched_nodes) results%watched_before = state_at_end(model, analysis)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage

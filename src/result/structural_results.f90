@@ -8,11 +8,13 @@ module structural_results
    use joint_sides, only: joint_axes
    use kinds, only: wp
    use model_data, only: a_bar, corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
-   use result_page, only: page_type, shell_table, shows, table_columns
+   use page_lines, only: in_units, noise
+   use result_page, only: page_type, shell_table, shows, table_columns, xyz
    use shell_element, only: shell_forces
    use shell_membrane, only: shell_frame, shell_frame_of
    use structural_elements, only: nodal_values, structural_stress
-   use table_writer, only: column, in_units, noise, table_type
+   use table_column, only: column
+   use table_writer, only: table_type
    use temperatures, only: element_rise, element_slope
    use text_tools, only: clean
    implicit none
@@ -172,6 +174,8 @@ contains
       logical, intent(in)             :: has_forces
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
+      character(9), parameter :: stresses(7) = [character(9) :: 'SIGMA X', 'SIGMA Y', 'SIGMA Z', 'TAU XY', 'TAU YZ', 'TAU ZX', &
+                                                'VON MISES']
       type(table_type) :: table
       real(wp), allocatable :: centre(:, :, :)
       real(wp) :: stress(max_stresses, 5, 2), floor
@@ -186,14 +190,15 @@ contains
       end do
       floor = noise*maxval(abs(centre))
       call table%start('STRESSES AT THE FACES OF SHELLS, AT THEIR CENTRES'//page%now//in_units(page%labels%pressure), &
-         [column('ELEMENT', 'i11'), column('HEIGHT', 'es13.5'), column([character(9) :: 'SIGMA X', 'SIGMA Y', 'SIGMA Z', 'TAU XY', &
-          'TAU YZ', 'TAU ZX', 'VON MISES'], 'es13.5')], page%file)
+         [column('ELEMENT', 'i11'), column('HEIGHT', 'es13.5'), column(stresses, 'es13.5')], page%file)
       do e = 1, model%n_elements
          if (.not. is_shell(model, e)) cycle
          if (.not. shows(page, corners_of(model, e))) cycle
          associate (own => centre(:, :, model%structural%place(e)), fibre => model%properties(model%element_property(e))%fibre)
             do f = 1, 2
-               call table%add([model%element_id(e)], [fibre(f), clean([own(:, f), von_mises(own(:, f))], floor)])
+               call table%put('ELEMENT', model%element_id(e))
+               call table%put('HEIGHT', fibre(f))
+               call table%put(stresses, [own(:, f), von_mises(own(:, f))], floor)
                call table%print_row(page%file)
             end do
          end associate
@@ -245,11 +250,15 @@ contains
                if (i <= n) node = model%node_id(nodes(i))
                if (i <= n) x = model%x(:, nodes(i))
                associate (own => force(:, i, model%structural%place(e)))
-                  call table%add([page%stage_id, analysis%increment], [analysis%fraction])
-                  call table%add([model%element_id(e), node], x)
-                  call table%add(own(:3), floor(1))
-                  call table%add(own(4:6), floor(2))
-                  call table%add(own(7:), floor(1))
+                  call table%put('stage', page%stage_id)
+                  call table%put('increment', analysis%increment)
+                  call table%put('load', analysis%fraction)
+                  call table%put('element', model%element_id(e))
+                  call table%put('node', node)
+                  call table%put(xyz, x)
+                  call table%put(['n_x ', 'n_y ', 'n_xy'], own(:3), floor(1))
+                  call table%put(['m_x ', 'm_y ', 'm_xy'], own(4:6), floor(2))
+                  call table%put(['q_x', 'q_y'], own(7:), floor(1))
                end associate
                call table%print_row(page%file, page%tables(shell_table), is_listed=is_listed .and. i > n)
             end do
@@ -262,6 +271,9 @@ contains
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
+      character(8), parameter :: force_names(3) = [character(8) :: 'AXIAL N', 'Q Y', 'Q Z'], &
+                                 moment_names(3) = [character(8) :: 'TORQUE', 'M Y', 'M Z'], &
+                                 points(5) = [character(8) :: 'AT C', 'AT D', 'AT E', 'AT F', 'CENTROID']
       type(table_type) :: table, stresses
       real(wp), allocatable :: forces(:, :, :), stress(:, :, :)
       real(wp) :: floor(3)
@@ -280,22 +292,23 @@ contains
       end do
       floor = noise*[maxval(abs(forces(:3, :, :))), maxval(abs(forces(4:, :, :))), maxval(abs(stress))]
       call table%start('FORCES IN BEAMS, AT BOTH ENDS, IN THE AXES OF THE BEAM'//page%now, &
-         [column('ELEMENT', 'i11'), column('NODE', 'i11'), column([character(7) :: 'AXIAL N', 'Q Y', 'Q Z'], 'es13.5', &
-          page%labels%force), column([character(6) :: 'TORQUE', 'M Y', 'M Z'], 'es13.5', page%labels%moment)], page%file)
+         [column('ELEMENT', 'i11'), column('NODE', 'i11'), column(force_names, 'es13.5', page%labels%force), &
+          column(moment_names, 'es13.5', page%labels%moment)], page%file)
       call stresses%start('STRESSES IN BEAMS, AT BOTH ENDS'//page%now//in_units(page%labels%pressure), &
-         [column('ELEMENT', 'i11'), column('NODE', 'i11'), column([character(8) :: 'AT C', 'AT D', 'AT E', 'AT F', 'CENTROID'], &
-          'es13.5')])
+         [column('ELEMENT', 'i11'), column('NODE', 'i11'), column(points, 'es13.5')])
       do e = 1, model%n_elements
          if (.not. is_beam(model, e)) cycle
          if (.not. shows(page, corners_of(model, e))) cycle
          associate (place => model%structural%place(e))
             do end = 1, 2
-               call table%add([model%element_id(e), model%node_id(model%element_nodes(end, e))])
-               call table%add(clean(forces(:3, end, place), floor(1)))
-               call table%add(clean(forces(4:, end, place), floor(2)))
+               call table%put('ELEMENT', model%element_id(e))
+               call table%put('NODE', model%node_id(model%element_nodes(end, e)))
+               call table%put(force_names, forces(:3, end, place), floor(1))
+               call table%put(moment_names, forces(4:, end, place), floor(2))
                call table%print_row(page%file)
-               call stresses%add([model%element_id(e), model%node_id(model%element_nodes(end, e))])
-               call stresses%add(clean(stress(:, end, place), floor(3)))
+               call stresses%put('ELEMENT', model%element_id(e))
+               call stresses%put('NODE', model%node_id(model%element_nodes(end, e)))
+               call stresses%put(points, stress(:, end, place), floor(3))
                call stresses%keep_row()
             end do
          end associate

@@ -1,4 +1,5 @@
-!> The reactions at the end of a stage, for each group of supports, and their balance with the loads. The groups are every SPC1
+!> The balance of the external forces after an increment. The reactions at the end of a stage, for each group of supports, and their
+!! balance with the loads. The groups are every SPC1
 !! card, the SPC cards of a set, every surface of SPCM, PS on GRID, every joint to a rigid base, and the springs to ground.
 module support_reactions
    use analysis_state, only: analysis_type, element_force
@@ -6,14 +7,15 @@ module support_reactions
    use bolt_locking, only: bar_tension
    use interface_operator, only: at_first_end, named_node
    use kinds, only: wp
-   use model_data, only: a_rotation, model_type, n_bars, n_points, n_rotations, node_kind, place_in_kind
-   use node_coupling, only: coupling_parts, forces_on_unknowns
+   use model_data, only: a_point, a_rotation, model_type, n_bars, n_points, n_rotations, node_kind, place_in_kind, supported
+   use node_coupling, only: coupling_parts, forces_on_unknowns, held_forces
    use numbers, only: cross
+   use page_lines, only: noise
    use text_tools, only: above
    implicit none
    private
 
-   public :: find_reactions
+   public :: find_reactions, find_balance
 
    !> A resultant.
    type, public :: reaction_type
@@ -34,7 +36,49 @@ module support_reactions
       real(wp) :: left(3) = 0.0_wp             !! sum of all forces: the unbalanced force
    end type reactions_type
 
+   integer, parameter, public :: balance_loads = 1, balance_supports = 2, balance_bases = 3, balance_springs = 4, balance_left = 5
+
+   !> The external forces: loads, supports, rigid bases through the joints, the ground through springs, and their sum, what is left.
+   type, public :: balance_type
+      real(wp), allocatable :: held(:, :)      !! (dimension, n_nodes) forces of supports on the structure [force]
+      integer, allocatable  :: supported(:)    !! the points with supports
+      real(wp), allocatable :: force(:, :)     !! (dimension, 5) [force]
+      real(wp) :: floors(5) = 0.0_wp           !! smaller forces are rounding
+   end type balance_type
+
+   real(wp), parameter :: of_a_sum = 1.0e-14_wp ! of the sum of amounts: rounding error of a sum
+
 contains
+
+   !> The balance of the external forces after an increment, the bodies recovered.
+   subroutine find_balance(model, analysis, largest_force, balance)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      real(wp), intent(in)            :: largest_force !! ever applied at a node, for the noise
+      type(balance_type), intent(out) :: balance
+      real(wp) :: force(3)
+      integer  :: i
+
+      allocate (balance%held, source=-held_forces(model, analysis%all_unbalanced))
+      balance%supported = pack([(i, i = 1, n_points(model))], &
+                               [(any(supported(model, i)) .and. model%used(i), i = 1, n_points(model))])
+      allocate (balance%force(model%dimension, balance_left), source=0.0_wp)
+      balance%force(:, balance_loads) = sum(analysis%now%load(:, :n_points(model)), dim=2)
+      balance%force(:, balance_supports) = sum(balance%held(:, balance%supported), dim=2)
+      do i = 1, size(model%interface)
+         if (named_node(model%interface(i), 2) /= 0) cycle
+         force = element_force(model%interface(i), analysis%states(i))
+         balance%force(:, balance_bases) = balance%force(:, balance_bases) - force(:model%dimension)
+      end do
+      do i = 1, n_bars(model)
+         if (model%bars(i)%nodes(2) > 0 .or. node_kind(model, model%bars(i)%nodes(1)) /= a_point) cycle
+         balance%force(:, balance_springs) = balance%force(:, balance_springs) + &
+                                             bar_tension(model, analysis, i)*model%bars(i)%direction(:model%dimension, 1)
+      end do
+      balance%force(:, balance_left) = sum(balance%force, dim=2)
+      balance%floors = noise*max(largest_force, tiny(1.0_wp))
+      balance%floors(balance_loads) = min(balance%floors(balance_loads), of_a_sum*sum(abs(analysis%now%load)))
+   end subroutine find_balance
 
    !> The reactions at the end of the stage just completed, the bodies recovered.
    subroutine find_reactions(model, analysis, largest_force, answer)

@@ -8,10 +8,12 @@ module vibration_tables
    use mode_values, only: modes_type
    use model_data, only: model_type
    use numbers, only: first_largest
+   use page_lines, only: axes, in_form, noise
    use result_page, only: backbone_table, bend_table, energy_table, loop_table, modes_table, page_type, response_table, &
                           table_columns, xyz
    use stage_plan, only: vibration_plan_type
-   use table_writer, only: axes, column, in_form, noise, table_type
+   use table_column, only: column
+   use table_writer, only: table_type
    use text_tools, only: above, integer_text, real_text, upper
    implicit none
    private
@@ -71,9 +73,9 @@ contains
       extent = maxval(abs(model%x))
       call table%start('MASS OF THE STRUCTURE', [column('MASS', 'es13.5'), column('CENTRE '//axes(:d), 'es13.5', &
                        page%labels%length), column(moments(shown), 'es13.5')], page%file)
-      call table%add([modes%mass])
-      call table%add(modes%centre(:d), no_part*extent)
-      call table%add(modes%inertia(shown), no_part*modes%mass*extent**2)
+      call table%put('MASS', modes%mass)
+      call table%put('CENTRE '//axes(:d), modes%centre(:d), no_part*extent)
+      call table%put(moments(shown), modes%inertia(shown), no_part*modes%mass*extent**2)
       call table%print_row(page%file)
       if (size(modes%modes) == 0) return
 
@@ -83,21 +85,25 @@ contains
                        column('MASS ALONG '//axes(:d), 'es15.5')])
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m), largest => sqrt(modes%mass/modes%modes(m)%mass))
-            call table%add([page%stage_id, modes%n_before + m], [mode%frequency, mode%omega, mode%mass])
-            call table%add([mode%residual], noise)
-            call table%add(above(mode%effective, no_mass*modes%mass))
-            call table%add([mode%loss], where=[plan%has_losses .and. .not. mode%is_rigid])
+            call table%put('stage', page%stage_id)
+            call table%put('mode', modes%n_before + m)
+            call table%put('frequency', mode%frequency)
+            call table%put('omega', mode%omega)
+            call table%put('GENERALISED MASS', mode%mass)
+            call table%put('residual', mode%residual, noise)
+            call table%put('mass_'//xyz, above(mode%effective, no_mass*modes%mass))
+            call table%put('loss_factor', mode%loss, where=plan%has_losses .and. .not. mode%is_rigid)
             call table%print_row(page%file, page%tables(modes_table))
-            call parts%add([modes%n_before + m])
-            call parts%add(above(mode%participation(:d), sqrt(no_part)*largest), no_part*largest)
-            call parts%add(mode%effective(:d), no_part*modes%mass)
+            call parts%put('MODE', modes%n_before + m)
+            call parts%put('PARTICIPATION '//axes(:d), above(mode%participation(:d), sqrt(no_part)*largest), no_part*largest)
+            call parts%put('MASS ALONG '//axes(:d), mode%effective(:d), no_part*modes%mass)
             call parts%keep_row()
          end associate
       end do
       if (modes%mass > 0.0_wp) then
-         call parts%add('SUM')
-         call parts%skip(d)
-         call parts%add([(sum(modes%modes%effective(c)), c = 1, d)], no_part*modes%mass)
+         call parts%put('MODE', 'SUM')
+         call parts%put('MASS ALONG '//axes(:d), [(sum(modes%modes%effective(c)), c = 1, d)], no_part*modes%mass)
+         call parts%leave_rest()
          call parts%keep_row()
       end if
       if (any(modes%modes%is_rigid)) call page%file%put('  FREQUENCY 0: THE STRUCTURE, OR A PART OF IT, MOVES WITHOUT STRAIN')
@@ -141,11 +147,13 @@ contains
          integer, intent(in)      :: id
          real(wp), intent(in)     :: shares(2)
 
-         call table%add([page%stage_id, modes%n_before + m])
-         call table%add(kind)
-         call table%add([id], [percent*sum(shares)])
-         call table%add(percent*shares, where=spread(kind == 'JOINT', 1, 2))
-         call table%add(shares)
+         call table%put('stage', page%stage_id)
+         call table%put('mode', modes%n_before + m)
+         call table%put('kind', kind)
+         call table%put('id', id)
+         call table%put('ALL', percent*sum(shares))
+         call table%put(['NORMAL', 'SHEAR '], percent*shares, where=spread(kind == 'JOINT', 1, 2))
+         call table%put(['normal', 'shear '], shares)
          call table%print_row(page%file, page%tables(energy_table), is_listed=sum(shares) >= least_share)
       end subroutine put
 
@@ -171,12 +179,20 @@ contains
          call table%start('FREQUENCY AND LOSS AGAINST AMPLITUDE', table_columns(backbone_table, page%labels, model), page%file)
          do i = 1, size(found%loops)
             associate (loop => found%loops(i), frequency => sqrt(found%loops(i)%omega_squared)/two_pi)
-               call table%add([page%stage_id, found%mode], [loop%q*found%peak, frequency])
-               call table%add([percent*(sqrt(loop%omega_squared)/(two_pi*linear) - 1.0_wp)], percent*tiny_share)
-               call table%add([loop%loss, loop%slipping, loop%open, percent*loop%slipping, percent*loop%open])
-               call table%add([loop%centre], 5.0e-5_wp) ! the last digit
-               call table%add([loop%gap, loop%distortion], tiny_share)
-               call table%add([loop%n_loops])
+               call table%put('stage', page%stage_id)
+               call table%put('mode', found%mode)
+               call table%put('amplitude', loop%q*found%peak)
+               call table%put('frequency', frequency)
+               call table%put('SHIFT', percent*(sqrt(loop%omega_squared)/(two_pi*linear) - 1.0_wp), percent*tiny_share)
+               call table%put('loss_factor', loop%loss)
+               call table%put('slipping', loop%slipping)
+               call table%put('open', loop%open)
+               call table%put('SLIPPING', percent*loop%slipping)
+               call table%put('OPEN', percent*loop%open)
+               call table%put('CENTRE', loop%centre, 5.0e-5_wp) ! the last digit
+               call table%put('NOT CLOSED', loop%gap, tiny_share)
+               call table%put('distortion', loop%distortion, tiny_share)
+               call table%put('LOOPS', loop%n_loops)
             end associate
             call table%print_row(page%file, page%tables(backbone_table))
          end do
@@ -185,9 +201,9 @@ contains
                              column('JOINT', 'i11'), column('SHARE', 'f10.2', 'PERCENT')], page%file)
             do i = 1, size(found%loops)
                do k = 1, merge(size(model%joints), 0, found%loops(i)%loss > least_loss)
-                  call table%add([found%loops(i)%q*found%peak])
-                  call table%add([model%joints(k)%id])
-                  call table%add([percent*found%loops(i)%shares(k)], tiny_share)
+                  call table%put('AMPLITUDE', found%loops(i)%q*found%peak)
+                  call table%put('JOINT', model%joints(k)%id)
+                  call table%put('SHARE', percent*found%loops(i)%shares(k), tiny_share)
                   call table%print_row(page%file)
                end do
             end do
@@ -205,8 +221,11 @@ contains
       call table%start('', table_columns(loop_table, page%labels, model)) ! in the CSV file only
       do i = 1, size(found%loops)
          do k = 1, size(found%loops(i)%way, 2)
-            call table%add([page%stage_id, found%mode], [found%loops(i)%q*found%peak])
-            call table%add([k - 1], found%loops(i)%way(:, k))
+            call table%put('stage', page%stage_id)
+            call table%put('mode', found%mode)
+            call table%put('amplitude', found%loops(i)%q*found%peak)
+            call table%put('point', k - 1)
+            call table%put(['alpha', 'q    '], found%loops(i)%way(:, k))
             call table%print_row(csv_file=page%tables(loop_table))
          end do
       end do
@@ -260,9 +279,11 @@ contains
                        table_columns(bend_table, page%labels, model), page%file)
       do i = 1, size(found%answers, 2)
          associate (answer => found%answers(:, i))
-            call table%add([page%stage_id, found%mode], answer(1:1))
-            call table%add(answer(2:3), where=spread(answer(2) >= 0.0_wp, 1, 2))
-            call table%add(answer(4:5))
+            call table%put('stage', page%stage_id)
+            call table%put('mode', found%mode)
+            call table%put('amplitude', answer(1))
+            call table%put([character(11) :: 'below', 'phase_below'], answer(2:3), where=spread(answer(2) >= 0.0_wp, 1, 2))
+            call table%put([character(11) :: 'above', 'phase_above'], answer(4:5))
             call table%print_row(page%file, page%tables(bend_table), &
                                  is_listed=answer(3) <= at_resonance .and. answer(5) >= at_resonance)
          end associate
@@ -295,8 +316,11 @@ contains
       do i = 1, size(response%node)
          do c = 1, size(response%amplitude, 1)
             at = first_largest(response%amplitude(c, i, :))
-            call table%add([response%node(i)])
-            call table%add(axes(c), [response%amplitude(c, i, at), response%frequency(at), response%phase(c, i, at)])
+            call table%put('NODE', response%node(i))
+            call table%put('ALONG', axes(c))
+            call table%put('AMPLITUDE', response%amplitude(c, i, at))
+            call table%put('AT FREQUENCY', response%frequency(at))
+            call table%put('PHASE', response%phase(c, i, at))
             call table%print_row(page%file)
          end do
       end do
@@ -316,10 +340,12 @@ contains
       do f = 1, size(response%frequency)
          do i = 1, size(response%node)
             do c = 1, size(response%amplitude, 1)
-               call table%add([page%stage_id])
-               call table%add([response%frequency(f)])
-               call table%add([response%node(i)])
-               call table%add(xyz(c), [response%amplitude(c, i, f), response%phase(c, i, f)])
+               call table%put('stage', page%stage_id)
+               call table%put('frequency', response%frequency(f))
+               call table%put('node', response%node(i))
+               call table%put('component', xyz(c))
+               call table%put('amplitude', response%amplitude(c, i, f))
+               call table%put('phase', response%phase(c, i, f))
                call table%print_row(csv_file=page%tables(response_table))
             end do
          end do

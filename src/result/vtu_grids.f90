@@ -9,10 +9,10 @@ module vtu_grids
    use element_kinds, only: element_table
    use interface_operator, only: at_first_end, nodes_of_end, weights_of_end
    use, intrinsic :: iso_fortran_env, only: int8
+   use joint_values, only: face_distance
    use kinds, only: wp
    use model_data, only: corners_of, is_shell, joint_type, model_type, surface_type, temperature_type
    use result_page, only: label_type
-   use stage_answer, only: face_distance
    use structural_results, only: face_stresses, node_peaks
    use surface_sides, only: nodes_of
    use temperatures, only: node_temperatures

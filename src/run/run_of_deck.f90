@@ -17,12 +17,14 @@ module run_of_deck
    use model_data, only: model_type, n_points
    use openblas, only: kernel_words
    use output_file, only: output_file_type
+   use page_lines, only: heading
    use range_watch, only: distance_words, tetra_words
    use restart_stream, only: restart_stream_type
    use result_page, only: history_ending
    use results, only: discard_results, finish_results, keep_finished_stages, restart_ending, results_type, show_answers
    use stage_plan, only: stage_plan_type
-   use table_writer, only: column, column_type, csv, csv_titles, heading, table_type
+   use table_column, only: column, column_type, csv, csv_titles
+   use table_writer, only: table_type
    use terminal, only: clear_line, complain_of_input, open_line, say_line, show_line
    use text_tools, only: integer_text, plural
    use unit_watch, only: stress_words
@@ -341,7 +343,7 @@ contains
       call screen%start('')
       if (command%summary /= '') call summary%start(command%summary)
       call heading(screen, 'ALL RUNS')
-      columns = [csv('deck'), column('', 'a41'), column('STATUS', 'i7', name='status'), csv('stages'), &
+      columns = [csv('deck'), column('', 'a41', key='name'), column('STATUS', 'i7', name='status'), csv('stages'), &
                  column('INCREMENTS', 'i11', name='increments'), csv('iterations'), &
                  column('U MAX', 'es12.4', name='u_max'), column('MISES MAX', 'es12.4', name='mises_max'), &
                  csv('contact'), column('CONTACT %', 'f10.2'), csv('safety'), column('MU N/T', 'f10.3'), &
@@ -352,15 +354,22 @@ contains
       do i = 1, size(rows)
          associate (row => rows(i), d => rows(i)%digest)
             name = row%name(max(1, len(row%name) - len(name) + 1):)
-            call table%add('"'//row%name//'"')
-            call table%add(' '//name)
-            call table%add([row%status, d%stages, d%increments, d%iterations])
-            call table%add([d%u_max, d%mises_max, d%contact, 100.0_wp*d%contact, d%safety, min(d%safety, 99999.0_wp), &
-                            d%frequency], where=row%is_there([1, 2, 3, 3, 4, 4, 5]))
-            call table%add([row%node], where=[row%node > 0])
-            call table%add([row%watched%along, row%watched%stiffness], where=[row%watched%is_loaded, row%watched%moves])
-            call table%add([row%seconds])
-            call table%add('"'//row%ended//'"')
+            call table%put('deck', '"'//row%name//'"')
+            call table%put('name', ' '//name)
+            call table%put([character(10) :: 'status', 'stages', 'increments', 'iterations'], &
+                           [row%status, d%stages, d%increments, d%iterations])
+            call table%put('u_max', d%u_max, where=row%is_there(1))
+            call table%put('mises_max', d%mises_max, where=row%is_there(2))
+            call table%put('contact', d%contact, where=row%is_there(3))
+            call table%put('CONTACT %', 100.0_wp*d%contact, where=row%is_there(3))
+            call table%put('safety', d%safety, where=row%is_there(4))
+            call table%put('MU N/T', min(d%safety, 99999.0_wp), where=row%is_there(4))
+            call table%put('frequency', d%frequency, where=row%is_there(5))
+            call table%put('watched', row%node, where=row%node > 0)
+            call table%put('along', row%watched%along, where=row%watched%is_loaded)
+            call table%put('stiffness', row%watched%stiffness, where=row%watched%moves)
+            call table%put('seconds', row%seconds)
+            call table%put('ended', '"'//row%ended//'"')
          end associate
          call table%print_row(screen, summary)
          if (rows(i)%ended /= '') call screen%put('     '//rows(i)%ended)

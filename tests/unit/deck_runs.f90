@@ -114,7 +114,7 @@ contains
       type(run_type), intent(inout) :: run
 
       call structure_stiffness(run%model, run%plan, run%analysis, run%system, run%failure)
-      call solve_increment(run%model, run%plan, run%system, run%analysis, run%failure)
+      call solve_increment(run%model, run%system, run%analysis, run%failure)
       call accumulate(run%model, run%system, run%analysis, run%failure)
       call limit_friction(run%model, run%plan, run%system, run%analysis, run%failure)
       call interface_stiffness(run%model, run%system, run%analysis, run%failure)

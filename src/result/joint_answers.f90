@@ -1,43 +1,27 @@
-!> The answer at the end of a stage: the values of interest for the bodies, each joint and each bolt. Values at the level of
-!! rounding are zero; values without meaning are absent. For a joint these are the resultant, the rigid-body movement of its sides
-!! against each other and its six stiffnesses, in the joint's axes: forces (movements) along x, y and the normal z, moments
-!! (rotations) about them. T leaves out what planes of symmetry balance.
-module stage_answer
+!> The answer at the end of a stage for each joint. Values at the level of rounding are zero; values without meaning are absent. They
+!! are the resultant, the rigid-body movement of its sides against each other and its six stiffnesses, in the joint's axes: forces
+!! (movements) along x, y and the normal z, moments (rotations) about them. T leaves out what planes of symmetry balance.
+module joint_answers
    use analysis_state, only: analysis_type
-   use body_elements, only: element_centre, node_stresses, whole_stress
-   use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, remainder
-   use elasticity, only: max_stresses, von_mises
+   use bolt_answers, only: remainder
    use interface_operator, only: at_first_end
-   use joint_resultants, only: find_largest_pressure, find_resultant, joint_resultant
    use joint_sides, only: straight
+   use joint_values, only: joint_resultant, joint_values_type
    use kinds, only: wp
    use law_error, only: tangents_now
-   use model_data, only: joint_frame, joint_type, model_type, n_points
-   use normal_stiffness, only: branch_open, normal_state
-   use numbers, only: cross, first_largest, identity, is_measure
-   use structural_results, only: node_peaks
+   use model_data, only: joint_frame, joint_type, model_type
+   use normal_stiffness, only: branch_open
+   use numbers, only: cross, identity, is_measure
+   use page_lines, only: noise
    use symmetry_planes, only: cut_type, free_part
-   use table_writer, only: noise
    use text_tools, only: above, integer_text
    implicit none
    private
 
-   public :: find_answer, rigid_movement, stiffness_about, face_distance, fault_of_answer
-
-   !> The largest value of a kind, and its place.
-   type, public :: peak_type
-      logical  :: is_there = .false.
-      real(wp) :: value = 0.0_wp
-      integer  :: id = 0                       !! of a node, or of an element
-      real(wp) :: x(3) = 0.0_wp                !! position [length]
-   end type peak_type
+   public :: find_joint_answers, rigid_movement, stiffness_about, fault_of_joints
 
    type, public :: joint_answer
-      real(wp) :: contact = 0.0_wp             !! share of the area that is not open
-      integer  :: pressed_at = 0, open_at = 0  !! interface elements of the largest pressure and gap; 0: none
-      real(wp) :: pressure = 0.0_wp            !! largest [pressure]
-      real(wp) :: gap = 0.0_wp                 !! largest [length]
-      integer  :: slipping = 0                 !! interface elements
+      type(joint_values_type) :: now           !! at the end of the stage
       integer  :: n_cuts = 0                   !! directions of the planes of symmetry that cut its bodies
       real(wp) :: normal = 0.0_wp, shear = 0.0_wp, moment = 0.0_wp !! N, T, M [force; force x length]
       logical  :: has_safety = .false.
@@ -48,94 +32,33 @@ module stage_answer
       logical  :: has_secant(6) = .false.
    end type joint_answer
 
-   type, public :: stage_answer_type
-      type(peak_type) :: displacement          !! magnitude [length]
-      type(peak_type) :: at_centre, at_node    !! von Mises [pressure]
-      real(wp) :: strained = 0.0_wp            !! largest von Mises stress at the centre of an element over its E
-      type(joint_answer), allocatable     :: joints(:)
-      type(bolt_answer_type), allocatable :: bolts(:)
-   end type stage_answer_type
-
 contains
 
-   !> The answer at the end of the stage just completed, the bodies recovered. Peaks are the largest displacement of a node, and
-   !! the largest von Mises stress at the centre of an element and at a node as the mean of its elements.
-   subroutine find_answer(model, cuts, analysis, method, largest_force, bolts, answer)
-      type(model_type), intent(in)    :: model
-      type(cut_type), intent(in)      :: cuts(:)       !! (joints) by planes of symmetry
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: method        !! of case control
-      real(wp), intent(in)            :: largest_force !! ever applied at a node, for the noise [force]
-      type(bolt_history), intent(inout)    :: bolts
-      type(stage_answer_type), intent(out) :: answer
-      real(wp), allocatable :: k(:, :), at_node(:, :), size_of(:), structural(:), at_ends(:)
-      integer :: e, j, node
+   !> The ANSWERS of all joints at the end of the stage just completed.
+   subroutine find_joint_answers(model, cuts, analysis, now, method, largest_force, answers)
+      type(model_type), intent(in)        :: model
+      type(cut_type), intent(in)          :: cuts(:)       !! (joints) by planes of symmetry
+      type(analysis_type), intent(in)     :: analysis
+      type(joint_values_type), intent(in) :: now(:)        !! (joints)
+      integer, intent(in)                 :: method        !! of case control
+      real(wp), intent(in)                :: largest_force !! ever applied at a node, for the noise [force]
+      type(joint_answer), allocatable, intent(out) :: answers(:) !! (joints)
+      real(wp), allocatable :: k(:, :)
+      integer :: j
 
-      allocate (answer%joints(size(model%joints)))
+      allocate (answers(size(model%joints)))
       allocate (k, source=tangents_now(model, analysis, method))
-      do j = 1, size(model%joints)
-         call describe_joint(model, analysis, model%joints(j), cuts(j), k, remainder*largest_force, answer%joints(j))
+      do j = 1, size(answers)
+         call describe_joint(model, analysis, model%joints(j), now(j), cuts(j), k, remainder*largest_force, answers(j))
       end do
-      call find_bolt_answers(model, analysis, largest_force, bolts, answer%bolts)
-
-      ! the largest displacement
-      allocate (size_of(n_points(model)))
-      do node = 1, size(size_of)
-         size_of(node) = norm2(analysis%all_u(:, node))
-      end do
-      node = first_largest(size_of, model%used(:size(size_of)))
-      if (node > 0) answer%displacement = peak_type(.true., maxval(size_of, mask=model%used(:size(size_of))), &
-                                                    model%node_id(node), model%x(:, node))
-      if (model%n_elements == 0) return
-
-      ! the largest von Mises stress at a node
-      allocate (at_node(max_stresses, n_points(model)))
-      call node_stresses(model, analysis%all_u, analysis%now%temperature, at_node)
-      allocate (structural(size(size_of)), at_ends(model%n_elements))
-      call node_peaks(model, analysis%all_u, analysis%now%temperature, structural, at_ends, analysis)
-      do node = 1, size(size_of)
-         size_of(node) = max(von_mises(at_node(:, node)), structural(node))
-      end do
-      node = first_largest(size_of, model%used(:size(size_of)))
-      answer%at_node = peak_type(.true., largest(size_of), model%node_id(node), model%x(:, node))
-
-      ! that at the centre of an element
-      deallocate (size_of)
-      allocate (size_of(model%n_elements))
-      !$omp parallel do schedule(dynamic, 512) default(shared) if(model%n_elements > 4096)
-      do e = 1, model%n_elements
-         size_of(e) = max(von_mises(whole_stress(model, e, analysis%all_u, analysis%now%temperature)), at_ends(e))
-      end do
-      !$omp end parallel do
-      associate (modulus => model%properties(model%element_property)%e)
-         if (all(is_measure(size_of))) answer%strained = maxval(size_of/modulus, mask=modulus > 0.0_wp)
-      end associate
-      e = first_largest(size_of, size_of >= 0.0_wp)
-      answer%at_centre = peak_type(.true., largest(size_of), model%element_id(e))
-      answer%at_centre%x(:model%dimension) = element_centre(model, e)
-   end subroutine find_answer
-
-   !> The largest of VALUES, or the first one that is not a number.
-   pure real(wp) function largest(values)
-      real(wp), intent(in) :: values(:)
-
-      largest = maxval(values)
-      if (.not. all(is_measure(values))) largest = values(findloc(is_measure(values), .false., dim=1))
-   end function largest
-
-   !> Distance of the faces at an interface element in this STATE from contact [length].
-   elemental real(wp) function face_distance(state) result(gap)
-      type(normal_state), intent(in) :: state
-
-      gap = 0.0_wp
-      if (state%branch == branch_open) gap = max(0.0_wp, state%lambda_b - state%lambda)
-   end function face_distance
+   end subroutine find_joint_answers
 
    !> Contact, resultant, safety against slip and stiffness of JOINT.
-   pure subroutine describe_joint(model, analysis, joint, cut, k, floor, answer)
+   pure subroutine describe_joint(model, analysis, joint, now, cut, k, floor, answer)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
       type(joint_type), intent(in)      :: joint
+      type(joint_values_type), intent(in) :: now
       type(cut_type), intent(in)        :: cut     !! by planes of symmetry
       real(wp), intent(in)              :: k(:, :) !! (3, n) tangents of all interface elements
       real(wp), intent(in)              :: floor   !! of forces: smaller values are rounding
@@ -143,15 +66,8 @@ contains
       type(joint_resultant) :: total
       real(wp) :: least(6)
 
-      associate (states => analysis%states(joint%first:joint%last), elements => model%interface(joint%first:joint%last))
-         answer%contact = above(1.0_wp - sum(elements%area, mask=states%normal%branch == branch_open)/joint%area, noise)
-         answer%slipping = count(states%slips)
-         answer%gap = above(maxval(face_distance(states%normal)), noise*analysis%largest_lambda)
-         if (answer%gap > 0.0_wp) answer%open_at = &
-            joint%first - 1 + first_largest(face_distance(states%normal), states%normal%branch == branch_open)
-      end associate
-      call find_largest_pressure(analysis, joint, answer%pressure, answer%pressed_at)
-      total = find_resultant(model, analysis, joint)
+      answer%now = now
+      total = now%total
       answer%n_cuts = cut%n
       associate (frame => joint%frame)
          if (model%axisymmetric) total%shear(1) = 0.0_wp ! self-equilibrated around the ring
@@ -279,37 +195,23 @@ contains
       arm = matmul(arm, frame%axes)
    end function arm_of
 
-   !> The first value of ANSWER beyond all bounds, in words; '' where all are finite.
-   pure function fault_of_answer(model, answer) result(words)
-      type(model_type), intent(in)        :: model
-      type(stage_answer_type), intent(in) :: answer
+   !> What of the answers is beyond all bounds, '': nothing.
+   pure function fault_of_joints(model, answers) result(words)
+      type(model_type), intent(in)   :: model
+      type(joint_answer), intent(in) :: answers(:)
       character(:), allocatable :: words
       integer :: i
 
       words = ''
-      if (.not. is_measure(answer%displacement%value)) then
-         words = 'the displacement of node '//integer_text(answer%displacement%id)
-      else if (.not. is_measure(answer%at_centre%value)) then
-         words = 'the stress of element '//integer_text(answer%at_centre%id)
-      else if (.not. is_measure(answer%at_node%value)) then
-         words = 'the stress at node '//integer_text(answer%at_node%id)
-      end if
-      do i = 1, size(answer%joints)
-         associate (joint => answer%joints(i))
-            if (words /= '') return
-            if (.not. all(is_measure([joint%pressure, joint%gap, joint%normal, joint%shear, joint%moment, joint%safety, &
-                                      joint%force, joint%movement, joint%tangent, joint%secant]))) &
+      do i = 1, size(answers)
+         associate (joint => answers(i))
+            if (.not. all(is_measure([joint%now%pressure, joint%now%gap, joint%normal, joint%shear, joint%moment, joint%safety, &
+                                      joint%force, joint%movement, joint%tangent, joint%secant]))) then
                words = 'the force of joint '//integer_text(model%joints(i)%id)//', or its stiffness,'
+               return
+            end if
          end associate
       end do
-      do i = 1, size(answer%bolts)
-         associate (bolt => answer%bolts(i))
-            if (words /= '') return
-            if (.not. all(is_measure([bolt%force, bolt%change, bolt%load_change, bolt%ratio, bolt%moment, bolt%stress, &
-                                      bolt%share, bolt%use, bolt%clamping, bolt%loss, bolt%safety]))) &
-               words = 'the force of bolt '//integer_text(bolt%id)
-         end associate
-      end do
-   end function fault_of_answer
+   end function fault_of_joints
 
-end module stage_answer
+end module joint_answers
