@@ -10,7 +10,7 @@ module deck_runs
    use load_path, only: recover_bodies, start_increment, start_stage
    use model_build, only: build_model
    use model_data, only: model_type
-   use newton_method, only: newton_increment, seat_joints
+   use newton_method, only: close_gaps, crosses_gaps, newton_increment, seat_joints
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
@@ -115,8 +115,12 @@ contains
 
       call structure_stiffness(run%model, run%plan, run%analysis, run%system, run%failure)
       call solve_increment(run%model, run%system, run%analysis, run%failure)
-      call accumulate(run%model, run%system, run%analysis, run%failure)
-      call limit_friction(run%model, run%plan, run%system, run%analysis, run%failure)
+      if (crosses_gaps(run%analysis, run%failure)) then
+         call close_gaps(run%model, run%plan, run%analysis, run%system, run%failure)
+      else
+         call accumulate(run%model, run%system, run%analysis, run%failure)
+         call limit_friction(run%model, run%plan, run%system, run%analysis, run%failure)
+      end if
       call interface_stiffness(run%model, run%system, run%analysis, run%failure)
    end subroutine step
 
