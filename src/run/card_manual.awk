@@ -1,6 +1,6 @@
 # The entries of the card manual as a Fortran module, so that the program has them wherever it stands.
 #
-#    awk -f card_manual.awk input/README.md > card_manual.f90
+#    awk -f card_manual.awk input/cards.md > card_manual.f90
 #
 # An entry is a key of case control (a heading #### in the section on case control) or a card (### in that on bulk data cards);
 # the heading may name several, with commas between them. What a terminal shows is plain text: links, fences and other marks are
