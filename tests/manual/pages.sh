@@ -87,6 +87,9 @@ answer 4 "contact $(awk '/JOINT CONTACT %/ { n = NR + 2 } NR == n { v = $2 } END
 answer 4 "$(awk '/BOLT +ELEMENT +SURFACE/ { n = NR + 2 } NR == n { v = $6 } END { print v }' "$work/lesson4.out") of the load"
 answer 5 "$(awk -v x="$(mode lesson5 1 frequency 2)" 'BEGIN { printf "%.1f", x }') Hz"
 
+# numbers of the guide and of the card manual
+. tests/manual/pages_numbers.sh
+
 # every example of a card is read without an error but references to what the example does not show
 awk -v folder="$work" '/^### / { section = $2; sub(/,$/, "", section) }
    /^```/ { inside = !inside; first = inside; if (!inside && file != "") { print "ENDDATA" > file; close(file); file = "" } next }
