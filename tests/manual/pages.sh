@@ -90,6 +90,9 @@ answer 5 "$(awk -v x="$(mode lesson5 1 frequency 2)" 'BEGIN { printf "%.1f", x }
 # numbers of the guide and of the card manual
 . tests/manual/pages_numbers.sh
 
+# what --help CARD prints has no marks of the page
+same '--help CARD: marks' "$(awk -f src/run/card_manual.awk $cards | grep -E '^      call add' | grep -nE '\]\(|`|\*\*[a-zA-Z]')" ''
+
 # every example of a card is read without an error but references to what the example does not show
 awk -v folder="$work" '/^### / { section = $2; sub(/,$/, "", section) }
    /^```/ { inside = !inside; first = inside; if (!inside && file != "") { print "ENDDATA" > file; close(file); file = "" } next }

@@ -108,3 +108,29 @@ tops=$(awk -F'|' '/^\| the program, CTETRA of 10 nodes/ { print $4 + 0, $5 + 0 }
 linear=$(grep -oE 'of size 9, 42,623 nodes, give 0\.[0-9]+' tests/programs/calculix.md | awk '{ print $NF }')
 less() { awk -v a="$1" -v b="${tops#* }" "BEGIN { printf \"$2\", 100*(1 - a/b) }"; }
 guide 'a flanged column' "moves $(less "$linear" %.0f) % less with 42,623 nodes of linear tetrahedra than with 74,516 of second order; with 30,320 nodes of second order $(less "${tops% *}" %.1f) % less"
+
+# ---- units: the two systems of newtons from that of kgf, and the factors of shear coefficients ----
+units=$(awk -F'|' '/^## Units of the deck/ { on = 1; next } /^## / { on = 0 }
+   on && $2 ~ /^ 1 kgf is/ { f = $5 + 0 } on && $2 ~ /^ E of steel/ { e = $4; n = $5; m = $6 }
+   on && $2 ~ /^ 9500/ { split($6, both, ";"); if (sprintf("%.5E", 9500*f) != sprintf("%.5E", $5 + 0)) print "9500 in mm, N:" $5
+      if (sprintf("%.5E", 9500*f*1e6) != sprintf("%.5E", both[1] + 0) || sprintf("%.5E", 9500*f*1e9) != sprintf("%.5E", both[2] + 0)) print "9500 in m, N:" $6 }
+   END { if (sprintf("%.5E", n/f) != sprintf("%.5E", e + 0) || m != n*1e6) print "E of steel"; if (f != 9.80665) print "no table" }' $cards)
+same 'units of the deck' "$units" ''
+# kgf/cm2 over micrometre^k to kgf/mm2 over mm^k, or to 1/mm^k
+for k in 1 2 3; do factors="${factors:-} A${k}1 by $(round %g "1000^$k/100"), A${k}2 by $(round %g "1000^$k"),"; done
+guide 'shear coefficients of books' "multiply$(echo "${factors%,}" | sed -E 's/e\+0/E/g; s/1000\b/1E3/; s/10000\b/1E4/; s/\b100000\b/1E5/')."
+
+# ---- Gmsh, where it is installed: the example of the guide ----
+if command -v gmsh > /dev/null; then
+   mkdir -p "$work/blocks"
+   block $guide 'Meshing with Gmsh, step by step' 1 > "$work/blocks/blocks.geo"
+   block $guide 'Meshing with Gmsh, step by step' 2 > "$work/blocks.bdf"
+   sed "s#'blocks_mesh.bdf'#'blocks/blocks_mesh.bdf'#" -i "$work/blocks.bdf"
+   command=$(echo "$guide_text" | grep -oE 'gmsh -3 -order 2 [^`]*blocks.geo')
+   (cd "$work/blocks" && $command) > "$work/blocks/gmsh.log" 2>&1
+   sed 's/^JOINT .*/JOINT   1       1       21      20/' "$work/blocks.bdf" > "$work/turned.bdf"
+   covered() { awk '/SIDE1 COVERED/ { n = NR + 2 } NR == n { print $4 + 0, $5 + 0 }' "$work/$1.out"; }
+   run blocks && same 'blocks of Gmsh: covered, farthest apart' "$(covered blocks)" '1 0'
+   run turned && same 'blocks of Gmsh, exchanged' "$(covered turned)" '0.5 0'
+   ask 'blocks of Gmsh: pressures' blocks all 'min(pressure) = 3.4 within 0.1 and max(pressure) = 6.8 within 0.1'
+fi
