@@ -121,6 +121,42 @@ same 'units of the deck' "$units" ''
 for k in 1 2 3; do factors="${factors:-} A${k}1 by $(round %g "1000^$k/100"), A${k}2 by $(round %g "1000^$k"),"; done
 guide 'shear coefficients of books' "multiply$(echo "${factors%,}" | sed -E 's/e\+0/E/g; s/1000\b/1E3/; s/10000\b/1E4/; s/\b100000\b/1E5/')."
 
+# ---- limits of the manual of the cards ----
+mkdir -p "$work/limits"
+# nested N: a deck whose INCLUDE files are nested N deep
+nested() {
+   local k
+   { sed '/^ENDDATA/d' "$work/block.bdf"; echo "INCLUDE 'nested_1.inc'"; echo ENDDATA; } > "$work/limits/nested.bdf"
+   for ((k = 1; k < $1; k++)); do echo "INCLUDE 'nested_$((k + 1)).inc'" > "$work/limits/nested_$k.inc"; done
+   echo '$ the last' > "$work/limits/nested_$1.inc"
+}
+# many N: a deck with N INCLUDE files beside each other
+many() { { sed '/^ENDDATA/d' "$work/block.bdf"; for ((k = 1; k <= $1; k++)); do echo "INCLUDE 'nested_$last.inc'"; done; echo ENDDATA; } > "$work/limits/many.bdf"; }
+checked() { "$program" --check "$work/limits/$1.bdf" > "$work/limits/$1.log" 2>&1; echo $?; }
+read -r deep all <<< "$(sed -n 's/.* \([0-9]*\) deep, \([0-9]*\) files in all.*/\1 \2/p' <<< "$(tr '\n' ' ' < $cards)")"
+nested "$deep"; same "INCLUDE, $deep deep" "$(checked nested)" 0
+nested $((deep + 1)); same "INCLUDE, one deeper" "$(checked nested)" 2
+last=1; echo '$' > "$work/limits/nested_1.inc"
+many $((all - 1)); same "INCLUDE, $all files with the deck" "$(checked many)" 0
+many "$all"; same "INCLUDE, a file more" "$(checked many)" 2
+# echoed CARDS: whether the listing of a deck of so many cards prints its bulk data
+echoed() {
+   awk -v n="$1" '/^BEGIN/ { on = 1 } on && /^[A-Z]/ && !/^(BEGIN|ENDDATA)/ { k++ }
+      /^ENDDATA/ { for (i = 1; i <= n - k; i++) print "GRID," 100000 + i ",,0.0,0.0" } { print }' "$work/block.bdf" > "$work/echoed.bdf"
+   run echoed && grep -c 'GRID,100001,' "$work/echoed.out"
+}
+most=$(grep -oE 'a deck of more than [0-9,]+ cards' $cards | tr -dc 0-9)
+same "ECHO, $most cards" "$(echoed "$most")" 1
+same "ECHO, a card more" "$(echoed $((most + 1)))" 0
+# BACK without AVERAGE, one element: as many iterations as the manual has
+cards straight <<DECK
+METHOD = BACK;AVERAGE = NO;SUBCASE 1;  LOAD = 1
+BEGIN BULK;GRID,1,,0.0,0.0,,,1;CJOINT,1,1,1,,100.0,0.0,1.0;PJOINT,1,1,,,,,0.02;JNORM,1,8.0-3,0.5,500.0;FORCE,1,1,,100.0,0.0,-1.3
+ENDDATA
+DECK
+run straight && turns=$(grep -oE 'HAVE NOT CONVERGED IN [0-9]+' "$work/straight.out" | tr -dc 0-9) &&
+   same 'BACK without AVERAGE: iterations' "$(tr -s ' \n' ' ' < $cards | grep -oE 'A run not settled after [0-9]+' | tr -dc 0-9)" "$turns"
+
 # ---- Gmsh, where it is installed: the example of the guide ----
 if command -v gmsh > /dev/null; then
    mkdir -p "$work/blocks"
