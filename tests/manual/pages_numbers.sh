@@ -89,7 +89,7 @@ masing=$(awk '/^### JSHEAR/ { on = 1 } on && /^JSHEAR  1 / && !n++ { p = 0.5; d 
    function at(field) { return substr($0, 8*field - 7, 8) + 0 }' $cards)
 same "Masing's rule gives the first law of JSHEAR" "$(echo "$masing" | awk '{ for (i = 1; i <= 3; i++) s += $i^2; print (NF == 3 && s < 1e-18) }')" 1
 awk 'BEGIN { print "lambda p"; for (i = 0; i <= 40; i++) { p = 0.09*i; printf "%.17g %.17g\n", 1.1*(sqrt(p + 0.4) - sqrt(0.4)), p } }' > "$work/zeroed.dat"
-bin/jointfit "$work/zeroed.dat" > "$work/zeroed.bdf" 2> /dev/null
+"$(dirname "$program")/jointfit" "$work/zeroed.dat" > "$work/zeroed.bdf" 2> /dev/null
 guide 'a test zeroed under load' "m comes back as $(awk '/^\$ law/ { sub(/.*m = /, ""); printf "%.2f", $0 }' "$work/zeroed.bdf") and c as $(awk '/^\$ law/ { sub(/.*c = /, ""); printf "%.2f", $0 }' "$work/zeroed.bdf")"
 
 # ---- vibration ----
