@@ -39,7 +39,7 @@ snippets=$(awk '/^```diff / { file = $2; n = 0; next }
       next
    }
    file != "" { block[++n] = $0 }
-   END { if (blocks == 0) print "there are none" }' $pages)
+   END { if (blocks == 0) print "there are none" }' $pages input/course.md)
 check 'snippets' "$snippets"
 
 # names with an underscore in the charts, and all names between back-quotes, are words of the source, of the examples or of the tests
