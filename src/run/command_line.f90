@@ -50,7 +50,7 @@ module command_line
       ''//nl// &
       'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 the structure cannot be'//nl// &
       'solved, 4 output could not be written; of several decks the highest. At status 3, and where it is interrupted, a'//nl// &
-      'run keeps the results of its finished stages; beam.out and beam.early then say ENDED EARLY. input/README.md is the'//nl// &
+      'run keeps the results of its finished stages; beam.out and beam.early then say ENDED EARLY. input/cards.md is the'//nl// &
       'manual of the cards.'
 
    character(*), parameter :: summary_head = 'deck,status,stages,increments,' ! the first columns of every summary

@@ -32,5 +32,5 @@ $0 == "" { if (!literal) print ".PP"; else print ""; next }
 END {
    if (literal) print ".fi"
    print ".SH SEE ALSO"
-   print (name == "jointfem" ? "jointfit(1)" : "jointfem(1)") ", the card manual input/README.md in the documentation"
+   print (name == "jointfem" ? "jointfit(1)" : "jointfem(1)") ", the card manual input/cards.md in the documentation"
 }

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Checks README.md and input/README.md against the program: decks, examples of cards, exercises, messages, commands and numbers.
+# Checks README.md and the pages of input against the program: decks, examples of cards, exercises, messages, commands and numbers.
 #
 #    pages.sh PROGRAM QUERY WORK_FOLDER
 set -u
-query=$2 work=$3 cards=input/README.md
+query=$2 work=$3 guide=input/README.md cards=input/cards.md course=input/course.md
 program=$(realpath "$1")
 . tests/exact/lib.sh
 . tests/exact/decks.sh
@@ -12,7 +12,7 @@ mkdir -p "$work"
 
 # block PAGE HEADING N: the Nth block between ``` below a heading
 block() {
-   awk -v heading="$2" -v wanted="$3" '/^##+ / { on = !inside && substr($0, index($0, " ") + 1) == heading; n = 0 }
+   awk -v heading="$2" -v wanted="$3" '/^#+ / && !inside { on = substr($0, index($0, " ") + 1) == heading; n = 0 }
       /^```/ { inside = !inside; if (inside) n++; next } on && inside && n == wanted' "$1"
 }
 # thousandths NAME STAGE INCREMENT NODE COLUMN: with five decimals
@@ -45,18 +45,18 @@ same 'README: what a run costs' "$costs" ''
 for option in $(awk '/^## Commands/ { on = 1; next } /^## / { on = 0 } on && /^    /' README.md | grep -oE -- '(^| )--?[a-z]+' | sort -u); do
    says "README: option $option" "$work/help.txt" "^   $option"
 done
-for target in $(grep -ohE '`make [a-z-]+' README.md "$cards" tests/README.md | awk '{ print $2 }' | sort -u); do
+for target in $(grep -ohE '`make [a-z-]+' README.md input/*.md tests/README.md | awk '{ print $2 }' | sort -u); do
    if cat Makefile tests/*/*.mk | grep -qE "^$target:"; then passed=$((passed + 1)); else fail "make $target: no such target"; fi
 done
 
 # the first deck: it runs, and its increments are those of the table and the list
-block $cards 'A first deck' 1 > "$work/block.bdf"
+block $guide 'A first deck' 1 > "$work/block.bdf"
 "$program" --check "$work/block.bdf" > "$work/check.log" 2>&1 || fail 'the first deck: --check'
 run block
-for k in 1 2 3 4 5; do shown "the first deck, increment $k" $cards "| $(thousandths block 1 $k 1 lambda) |"; done
+for k in 1 2 3 4 5; do shown "the first deck, increment $k" $guide "| $(thousandths block 1 $k 1 lambda) |"; done
 sed 's/^SPC = 1/METHOD = NEWTON\nSPC = 1/' "$work/block.bdf" > "$work/newton.bdf"
 run newton
-shown 'the first deck by NEWTON' $cards "$(thousandths newton 1 5 1 lambda)"
+shown 'the first deck by NEWTON' $guide "$(thousandths newton 1 5 1 lambda)"
 
 # the message of an error
 sed 's/^PSHELL .*/PSHELL  1       1       2O.0/' "$work/block.bdf" > "$work/wrong.bdf"
@@ -64,14 +64,14 @@ sed 's/^PSHELL .*/PSHELL  1       1       2O.0/' "$work/block.bdf" > "$work/wron
 same 'the message of an error' "$(head -n 4 "$work/wrong.log")" "$(block $cards 'What is an error' 1 | head -n 4)"
 
 # the exercises of the course and their answers
-block $cards 'A course of five lessons' 1 > "$work/course.sh"
+block $course 'A course of five lessons' 1 > "$work/course.sh"
 grep -v '^bin/jointfem' "$work/course.sh" | sed "s#> input/#> $work/#" > "$work/make_lessons.sh"
 bash "$work/make_lessons.sh"
 cp -R input/vibration "$work"
 for lesson in 1a 1b 2a 2b 2c 3 4 5; do "$program" -q -o "$work" "$work/lesson$lesson.bdf" > "$work/lesson$lesson.log" 2>&1 || fail "lesson $lesson does not run"; done
 # largest LESSON STAGE: the largest displacement, as the listing has it
 largest() { awk '/LARGEST DISPLACEMENT +[0-9]/ { print $3 }' "$work/lesson$1.out" | sed -n "$2p"; }
-answer() { if grep -E "^\| $1 \|" $cards | grep -qF -- "$2"; then passed=$((passed + 1)); else fail "the answer of exercise $1: '$2'"; fi; }
+answer() { if grep -E "^\| $1 \|" $course | grep -qF -- "$2"; then passed=$((passed + 1)); else fail "the answer of exercise $1: '$2'"; fi; }
 for stage in 1 2; do answer '1 \(a\)' "$(largest 1a $stage) mm"; answer '1 \(b\)' "$(largest 1b $stage) mm"; done
 errors=
 for run in 2a:20 2b:80 2c:320; do

@@ -17,7 +17,7 @@ mkdir -p "$work" "$top/tree"
 source_tree() {
    local file
    mkdir -p "$1/input" "$1/tests"
-   cp -R Makefile src "$1" && cp -R tests/runner "$1/tests" && cp input/README.md "$1/input"
+   cp -R Makefile src "$1" && cp -R tests/runner "$1/tests" && cp input/cards.md "$1/input"
    for file in $(awk '$1 == "include" { print $2 }' Makefile); do
       mkdir -p "$1/$(dirname "$file")" && cp "$file" "$1/$file"
    done
