@@ -23,6 +23,11 @@ module command_line
    character(*), parameter :: help = &
       'usage: jointfem [options] DECK...'//nl// &
       ''//nl// &
+      'examples:'//nl// &
+      '   jointfem beam.bdf                                  prints the answer, writes the listing beam.out and tables'//nl// &
+      '   jointfem -q -o out --summary out/all.csv *.bdf     runs all decks into the folder out, with a table of all runs'//nl// &
+      '   jointfem --check beam.bdf                          reports the errors of the deck, solves nothing'//nl// &
+      ''//nl// &
       'Solves each deck: a structure with flexible joints, loaded in increments. The deck `-` is read from standard'//nl// &
       'input; its listing goes to standard output. For beam.bdf the program writes beam.out (the listing),'//nl// &
       'beam.joint.csv (every interface element after every increment), beam.stage.csv (the answer of every stage),'//nl// &

@@ -16,9 +16,11 @@ NR == 1 {
    print ".SH SYNOPSIS"
    sub(/^usage: /, "")
    print text($0)
-   print ".SH DESCRIPTION"
    next
 }
+/^examples:/ { print ".SH EXAMPLES"; examples = 1; next }
+$0 == "" && examples { print ".fi"; literal = examples = 0 }
+$0 != "" && !examples && !described { print ".SH DESCRIPTION"; described = 1 }
 /^exit status:/ {
    if (literal) print ".fi"
    literal = 0

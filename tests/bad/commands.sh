@@ -47,6 +47,7 @@ holds . 'none here either' faulty.bdf free.bdf good.bdf other.bdf results
 for option in --help -h; do
    run "$option"; check "$option" 0
    if [ -s "$work/stderr" ]; then fail "$option: text on the standard error"; else prints "$option" '^usage: jointfem'; fi
+   if [[ $(sed -n 4p "$work/stdout") = '   jointfem beam.bdf '* ]]; then pass; else fail "$option: no example first"; fi
 done
 run --help CROD; check '--help of a card' 0
 prints '--help of a card: its entry' '^CROD  *EID '

@@ -23,6 +23,16 @@ answers=$(for deck in input/*.bdf; do
 done | sort)
 check 'decks in the index of input/README.md (<), and in input (>)' "$(diff <(echo "$decks") <(echo "$answers"))"
 
+# the paper's program alone: the lines of its files, of all ten and of src, to a tenth
+counts=$(cd "$source" && for file in *.f90 */*.f90; do echo "$file $(wc -l < "$file")"; done)
+check 'lines of the files of the paper' "$(awk '
+   function compare(what, n, about) { if (about > 1.1*n || about < 0.9*n) print what ": " n " lines, not about " about }
+   FNR == NR { lines[$1] = $2; all += $2; next }
+   /^## / { on = /^## The paper/ }
+   on && match($0, /about [0-9,]+ of [0-9,]+ lines/) { said = substr($0, RSTART, RLENGTH); gsub(",", "", said); split(said, word, " ") }
+   on && /^\| \[/ { split($0, cell, /[()|]/); files++; sum += lines[cell[3]]; compare(cell[3], lines[cell[3]], cell[5]) }
+   END { if (files != 10) print files + 0 " files"; compare("the files", sum, word[2]); compare("src", all, word[4]) }' <(echo "$counts") "$readme")"
+
 # a fenced block ```diff FILE stands in FILE, line after line
 snippets=$(awk '/^```diff / { file = $2; n = 0; next }
    file != "" && /^```$/ {
@@ -39,7 +49,7 @@ snippets=$(awk '/^```diff / { file = $2; n = 0; next }
       next
    }
    file != "" { block[++n] = $0 }
-   END { if (blocks == 0) print "there are none" }' $pages)
+   END { if (blocks == 0) print "there are none" }' $pages input/course.md)
 check 'snippets' "$snippets"
 
 # names with an underscore in the charts, and all names between back-quotes, are words of the source, of the examples or of the tests
