@@ -132,7 +132,7 @@ $(BUILD)/checked/%.o: %.f90 $(CHECKED_STAMP)
 	$(call compile,$(FC) $(FFLAGS_CHECKED) -J$(@D) -c $<)
 
 # The entries of the card manual, for --help
-$(MANUAL): input/README.md src/run/card_manual.awk
+$(MANUAL): input/cards.md src/run/card_manual.awk
 	@mkdir -p $(@D)
 	@awk -f src/run/card_manual.awk $< > $@.part && mv $@.part $@
 

@@ -301,7 +301,7 @@ contains
                call errors%add(card%line, 'CQUAD9 is a complete element of nine nodes; expected a CQUAD8, no node inside'// &
                                complete_remedy, 1, 8)
             else if (card%name /= '') then
-               call errors%add(card%line, ''''//trim(card%name)//''' is not a card of jointfem; see input/README.md', 1, 8)
+               call errors%add(card%line, ''''//trim(card%name)//''' is not a card of jointfem; see input/cards.md', 1, 8)
             end if
          end if
       end subroutine find_card

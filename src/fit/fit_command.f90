@@ -22,6 +22,10 @@ module fit_command
    character(*), parameter :: help = &
       'usage: jointfit [options] DATA...'//nl// &
       ''//nl// &
+      'examples:'//nl// &
+      '   jointfit normal.dat > law.bdf                     a JNORM card from points `lambda p`'//nl// &
+      '   jointfit --units mm,n --plot fit.gp shear.csv     cards in mm and N, and a picture of data and fit'//nl// &
+      ''//nl// &
       'Fits the laws of a joint to test data. The cards for a deck of jointfem go to standard output, with the'//nl// &
       'residuals as comments. Each file holds the data of one surface; `-` is standard input. One line of a file'//nl// &
       'names its columns, in any order:'//nl// &

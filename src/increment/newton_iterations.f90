@@ -9,7 +9,8 @@ module newton_iterations
    use newton_trial, only: attempt_type, commit, evaluate, evaluate_at, most_iterations, search, swap, trial_type
    use normal_curve, only: pressure_floor
    use numbers, only: first_largest
-   use straight_laws, only: direction_digits, find_direction, first_laws, laws_at, loose_joint, next_laws, residual_of, straight_law
+   use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, laws_at, loose_joint, next_laws, &
+                            residual_of, straight_law
    implicit none
    private
 
@@ -67,8 +68,11 @@ contains
          call judge(model, system, analysis, attempt, now)
          if (attempt%converged .or. attempt%ends) exit
          if (attempt%iteration == 0) call laws_at(model, system, now, laws)
-         if (attempt%iteration == 0 .and. .not. guessed) &
+         if (attempt%iteration == 0 .and. .not. guessed) then
             call first_laws(model, now, analysis%increment <= 1 .and. .not. attempt%searches, laws)
+         else
+            call choose_sides(model, laws)
+         end if
          residual = residual_of(system, attempt%load, now, laws)
          attempt%tolerance = tolerance_of(attempt%gain, now%size, far_below*analysis%tolerance, system%coupled%price > 0)
          call find_direction(model, residual, analysis, system, attempt, laws, direction)
@@ -269,6 +273,7 @@ contains
 
       allocate (direction, mold=analysis%u)
       call laws_at(model, system, now, laws)
+      call choose_sides(model, laws)
       attempt%tolerance = tight_end
       call find_direction(model, now%residual, analysis, system, attempt, laws, direction)
       if (attempt%trouble%raised) return

@@ -18,13 +18,13 @@ module straight_laws
    use model_data, only: model_type
    use newton_trial, only: attempt_type, trial_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_law, normal_tangent, pressure_floor
-   use normal_stiffness, only: branch_open, follow_normal, normal_state
+   use normal_stiffness, only: branch_load, branch_open, follow_normal, normal_state
    use shear_path, only: follow_shear
    use shear_stiffness, only: shear_state
    implicit none
    private
 
-   public :: first_laws, laws_at, next_laws, residual_of, find_direction, loose_joint, point_of_rest
+   public :: first_laws, laws_at, next_laws, choose_sides, residual_of, find_direction, loose_joint, point_of_rest
 
    integer, parameter  :: most_steps = 40
    real(wp), parameter :: near  = 1.0e-6_wp !! of the force: a point on the graph
@@ -33,6 +33,7 @@ module straight_laws
    real(wp), parameter :: farthest = 1.0e30_wp  !! point of rest from the movement: powers of it are finite [length]
    real(wp), parameter :: most  = 3.0_wp    !! times the residual: limit of the force of a movement
    real(wp), parameter :: little = 1.0e-7_wp !! of the elastic stiffness: substitute for zero stiffness of an element
+   real(wp), parameter :: still = 1.0e-12_wp !! of lambda: a smaller movement is rounding
    real(wp), parameter :: far = 1.0e3_wp    !! times the last direction: the body is not held
    integer, parameter, public :: direction_digits = 6 !! the next iteration corrects the direction
 
@@ -151,6 +152,25 @@ contains
          end associate
       end do
    end subroutine next_laws
+
+   !> Give an element on its loading curve that has not moved in the increment, except for rounding, the tangent of unloading. It
+   !! is at the kink of its law: without this rule the last digit of its lambda would choose the side, and with it the iterations.
+   !! A step with the stiffer side does not overshoot the kink.
+   pure subroutine choose_sides(model, laws)
+      type(model_type), intent(in)      :: model
+      type(straight_law), intent(inout) :: laws(:) !! at a trial, not at the committed state
+      real(wp) :: k
+      integer  :: i
+
+      do i = 1, size(laws)
+         associate (normal => laws(i)%state%normal, tangent => laws(i)%tangent, element => model%interface(i))
+            if (normal%branch /= branch_load .or. .not. tangent(3, 3) > 0.0_wp) cycle
+            if (abs(normal%lambda - normal%lambda_before) > still*abs(normal%lambda)) cycle
+            k = model%joints(element%joint)%law%normal%e_u*element%area
+            if (k > tangent(3, 3)) tangent(:, 3) = tangent(:, 3)*(k/tangent(3, 3)) ! column 3 is proportional to dp/dlambda
+         end associate
+      end do
+   end subroutine choose_sides
 
    !> The residual at NOW under the LOAD with the straight LAWS in place of the joints' own, on retained nodes [force].
    function residual_of(system, load, now, laws) result(residual)

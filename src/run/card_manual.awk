@@ -1,6 +1,6 @@
 # The entries of the card manual as a Fortran module, so that the program has them wherever it stands.
 #
-#    awk -f card_manual.awk input/README.md > card_manual.f90
+#    awk -f card_manual.awk input/cards.md > card_manual.f90
 #
 # An entry is a key of case control (a heading #### in the section on case control) or a card (### in that on bulk data cards);
 # the heading may name several, with commas between them. What a terminal shows is plain text: links, fences and other marks are
@@ -36,7 +36,7 @@ fence { put($0); next }
    if (rows) { end_block(); apart() }
    if (paragraph == "") match($0, /^ *((-|[0-9]+\.) )?/)
    if (paragraph == "") hanging = RLENGTH
-   text = plain($0)
+   text = $0
    if (paragraph != "") sub(/^ +/, "", text)
    paragraph = paragraph (paragraph == "" ? "" : " ") text
 }
@@ -115,7 +115,7 @@ function apart() { if (length_of[n] > 0 && lines[n, length_of[n]] != "") put("")
 # The paragraph or the table that has been read
 function end_block(   m, i, piece) {
    if (paragraph != "") {
-      m = wrap(paragraph, width, hanging)
+      m = wrap(plain(paragraph), width, hanging)
       for (i = 1; i <= m; i++) put(wrapped[i])
    }
    if (rows) put_table()

@@ -23,6 +23,11 @@ module command_line
    character(*), parameter :: help = &
       'usage: jointfem [options] DECK...'//nl// &
       ''//nl// &
+      'examples:'//nl// &
+      '   jointfem beam.bdf                                  prints the answer, writes the listing beam.out and tables'//nl// &
+      '   jointfem -q -o out --summary out/all.csv *.bdf     runs all decks into the folder out, with a table of all runs'//nl// &
+      '   jointfem --check beam.bdf                          reports the errors of the deck, solves nothing'//nl// &
+      ''//nl// &
       'Solves each deck: a structure with flexible joints, loaded in increments. The deck `-` is read from standard'//nl// &
       'input; its listing goes to standard output. For beam.bdf the program writes beam.out (the listing),'//nl// &
       'beam.joint.csv (every interface element after every increment), beam.stage.csv (the answer of every stage),'//nl// &
@@ -50,7 +55,7 @@ module command_line
       ''//nl// &
       'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 the structure cannot be'//nl// &
       'solved, 4 output could not be written; of several decks the highest. At status 3, and where it is interrupted, a'//nl// &
-      'run keeps the results of its finished stages; beam.out and beam.early then say ENDED EARLY. input/README.md is the'//nl// &
+      'run keeps the results of its finished stages; beam.out and beam.early then say ENDED EARLY. input/cards.md is the'//nl// &
       'manual of the cards.'
 
    character(*), parameter :: summary_head = 'deck,status,stages,increments,' ! the first columns of every summary

@@ -16,9 +16,11 @@ NR == 1 {
    print ".SH SYNOPSIS"
    sub(/^usage: /, "")
    print text($0)
-   print ".SH DESCRIPTION"
    next
 }
+/^examples:/ { print ".SH EXAMPLES"; examples = 1; next }
+$0 == "" && examples { print ".fi"; literal = examples = 0 }
+$0 != "" && !examples && !described { print ".SH DESCRIPTION"; described = 1 }
 /^exit status:/ {
    if (literal) print ".fi"
    literal = 0
@@ -32,5 +34,5 @@ $0 == "" { if (!literal) print ".PP"; else print ""; next }
 END {
    if (literal) print ".fi"
    print ".SH SEE ALSO"
-   print (name == "jointfem" ? "jointfit(1)" : "jointfem(1)") ", the card manual input/README.md in the documentation"
+   print (name == "jointfem" ? "jointfit(1)" : "jointfem(1)") ", the card manual input/cards.md in the documentation"
 }

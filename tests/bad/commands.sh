@@ -47,10 +47,11 @@ holds . 'none here either' faulty.bdf free.bdf good.bdf other.bdf results
 for option in --help -h; do
    run "$option"; check "$option" 0
    if [ -s "$work/stderr" ]; then fail "$option: text on the standard error"; else prints "$option" '^usage: jointfem'; fi
+   if [[ $(sed -n 4p "$work/stdout") = '   jointfem beam.bdf '* ]]; then pass; else fail "$option: no example first"; fi
 done
 run --help CROD; check '--help of a card' 0
 prints '--help of a card: its entry' '^CROD  *EID '
-if [ "$(tail -n 1 "$work/stdout" | awk '{ print $NF }')" = "$(awk '/^### CROD$/ { on = 1; next } /^### / { on = 0 } on && NF { last = $NF } END { print last }' "$here/../../input/README.md")" ]; then pass
+if [ "$(tail -n 1 "$work/stdout" | awk '{ print $NF }')" = "$(awk '/^### CROD$/ { on = 1; next } /^### / { on = 0 } on && NF { last = $NF } END { print last }' "$here/../../input/cards.md")" ]; then pass
 else fail '--help of a card: not its last word at the end'
 fi
 run --help output; check '--help of a key' 0

@@ -130,7 +130,7 @@ batch() {
    mkdir -p "$where/decks"
    link_includes "$where/decks"
    awk -v seed="$seed" -v from="$first" -v to="$last" -v only="$kind" -v folder="$where/decks" -f "$here/random.awk" -f "$here/fuzz_damage.awk" \
-      -f "$here/fuzz_cards.awk" -f "$here/fuzz_changes.awk" -f "$here/fuzz_decks.awk" "$root/input/README.md" "${seeds[@]}" > "$where/list" || return 1
+      -f "$here/fuzz_cards.awk" -f "$here/fuzz_changes.awk" -f "$here/fuzz_decks.awk" "$root/input/cards.md" "${seeds[@]}" > "$where/list" || return 1
    awk '{ print "fuzz_" $1, $2 }' "$where/list" > "$where/all"
    before=''
    for build in "${builds[@]}"; do

@@ -91,7 +91,7 @@ run 3 mild '' fuzz_1.out ' A'; holds 'a status without a word' finds 'exit statu
 decks() {
    mkdir -p "$3"
    awk -v seed=5 -v from="$1" -v to="$2" -v folder="$3" -f "$here/random.awk" -f "$here/fuzz_damage.awk" -f "$here/fuzz_cards.awk" \
-      -f "$here/fuzz_changes.awk" -f "$here/fuzz_decks.awk" "$root/input/README.md" "$root"/tests/random/*.bdf "$root"/input/prism*.bdf > "$3/list"
+      -f "$here/fuzz_changes.awk" -f "$here/fuzz_decks.awk" "$root/input/cards.md" "$root"/tests/random/*.bdf "$root"/input/prism*.bdf > "$3/list"
 }
 decks 1 60 all
 decks 1 60 again

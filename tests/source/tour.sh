@@ -4,6 +4,8 @@
 #
 #    tour.sh QUERY WORK_FOLDER
 #
+# And the law of input/course.md, lambda = c p/(m + p): one file changed, linked with the objects of the program as it is.
+#
 # The program is built without optimisation; what an earlier run has built and nothing has changed is kept.
 set -u
 query=$1 top=$2
@@ -17,7 +19,7 @@ mkdir -p "$work" "$top/tree"
 source_tree() {
    local file
    mkdir -p "$1/input" "$1/tests"
-   cp -R Makefile src "$1" && cp -R tests/runner "$1/tests" && cp input/README.md "$1/input"
+   cp -R Makefile src "$1" && cp -R tests/runner "$1/tests" && cp input/cards.md "$1/input"
    for file in $(awk '$1 == "include" { print $2 }' Makefile); do
       mkdir -p "$1/$(dirname "$file")" && cp "$file" "$1/$file"
    done
@@ -148,6 +150,36 @@ same_rows 'BAND and SKYLINE, STEP' prism15.BAND prism15.SKYLINE 1e-12
 same 'BAND, condition of a soft bar' "$(grep -o 'condition.*' "$work/soft.BAND.log")" "$(grep -o 'condition.*' "$work/soft.SKYLINE.log")"
 says 'BAND, condition of a soft bar' "$work/soft.BAND.log" 'condition of the stiffness about'
 same 'BAND names what is loose' "$(cut -d: -f2- "$work/loose.BAND.log")" "$(cut -d: -f2- "$work/loose.SKYLINE.log")"
+
+# another law in one file
+changed=$top/curve release=$(dirname "$query")/../release
+mkdir -p "$changed/src/joint" && cp src/joint/normal_curve.f90 "$changed/src/joint"
+applies 'the law of the course' "$changed" curve
+if command -v git > /dev/null; then
+   if git apply --check $here/curve.patch; then passed=$((passed + 1)); else fail "git apply --check $here/curve.patch"; fi
+fi
+if "${FC:-gfortran}" -O2 -fopenmp -I"$release" -J"$changed" -c "$changed/src/joint/normal_curve.f90" -o "$changed/normal_curve.o" &&
+   "${FC:-gfortran}" -O2 -fopenmp -I"$release" -o "$changed/jointfem" src/jointfem.f90 "$changed/normal_curve.o" \
+   $(ls "$release"/*.o | grep -v /normal_curve.o) $(sed -n 's/^LIBRARIES *= *//p' Makefile); then passed=$((passed + 1))
+else fail 'the program with the law of the course is built'; fi
+program=$changed/jointfem
+sed 's/^TITLE/METHOD = NEWTON\nTITLE/' input/one_element.bdf > "$work/course.bdf"
+run course && {
+   ask 'the law of the course, on the curve' course rows 'stage = 1' count 4 \
+      all 'lambda = 8e-3*pressure/(0.5 + pressure) within 1e-15 and pressure = load within 1e-12'
+   ask '... relieved along E_u' course rows 'stage = 2' all 'lambda = 8e-3/1.5 - (1 - pressure)/9500 within 1e-15'
+   near '... work put in' "$(awk '/ENERGY OF JOINTS, STAGE 1/ { n = NR + 5 } NR == n { print $2 }' "$work/course.out")" \
+      '100*0.5*(8e-3*log(3) - 8e-3/1.5)' 5e-6
+   for stage in 1 2; do
+      says "... the answer in the course, stage $stage" input/course.md \
+         "^| 6 |.* $(awk '/LARGEST DISPLACEMENT +[0-9]/ { print $3 }' "$work/course.out" | sed -n "${stage}p") mm"
+   done
+}
+sed 's/^METHOD.*/METHOD = STEP/' "$work/course.bdf" > "$work/course_step.bdf"
+run course_step && ask '... STEP' course_step rows 'stage = 1' all 'lambda = if(before(load) > 0,
+   before(lambda) + (pressure - before(pressure))*0.5*8e-3/(0.5 + before(pressure))^2, 8e-3*pressure/(0.5 + pressure)) within 1e-15'
+sed 's/^METHOD.*/METHOD = BACK/; /^SUBCASE 2/,/^BEGIN/{/^BEGIN/!d}' "$work/course.bdf" > "$work/course_back.bdf"
+run course_back && near '... BACK' "$(cell course_back 1 1 1 lambda)" '8e-3/1.5' 1e-9
 
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]
