@@ -125,11 +125,13 @@ for stress in lesson4:500 lesson5:408; do # of bolt 1 when it is tightened
    same "the course: bolts of ${stress%:*}" "$(awk '/BOLT +TIGHTENED/ { n = NR + 2 } NR == n { printf "%.0f", $5; exit }' "$work/${stress%:*}.out")" "${stress#*:}"
 done
 
-# no line of prose is longer than 120 characters, and README.md has at most 170 lines
-for page in README.md src/README.md $course $differs; do
-   same "$page: lines above 120 characters" "$(awk '/^```/ { inside = !inside } length > 120 && !inside && !/^(\||    |<img )/ { print FNR }' $page)" ''
-done
 holds 'README.md: its lines' "$(wc -l < README.md) <= 170"
+
+# numbers of the guide and of the card manual
+. tests/manual/pages_numbers.sh
+
+# what --help CARD prints has no marks of the page
+same '--help CARD: marks' "$(awk -f src/run/card_manual.awk $cards | grep -E '^      call add' | grep -nE '\]\(|`|\*\*[a-zA-Z]')" ''
 
 # every example of a card is read without an error but references to what the example does not show
 awk -v folder="$work" '/^### / { section = $2; sub(/,$/, "", section) }

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Checks src/README.md against src: the list of modules, src/modules.md, is current; snippets stand word for word in the patches;
-# names exist. Also the links of all pages, and the index of the decks.
+# names exist. Also the links of all pages, the index of the decks and that of the cards, and lines that are too long.
 #
 #    readme.sh README SOURCE_FOLDER
 set -u
 export LC_ALL=C
 readme=$1 source=$2 here=tests/source
 pages="$readme $source/additions.md"
+narrow_pages='README.md input/*.md src/README.md src/additions.md src/solver/README.md tests/README.md tests/*/README.md tests/manual/*.md'
 passed=0 failed=0
 check() { if [ -z "$2" ]; then passed=$((passed + 1)); else echo "$1:"; echo "$2"; failed=$((failed + 1)); fi; }
 
@@ -32,6 +33,35 @@ check 'lines of the files of the paper' "$(awk '
    on && match($0, /about [0-9,]+ of [0-9,]+ lines/) { said = substr($0, RSTART, RLENGTH); gsub(",", "", said); split(said, word, " ") }
    on && /^\| \[/ { split($0, cell, /[()|]/); files++; sum += lines[cell[3]]; compare(cell[3], lines[cell[3]], cell[5]) }
    END { if (files != 10) print files + 0 " files"; compare("the files", sum, word[2]); compare("src", all, word[4]) }' <(echo "$counts") "$readme")"
+
+# the index of the card manual: every key and card that has a section, with a link to it; every card that the program reads has a section
+index=$(awk '/^## / { on = /^## Index/; part = /^## Case control/ ? "####" : /^## Bulk data cards/ ? "###" : "" }
+   on && /^\|/ { line = $0
+      while (match(line, /\[[^]]*\]\(#[^)]*\)/)) {
+         link = substr(line, RSTART + 1, RLENGTH - 2)
+         line = substr(line, RSTART + RLENGTH)
+         anchor = link
+         sub(/.*\(#/, "", anchor)
+         sub(/\].*/, "", link)
+         n = split(link, name, ", ")
+         for (i = 1; i <= n; i++) listed[name[i], anchor]
+      } }
+   /^#+ / && !fence { title = substr($0, index($0, " ") + 1); anchor = tolower(title); gsub(/[^a-z0-9 _-]/, "", anchor); gsub(/ /, "-", anchor)
+      anchor = anchor (seen[anchor]++ > 0 ? "-" seen[anchor] - 1 : "") }
+   /^```/ { fence = !fence }
+   part != "" && !fence && $1 == part { n = split(title, name, ", ")
+      for (i = 1; i <= n; i++) if (!((name[i], anchor) in listed)) print name[i] ": no entry in the index with the link #" anchor }
+   END { for (key in listed) k++; if (k < 100) print k + 0 " entries" }' input/cards.md)
+check 'the index of input/cards.md' "$index"
+sections=$(awk '/^## / { on = /^## Bulk data cards/ } on && /^### / { sub(/^### /, ""); gsub(/, /, "\n"); print }' input/cards.md | sort)
+read=$(awk '/subroutine list_cards/ { on = 1 } /^   contains/ { on = 0 }
+   on && /call add\(\[/ { n = split($0, part, "\047"); for (i = 2; i <= n; i += 2) { gsub(/ /, "", part[i]); print part[i] } }
+   END { for (i = 1; i <= 6; i++) print "CORD" (i > 3 ? 2 : 1) substr("RCSRCS", i, 1) }' "$source/deck/deck_input.f90" | sort)
+check 'cards with a section (<), that the program reads (>)' "$(diff <(echo "$sections") <(echo "$read"))"
+
+# prose in lines of at most 120 characters: all but tables, code and comments for the reader of the text
+check 'lines of prose above 120 characters' "$(awk '/^ *```/ { fence = !fence; next }
+   !fence && length($0) > 120 && !/^ *\|/ && !/^    / && !/^ *<(!--|img )/ { print FILENAME ", line " FNR ": " length($0) }' $narrow_pages)"
 
 # a fenced block ```diff FILE stands in FILE, line after line
 snippets=$(awk '/^```diff / { file = $2; n = 0; next }
