@@ -158,3 +158,20 @@ SPC = 1;SUBCASE 1;MODES = 3
 BEGIN BULK;GRID,1;CELAS2,1,100.0,1,1;CONM2,2,1,,1.0;SPC1,1,2,1;EIGRL,3,,,3;ENDDATA
 DECK
 run single && says 'one mode, in words' "$work/single.out" 'THE STRUCTURE HAS 1 MODE IN ALL, AND IT HAS BEEN FOUND'
+
+# Two free blocks in space, joined by springs between the nodes of their faces, whatever the number of modes asked for: six modes of exactly zero
+# without strain energy; the others are the same each time, and their shares of strain energy add up to 1.
+joining=$(for i in {0..15}; do for c in 1 2 3; do printf 'CELAS2,%d,2.+5,%d,%d,%d,%d;' $((9000 + 3*i + c)) $((5 + 5*i)) $c $((1001 + 3*i)) $c; done; done)
+for n in 1 4 6 7 9 14; do
+   cards afloat <<DECK
+SUBCASE 1;MODES(FREE) = $n;BEGIN BULK;BLOCK3,1,1,3,3,4,0.,0.,0.;+,30.,20.,90.,,,,1,1;BLOCK3,2,2,3,3,2,0.,0.,90.;+,30.,20.,120.,,,,1001,1001
+PSOLID,1,1;PSOLID,2,2;MAT1,1,2.1+5,,.3,7.85-9;MAT1,2,7.+4,,.33,2.7-9;${joining}EIGRL,$n,,,$n;ENDDATA
+DECK
+   run afloat || continue
+   same "free in space, $n modes: six of zero" "$(awk -F, 'NR > 1 { printf "%d", ($3 > 0) }' "$work/afloat.modes.csv")" "$(printf '00000011111111' | cut -c "-$n")"
+   [ $n -gt 6 ] || continue
+   first=${first:-$(mode afloat 7 frequency)}
+   near "free in space, $n modes: the first with strain" "$(mode afloat 7 frequency)" "$first" 1e-9
+   judge "free in space, $n modes: shares" 'NR > 1 { share[$2] += $5 + $6 }
+      END { for (m in share) { checked++; if (m + 0 <= 6 || (share[m] - 1)^2 > 1e-12) print m, share[m] } print "checked " checked + 0 }' FS=, "$work/afloat.modes.energy.csv"
+done
