@@ -87,7 +87,7 @@ contains
             end select
 
             ! ------------------------------------------------------------ PRINT
-            call print_increment(run, model, plan, system, analysis)
+            call print_increment(run, deck%control%method == method_newton, model, plan, system, analysis)
 
             ! ------------------------------------------------------------ NOT IN THE CHART: NATURAL MODES, RESTART FILE
             call go_on(run, deck, model, plan, system, analysis)

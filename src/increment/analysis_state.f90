@@ -5,7 +5,7 @@ module analysis_state
    use condition_estimate, only: condition_type
    use equation_solver, only: equation_system, failure_type
    use interface_operator, only: add_global_force, interface_element, joint_movement
-   use joint_laws, only: element_state, is_apart, start_shear
+   use joint_laws, only: element_state, start_shear
    use joint_work, only: joint_energy
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections, temperature_type
@@ -179,7 +179,7 @@ contains
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(in)     :: failure
-      logical  :: was_apart, was_open
+      logical  :: was_open
       real(wp) :: p
       integer  :: d, i
 
@@ -189,10 +189,9 @@ contains
          associate (area => model%interface(i)%area, law => model%joints(model%interface(i)%joint)%law, &
                     state => analysis%states(i), k => analysis%k(:, i))
             was_open = state%normal%branch == branch_open
-            was_apart = is_apart(state)
             k(:2) = 0.0_wp
             call norm(law%normal, area, analysis%eq10, state%normal, k(3))
-            call start_shear(law, area, was_apart, analysis%movement(:, i), state, p)
+            call start_shear(law, area, was_open, analysis%movement(:, i), state, p)
             if (state%normal%branch /= branch_open) then
                do d = 1, 2
                   call shear(law%shear(d), area, p, state%shear(d), k(d))

@@ -4,7 +4,7 @@ module answer_tables
    use analysis_state, only: analysis_type
    use bolt_answers, only: bolt_answer_type
    use kinds, only: wp
-   use model_data, only: joint_node_id, joint_type, model_type
+   use model_data, only: joint_node_id, model_type
    use result_page, only: bolt_block_2, bolt_table, page_type, reaction_table, split_table, stage_table, table_columns, watch_table
    use stage_answer, only: peak_type, stage_answer_type
    use support_reactions, only: reaction_type, reactions_type
@@ -22,10 +22,11 @@ contains
 
    !> Print ANSWER under TITLE on the screen, and its rows into the file of the stages; without joints one row, with joint 0. The
    !! file has the share in contact and the safety as numbers; the block has the share in per cent and the safety below a million.
-   subroutine print_answer(page, title, model, answer)
+   subroutine print_answer(page, title, model, is_first, answer)
       type(page_type), intent(inout)      :: page
       character(*), intent(in)            :: title
       type(model_type), intent(in)        :: model
+      logical, intent(in)                 :: is_first !! of the run: what holds for all stages is told
       type(stage_answer_type), intent(in) :: answer
       character(31), parameter :: names(3) = [character(31) :: 'LARGEST DISPLACEMENT', 'LARGEST VON MISES, CENTRES', &
                                               'LARGEST VON MISES, NODES']
@@ -77,8 +78,8 @@ contains
          end associate
          call table%print_row(page%screen, page%tables(stage_table))
       end do
-      call note_cuts(page, 'THE BODIES OF JOINT', model%joints%id, merge(answer%joints%n_cuts, 0, has_shear(model%joints)), &
-                     'T AND MU N/T LEAVE OUT THE SHEAR FORCE THAT THE MIRROR IMAGE BALANCES')
+      if (is_first) call note_cuts(page, 'THE BODIES OF JOINT', model%joints%id, answer%joints%n_cuts, &
+                                   'T, MU N/T, M AND SECANT LEAVE OUT WHAT THE MIRROR IMAGE BALANCES')
       call print_stiffnesses(page, model, answer)
 
    contains
@@ -103,14 +104,7 @@ contains
 
    end subroutine print_answer
 
-   !> Whether JOINT can transmit shear forces.
-   elemental logical function has_shear(joint)
-      type(joint_type), intent(in) :: joint
-
-      has_shear = joint%law%has_friction .or. any(joint%law%shear%given)
-   end function has_shear
-
-   !> Print for each item with a number of CUTS that planes of symmetry cut it, and WHAT follows.
+   !> Print for each item with a number of CUTS that planes of symmetry cut it, and WHAT follows, in the first answer of the run.
    subroutine note_cuts(page, kind, id, cuts, what)
       type(page_type), intent(inout) :: page
       character(*), intent(in)       :: kind, what
@@ -193,7 +187,7 @@ contains
             if (.not. in_answer) call table%print_row(csv_file=page%tables(bolt_table))
          end do
       end do
-      if (in_answer) call note_cuts(page, 'BOLT', bolts%id, bolts%n_cuts, &
+      if (in_answer .and. analysis%stage == 1) call note_cuts(page, 'BOLT', bolts%id, bolts%n_cuts, &
          'FORCES AND BENDING ARE OF ITS PART IN THE MODEL, STRESS AND MU N/T OF THE WHOLE')
    end subroutine print_bolts
 

@@ -7,9 +7,10 @@ module body_tables
    use body_elements, only: element_centre, element_stress, node_stresses, whole_stress
    use bolt_locking, only: bar_tension
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
+   use element_kinds, only: is_second_order
    use interface_operator, only: named_node
    use kinds, only: wp
-   use model_data, only: a_point, corners_of, has_second_order, is_beam, is_shell, model_type, n_bars, &
+   use model_data, only: a_point, corners_of, is_beam, is_shell, model_type, n_bars, &
                          n_points, n_rotations, node_kind, supported
    use node_coupling, only: held_forces
    use result_page, only: page_type, shows
@@ -60,7 +61,7 @@ contains
          call list_shells(page, asked%forces, model, analysis)
          call list_beams(page, model, analysis)
       end if
-      if (asked%stress .and. has_second_order(model)) then ! stresses at nodes, averaged over their elements
+      if (asked%stress .and. any(is_second_order(model%element_kind))) then ! stresses at nodes, averaged over their elements
          allocate (stress(max_stresses, n_points(model)))
          call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
          floor = noise*maxval(abs(stress))
