@@ -27,4 +27,4 @@ plot [0:6.5] [-0.05:0.8] \
    NaN with lines ls 3 lw 3 title 'error A_i B_i', \
    D using (D[$1]):(A(D[$1])) with points ls 1 title 'A_i on the curve', \
    stage('shear_step', 3) using (1000*column('delta_x')):'tau_x' with linespoints ls 5 \
-      title 'let go: by the last tangent, then as unloading'
+      title 'unloading: first by the last tangent'

@@ -7,7 +7,7 @@ set label 1 't_1' at d1, t1 offset -2.5, 0.3
 set label 2 "t_1'" at d2, t2 offset 1, 0.3
 set label 3 sprintf("the excess over the limit,\n%.5f, is applied, opposed,\nat both ends of the element", \
    t1 - limit1) at d1, 0.5*(t1 + limit1) right offset -1, 1
-set label 4 sprintf("what is left: %.5f,\n%.0f %% are gone", \
+set label 4 sprintf("remaining excess: %.5f,\n%.0f %% removed", \
    t2 - limit2, 100*(1 - (t2 - limit2)/(t1 - limit1))) at d2, 0.5*(t2 + limit2) offset 1, 0.5
 set arrow 1 from d1, limit1 to d1, t1 heads ls 3
 set arrow 2 from d2, limit2 to d2, t2 heads ls 3

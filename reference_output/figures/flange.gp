@@ -1,6 +1,6 @@
 set title 'Contact of the clamped flange pair beside its bolt circle'
 set xlabel 'thickness of each flange [mm]'
-set ylabel 'reach of the contact outward from the bolt circle [mm]'
+set ylabel 'outward extent of the contact from the bolt circle [mm]'
 set key bottom right
 plot [0:12] [0:21] folder . 'flange.csv' using 'thickness':'flexible' with linespoints ls 2 title 'flexible joint of the deck, {/Symbol l} = 10^{-3} p^{0.5}', \
    '' using 'thickness':'stiff' with linespoints ls 3 title 'a stiff joint, {/Symbol l} = 10^{-5} p^{0.5}', \

@@ -9,4 +9,4 @@ plot [0:200] [-0.1:0.35] 0.2 with lines ls 9 title 'limit, {/Symbol m} = 0.2', \
    rows('friction_once') using (190*column('load')):(column('tau_x')/column('pressure')) with linespoints ls 3 \
       title 'one re-analysis, as in the paper', \
    rows('friction_full') using (190*column('load')):(column('tau_x')/column('pressure')) with linespoints ls 1 \
-      title 'until the excess is gone'
+      title 're-analyses until no excess remains'

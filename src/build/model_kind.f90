@@ -9,7 +9,7 @@ module model_kind
    use coordinate_systems, only: directions_at
    use deck_check, only: checked_deck
    use elasticity, only: axisymmetric
-   use element_kinds, only: element_table
+   use element_kinds, only: element_table, is_second_order
    use field_rules, only: has_component
    use kinds, only: wp
    use model_data, only: model_type
@@ -89,7 +89,7 @@ contains
       associate (bulk => deck%bulk)
          do i = 1, size(bulk%element) ! elements of second order are no shells
             associate (element => bulk%element(i))
-               if (element%property == 0 .or. element_table(element%kind)%linear /= element%kind) cycle
+               if (element%property == 0 .or. is_second_order(element%kind)) cycle
                k = findloc(bulk%pshell%id, element%property, dim=1)
                if (k == 0) cycle
                if (bulk%pshell(k)%bending <= 0) cycle

@@ -7,10 +7,10 @@ module node_build
    use coordinate_systems, only: position_in
    use deck_check, only: checked_deck
    use displacement_systems, only: find_system
-   use element_kinds, only: element_table
+   use element_kinds, only: element_table, is_second_order
    use kinds, only: wp
    use lists, only: sorted_order, list_owners
-   use model_data, only: has_second_order, model_type
+   use model_data, only: model_type
    use text_tools, only: integer_text
    implicit none
    private
@@ -119,7 +119,7 @@ contains
       real(wp), allocatable :: x(:, :)
       integer :: i, n, n_new, node
 
-      if (.not. has_second_order(model)) return
+      if (.not. any(is_second_order(model%element_kind))) return
       call match_edges(model, edges)
       call check_orders(deck, model, edges)
       n = model%n_nodes

@@ -11,7 +11,7 @@ module stage_plan
    implicit none
    private
 
-   public :: loss_at, asked_frequencies, merged, plan_stages, where_in_plan, factorisations_of, shows_bodies
+   public :: loss_at, asked_frequencies, merged, plan_stages, where_in_plan, factorisations_of, has_unloading_modes, shows_bodies
 
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping
    real(wp), parameter :: same_frequency = 1.0e-9_wp ! of the largest: nearer frequencies are equal
@@ -197,5 +197,16 @@ contains
          if (increment == size(planned%fractions)) shows_bodies = shows_bodies .or. asked%level == output_last .or. asked%vtu
       end associate
    end function shows_bodies
+
+   !> Whether any stage of PLAN has natural modes with the stiffness of unloading.
+   pure logical function has_unloading_modes(plan) result(has_them)
+      type(stage_plan_type), intent(in) :: plan
+      integer :: s
+
+      has_them = .false.
+      do s = 1, size(plan%stages)
+         if (allocated(plan%stages(s)%vibration)) has_them = has_them .or. .not. plan%stages(s)%vibration%on_loading
+      end do
+   end function has_unloading_modes
 
 end module stage_plan

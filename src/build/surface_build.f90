@@ -2,11 +2,11 @@
 module surface_build
    use deck_check, only: checked_deck
    use element_build, only: marked_side
-   use element_kinds, only: element_table, max_side_nodes
+   use element_kinds, only: element_table, is_second_order, max_side_nodes
    use isoparametric, only: side_areas, side_forces
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
-   use model_data, only: has_second_order, is_shell, model_type, surface_type
+   use model_data, only: is_shell, model_type, surface_type
    use surface_sides, only: nodes_of, side_corners
    use text_tools, only: integer_text
    implicit none
@@ -36,7 +36,7 @@ contains
 
       words = ''
       most_nodes = 2*(model%dimension - 1)                     ! of a side
-      if (has_second_order(model)) most_nodes = merge(3, max_side_nodes, model%dimension == 2)
+      if (any(is_second_order(model%element_kind))) most_nodes = merge(3, max_side_nodes, model%dimension == 2)
       call marks%build(deck%bulk%pmark%id)
       allocate (model%surfaces(size(deck%bulk%pmark)), surface(size(sides)), said(0))
       do i = 1, size(sides)

@@ -110,10 +110,16 @@ contains
             if (abs(strain) > 1.0e-6_wp) n = n + 1
             if (abs(strain) <= worst) cycle
             worst = abs(strain)
-            words = 'RBE2 '//integer_text(card%id)//' holds nodes up to '//real_text(held_extent(model, card))// &
-                    ' apart, where the warm body beside them would expand by '//real_text(strain*held_extent(model, card))// &
-                    ': a strain of '//real_text(strain)//', E times which is a stress of '// &
-                    real_text(strain*model%properties(model%element_property(e))%e)//'; give ALPHA and TREF, or an RBE3'
+            associate (property => model%properties(model%element_property(e)), expands => abs(card%alpha) > 0.0_wp)
+               words = 'RBE2 '//integer_text(card%id)//' holds nodes up to '//real_text(held_extent(model, card))// &
+                       ' apart, where the warm body beside them would expand by '// &
+                       real_text(merge(abs(strain), strain, expands)*held_extent(model, card))// &
+                       trim(merge(merge(' less', ' more', strain < 0.0_wp)//' than the RBE2', repeat(' ', 19), expands))// &
+                       ': a strain of '//real_text(strain)//', E times which is a stress of '//real_text(strain*property%e)//'; '
+               if (expands) words = words//'its ALPHA '//real_text(card%alpha)//' and TREF '//real_text(card%reference)// &
+                       ' are not those of the body, '//real_text(property%alpha)//' and '//real_text(property%reference)
+               if (.not. expands) words = words//'give ALPHA and TREF, or an RBE3'
+            end associate
          end associate
       end do
       if (n > 1) words = words//'; '//integer_text(n - 1)//trim(merge(' other does so too  ', ' others do so too   ', n == 2))

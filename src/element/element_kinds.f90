@@ -13,7 +13,7 @@ module element_kinds
    implicit none
    private
 
-   public :: side_kind
+   public :: is_second_order, side_kind
 
    integer, parameter, public :: kind_tria3 = 1, kind_quad4 = 2     !! plane or axisymmetric
    integer, parameter, public :: kind_tetra4 = 3, kind_penta6 = 4, kind_hexa8 = 5, kind_pyram5 = 6
@@ -128,6 +128,13 @@ module element_kinds
       third, third, 0,  0, 0, 0,  0.25_wp, 0.25_wp, 0.25_wp,  third, third, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0], [3, n_shapes])
 
 contains
+
+   !> Whether elements of KIND, a body's, have mid-side nodes.
+   elemental logical function is_second_order(kind)
+      integer, intent(in) :: kind
+
+      is_second_order = element_table(kind)%linear /= kind
+   end function is_second_order
 
    !> The kind of a side from its dimension and number of nodes: an edge in the plane, a face in space; 0: no such side exists. A
    !! side of three nodes is a second-order edge in the plane and a triangle in space.

@@ -3,7 +3,8 @@
 !! Beresford, Wilson, A non-conforming element for stress analysis, Int. J. Numer. Meth. Engng 10 (1976) 1211-1219.
 module element_mapping
    use elasticity, only: axisymmetric, elasticity_matrix, max_stresses, plane_strain, solid
-   use element_kinds, only: centre_point, element_table, kind_hexa8, kind_penta6, kind_quad4, max_nodes, node_point, side_kind
+   use element_kinds, only: centre_point, element_table, is_second_order, kind_hexa8, kind_penta6, kind_quad4, max_nodes, &
+                            node_point, side_kind
    use kinds, only: wp
    use numbers, only: cross
    use quadrature, only: body_rule, integration_rule, max_points, side_rule, volume_rule
@@ -218,7 +219,7 @@ contains
       longest = sqrt(longest)
       call body_rule(kind, .false., rule)
       smallest = least_at(kind, nodes, rule%point(:, :rule%n))
-      if (element_table(kind)%linear == kind) then
+      if (.not. is_second_order(kind)) then
          elsewhere = least_at(kind, nodes, node_point(:, :n, kind))
          if (d == 3 .and. .not. elsewhere > 0.0_wp .and. smallest > 0.0_wp) elsewhere = least_on_sides(kind, nodes, longest)
       else

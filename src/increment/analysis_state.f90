@@ -66,6 +66,7 @@ module analysis_state
       integer  :: n_iterations = 0
       integer  :: n_removed = 0                       !! interface elements removed
       integer  :: n_parts   = 1                       !! NEWTON: number of parts of the increment
+      logical  :: is_iterated = .false.               !! to equilibrium, by NEWTON, or by STEP where gaps close
       logical  :: is_whole  = .true.                  !! ... and the whole increment was repeated from where the parts led
       logical  :: ends_early = .false.                !! NEWTON has stopped: this is the last state in equilibrium
       logical  :: is_partial = .false.                !! ... and it lies within an increment

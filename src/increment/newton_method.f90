@@ -40,6 +40,7 @@ contains
       integer  :: before(size(analysis%states)), i, j
       logical  :: lifted
 
+      analysis%record%is_iterated = .true.
       if (analysis%is_loose .and. .not. (analysis%moves .or. any(abs(analysis%now%condensed_load) > 0.0_wp))) then
          call press_apart(model, analysis, system, failure)
          return

@@ -282,7 +282,7 @@ contains
       point = movement
       point(3) = before%normal%gap + normal_rest(law%normal, area, before%normal, goal(3) - rho(3)*before%normal%gap, rho(3))
       call follow_normal(law%normal, area, before%normal, point(3) - before%normal%gap, normal, slope, work)
-      if (normal%branch == branch_open .or. is_apart(before)) return
+      if (normal%branch == branch_open .or. before%normal%branch == branch_open) return
       t = 0.0_wp
       there = 0.0_wp
       do i = 1, 2

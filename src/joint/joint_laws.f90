@@ -45,22 +45,22 @@ contains
       real(wp), intent(in)               :: movement(3) !! total movement of end 1 relative to end 2 [length]
       type(element_state), intent(inout) :: state
       real(wp), intent(out)              :: k(3)        !! k_sx, k_sy, k_n [force/length]
-      logical  :: was_apart
+      logical  :: was_open
       real(wp) :: p
 
-      was_apart = is_apart(state)
+      was_open = state%normal%branch == branch_open
       k(:2) = 0.0_wp
       call norm(law%normal, area, eq10, state%normal, k(3))
-      call start_shear(law, area, was_apart, movement, state, p)
+      call start_shear(law, area, was_open, movement, state, p)
       if (state%normal%branch /= branch_open) call shear(law%shear, area, p, state%shear, k(:2))
    end subroutine norm_and_shear
 
    !> Prepare SHEAR after NORM: where the element has opened or closed, its shear law begins anew; a slipping element stands at the
    !! limits. P is the pressure for SHEAR [pressure].
-   pure subroutine start_shear(law, area, was_apart, movement, state, p)
+   pure subroutine start_shear(law, area, was_open, movement, state, p)
       type(joint_law), intent(in)        :: law
       real(wp), intent(in)               :: area        !! a_i [length^2]
-      logical, intent(in)                :: was_apart   !! before NORM
+      logical, intent(in)                :: was_open    !! before NORM
       real(wp), intent(in)               :: movement(3) !! as in norm_and_shear
       type(element_state), intent(inout) :: state
       real(wp), intent(out)              :: p
@@ -68,7 +68,7 @@ contains
       p = max(0.0_wp, state%normal%pressure)
       call rest_when_open(state, movement)
       if (state%normal%branch == branch_open) return
-      if (was_apart) then
+      if (was_open) then
          state%origin = movement(:2) - closed_share(state%normal)*(movement(:2) - state%origin)
          state%shear%delta = movement(:2) - state%origin
       end if
@@ -119,8 +119,7 @@ contains
       state%origin = movement(:2)
    end subroutine rest_when_open
 
-   !> Whether an element is open and has a gap: its shear deflection counts from the point of closing. (Without a gap it counts
-   !! from the beginning of the increment that closes the element; the path up to closing is short.)
+   !> Whether an element is open and has a gap.
    elemental logical function is_apart(state)
       type(element_state), intent(in) :: state
 
@@ -181,7 +180,7 @@ contains
       end if
       share = 1.0_wp
       share_by_lambda = 0.0_wp
-      if (is_apart(before)) then
+      if (before%normal%branch == branch_open) then
          share = closed_share(after%normal)
          after%origin = movement(:2) - share*(movement(:2) - before%origin)
          share_by_lambda = (1.0_wp - share)/max(after%normal%lambda - before%normal%lambda, tiny(1.0_wp))

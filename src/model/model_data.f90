@@ -14,7 +14,7 @@ module model_data
    implicit none
    private
 
-   public :: bar_nodes, corners_of, has_second_order, is_beam, is_face_node, is_shell, joint_node_id, n_bars, n_points, &
+   public :: bar_nodes, corners_of, is_beam, is_face_node, is_shell, joint_node_id, n_bars, n_points, &
              n_rotations, n_sections, node_kind, own_nodes, place_in_kind, point_of, supported
 
    !> Section and material of body elements.
@@ -392,12 +392,5 @@ contains
       if (.not. allocated(model%structural%place)) return
       if (model%structural%place(e) > 0) nodes = [nodes, model%rotations(model%rotation_of(nodes))%node]
    end function own_nodes
-
-   !> Whether MODEL has elements of second order.
-   pure logical function has_second_order(model)
-      type(model_type), intent(in) :: model
-
-      has_second_order = any(element_table(model%element_kind)%linear /= model%element_kind)
-   end function has_second_order
 
 end module model_data

@@ -6,7 +6,7 @@ module answer_tables
    use bolt_answers, only: bolt_answer_type
    use joint_answers, only: joint_answer
    use kinds, only: wp
-   use model_data, only: joint_node_id, joint_type, model_type
+   use model_data, only: joint_node_id, model_type
    use page_lines, only: axes, heading
    use result_page, only: bolt_table, clamping_table, movement_names, page_type, reaction_table, resultant_names, secant_names, &
                           split_table, stage_table, table_columns, tangent_names, watch_table, xyz
@@ -24,12 +24,14 @@ module answer_tables
 
 contains
 
-   !> Print the answer for BODIES and JOINTS under TITLE on the screen, and its rows into the file of the stages; without joints one row, with joint 0. The
-   !! file has the share in contact and the safety as numbers; the block has the share in per cent and the safety below a million.
-   subroutine print_answer(page, title, model, bodies, joints)
+   !> Print the answer for BODIES and JOINTS under TITLE on the screen, and its rows into the file of the stages; without joints one
+   !! row, with joint 0. The file has the share in contact and the safety as numbers; the block has the share in per cent and the
+   !! safety below a million.
+   subroutine print_answer(page, title, model, is_first, bodies, joints)
       type(page_type), intent(inout)     :: page
       character(*), intent(in)           :: title
       type(model_type), intent(in)       :: model
+      logical, intent(in)                :: is_first !! of the run: what holds for all stages is told
       type(body_values_type), intent(in) :: bodies
       type(joint_answer), intent(in)     :: joints(:)
       character(31), parameter :: names(3) = [character(31) :: 'LARGEST DISPLACEMENT', 'LARGEST VON MISES, CENTRES', &
@@ -95,8 +97,8 @@ contains
          end associate
          call table%print_row(page%screen, page%tables(stage_table))
       end do
-      call note_cuts(page, 'THE BODIES OF JOINT', model%joints%id, merge(joints%n_cuts, 0, has_shear(model%joints)), &
-                     'T AND MU N/T LEAVE OUT THE SHEAR FORCE THAT THE MIRROR IMAGE BALANCES')
+      if (is_first) call note_cuts(page, 'THE BODIES OF JOINT', model%joints%id, joints%n_cuts, &
+                                   'T, MU N/T, M AND SECANT LEAVE OUT WHAT THE MIRROR IMAGE BALANCES')
       call print_stiffnesses(page, model, joints)
 
    contains
@@ -115,14 +117,7 @@ contains
 
    end subroutine print_answer
 
-   !> Whether JOINT can transmit shear forces.
-   elemental logical function has_shear(joint)
-      type(joint_type), intent(in) :: joint
-
-      has_shear = joint%law%has_friction .or. any(joint%law%shear%given)
-   end function has_shear
-
-   !> Print for each item with a number of CUTS that planes of symmetry cut it, and WHAT follows.
+   !> Print for each item with a number of CUTS that planes of symmetry cut it, and WHAT follows, in the first answer of the run.
    subroutine note_cuts(page, kind, id, cuts, what)
       type(page_type), intent(inout) :: page
       character(*), intent(in)       :: kind, what
@@ -205,7 +200,7 @@ contains
             end associate
          end do
       end if
-      call note_cuts(page, 'BOLT', bolts%id, bolts%n_cuts, &
+      if (analysis%stage == 1) call note_cuts(page, 'BOLT', bolts%id, bolts%n_cuts, &
                      'FORCES AND BENDING ARE OF ITS PART IN THE MODEL, STRESS AND MU N/T OF THE WHOLE')
    end subroutine print_bolts
 

@@ -6,8 +6,9 @@ module body_tables
    use analysis_state, only: analysis_type
    use body_elements, only: element_centre, element_stress, node_stresses, whole_stress
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
+   use element_kinds, only: is_second_order
    use kinds, only: wp
-   use model_data, only: corners_of, has_second_order, is_beam, is_shell, model_type, n_points, n_rotations, supported
+   use model_data, only: corners_of, is_beam, is_shell, model_type, n_points, n_rotations, supported
    use output_file, only: output_file_type
    use page_lines, only: axes, heading, in_units, noise
    use result_page, only: page_type, shows
@@ -59,7 +60,7 @@ contains
          call list_shells(page, asked%forces, model, analysis)
          call list_beams(page, model, analysis)
       end if
-      if (asked%stress .and. has_second_order(model)) then ! stresses at nodes, averaged over their elements
+      if (asked%stress .and. any(is_second_order(model%element_kind))) then ! stresses at nodes, averaged over their elements
          allocate (stress(max_stresses, n_points(model)))
          call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
          floor = noise*maxval(abs(stress))

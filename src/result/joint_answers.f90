@@ -1,6 +1,7 @@
 !> The answer at the end of a stage for each joint. Values at the level of rounding are zero; values without meaning are absent. They
 !! are the resultant, the rigid-body movement of its sides against each other and its six stiffnesses, in the joint's axes: forces
-!! (movements) along x, y and the normal z, moments (rotations) about them. T leaves out what planes of symmetry balance.
+!! (movements) along x, y and the normal z, moments (rotations) about them. T, M, the movement and the
+!! secant stiffnesses leave out what planes of symmetry balance.
 module joint_answers
    use analysis_state, only: analysis_type
    use bolt_answers, only: remainder
@@ -13,7 +14,7 @@ module joint_answers
    use normal_stiffness, only: branch_open
    use numbers, only: cross, identity, is_measure
    use page_lines, only: noise
-   use symmetry_planes, only: cut_type, free_part
+   use symmetry_planes, only: axis_part, cut_type, free_part
    use text_tools, only: above, integer_text
    implicit none
    private
@@ -64,7 +65,8 @@ contains
       real(wp), intent(in)              :: floor   !! of forces: smaller values are rounding
       type(joint_answer), intent(inout) :: answer
       type(joint_resultant) :: total
-      real(wp) :: least(6)
+      type(cut_type) :: along
+      real(wp) :: least(6), unbalanced(6)
 
       answer%now = now
       total = now%total
@@ -76,17 +78,22 @@ contains
          answer%force(:3) = above(matmul(total%force, frame%axes), floor)
          answer%force(4:) = above(matmul(total%moment, frame%axes), floor*frame%extent)
          answer%force = merge(answer%force, 0.0_wp, frame%exists)
-         answer%moment = norm2(answer%force(4:))
+         along%n = cut%n ! in the axes of the joint
+         along%direction = matmul(transpose(frame%axes), cut%direction)
+         unbalanced = answer%force
+         if (cut%n > 0) unbalanced = above([free_part(along, answer%force(:3)), axis_part(along, answer%force(4:))], &
+                                           floor*[1.0_wp, 1.0_wp, 1.0_wp, frame%extent, frame%extent, frame%extent])
+         answer%moment = norm2(unbalanced(4:))
          answer%has_safety = joint%law%has_friction .and. answer%shear > 0.0_wp
          if (answer%has_safety) answer%safety = joint%law%mu*max(0.0_wp, answer%normal)/answer%shear
          least = remainder*analysis%largest_lambda
          least(4:) = least(4:)/max(frame%extent, tiny(1.0_wp))
-         answer%movement = above(rigid_movement(model, analysis, joint), least)
+         answer%movement = above(rigid_movement(model, analysis, joint, along), least)
          answer%tangent = stiffness_about(model, joint, k)
          answer%tangent(:3) = above(answer%tangent(:3), noise*maxval(abs(answer%tangent(:3))))
          answer%tangent(4:) = above(answer%tangent(4:), noise*maxval(abs(answer%tangent(4:))))
-         answer%has_secant = frame%exists .and. answer%force*answer%movement > 0.0_wp
-         where (answer%has_secant) answer%secant = answer%force/answer%movement
+         answer%has_secant = frame%exists .and. unbalanced*answer%movement > 0.0_wp
+         where (answer%has_secant) answer%secant = unbalanced/answer%movement
       end associate
    end subroutine describe_joint
 
@@ -94,12 +101,14 @@ contains
    !! delta_y, lambda as in the joint history) by least squares weighted with their areas. The translation at the centroid s of
    !! these elements is the mean of {d}. The rotation is the smallest {t} with [J] {t} = sum a (r - s) x {d}, [J] their inertia. The
    !! result is the movement of the point at the centroid of the joint. Elements on one line do not determine the rotation about
-   !! it: it is set to 0. The determinant of [J] goes with the 15th power of a length: areas and vectors are divided by powers of
+   !! it: it is set to 0. Of a joint that planes of symmetry cut it is the movement of the whole, which is a translation in the planes
+   !! and a rotation about the normal of the only plane. The determinant of [J] goes with the 15th power of a length: areas and vectors are divided by powers of
    !! two near the largest, which changes no digit [length; radians].
-   pure function rigid_movement(model, analysis, joint) result(q)
+   pure function rigid_movement(model, analysis, joint, cut) result(q)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(joint_type), intent(in)    :: joint
+      type(cut_type), intent(in)      :: cut !! by planes of symmetry, in the axes of the joint
       real(wp) :: q(6), a, area, arm(3), d(3), determinant, inertia(3, 3), j, mean(3), minors(3, 3), moment(3), place(3)
       real(wp) :: unit_area, unit_length
       integer  :: i
@@ -131,7 +140,11 @@ contains
          moment = moment + a*cross(arm, d)
       end do
       j = 0.5_wp*(inertia(1, 1) + inertia(2, 2) + inertia(3, 3))
-      if (j > straight*area*(joint%frame%extent/unit_length)**2) then  ! else all elements are at one point
+      if (cut%n > 0) then
+         mean = free_part(cut, mean)
+         j = dot_product(cut%direction(:, 1), matmul(inertia, cut%direction(:, 1)))
+         if (j > straight*area*(joint%frame%extent/unit_length)**2) q(4:) = axis_part(cut, moment)/j
+      else if (j > straight*area*(joint%frame%extent/unit_length)**2) then  ! else all elements are at one point
          minors(:, 1) = cross(inertia(:, 2), inertia(:, 3))
          minors(:, 2) = cross(inertia(:, 3), inertia(:, 1))
          minors(:, 3) = cross(inertia(:, 1), inertia(:, 2))

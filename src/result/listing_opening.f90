@@ -22,7 +22,7 @@ module listing_opening
    use result_page, only: has_gaps, page_type
    use shear_loops, only: loop_closure, worst_closure
    use shear_stiffness, only: cubic_of
-   use stage_plan, only: stage_plan_type
+   use stage_plan, only: has_unloading_modes, stage_plan_type
    use table_column, only: column
    use table_writer, only: table_type
    use terminal, only: standard_input, version
@@ -62,7 +62,7 @@ contains
       call write_echo(page%file, deck)
       call write_summary(page%file, deck, model, system)
       call write_bodies(page, model)
-      if (size(model%joints) > 0) call write_joints(page, model)
+      if (size(model%joints) > 0) call write_joints(page, model, has_unloading_modes(plan))
       call write_shear_laws(page%file, model)
       ! the load history: totals at the end of every stage
       call table%start('STAGES', [column('STAGE', 'i11', heading_shift=-1), column('INCREMENTS', 'i11'), &
@@ -72,8 +72,7 @@ contains
       do s = 1, size(plan%stages)
          associate (stage => plan%stages(s), loads => model%stage_loads(s))
             total = sum(loads%force(:, :loads%n), dim=2, mask=spread(loads%node(:loads%n) <= n_points(model), 1, 3)) ! no moments
-            largest = 0.0_wp
-            if (loads%n > 0) largest = maxval(abs(loads%force(:, :loads%n)))
+            largest = max(0.0_wp, maxval(abs(loads%force(:, :loads%n))))
             call table%put([character(10) :: 'STAGE', 'INCREMENTS'], [stage%id, size(stage%fractions)])
             call table%put([character(11) :: 'FIRST SHARE', 'LAST SHARE'], stage%fractions([1, size(stage%fractions)]))
             call table%put('TOTAL LOAD '//axes(:model%dimension), total(:model%dimension), 1.0e-9_wp*largest)
@@ -224,7 +223,6 @@ contains
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
       call put_lines(file, upper(deck%bulk%ignored%words()), ',')
       if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
-      if (.not. allocated(model%warnings)) return
       do i = 1, size(model%warnings)
          call put_lines(file, 'WARNING: '//upper(model%warnings(i)%words), ' ')
       end do
@@ -285,9 +283,10 @@ contains
 
    !> Laws and areas of the joints, and the cover of joint sides that do not match node by node. Initial gaps: of the elements of a
    !! joint how many stand open, and how many are pressed by interference at rest.
-   subroutine write_joints(page, model)
+   subroutine write_joints(page, model, modes_tell)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
+      logical, intent(in)            :: modes_tell !! modes about unloading name joints whose E_u is the default
       type(table_type) :: table
       integer :: d, i, j, lists(size(model%joints)) ! interface elements coupled to lists of nodes
       logical :: shown(size(model%joints))
@@ -313,7 +312,7 @@ contains
          end associate
       end do
 
-      do j = 1, size(model%joints)
+      do j = 1, merge(0, size(model%joints), modes_tell)
          associate (joint => model%joints(j), law => model%joints(j)%law%normal)
             if (.not. joint%e_u_given .and. law%c > 0.0_wp) call page%file%put('  NOTE: E_U OF JOINT '//integer_text(joint%id)// &
                ' IS THE DEFAULT, E OF THE BODIES,'//in_form(law%e_u/normal_tangent(law, 1.0_wp, joint%p_av, joint%p_av), &

@@ -208,7 +208,7 @@ contains
          if (analysis%record%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label
          before = page%screen%used
-         call print_answer(page, title, model, bodies, joints)
+         call print_answer(page, title, model, analysis%stage == 1, bodies, joints)
          call print_bolts(page, model, analysis, results%bolts_now)
          call find_reactions(model, analysis, page%largest_force, reactions)
          call print_reactions(page, model, reactions)

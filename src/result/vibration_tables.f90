@@ -14,7 +14,7 @@ module vibration_tables
    use stage_plan, only: vibration_plan_type
    use table_column, only: column
    use table_writer, only: table_type
-   use text_tools, only: above, integer_text, real_text, upper
+   use text_tools, only: above, integer_text, plural, real_text, upper
    implicit none
    private
 
@@ -44,6 +44,7 @@ contains
       integer, allocatable :: shown(:)
       real(wp) :: extent
       integer  :: c, d, j, m
+      logical  :: warns
 
       call page%file%put('')
       call page%file%put(' NATURAL MODES ABOUT THE END OF '//page%stage//'   '// &
@@ -53,16 +54,19 @@ contains
       if (size(model%interface) > 0) call page%file%put('  INTERFACE ELEMENTS IN CONTACT: '// &
          integer_text(modes%n_touching)//' OF '//integer_text(size(model%interface))//'; THE OTHERS HAVE NO STIFFNESS')
       do j = 1, size(model%joints)
-         if (modes%steeper(j) <= steep) cycle
-         call page%file%put('  WARNING: E_U OF JOINT '//integer_text(model%joints(j)%id)//' IS THE DEFAULT, AND MAKES IT '// &
-            trim(adjustl(in_form(modes%steeper(j), '(es10.2)', 10)))//' TIMES AS STIFF AS ITS LOADING CURVES: GIVE EU ON JNORM')
-         n_warnings = n_warnings + 1
+         if (.not. modes%steeper(j) > 0.0_wp) cycle
+         warns = modes%steeper(j) > steep
+         call page%file%put(trim(merge('  WARNING: E_U OF JOINT', '  NOTE: E_U OF JOINT   ', warns))//' '// &
+            integer_text(model%joints(j)%id)//' IS THE DEFAULT, AND MAKES IT '//trim(adjustl(in_form(modes%steeper(j), &
+            '(es10.2)', 10)))//' TIMES AS STIFF AS ITS LOADING CURVES'//trim(merge(': GIVE EU ON JNORM', repeat(' ', 18), warns)))
+         if (warns) n_warnings = n_warnings + 1
       end do
       if (modes%counted_at < huge(1.0_wp)) then
          call page%file%put('  MODES BELOW THE FREQUENCY '//real_text(modes%counted_at)//': '//integer_text(modes%n_counted)// &
                             ', COUNTED BY THE SIGNS OF THE PIVOTS; NONE IS MISSING')
       else
-         call page%file%put('  THE STRUCTURE HAS '//integer_text(modes%n_counted)//' MODES IN ALL, AND ALL HAVE BEEN FOUND')
+         call page%file%put('  THE STRUCTURE HAS '//upper(plural(modes%n_counted, 'mode'))//' IN ALL, '// &
+                            trim(merge('AND IT HAS BEEN FOUND  ', 'AND ALL HAVE BEEN FOUND', modes%n_counted == 1)))
       end if
       if (modes%n_before > 0) call page%file%put('  BELOW THE RANGE: '//integer_text(modes%n_before))
       if (size(modes%modes) == 0) call page%file%put('  NO MODE IS IN THE RANGE')

@@ -5,7 +5,7 @@ module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use backbone, only: backbone_type, find_loop, finish_backbone, start_backbone
    use c_library, only: end_run, make_folders, open_standard_outputs, tell_failed_writes
-   use case_control, only: method_back, method_newton, method_step
+   use case_control, only: method_back
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use condensed_interface, only: condense_on_joints
    use condition_estimate, only: watch_condition
@@ -25,9 +25,10 @@ module run_boxes
    use modal_response, only: find_response, response_type
    use mode_values, only: evaluate_modes, modes_type
    use model_build, only: build_model
-   use model_data, only: model_type
+   use model_data, only: joint_node_id, model_type
    use natural_modes, only: find_natural_modes, release_supports, oscillating_type, spectrum_type, start_oscillation
    use newton_method, only: seat_joints
+   use normal_stiffness, only: branch_open
    use openblas, only: prepare_openblas, tell_kernel
    use restart_file, only: open_restart_file, take_up, write_restart
    use results, only: end_stage, list_results => print_increment, print_modes, print_stage, remove_old_results, start_results
@@ -173,8 +174,6 @@ contains
       type(deck_type), intent(in)        :: deck
       type(model_type), intent(out)      :: model
       type(stage_plan_type), intent(out) :: plan
-      integer, allocatable :: drops(:)
-      character(:), allocatable :: words
       character(:), allocatable :: loose
       integer :: i
 
@@ -201,17 +200,6 @@ contains
       do i = 1, size(model%warnings)
          call tell(run, model%warnings(i)%words)
       end do
-      words = 'NEWTON'
-      if (deck%control%method == method_step .and. any(abs(model%interface%gap) > 0.0_wp)) then
-         words = 'the iterations of NEWTON, which STEP needs for gaps and interference,'
-      else if (deck%control%method /= method_newton) then
-         return
-      end if
-      drops = pack(model%joints%id, (model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given) .and. &
-                   .not. model%joints%law%has_friction)
-      if (size(drops) > 0) call tell(run, 'JOINT '//integer_text(drops(1))// &
-         trim(merge(' and others', '           ', size(drops) > 1))//': shear stiffness without MU on PJOINT: an element '// &
-         'that opens drops its shear at once, and '//words//' may find no equilibrium, or one of several that rounding chooses')
    end subroutine build_structure
 
    !> Form [k_b] of the bodies and factorise the part that no joint changes; then the listing can be opened.
@@ -265,8 +253,31 @@ contains
       call take_up(run, model, plan, system, analysis)
       call expect(run, plan, analysis%stage, analysis%increment)
       call enter(run, phase_increments)
+      if (any(model%interface%gap < 0.0_wp) .and. deck%control%method /= method_back) call note_drops(run, model, analysis)
       if (allocated(analysis%kept)) call go_on(run, deck, model, plan, system, analysis)
    end subroutine start_joints
+
+   !> Say it once where an element with shear stiffness and without friction is open that was pressed, or that has no gap, in a
+   !! state that NEWTON has iterated.
+   subroutine note_drops(run, model, analysis)
+      type(run_type), intent(inout)   :: run
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer :: i
+
+      if (run%tells_drops .or. run%failure%raised) return
+      do i = 1, size(model%interface)
+         associate (law => model%joints(model%interface(i)%joint)%law, state => analysis%states(i)%normal)
+            if (state%branch /= branch_open .or. law%has_friction .or. .not. any(law%shear%given)) cycle
+            if (state%gap > 0.0_wp .and. .not. state%p_a > 0.0_wp) cycle
+         end associate
+         run%tells_drops = .true.
+         call tell(run, 'JOINT '//integer_text(model%joints(model%interface(i)%joint)%id)//', node '// &
+                   integer_text(joint_node_id(model, i, 1))//': an element with shear stiffness and without MU on '// &
+                   'PJOINT has opened; it drops its shear at once, and the equilibrium may be one of several that rounding chooses')
+         return
+      end do
+   end subroutine note_drops
 
    !> Whether a stage is left, or the rest of a stage that has been resumed.
    pure logical function another_stage(run, plan, analysis)
@@ -302,6 +313,7 @@ contains
 
       run%keeps_results = run%failure%raised .and. run%ending == goes_on .and. analysis%record%ends_early
       if (is_over(run) .and. .not. run%keeps_results) return
+      if (analysis%record%is_iterated) call note_drops(run, model, analysis)
       completes_stage = analysis%increment == size(plan%stages(analysis%stage)%fractions)
       if (run%keeps_results .and. .not. analysis%record%is_partial) then ! all is printed but the tables of the end
          call recover_bodies(model, system, analysis)

@@ -220,13 +220,19 @@ DECK
    }
 done
 
-# Shear without MU drops at once where an element opens: said of a deck that the iterations of NEWTON solve, when it has been read; also
-# of STEP where a gap or interference needs them; of no other.
-same 'shear without MU is said' "$("$program" --check input/{two_blocks,cantilever,friction_none}.bdf 2>&1 | grep -c 'shear stiffness without MU')" 1
-for gap in 0.01 -0.01 0.0; do
-   cards drops <<DECK
-METHOD = STEP;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1;CJOINT,1,1,1,,100.,0.,-1.;PJOINT,1,1,1;JNORM,1,8.0-3,0.5,500.;JSHEAR,1,100.
-CELAS2,11,10.,1,1;FORCE,1,1,,50.,0.,-1.;JGAP,1,CONST,$gap;ENDDATA
+# Shear without MU drops at once where an element opens: said once, where one has opened that NEWTON iterates, in STEP only under gaps
+# and interference; not where none opens. tells_drop NAME TIMES METHOD MU GAP PULL: pressed, then pulled off at an angle
+drop_said='without MU on PJOINT has opened'
+tells_drop() {
+   cards "$1" <<DECK
+METHOD = $3;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 2;BEGIN BULK;GRID,1;CJOINT,1,1,1,,100.,0.,-1.;PJOINT,1,1,1,,$4,,.5;JNORM,1,8.0-3,0.5,500.
+JSHEAR,1,100.;CELAS2,11,10.,1,1;CELAS2,12,10.,1,2;FORCE,1,1,,50.,0.,-1.;FORCE,2,1,,$6,.1,1.;JGAP,1,CONST,$5;ENDDATA
 DECK
-   same "STEP, shear without MU, gap $gap: said" "$("$program" --check "$work/drops.bdf" 2>&1 | grep -c 'shear stiffness without MU.*STEP needs')" $([ $gap = 0.0 ]; echo $?)
-done
+   run "$1" && same "$1: shear without MU that drops, said" "$(grep -c "JOINT 1, node 1: .*$drop_said" "$work/$1.log")" "$2"
+}
+tells_drop drops_newton 1 NEWTON '' 0. 100.
+tells_drop drops_friction 0 NEWTON 0.3 0. 100.
+tells_drop drops_pressed 0 NEWTON '' 0. -40.
+tells_drop drops_step 0 STEP '' 0. 100.
+tells_drop drops_step_apart 0 STEP '' 0.01 10.
+same 'shear without MU, nothing opens: not said' "$("$program" -q -o "$work" input/two_blocks.bdf 2>&1 | grep -c "$drop_said")" 0

@@ -1,5 +1,5 @@
-# Half and quarter models: what the mirror image balances has no part in T, MU N/T and bending; stresses are those of the whole. By statics,
-# and each against the whole model.
+# Half and quarter models: what the mirror image balances has no part in T, MU N/T, M, SECANT and bending; stresses are those of the whole. By
+# statics, and each against the whole model.
 tenths() { printf '%.1f' "$(number "$1")"; }
 of() { "$query" "$work/$1.$2.csv" "${@:3}"; }
 
@@ -23,6 +23,9 @@ pressed whole 4 -20 4 -10 'SPC1,1,1,37' 0 1000 && {
    near 'whole, pushed: T' "$(of whole stage rows 'stage = 2' print t)" 1000 1e-8
    same 'whole: no plane of symmetry' "$(grep -c 'OF SYMMETRY' "$work/whole.log")" 0
 }
+# secants NAME: which it has in each stage
+secants() { awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^secant/) at[++n] = i; next }
+   { for (i = 1; i <= n; i++) printf "%d", $at[i] != "" }' "$work/$1.stage.csv"; }
 # cut at x = 0 and pushed along the plane: half the forces, the same safety
 pressed half 2 0 4 -10 'SPCM,1,1,22' 0 500 && {
    nothing 'half, pressed' half 1
@@ -30,14 +33,30 @@ pressed half 2 0 4 -10 'SPCM,1,1,22' 0 500 && {
    near 'half, pushed: safety' "$(of half stage rows 'stage = 2' print safety)" '0.15*24000/500' 1e-8
    near 'half, pushed: the safety of the whole' "$(of half stage rows 'stage = 2' print safety)" "$(of whole stage rows 'stage = 2' print safety)" 1e-8
    holds 'half: the base holds more than T' "abs($(of half stage rows 'stage = 1' print 'sqrt(force_x^2+force_y^2)')) > 500"
-   says 'half: what is left out' "$work/half.log" 'NOTE: A PLANE OF SYMMETRY CUTS THE BODIES OF JOINT 1: T AND MU N/T'
+   says 'half: what is left out' "$work/half.log" 'NOTE: A PLANE OF SYMMETRY CUTS THE BODIES OF JOINT 1: T, MU N/T, M AND SECANT'
+   same 'half: told once' "$(grep -c 'OF SYMMETRY' "$work/half.log") $(grep -c 'OF SYMMETRY' "$work/half.out")" '1 1'
+   near 'half, pressed: no M' "$(of half stage rows 'stage = 1' print m)" 0 0 1e-3
+   near 'half, pushed: M' "$(of half stage rows 'stage = 2' print m)" '500*12' 1e-8
+   holds 'half: the base bears moments about an axis in the plane' "abs($(of half stage rows 'stage = 1' print moment_y)) > 1000"
+   for column in m secant_y secant_n secant_tilt_x; do
+      near "half, pushed: $column of the whole" "2*$(of half stage rows 'stage = 2' print $column)" "$(of whole stage rows 'stage = 2' print $column)" 1e-8
+   done
+   for column in move_y move_n turn_x; do
+      near "half, pushed: $column of the whole" "$(of half stage rows 'stage = 2' print $column)" "$(of whole stage rows 'stage = 2' print $column)" 1e-8
+   done
+   same 'half: no other secants, as of the whole' "$(secants half)" "$(secants whole)"
 }
 # cut at y = -10, a side plane: pushed along x
-pressed side 2 0 2 -10 'SPCM,1,2,24' 300 0 &&
+pressed side 2 0 2 -10 'SPCM,1,2,24' 300 0 && {
    near 'another side, pushed: T' "$(of side stage rows 'stage = 2' print t)" 300 1e-8
+   near 'another side, pushed: M' "$(of side stage rows 'stage = 2' print m)" '300*12' 1e-8
+}
 # cut twice: nothing can move it sideways
 pressed quarter 2 0 2 0 'SPCM,1,1,22;SPCM,1,2,24' 0 0 && {
    nothing 'quarter, pressed' quarter 1
+   near 'quarter: no M' "$(of quarter stage rows 'stage = 2' print m)" 0 0 1e-3
+   same 'quarter: SECANT along the normal only' "$(secants quarter)" 001000001000
+   near 'quarter: SECANT of the whole' "4*$(of quarter stage rows 'stage = 1' print secant_n)" "$(of whole stage rows 'stage = 1' print secant_n)" 1e-8
    says 'quarter: what is left out' "$work/quarter.log" 'NOTE: PLANES OF SYMMETRY CUT THE BODIES OF JOINT 1'
 }
 # a foot beside the plane, which cuts the body on it: the other foot holds the body as well along the normal

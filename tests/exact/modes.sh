@@ -134,7 +134,7 @@ DECK
 done
 
 # E_u left blank is E of the bodies per unit of length, here 120000: 120000 m c/p^(1 - m) = 84.85 times the slope of loading at p = 0.5. The
-# listing says so with the law, and the modes that it rules warn of it; not where EU is given, nor where the stiffness is that of loading.
+# listing says so once: with the law, or with the modes that it rules, which warn of it; not where EU is given.
 slope_given() { # NAME EU STIFFNESS
    cards "$1" <<DECK
 METHOD = NEWTON;SUBCASE 1;LOAD = 10;MODES = 8;STIFFNESS = $3
@@ -144,10 +144,34 @@ DECK
    run "$1"
 }
 slope_given blank_slope '' UNLOAD && slope_given same_slope 120000.0 UNLOAD && slope_given loading_slope '' LOAD && {
-   says 'E_u by default: its ratio to the slope of loading' "$work/blank_slope.out" 'E_U OF JOINT 1 IS THE DEFAULT, E OF THE BODIES,  8.49E+01 TIMES THE SLOPE OF LOADING'
+   says 'E_u by default: its ratio to the slope of loading' "$work/loading_slope.out" 'NOTE: E_U OF JOINT 1 IS THE DEFAULT, E OF THE BODIES,  8.49E+01 TIMES THE SLOPE OF LOADING'
+   same '... told once' "$(grep -c 'IS THE DEFAULT' "$work/blank_slope.out")" 1
    says '... where it rules modes' "$work/blank_slope.out" 'WARNING: E_U OF JOINT 1 IS THE DEFAULT, AND MAKES IT 8.49E+01 TIMES AS STIFF AS ITS LOADING CURVES'
    near '... the frequency of that E_u' "$(mode blank_slope 1 frequency)" "$(mode same_slope 1 frequency)" 1e-9
    same '... given: no word' "$(grep -c 'IS THE DEFAULT' "$work/same_slope.out")" 0
    same '... modes of loading: no warning' "$(grep -c 'WARNING: E_U' "$work/loading_slope.out")" 0
-   says '... the law as well' "$work/loading_slope.out" 'NOTE: E_U OF JOINT 1 IS THE DEFAULT'
 }
+
+# A structure of one mode
+cards single <<'DECK'
+SPC = 1;SUBCASE 1;MODES = 3
+BEGIN BULK;GRID,1;CELAS2,1,100.0,1,1;CONM2,2,1,,1.0;SPC1,1,2,1;EIGRL,3,,,3;ENDDATA
+DECK
+run single && says 'one mode, in words' "$work/single.out" 'THE STRUCTURE HAS 1 MODE IN ALL, AND IT HAS BEEN FOUND'
+
+# Two free blocks in space, joined by springs between the nodes of their faces, whatever the number of modes asked for: six modes of exactly zero
+# without strain energy; the others are the same each time, and their shares of strain energy add up to 1.
+joining=$(for i in {0..15}; do for c in 1 2 3; do printf 'CELAS2,%d,2.+5,%d,%d,%d,%d;' $((9000 + 3*i + c)) $((5 + 5*i)) $c $((1001 + 3*i)) $c; done; done)
+for n in 1 4 6 7 9 14; do
+   cards afloat <<DECK
+SUBCASE 1;MODES(FREE) = $n;BEGIN BULK;BLOCK3,1,1,3,3,4,0.,0.,0.;+,30.,20.,90.,,,,1,1;BLOCK3,2,2,3,3,2,0.,0.,90.;+,30.,20.,120.,,,,1001,1001
+PSOLID,1,1;PSOLID,2,2;MAT1,1,2.1+5,,.3,7.85-9;MAT1,2,7.+4,,.33,2.7-9;${joining}EIGRL,$n,,,$n;ENDDATA
+DECK
+   run afloat || continue
+   same "free in space, $n modes: six of zero" "$(awk -F, 'NR > 1 { printf "%d", ($3 > 0) }' "$work/afloat.modes.csv")" "$(printf '00000011111111' | cut -c "-$n")"
+   [ $n -gt 6 ] || continue
+   first=${first:-$(mode afloat 7 frequency)}
+   near "free in space, $n modes: the first with strain" "$(mode afloat 7 frequency)" "$first" 1e-9
+   judge "free in space, $n modes: shares" 'NR > 1 { share[$2] += $5 + $6 }
+      END { for (m in share) { checked++; if (m + 0 <= 6 || (share[m] - 1)^2 > 1e-12) print m, share[m] } print "checked " checked + 0 }' FS=, "$work/afloat.modes.energy.csv"
+done

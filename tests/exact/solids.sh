@@ -349,6 +349,17 @@ pyramids pyramids && run pyramids && {
    od -An -v -tx1 "$work/pyramids.1.vtu" | tr -d ' \n' > "$work/pyramids.hex"
    says 'pyramids for ParaView' "$work/pyramids.hex" '0e0e0e0e0e0e0e0c'
 }
+# One pyramid held at its base, a force on the apex: the displacements are linear in the height h, so that k = E V/h^2 upwards and G V/h^2 sideways
+# with nu = 0, wherever the apex is.
+for case in '0. 0. 1. 2.5*16/(1000*8)' '1. 0. 0. 2.5*16/(500*8)' '0. 1. 0. 2.5*16/(500*8)'; do
+   set -- $case
+   cards one_pyramid <<DECK
+SPC = 1;SUBCASE 1;LOAD = 1
+BEGIN BULK;GRID,1,,0.,0.,0.;GRID,2,,2.,0.,0.;GRID,3,,2.,3.,0.;GRID,4,,0.,3.,0.;GRID,9,,0.3,2.,4.;CPYRAM,1,1,1,2,3,4,9;PSOLID,1,1
+MAT1,1,1000.,,0.;SPC1,1,123,1,2,3,4;FORCE,1,9,,2.5,$1,$2,$3;ENDDATA
+DECK
+   run one_pyramid && near "one pyramid, force $1 $2 $3" "$("$query" "$work/one_pyramid.stage.csv" print u_max)" "$4" 1e-12
+done
 pyramids more_nodes 'CPYRAM,70,1,11,12,13,14,15,1;+,2' && run more_nodes 2 && says 'a pyramid of thirteen nodes' "$work/more_nodes.log" \
    'CPYRAM, field 9, G6: a pyramid of second order, of up to 13 nodes; expected 5'
 pyramids turned_round 'CPYRAM,70,1,14,13,12,11,15' && run turned_round 2 && says 'a pyramid turned round' "$work/turned_round.log" \

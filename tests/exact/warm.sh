@@ -58,6 +58,8 @@ grown expands 2.3-5,20.0 && {
 }
 grown squeezes '' && says 'a rigid face that does not expand' "$work/squeezes.log" \
    'RBE2 91 holds nodes up to 20 apart, where the warm body beside them would expand by 0.046: a strain of 0.0023, E times which is a stress of 161;'
+grown another 2.3-5,0.0 && says 'a rigid face that expands from another temperature' "$work/another.log" \
+   'would expand by 0.0092 less than the RBE2: a strain of -4.6E-4, .*; its ALPHA 2.3E-5 and TREF 0 are not those of the body, 2.3E-5 and 20$'
 
 # TREF left blank counts from 0, and is told.
 cards from_zero <<'DECK'

@@ -26,7 +26,7 @@ same 'README: the chart' "$(block README.md jointfem 1 | sed -E 's/ *(<-+|-+)?[-
 same 'README: the deck of the worked example' "$(block README.md jointfem 2)" "$(grep -v '^\$' input/prism05.bdf )"
 command=$(block README.md jointfem 3 | sed -n '1s/^\$ //p')
 same 'README: the listing' "$(block README.md jointfem 3 | tail -n +2)" \
-   "$(bash -c "${command/prism05.out/reference_output/prism05.out}" | sed 's/ *$//')"
+   "$(bash -c "${command/mine/reference_output}" | sed 's/ *$//')"
 grep -oE '\[[0-9]+ lines\]\([a-z0-9_/.]+\)' README.md | tr '[]()' '    ' | while read -r n _ file; do echo "$n $(wc -l < "$file") $file"; done > "$work/lines"
 same 'README: lines of a file' "$(awk '$1 != $2' "$work/lines")$(wc -l < "$work/lines")" 1
 deflections='' pressures=''
