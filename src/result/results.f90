@@ -146,8 +146,7 @@ contains
          if (any(model%interface%gap < 0.0_wp)) page%largest_force = &
             max(page%largest_force, maxval(abs(analysis%states%normal%sumf)))              ! forces of interference
 
-         call find_joint_values(model, analysis, results%joints_now)
-         call follow_bolts(model, analysis, page%largest_force, results%bolts, results%bolts_now)
+         call find_values(model, analysis, results)
          call note_stage_tables(page, results%method, model, analysis, results%joints_now, results%stage_tables)
          call watch_increment(page, model, analysis, results%joints_now, results%method, results%watch)
          if (stage%output%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
@@ -167,6 +166,16 @@ contains
       end associate
    end subroutine print_increment
 
+   !> The values of joints and bolts after the increment just completed, which all tables read.
+   subroutine find_values(model, analysis, results)
+      type(model_type), intent(in)      :: model
+      type(analysis_type), intent(in)   :: analysis
+      type(results_type), intent(inout) :: results
+
+      call find_joint_values(model, analysis, results%joints_now)
+      call follow_bolts(model, analysis, results%page%largest_force, results%bolts, results%bolts_now)
+   end subroutine find_values
+
    !> Write the results of the completed stage: the tables of its last increment, those of the whole stage, and the answer. FAILURE
    !! is raised where a value of the answer is beyond all bounds.
    subroutine print_stage(model, plan, analysis, results, failure)
@@ -182,6 +191,7 @@ contains
       integer :: before, i
 
       associate (stage => plan%stages(analysis%stage), page => results%page)
+         if (.not. allocated(results%joints_now)) call find_values(model, analysis, results) ! the run has resumed, and ends here
          if (stage%output%level >= output_last) call list_joints(page, stage%output, model, analysis)
          do i = 1, merge(size(model%joints), 0, stage%output%plot)
             call plot_joint(page, model, analysis, model%joints(i))
