@@ -35,7 +35,7 @@ module modal_loops
    real(wp), parameter :: coarsely_settled = 0.01_wp ! of the area: coarse loops only look for the load
    real(wp), parameter :: no_area = 1.0e-9_wp        ! of alpha q: rounding
    real(wp), parameter :: negligible = 1.0e-6_wp     ! likewise: smaller areas need not settle
-   real(wp), parameter :: per_part = 0.03_wp         ! of the tolerance: share of one part of a loop
+   real(wp), parameter :: per_part = 0.1_wp          ! of the tolerance: share of one part of a loop
    real(wp), parameter :: least_loss = 0.01_wp       ! of alpha q: a smaller D does not tighten the tolerances
    real(wp), parameter :: even = 1.0e-6_wp           ! of a push: the two senses are equal
 

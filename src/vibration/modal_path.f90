@@ -18,6 +18,7 @@ module modal_path
    use node_coupling, only: forces_on_unknowns
    use normal_stiffness, only: branch_open
    use stage_plan, only: stage_plan_type
+   use text_tools, only: real_text
    implicit none
    private
 
@@ -40,6 +41,7 @@ module modal_path
       type(analysis_type)   :: rest                  !! copy of the state, in equilibrium
       real(wp), allocatable :: rest_forces(:, :)     !! (3, n) forces of the interface elements there, in their axes
       real(wp) :: largest = 0.0_wp                   !! alpha of the present paths
+      real(wp) :: carried = 0.0_wp                   !! |alpha| of the last state in equilibrium of a path that has failed
       real(wp) :: finest_work = 0.0_wp               !! increments are halved until work and q change by less; 0: not halved
       real(wp) :: finest_q = 0.0_wp
       real(wp) :: work_noise = 0.0_wp                !! rounding error of the work of the elements on a path
@@ -77,6 +79,7 @@ contains
       call form_mass(model, modal%mass)
       modal%rest = analysis
       if (allocated(modal%rest%exact)) deallocate (modal%rest%exact)
+      modal%rest%states%turns = .true.
       modal%rest%tolerance = modal%rest%tolerance*min(1.0_wp, exact/modal%rest%load_tolerance) ! TOL of BACK is of pressures
       modal%rest%load_tolerance = min(exact, modal%rest%load_tolerance)
       modal%plan = plan
@@ -119,6 +122,8 @@ contains
       real(wp) :: held, share ! load at rest; that of alpha, of it
 
       modal%largest = alpha
+      modal%carried = 0.0_wp
+      modal%plan%stages(modal%rest%stage)%path = 'loops under '//in_words(alpha)
       modal%q_noise = margin*modal%rest%load_tolerance
       now = modal%rest
       held = free_norm(modal%rest%now%condensed_load, modal%rest%held)
@@ -255,7 +260,11 @@ contains
       from = now%movement
       call start_increment(modal%plan, modal%system, now)
       call newton_increment(model, modal%plan, now, modal%system, failure)
-      if (failure%raised) return
+      if (failure%raised) then
+         modal%carried = abs(ends(2) - (sum(modal%plan%stages(modal%rest%stage)%fractions) - now%fraction)) ! newton went back to it
+         failure%message = failure%message//'; the last state in equilibrium is at '//in_words(modal%carried)
+         return
+      end if
       do e = 1, size(before)
          associate (element => model%interface(e), to => now%movement(:, e))
             energy = work_along(model%joints(element%joint)%law, element%area, before(e), to)
@@ -263,6 +272,14 @@ contains
          end associate
       end do
    end subroutine load_increment
+
+   !> ALPHA for a message.
+   pure function in_words(alpha) result(words)
+      real(wp), intent(in)      :: alpha
+      character(:), allocatable :: words
+
+      words = 'alpha = '//real_text(alpha)
+   end function in_words
 
    !> q of the state NOW, under ALPHA.
    pure real(wp) function coordinate(modal, now, alpha) result(q)
