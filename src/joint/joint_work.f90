@@ -294,8 +294,8 @@ contains
 
    end function zero_on
 
-   !> TAU at the fraction X of the slip that BEGINS on WAY, where the stress is FIRST: in the direction of the trial, or turned along
-   !! the way, its size between those of FIRST and LAST.
+   !> TAU at the fraction X of the slip that BEGINS on WAY, where the stress is FIRST: in the direction of the trial, or turned
+   !! along the way, its size between those of FIRST and LAST.
    pure subroutine stress_in_slip(law, way, begins, x, first, last, tau)
       type(joint_law), intent(in) :: law
       type(way_type), intent(in)  :: way

@@ -217,8 +217,9 @@ contains
    end function is_nearer
 
    !> Judge the AMPLITUDE under the present load, huge where the structure does not carry the load, and choose the next load: by
-   !! the secant through the last two, or on either side of the load up to which a failed path was carried, between the loads found
-   !! too small and too large. The search ends within TOLERANCE of the requested amplitude, and where no load is left between the two.
+   !! the secant through the last two, or on either side of the load up to which a failed path was carried, between the loads
+   !! found too small and too large. The search ends within TOLERANCE of the requested amplitude, and where no load is left
+   !! between the two.
    subroutine judge(search, amplitude, tolerance)
       class(search_type), intent(inout) :: search
       real(wp), intent(in)              :: amplitude, tolerance

@@ -84,6 +84,7 @@ contains
       modal%rest%tolerance = modal%rest%tolerance*min(1.0_wp, exact/modal%rest%load_tolerance) ! TOL of BACK is of pressures
       modal%rest%load_tolerance = min(exact, modal%rest%load_tolerance)
       modal%plan = plan
+      modal%plan%stages(analysis%stage)%path = 'start of the loops'
       modal%phi = phi
       allocate (modal%force, inside, mold=phi)
       allocate (modal%condensed, mold=analysis%u)
@@ -166,10 +167,10 @@ contains
       end do
    end subroutine follow_path
 
-   !> Go from alpha = ENDS(1) to ENDS(2). As one increment, the joints take the work and q grows by what WHOLE says. The increment is
-   !! halved until halving has no effect on the work of the elements and on the growth of q: the error of q at the start of an
-   !! increment is not that of the increment. Two errors do not show in this way: where an element closes, its shear deflection counts
-   !! from the start of the increment, and where an element turns from loading to unloading, because another one opens or slips, the
+   !> Go from alpha = ENDS(1) to ENDS(2). As one increment, the joints take the work and q grows by what WHOLE says. The increment
+   !! is halved until halving has no effect on the work of the elements and on the growth of q: the error of q at the start of an
+   !! increment is not that of the increment. Two errors do not show in this way: where an element closes, its shear deflection
+   !! counts from the start of the increment, and where an element turns from loading to unloading, because another one opens or slips, the
    !! straight way misses its largest pressure. Such increments are halved to CLOSING_STEP; at the beginning of a path all elements
    !! turn at once. The remaining error of the work falls by four in each halving; a third of the last difference is subtracted.
    recursive subroutine refine_increment(model, modal, ends, whole, now, path, failure)
