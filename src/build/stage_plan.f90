@@ -53,6 +53,7 @@ module stage_plan
       integer, allocatable :: watched(:)    !! positions of the nodes of WATCH; not allocated: none
       character(:), allocatable :: shown_words !! text of this limit, behind a title
       real(wp), allocatable :: fractions(:)    !! of the load change of the stage, one per increment, sum 1
+      character(:), allocatable :: path        !! words for its load where this is not that of the stage, as in loops
       type(vibration_plan_type), allocatable :: vibration !! after the stage; not allocated: not requested
    end type planned_stage
 
@@ -167,6 +168,7 @@ contains
       character(:), allocatable         :: words
 
       words = 'stage '//integer_text(plan%stages(stage)%id)//', increment '//integer_text(increment)
+      if (allocated(plan%stages(stage)%path)) words = plan%stages(stage)%path
    end function where_in_plan
 
    !> Estimated number of factorisations, for the choice of an ordering.

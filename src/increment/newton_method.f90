@@ -57,7 +57,8 @@ contains
       call find_equilibrium(model, analysis, system, attempt, failure)
       if (failure%raised) then
          call go_back(plan, attempt%left_over, analysis)
-         if (analysis%record%ends_early) failure%message = failure%message//'; the last state in equilibrium is at '// &
+         if (analysis%record%ends_early .and. .not. allocated(plan%stages(analysis%stage)%path)) &
+            failure%message = failure%message//'; the last state in equilibrium is at '// &
             real_text(anint(1.0e4_wp*analysis%fraction)*1.0e-4_wp)//' of stage '//integer_text(plan%stages(analysis%stage)%id)
          return
       end if

@@ -6,6 +6,7 @@ module joint_laws
    use normal_curve, only: loading_pressure, normal_law, normal_secant, pressure_floor
    use normal_stiffness, only: branch_open, closed_share, follow_normal, is_virgin, norm, normal_state
    use shear_path, only: follow_shear
+   use slip_path, only: turn_slip
    use shear_stiffness, only: shear, shear_law, shear_state, slid_from, stand_at_limit
    implicit none
    private
@@ -31,7 +32,7 @@ module joint_laws
       type(normal_state) :: normal
       type(shear_state)  :: shear(2)
       logical  :: slips = .false.            !! the limit was exceeded in the last increment
-      integer, private :: filler = 0         ! as in normal_state
+      logical  :: turns = .false.            !! slip turns the stress within an increment: paths of loops
       real(wp) :: origin(2) = 0.0_wp         !! tangential movement at which delta = 0: that of the last closing
    end type element_state
 
@@ -158,7 +159,7 @@ contains
    end function friction_excess
 
    !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb
-   !! friction as a return to the limit.
+   !! friction as a return to the limit, or along the way where the element TURNS.
    pure subroutine follow_element(law, area, before, movement, after, tangent)
       type(joint_law), intent(in)      :: law
       real(wp), intent(in)             :: area
@@ -167,6 +168,7 @@ contains
       type(element_state), intent(out) :: after
       real(wp), intent(out)            :: tangent(3, 3) !! d (forces x, y, z)/d movement [force/length], not symmetric
       real(wp) :: by_delta(2), by_p(2), slope, work, limit, size_of_tau, along(2), share, share_by_lambda
+      real(wp) :: slipped(2), by_limit(2), by_trial(2, 2)
       integer  :: i
 
       after = before
@@ -193,14 +195,22 @@ contains
       end do
       after%slips = exceeds_limit(law, after, slip_margin)
       if (.not. after%slips) return
-      limit = friction_limit(law, after%normal%pressure)            ! tau = limit * trial/|trial|
-      size_of_tau = norm2(after%shear%tau)
-      along = after%shear%tau/size_of_tau
-      tangent(:2, :2) = limit/size_of_tau*(tangent(:2, :2) - matmul(spread(along, 2, 1), &
-                                           matmul(spread(along, 1, 1), tangent(:2, :2))))
-      tangent(:2, 3) = limit/size_of_tau*(tangent(:2, 3) - along*dot_product(along, tangent(:2, 3))) + law%mu*slope*area*along
-      after%shear%slid = after%shear%slid + slid_from(law%shear, after%normal%pressure, after%shear, limit*along)
-      after%shear%tau = limit*along
+      limit = friction_limit(law, after%normal%pressure)
+      if (before%turns) then
+         call turn_slip(before%shear%tau, after%shear%tau - before%shear%tau, &
+                        [friction_limit(law, before%normal%pressure), limit], slipped, by_trial, by_limit)
+         tangent(:2, :) = matmul(by_trial, tangent(:2, :))
+         tangent(:2, 3) = tangent(:2, 3) + law%mu*slope*area*by_limit
+      else
+         size_of_tau = norm2(after%shear%tau)                       ! tau = limit * trial/|trial|
+         along = after%shear%tau/size_of_tau
+         slipped = limit*along
+         tangent(:2, :2) = limit/size_of_tau*(tangent(:2, :2) - matmul(spread(along, 2, 1), &
+                                              matmul(spread(along, 1, 1), tangent(:2, :2))))
+         tangent(:2, 3) = limit/size_of_tau*(tangent(:2, 3) - along*dot_product(along, tangent(:2, 3))) + law%mu*slope*area*along
+      end if
+      after%shear%slid = after%shear%slid + slid_from(law%shear, after%normal%pressure, after%shear, slipped)
+      after%shear%tau = slipped
       call stand_at_limit(law%shear, max(0.0_wp, after%normal%pressure), after%shear)
    end subroutine follow_element
 

@@ -10,7 +10,7 @@
 !!    |tau| |            . o trial     The stress follows the branch until it meets the limit mu p at f_s. From there on it stays at
 !!          |        . '               the limit, in the direction of the stress that the branch would have had (trial), and the
 !!     mu p |- - - s - - - -*          elements stand at point D of their loading curves: delta takes d D, and slides by the rest.
-!!          |    .
+!!          |    .                     Where the element TURNS, the direction is that of slip_path.
 !!        0 *---------------+- f       An element that opens is followed to the point where its pressure is zero.
 !!          0     f_s       1
 !!
@@ -25,6 +25,7 @@ module joint_work
    use numbers, only: polynomial
    use shear_path, only: follow_shear
    use shear_stiffness, only: shear_state
+   use slip_path, only: turn_slip
    implicit none
    private
 
@@ -55,6 +56,8 @@ module joint_work
    type :: way_type
       integer           :: follows = by_branches
       type(shear_state) :: before(2)
+      logical  :: turns    = .false.            ! see element_state; then
+      real(wp) :: trial(2) = 0.0_wp             ! stress at the end as if nothing slid [pressure]
       real(wp) :: moved(2) = 0.0_wp             ! change of delta [length]
       real(wp) :: p(2)     = 0.0_wp             ! at both ends [pressure]
       real(wp) :: slope(2) = 0.0_wp             ! of the tangents, by_tangents [pressure/length]
@@ -103,6 +106,7 @@ contains
       call follow_normal(law%normal, area, before%normal, after%normal%lambda, normal, slope, work)
       call tally(2, work, energy)
       way%before = before%shear
+      way%turns = before%turns
       way%moved = movement(:2) - after%origin - before%shear%delta
       way%p = [before%normal%pressure, after%normal%pressure]
       if (after%normal%branch == branch_open) then
@@ -112,6 +116,7 @@ contains
          after%slips = law%has_friction
          after%shear%tau = 0.0_wp
       end if
+      if (way%turns .and. after%slips) call go(law, way, 1.0_wp, way%trial, work)
       call share_out(law, area, way, after%slips, after%shear%tau, energy)
    end function work_along
 
@@ -175,7 +180,7 @@ contains
       logical, intent(in)               :: slips
       real(wp), intent(in)              :: tau_end(2)
       type(joint_energy), intent(inout) :: energy
-      real(wp) :: begins, tau(2), work, turns, work_there, kept, slip_work, size, unused
+      real(wp) :: begins, tau(2), there(2), work, turns, work_there, kept, slip_work, unused
       integer  :: i, k, panels
 
       begins = 1.0_wp
@@ -191,14 +196,14 @@ contains
       if (.not. slips) return
 
       call go(law, way, begins, tau, work)
-      size = norm2(tau)
       kept = kept_in_slip(law, way, begins, tau, tau_end)
       slip_work = 0.0_wp
-      panels = merge(1, 4, any(abs(way%moved) <= 0.0_wp .and. abs(tau) <= 0.0_wp)) ! along one axis the stress does not turn
+      panels = merge(1, 4, any(abs(way%moved) <= 0.0_wp .and. abs(tau) <= 0.0_wp) .or. & ! along one axis the stress does not turn
+                           (way%turns .and. norm2(way%trial - tau) <= norm2(tau_end)))
       do k = 1, panels
          do i = 1, 5
-            call stress_in_slip(law, way, begins, (k - 1 + point(i))/panels, [size, norm2(tau_end)], tau)
-            work = weight(i)/panels*(1.0_wp - begins)*dot_product(tau, way%moved)
+            call stress_in_slip(law, way, begins, (k - 1 + point(i))/panels, tau, norm2(tau_end), there)
+            work = weight(i)/panels*(1.0_wp - begins)*dot_product(there, way%moved)
             call tally(1, area*work, energy)
             slip_work = slip_work + work
          end do
@@ -289,16 +294,23 @@ contains
 
    end function zero_on
 
-   !> TAU at the fraction X of the slip that BEGINS on WAY: in the direction of the trial, its size between SIZES.
-   pure subroutine stress_in_slip(law, way, begins, x, sizes, tau)
+   !> TAU at the fraction X of the slip that BEGINS on WAY, where the stress is FIRST: in the direction of the trial, or turned
+   !! along the way, its size between those of FIRST and LAST.
+   pure subroutine stress_in_slip(law, way, begins, x, first, last, tau)
       type(joint_law), intent(in) :: law
       type(way_type), intent(in)  :: way
-      real(wp), intent(in)        :: begins, x, sizes(2)
+      real(wp), intent(in)        :: begins, x, first(2), last
       real(wp), intent(out)       :: tau(2)
-      real(wp) :: work
+      real(wp) :: by_gain(2, 2), by_limit(2), size, trial(2), work
 
-      call go(law, way, begins + x*(1.0_wp - begins), tau, work)
-      if (norm2(tau) > 0.0_wp) tau = tau/norm2(tau)*(sizes(1) + x*(sizes(2) - sizes(1)))
+      size = norm2(first) + x*(last - norm2(first))
+      if (way%turns) then
+         call turn_slip(first, x*(way%trial - first), [norm2(first), size], tau, by_gain, by_limit)
+      else
+         call go(law, way, begins + x*(1.0_wp - begins), trial, work)
+         tau = trial
+         if (norm2(trial) > 0.0_wp) tau = trial/norm2(trial)*size
+      end if
    end subroutine stress_in_slip
 
    !> What the branches keep of the work while the element slips: integral of tau d (delta - slid), the stress going from TAU to
@@ -331,7 +343,7 @@ contains
       end do
       if (.not. (abs(p(2) - p(1)) > 0.0_wp .and. any([(abs(law%shear(k)%load%coefficients(2, :)) > 0.0_wp, k = 1, 2)]))) return
       do i = 1, 5
-         call stress_in_slip(law, way, begins, point(i), [norm2(tau), norm2(tau_end)], at)
+         call stress_in_slip(law, way, begins, point(i), tau, norm2(tau_end), at)
          do k = 1, 2
             kept = kept + weight(i)*(p(2) - p(1))*by_pressure(law%shear(k)%load, abs(at(k)), p(1) + point(i)*(p(2) - p(1)))
          end do

@@ -52,6 +52,7 @@ module backbone
       type(trial_type) :: low, now, before          !! too small; the present trial; the one before
       type(trial_type) :: high = trial_type(huge(1.0_wp), 0.0_wp) !! too large
       real(wp) :: near = 1.0e-4_wp                  !! of alpha: precision of the largest load that is carried
+      real(wp) :: carried = 0.0_wp                  !! alpha up to which the load of the last failure was carried; 0: not known
       real(wp) :: slope = 0.0_wp                    !! of the load over the amplitude, 0: not known
       logical  :: ends = .false.
       logical  :: is_limited = .false.              !! ... because the structure does not carry a larger load
@@ -190,11 +191,13 @@ contains
       integer :: trial
 
       search%before = trial_type()
+      search%carried = 0.0_wp
       do trial = 1, most_trials
          refused = none
          call run_loops(model, found%modal, wanted, search%now%alpha, next, refused, fine)
          if (refused%raised) then
             found%problem = refused%message
+            search%carried = found%modal%carried
          else if (loop%n_loops == 0 .or. search%is_nearer(next%q*found%peak, loop%q*found%peak)) then
             loop = next
          end if
@@ -214,8 +217,9 @@ contains
    end function is_nearer
 
    !> Judge the AMPLITUDE under the present load, huge where the structure does not carry the load, and choose the next load: by
-   !! the secant through the last two, between the loads found too small and too large. The search ends within TOLERANCE of the
-   !! requested amplitude, and where no load is left between the two.
+   !! the secant through the last two, or on either side of the load up to which a failed path was carried, between the loads
+   !! found too small and too large. The search ends within TOLERANCE of the requested amplitude, and where no load is left
+   !! between the two.
    subroutine judge(search, amplitude, tolerance)
       class(search_type), intent(inout) :: search
       real(wp), intent(in)              :: amplitude, tolerance
@@ -238,11 +242,23 @@ contains
          search%before = search%now
       end if
       associate (low => search%low%alpha, high => search%high%alpha)
-         if (.not. (alpha > low .and. alpha < high)) alpha = merge(0.5_wp*(low + high), 2.0_wp*low, high < huge(1.0_wp))
+         if (.not. between(alpha)) alpha = (1.0_wp - 0.5_wp*search%near)*search%carried
+         if (.not. between(alpha)) alpha = (1.0_wp + 0.5_wp*search%near)*search%carried
+         if (.not. between(alpha)) alpha = merge(0.5_wp*(low + high), 2.0_wp*low, high < huge(1.0_wp))
          search%is_limited = .not. search%ends .and. search%high%amplitude >= huge(1.0_wp) .and. high - low <= search%near*high
          search%ends = search%ends .or. search%is_limited .or. high - low <= same*high
       end associate
       search%now%alpha = alpha
+
+   contains
+
+      !> Whether ALPHA lies between the loads found too small and too large.
+      pure logical function between(alpha)
+         real(wp), intent(in) :: alpha
+
+         between = alpha > search%low%alpha .and. alpha < search%high%alpha
+      end function between
+
    end subroutine judge
 
    !> Complete the backbone FOUND. Where the stage asks for a response, this is the response of the mode alone to the modal force,

@@ -35,7 +35,7 @@ module modal_loops
    real(wp), parameter :: coarsely_settled = 0.01_wp ! of the area: coarse loops only look for the load
    real(wp), parameter :: no_area = 1.0e-9_wp        ! of alpha q: rounding
    real(wp), parameter :: negligible = 1.0e-6_wp     ! likewise: smaller areas need not settle
-   real(wp), parameter :: per_part = 0.03_wp         ! of the tolerance: share of one part of a loop
+   real(wp), parameter :: per_part = 0.1_wp          ! of the tolerance: share of one part of a loop
    real(wp), parameter :: least_loss = 0.01_wp       ! of alpha q: a smaller D does not tighten the tolerances
    real(wp), parameter :: even = 1.0e-6_wp           ! of a push: the two senses are equal
 
@@ -85,7 +85,7 @@ contains
    !> 0 -> ALPHA -> -ALPHA -> ALPHA, then the same loop repeated until it has settled, at most for the cycles of WANTED. FINE, the
    !! loop of about this load that coarse increments have found: increments are halved to the tolerance of WANTED. FAILURE where
    !! the structure does not carry ALPHA. The change of q passes through zero while the loop still moves: it must close to the same
-   !! tolerance, or its gap must be steady.
+   !! tolerance, or its gap must be steady, twice: the ratio of changes is that of the first loops before it is that of the drift.
    subroutine run_loops(model, modal, wanted, alpha, loop, failure, fine)
       type(model_type), intent(in)          :: model
       type(modal_load_type), intent(inout)  :: modal
@@ -98,6 +98,7 @@ contains
       type(path_type) :: path
       real(wp) :: settled(2)                        ! changes of q and D that count as none, of themselves
       real(wp) :: change(3), change_before(3), before(3) ! of q, D and gap, and these of the loop before
+      logical  :: is_steady, was_steady
 
       modal%finest_work = 0.0_wp
       settled = [coarsely_settled, coarsely_settled]
@@ -111,6 +112,7 @@ contains
       call follow_path(model, modal, [0.0_wp, alpha], wanted%increments, now, path, failure)
       if (present(fine)) call be_precise(wanted, fine, least_loss, modal)
       change = huge(1.0_wp)
+      is_steady = .false.
       do while (.not. failure%raised .and. loop%n_loops < 2 + wanted%cycles)
          before = [loop%q, loop%lost, loop%gap*loop%q]
          change_before = change
@@ -119,9 +121,11 @@ contains
          if (present(fine)) call be_precise(wanted, loop, least_loss, modal)
          if (loop%n_loops < 2) cycle
          change = abs([loop%q, loop%lost, loop%gap*loop%q] - before)
-         if (all(left(change, change_before) <= [max(settled*[loop%q, abs(loop%lost)], [0.0_wp, negligible*alpha*loop%q]), &
-                                                 merge(steady*abs(loop%gap)*loop%q, huge(1.0_wp), &
-                                                       abs(loop%gap) > settled(1))])) exit
+         was_steady = is_steady
+         is_steady = all(left(change, change_before) <= [max(settled*[loop%q, abs(loop%lost)], [0.0_wp, negligible*alpha*loop%q]), &
+                                                         merge(steady*abs(loop%gap)*loop%q, huge(1.0_wp), &
+                                                               abs(loop%gap) > settled(1))])
+         if (is_steady .and. (was_steady .or. .not. present(fine) .or. abs(loop%gap) <= settled(1))) exit
       end do
    end subroutine run_loops
 

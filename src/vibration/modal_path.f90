@@ -16,8 +16,9 @@ module modal_path
    use model_data, only: model_type
    use newton_method, only: newton_increment
    use node_coupling, only: forces_on_unknowns
-   use normal_stiffness, only: branch_open
+   use normal_stiffness, only: branch_load, branch_open, branch_unload
    use stage_plan, only: stage_plan_type
+   use text_tools, only: real_text
    implicit none
    private
 
@@ -25,7 +26,7 @@ module modal_path
 
    real(wp), parameter :: finest_step = 1.0e-7_wp    ! of alpha: a smaller step is not halved
    real(wp), parameter :: coarsest_step = 0.125_wp   ! likewise: a larger one is, for elements may slip and stick within it
-   real(wp), parameter :: closing_step = 1.0e-4_wp   ! likewise where an element closes
+   real(wp), parameter :: closing_step = 1.0e-4_wp   ! likewise where an element closes, or turns from loading to unloading
    real(wp), parameter :: exact = 1.0e-10_wp         ! TOL at most
    real(wp), parameter :: finest = 1.0e-13_wp        ! limit of TOL relative to the held load
    real(wp), parameter :: margin = 10.0_wp           ! of rounding errors
@@ -40,6 +41,8 @@ module modal_path
       type(analysis_type)   :: rest                  !! copy of the state, in equilibrium
       real(wp), allocatable :: rest_forces(:, :)     !! (3, n) forces of the interface elements there, in their axes
       real(wp) :: largest = 0.0_wp                   !! alpha of the present paths
+      real(wp) :: begins = 0.0_wp                    !! alpha at the beginning of the present path
+      real(wp) :: carried = 0.0_wp                   !! |alpha| of the last state in equilibrium of a path that has failed
       real(wp) :: finest_work = 0.0_wp               !! increments are halved until work and q change by less; 0: not halved
       real(wp) :: finest_q = 0.0_wp
       real(wp) :: work_noise = 0.0_wp                !! rounding error of the work of the elements on a path
@@ -77,9 +80,11 @@ contains
       call form_mass(model, modal%mass)
       modal%rest = analysis
       if (allocated(modal%rest%exact)) deallocate (modal%rest%exact)
+      modal%rest%states%turns = .true.
       modal%rest%tolerance = modal%rest%tolerance*min(1.0_wp, exact/modal%rest%load_tolerance) ! TOL of BACK is of pressures
       modal%rest%load_tolerance = min(exact, modal%rest%load_tolerance)
       modal%plan = plan
+      modal%plan%stages(analysis%stage)%path = 'start of the loops'
       modal%phi = phi
       allocate (modal%force, inside, mold=phi)
       allocate (modal%condensed, mold=analysis%u)
@@ -119,6 +124,8 @@ contains
       real(wp) :: held, share ! load at rest; that of alpha, of it
 
       modal%largest = alpha
+      modal%carried = 0.0_wp
+      modal%plan%stages(modal%rest%stage)%path = 'loops under '//in_words(alpha)
       modal%q_noise = margin*modal%rest%load_tolerance
       now = modal%rest
       held = free_norm(modal%rest%now%condensed_load, modal%rest%held)
@@ -142,6 +149,7 @@ contains
       real(wp) :: at(2), work(size(model%interface))
       integer  :: i
 
+      modal%begins = ends(1)
       do i = 1, n
          at = ends(1) + [i - 1, i]*(ends(2) - ends(1))/n
          if (modal%finest_work > 0.0_wp) then
@@ -159,11 +167,12 @@ contains
       end do
    end subroutine follow_path
 
-   !> Go from alpha = ENDS(1) to ENDS(2). As one increment, the joints take the work and q grows by what WHOLE says. The increment is
-   !! halved until halving has no effect on the work of the elements and on the growth of q: the error of q at the start of an
-   !! increment is not that of the increment. Where an element closes, its shear deflection counts from the start of the increment,
-   !! and the error does not show before the element reverses: such an increment is halved to CLOSING_STEP. The remaining error of the work falls by four in each halving; a third of the last
-   !! difference is subtracted.
+   !> Go from alpha = ENDS(1) to ENDS(2). As one increment, the joints take the work and q grows by what WHOLE says. The increment
+   !! is halved until halving has no effect on the work of the elements and on the growth of q: the error of q at the start of an
+   !! increment is not that of the increment. Two errors do not show in this way: where an element closes, its shear deflection
+   !! counts from the start of the increment, and where an element turns from loading to unloading, because another one opens or slips, the
+   !! straight way misses its largest pressure. Such increments are halved to CLOSING_STEP; at the beginning of a path all elements
+   !! turn at once. The remaining error of the work falls by four in each halving; a third of the last difference is subtracted.
    recursive subroutine refine_increment(model, modal, ends, whole, now, path, failure)
       type(model_type), intent(in)         :: model
       type(modal_load_type), intent(inout) :: modal
@@ -175,6 +184,7 @@ contains
       type(analysis_type), allocatable :: half, end
       real(wp) :: first(size(whole)), second(size(whole)), difference(size(whole)), coarsest, middle, share
       integer  :: n
+      logical  :: hides
 
       n = size(model%interface)
       middle = 0.5_wp*sum(ends)
@@ -187,8 +197,11 @@ contains
       second(n + 1) = coordinate(modal, end, ends(2)) - coordinate(modal, half, middle)
       difference = first + second - whole
       share = abs(ends(2) - ends(1))/modal%largest
-      coarsest = merge(closing_step, coarsest_step, any(now%states%normal%branch == branch_open .and. &
-                                                        end%states%normal%branch /= branch_open))
+      associate (before => now%states%normal%branch, after => end%states%normal%branch)
+         hides = any(before == branch_open .and. after /= branch_open) .or. &
+                 (abs(ends(1) - modal%begins) > 0.0_wp .and. any(before == branch_load .and. after == branch_unload))
+      end associate
+      coarsest = merge(closing_step, coarsest_step, hides)
       if (share <= coarsest .and. (share <= finest_step .or. (sum(abs(difference(:n))) <= modal%finest_work &
                                                               .and. abs(difference(n + 1)) <= modal%finest_q))) then
          call add_work(half, first(:n), path)
@@ -255,7 +268,11 @@ contains
       from = now%movement
       call start_increment(modal%plan, modal%system, now)
       call newton_increment(model, modal%plan, now, modal%system, failure)
-      if (failure%raised) return
+      if (failure%raised) then
+         modal%carried = abs(ends(2) - (sum(modal%plan%stages(modal%rest%stage)%fractions) - now%fraction)) ! newton went back to it
+         failure%message = failure%message//'; the last state in equilibrium is at '//in_words(modal%carried)
+         return
+      end if
       do e = 1, size(before)
          associate (element => model%interface(e), to => now%movement(:, e))
             energy = work_along(model%joints(element%joint)%law, element%area, before(e), to)
@@ -263,6 +280,14 @@ contains
          end associate
       end do
    end subroutine load_increment
+
+   !> ALPHA for a message.
+   pure function in_words(alpha) result(words)
+      real(wp), intent(in)      :: alpha
+      character(:), allocatable :: words
+
+      words = 'alpha = '//real_text(alpha)
+   end function in_words
 
    !> q of the state NOW, under ALPHA.
    pure real(wp) function coordinate(modal, now, alpha) result(q)

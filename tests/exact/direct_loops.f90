@@ -306,18 +306,24 @@ contains
 
    subroutine judge()
       real(wp), parameter :: same_f = 1.0e-4_wp, same_d = 0.01_wp, no_loss = 1.0e-5_wp
-      type(state_type) :: rest
+      integer, parameter  :: parts(6) = [60, 25, 11, 5, 2, 1]
+      type(state_type) :: began, rest
       real(wp) :: alpha, d, f, found(8), k(3, 3), lost, omega(3), phi(3), point(6), q, shapes(3, 3)
       character(300) :: line
-      integer :: backbone, checked, i, loop_file, row, sense
+      integer :: backbone, checked, i, k_part, loop_file, row, sense
       logical :: agrees, near, ok
 
       checked = 0
       rest = state_type()
       d = 0.0_wp
       rest%u(2) = -1.0e-12_wp
-      do i = 1, 60 ! the same increments as the deck, divided
-         call go(rest, geometric(i - 1)*force, geometric(i)*force, 60, d, ok)
+      do i = 1, 60 ! the same increments as the deck, divided: near zero pressure into fewer parts where Newton's method needs them
+         do k_part = 1, size(parts)
+            began = rest
+            call go(rest, geometric(i - 1)*force, geometric(i)*force, parts(k_part), d, ok)
+            if (ok) exit
+            rest = began
+         end do
          if (.not. ok) exit
       end do
       if (.not. ok) then

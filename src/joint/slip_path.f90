@@ -1,0 +1,94 @@
+!> Coulomb slip in the plane of the joint along a straight way: the stress turns towards the movement within the increment.
+!! Without slip the stress would grow by {gain} in proportion to the way f. It sticks up to f_s, where it meets the limit l = mu p,
+!! which is linear in f too. From there on it stays at the limit and
+!!
+!!    l d{n}/df = {gain} - {n} ({n} . {gain})        {n} its direction, theta the angle of {n} to {gain}
+!!    tan(theta/2) = tan(theta_s/2) exp(-x)          x = |gain| (1 - f_s)/l, with the mean of l
+!!
+!! This is exact at constant pressure. NEWTON returns the stress at the end of the increment to the limit, along a line: the error
+!! is of first order in the increments. Source: R. D. Krieg, D. B. Krieg, J. Pressure Vessel Technol. 99 (1977) 510-515, for the
+!! yield surface of von Mises.
+module slip_path
+   use kinds, only: wp
+   implicit none
+   private
+
+   public :: turn_slip
+
+   real(wp), parameter :: none = 1.0e-12_wp ! of the limit: a stress without direction
+   real(wp), parameter :: small = 1.0e-8_wp ! of it: a gain that does not turn the stress
+   real(wp), parameter :: far = 100.0_wp    ! x of a stress that has turned entirely
+
+contains
+
+   !> The stress TAU at the end of a way on which an element slips, from the stress BEFORE, with the limits at both ends.
+   pure subroutine turn_slip(before, gain, limits, tau, by_gain, by_limit)
+      real(wp), intent(in)  :: before(2)     !! [pressure]
+      real(wp), intent(in)  :: gain(2)       !! what the stress would grow by without slip; it would end above the limit
+      real(wp), intent(in)  :: limits(2)     !! [pressure]; the first one is at least |BEFORE|, which STEP may have left above it
+      real(wp), intent(out) :: tau(2)        !! of the size of LIMITS(2)
+      real(wp), intent(out) :: by_gain(2, 2) !! d TAU/d GAIN [-]
+      real(wp), intent(out) :: by_limit(2)   !! d TAU/d LIMITS(2) [-]
+      real(wp) :: begins(2), first, f, f_change(3), e(2), n(2), cosine, sine, x, share, size_begins, size_gain, mean, c(0:2)
+      real(wp) :: angle(3), turned(3), x_change(3) ! derivatives for the two components of GAIN and for LIMITS(2)
+
+      tau = 0.0_wp
+      by_gain = 0.0_wp
+      by_limit = gain/max(norm2(gain), tiny(1.0_wp))
+      if (limits(2) <= 0.0_wp) return
+      if (norm2(gain) <= small*limits(2)) then ! along a line; the angle between both is the square of SMALL
+         by_limit = (before + gain)/norm2(before + gain)
+         tau = limits(2)*by_limit
+         by_gain = limits(2)/norm2(before + gain)*(reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2]) &
+                                                   - spread(by_limit, 2, 2)*spread(by_limit, 1, 2))
+         return
+      end if
+
+      ! f_s, from which on c(0) + 2 c(1) f + c(2) f**2 > 0
+      first = max(limits(1), norm2(before))
+      c = [sum(before**2) - first**2, dot_product(before, gain) - first*(limits(2) - first), sum(gain**2) - (limits(2) - first)**2]
+      f = sqrt(max(0.0_wp, c(1)**2 - c(0)*c(2)))
+      if (c(1) > 0.0_wp) then
+         f = -c(0)/(c(1) + f)
+      else
+         f = (f - c(1))/max(c(2), tiny(1.0_wp))
+      end if
+      f = min(f, 1.0_wp)
+      begins = before + f*gain
+      f_change = 0.0_wp
+      if (f > 0.0_wp) f_change = -f*[begins, -(first + f*(limits(2) - first))]/ &
+                                   max(c(1) + c(2)*f, none*first**2)
+      size_begins = norm2(begins)
+      size_gain = norm2(gain)
+      n = begins/max(size_begins, tiny(1.0_wp))
+      e = gain/size_gain
+      if (size_begins <= none*limits(2)) n = e
+      mean = 0.5_wp*(first + f*(limits(2) - first) + limits(2))
+      x = min(far, (1.0_wp - f)*size_gain/mean)
+      cosine = dot_product(n, e)
+      sine = e(1)*n(2) - e(2)*n(1)
+      share = 1.0_wp/max(cosh(x) + cosine*sinh(x), tiny(1.0_wp)) ! sine of the angle at the end, of that at the beginning
+
+      ! rates of the angle of e, of that of n at the beginning, of x
+      angle = [-e(2), e(1), 0.0_wp]/size_gain
+      turned = angle
+      if (size_begins > none*limits(2)) turned = [-n(2), n(1), 0.0_wp]*f/size_begins &
+                                                 + (n(1)*gain(2) - n(2)*gain(1))/size_begins*f_change
+      x_change = [e, 0.0_wp]*(1.0_wp - f)/mean - size_gain/mean*f_change &
+                 - 0.5_wp*x/mean*([0.0_wp, 0.0_wp, 1.0_wp + f] + (limits(2) - first)*f_change)
+      n = rotated(e, share*(sinh(x) + cosine*cosh(x)), share*sine)
+      tau = limits(2)*n
+      turned = limits(2)*((1.0_wp - share)*angle + share*turned - share*sine*x_change)
+      by_gain = spread([-n(2), n(1)], 2, 2)*spread(turned(:2), 1, 2)
+      by_limit = n + [-n(2), n(1)]*turned(3)
+   end subroutine turn_slip
+
+   !> The unit vector E turned by the angle of this COSINE and SINE.
+   pure function rotated(e, cosine, sine) result(n)
+      real(wp), intent(in) :: e(2), cosine, sine
+      real(wp) :: n(2)
+
+      n = cosine*e + sine*[-e(2), e(1)]
+   end function rotated
+
+end module slip_path
