@@ -24,7 +24,7 @@ skip() {
 step() {
    local log=$work/step$((++steps)).log start=$SECONDS status counts
    unshare --mount bash -c '
-      mount --bind /proc "$0/proc" && mount --bind /dev "$0/dev" && mount --bind /sys "$0/sys" &&
+      mount --bind /proc "$0/proc" && mount --rbind /dev "$0/dev" && mount --bind /sys "$0/sys" &&
       exec chroot "$0" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive CI="$3" bash -c "cd $1; $2"' \
       "$root" /root/jointfem "$2" "${CI:-}" > "$log" 2>&1 < /dev/null
    status=$?
