@@ -1,6 +1,7 @@
 !> Lists the tolerances of the program: the value, what it is relative to, and why it has this size.
 !! Arithmetic has 16 digits. A number from one operation is right to 1E-16, a sum or a small factorisation to 1E-14 to 1E-12,
-!! a coordinate of ten digits to 1E-9, a place that a mesh generator has computed to 1E-6. What users set is here as its default.
+!! a coordinate of ten digits to 1E-9, a place that a mesh generator has computed to 1E-6. What users may set stands here as its
+!! default.
 !! In `src/solver` stay, beside the algorithms that they belong to: `pivot_tolerance`, `step_tolerance`, `dependent`.
 !! In other modules stay the ranges of fields (`least_power`, `smallest_size`) and the usual sizes of materials (`unit_watch`).
 module tolerances
@@ -122,11 +123,11 @@ module tolerances
    real(wp), parameter :: off_the_pole = 1.0e-7_wp   !! of a shift: by which it moves away from an eigenvalue, times 10 a trial
    real(wp), parameter :: zero_eigenvalue = 2.0e-13_wp !! of the largest eigenvalue: rounding
    real(wp), parameter :: zero_at_shift = 1.0e-9_wp  !! of the shift: rounding of an eigenvalue from it
-   real(wp), parameter :: no_mode = 1.0e-4_wp        !! of the next eigenvalue: a rigid-body motion, two digits of frequency below
+   real(wp), parameter :: rigid_motion = 1.0e-4_wp   !! of the next eigenvalue: far enough below it for a rigid-body motion
    real(wp), parameter :: barely_held = 1.0e-8_wp    !! of a diagonal entry: the smallest pivot of a structure that is held
    real(wp), parameter :: equal_eigenvalues = 1.0e-7_wp !! of the larger one: modes of a symmetric structure, in any mixture
    real(wp), parameter :: weak_participation = 1.0e-6_wp !! of the root of the mass: too small to separate equal modes
-   real(wp), parameter :: undamped = 1.0e-12_wp      !! loss factor of a mode whose damped parts have the strain energy of rounding
+   real(wp), parameter :: undamped = 1.0e-12_wp      !! of the strain energy of a mode: that of its damped parts is rounding
    real(wp), parameter :: no_motion = 1.0e-10_wp     !! of the largest amplitude at a frequency: rounding, which has no phase
    real(wp), parameter :: unexcited = 1.0e-9_wp      !! of a mode: a load or component that does not excite or show it
    real(wp), parameter :: at_resonance = 1.0e-12_wp  !! of lambda: an undamped mode at its own frequency
@@ -148,7 +149,7 @@ module tolerances
    real(wp), parameter :: zero_of_sums = 1.0e-9_wp   !! of the sum of amounts: forces, or works, that cancel
    real(wp), parameter :: zero_remainder = 1.0e-7_wp !! of forces and movements: a difference, zero but for the TOL of iterations
    real(wp), parameter :: zero_movement = 1.0e-7_wp  !! of the largest movement over the stage: a point that rests
-   real(wp), parameter :: equal_slopes = 1.0e-9_wp   !! of a slope: slopes of a law in its cards that are to be equal
+   real(wp), parameter :: equal_slopes = 1.0e-9_wp   !! of the slope of loading: unloading may be as steep, but for rounding
    real(wp), parameter :: listed_share = 1.0e-4_wp   !! of the strain energy: a smaller share has no row in the listing
    real(wp), parameter :: zero_mass = 1.0e-12_wp     !! of the mass of the structure: for tables in full precision
    real(wp), parameter :: zero_loop_share = 1.0e-7_wp !! of an amplitude, of a loss: rounding of loops

@@ -73,7 +73,7 @@ contains
    end subroutine build
 
    !> The corners of the convex hull, from the leftmost on: no point lies to the right of the line to the next corner. Points within
-   !! ROUNDING of a side lie on it and are no corners, because triangles of three such points would have no area.
+   !! SAME_GAP_POINT of a side lie on it and are no corners, because triangles of three such points would have no area.
    pure subroutine find_outline(self)
       class(gap_table_type), intent(inout) :: self
       real(wp) :: right

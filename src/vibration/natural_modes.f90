@@ -21,7 +21,7 @@ module natural_modes
    use shear_loops, only: oscillation_stiffness
    use stage_plan, only: vibration_plan_type
    use text_tools, only: integer_text
-   use tolerances, only: barely_held, no_mode, off_the_pole, wide_gap, zero_at_shift, zero_eigenvalue
+   use tolerances, only: barely_held, off_the_pole, rigid_motion, wide_gap, zero_at_shift, zero_eigenvalue
    implicit none
    private
 
@@ -351,7 +351,7 @@ contains
       associate (lambda => spectrum%lambda)
          do i = count(lambda < max(zero_eigenvalue*stiffest(model, structure, system), zero_at_shift*abs(spectrum%shift))), 1, -1
             if (i == size(lambda)) exit
-            if (lambda(i) < no_mode*lambda(i + 1)) exit
+            if (lambda(i) < rigid_motion*lambda(i + 1)) exit
          end do
          spectrum%n_rigid = i
       end associate
