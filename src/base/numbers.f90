@@ -6,6 +6,7 @@
 module numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
+   use tolerances, only: dependent_columns, symmetric_tie
    implicit none
    private
 
@@ -14,7 +15,6 @@ module numbers
 
    real(wp), parameter, public :: largest_measure = 1.0e100_wp
    real(wp), parameter, public :: identity(3, 3) = reshape([real(wp) :: 1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
-   real(wp), parameter, public :: tie = 1.0e-6_wp !! relative difference below which values of a symmetric structure count as equal
 
    integer, parameter, public :: highest_degree = 4
 
@@ -23,8 +23,6 @@ module numbers
       integer  :: n = 0
       real(wp) :: x(highest_degree) = 0.0_wp
    end type zero_list
-
-   real(wp), parameter :: singular = 1.0e-12_wp ! least reciprocal condition number of the scaled columns with full rank
 
    interface
       subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
@@ -62,7 +60,7 @@ contains
          at = findloc(counted .and. .not. is_measure(values), .true., dim=1)
       else if (any(counted)) then
          most = maxval(values, mask=counted)
-         at = findloc(counted .and. values >= most - tie*abs(most), .true., dim=1)
+         at = findloc(counted .and. values >= most - symmetric_tie*abs(most), .true., dim=1)
       end if
    end function first_largest
 
@@ -182,9 +180,9 @@ contains
       a = matrix/spread(length, 1, m)
       b = reshape(rhs, [m, 1])
       pivots = 0
-      call dgelsy(m, n, 1, a, m, b, m, pivots, singular, rank, best_size, -1, info)
+      call dgelsy(m, n, 1, a, m, b, m, pivots, dependent_columns, rank, best_size, -1, info)
       allocate (work(int(best_size(1))))
-      call dgelsy(m, n, 1, a, m, b, m, pivots, singular, rank, work, size(work), info)
+      call dgelsy(m, n, 1, a, m, b, m, pivots, dependent_columns, rank, work, size(work), info)
       ok = info == 0 .and. rank == n
       if (ok) x = b(:n, 1)/length
    end subroutine solve_least_squares

@@ -10,6 +10,7 @@ module openblas
    use kinds, only: long, wp
    use machine, only: address_space_left, kernel_figure, no_figure, openblas_set_num_threads, reserve_for_threads
    use terminal, only: argument_text
+   use tolerances, only: rounding_of_sums
    implicit none
    private
 
@@ -333,7 +334,6 @@ contains
       subroutine compare(found, first, factor, p, q, is_lower)
          real(wp), intent(in) :: found(:, :), first(:, :), factor, p(:, :), q(:, :)
          logical, intent(in)  :: is_lower
-         real(wp), parameter :: rounding = 1.0e-14_wp ! of a sum, relative to the sum of the absolute values of its terms
          real(wp) :: column(size(p, 1)), sizes(size(p, 1))
          integer  :: j, k
 
@@ -345,7 +345,7 @@ contains
                sizes = sizes + abs(p(:, k)*q(k, j))
             end do
             k = merge(j, 1, is_lower)
-            is_right = is_right .and. all(abs(found(k:, j) - column(k:)) <= rounding*size(p, 2)*sizes(k:))
+            is_right = is_right .and. all(abs(found(k:, j) - column(k:)) <= rounding_of_sums*size(p, 2)*sizes(k:))
          end do
       end subroutine compare
 

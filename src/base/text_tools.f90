@@ -5,6 +5,7 @@ module text_tools
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char, c_size_t
    use kinds, only: long, wp
+   use tolerances, only: exact_power, near_half
    implicit none
    private
 
@@ -101,7 +102,6 @@ contains
    subroutine write_short(value, text)
       real(wp), intent(in)                :: value
       character(short_width), intent(out) :: text
-      real(wp), parameter :: safe = 1.0e-6_wp  ! above the error of the product, 1E-9
       character(short_width + 1) :: digits
       real(wp) :: scaled
       integer  :: e, n
@@ -114,7 +114,7 @@ contains
          scaled = abs(value)*ten(5 - e)
       end if
       n = int(scaled)
-      if (abs(scaled - n - 0.5_wp) < safe .or. .not. (scaled > 0.0_wp .or. abs(value) <= 0.0_wp)) then
+      if (abs(scaled - n - 0.5_wp) < near_half .or. .not. (scaled > 0.0_wp .or. abs(value) <= 0.0_wp)) then
          if (.not. ieee_is_finite(value)) then
             write (text, '(es13.5)') value
             return
@@ -278,7 +278,7 @@ contains
       end if
       printed = above(value, floor)
       if (abs(printed) >= in_full*floor .or. .not. floor > in_full*tiny(1.0_wp) .or. .not. abs(printed) > 0.0_wp) return
-      power = nint(log10(floor) - 0.5_wp + 1.0e-6_wp) ! robust at exact powers: 1E-9 gives one power on any machine
+      power = nint(log10(floor) - 0.5_wp + exact_power) ! robust at exact powers: 1E-9 gives one power on any machine
       unit = 10.0_wp**abs(power)
       if (abs(printed) >= 0.1_wp*in_full*merge(unit, 1.0_wp/unit, power > 0)) return ! print rounds these once
       if (power < 0) printed = anint(printed*unit)/unit ! by a whole power, so that the decimal is the nearest number

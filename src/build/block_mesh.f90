@@ -7,6 +7,7 @@ module block_mesh
    use kinds, only: wp
    use spatial_search, only: spatial_search_type
    use text_tools, only: integer_text
+   use tolerances, only: welded_nodes
    implicit none
    private
 
@@ -89,7 +90,7 @@ contains
             return
          end if
       end associate
-      reach = 1.0e-6_wp*maxval(maxval(blocks(b)%x, dim=2) - minval(blocks(b)%x, dim=2))
+      reach = welded_nodes*maxval(maxval(blocks(b)%x, dim=2) - minval(blocks(b)%x, dim=2))
       call nodes_near(blocks(other)%x, blocks(b)%x, reach, near_this)
       call nodes_near(blocks(b)%x, blocks(other)%x, reach, near_other)
       call search%build(blocks(other)%x(:, near_this))

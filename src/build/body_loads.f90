@@ -17,6 +17,7 @@ module body_loads
    use numbers, only: cross, identity
    use structural_elements, only: onto_own
    use text_tools, only: integer_text
+   use tolerances, only: past_the_end, zero_component
    implicit none
    private
 
@@ -30,8 +31,6 @@ module body_loads
       real(wp) :: origin(3) = 0.0_wp         !! [length]
    end type acceleration_field
 
-   real(wp), parameter :: rounding = 1.0e-12_wp
-
 contains
 
    !> Error: a z component of VECTOR in a plane model, from FIELD of the card on LINE.
@@ -42,7 +41,7 @@ contains
       real(wp), intent(in)           :: vector(3) !! in global axes
       character(*), intent(in)       :: field     !! N3; CID, or the first node of a line that gives the direction
 
-      if (model%dimension == 3 .or. abs(vector(3)) <= rounding*norm2(vector)) return
+      if (model%dimension == 3 .or. abs(vector(3)) <= zero_component*norm2(vector)) return
       call deck%field_error(line, field, trim(merge('not zero                        ', 'the load points out of the plane', &
                                                     field == 'N3'))//', but a plane model lies in x-y'//space_hint(model))
    end subroutine check_plane
@@ -67,7 +66,7 @@ contains
             else
                if (allocated(field%nodes%first)) call check_listed(field)
                call check_plane(deck, model, field%line, field%uniform, trim(merge('CID', 'N3 ', field%system > 0)))
-               if (model%axisymmetric .and. abs(field%uniform(1)) > rounding*norm2(field%uniform)) &
+               if (model%axisymmetric .and. abs(field%uniform(1)) > zero_component*norm2(field%uniform)) &
                   call deck%field_error(field%line, 'N1', 'not zero, but in an axisymmetric model gravity acts along y')
             end if
             if (all(model%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp) .and. &
@@ -113,12 +112,12 @@ contains
          axis = abs(w) + abs(rate)
          if (model%axisymmetric) then
             field%gradient(:, 3) = 0.0_wp
-            if (maxval(axis([1, 3])) > rounding*maxval(axis)) call deck%field_error(field%line, 'R1', &
+            if (maxval(axis([1, 3])) > zero_component*maxval(axis)) call deck%field_error(field%line, 'R1', &
                'a ring turns about y; expected R1 and R3 zero')
             if (any(abs(field%spin_rate) > 0.0_wp)) call deck%field_error(field%line, 'RACC', &
                'not zero, but an axisymmetric model has no circumferential forces')
          else if (model%dimension == 2) then
-            if (maxval(axis(:2)) > rounding*maxval(axis)) call deck%field_error(field%line, 'R1', &
+            if (maxval(axis(:2)) > zero_component*maxval(axis)) call deck%field_error(field%line, 'R1', &
                'a plane model turns about z; expected R1 and R2 zero'//space_hint(model))
          end if
       end subroutine set_spin
@@ -241,7 +240,7 @@ contains
                integer_text(card%element)//': no CBAR or CBEAM with a PBAR, PBARL, PBEAM or PBEAML')
             if (e == 0 .or. deck%errors%any()) cycle
             length = beam_length(model%structural%beams(model%structural%place(e)), model%x(:, corners_of(model, e)))
-            if (.not. card%is_fraction .and. any(card%x > length*(1.0_wp + 1.0e-9_wp))) &
+            if (.not. card%is_fraction .and. any(card%x > length*(1.0_wp + past_the_end))) &
                call deck%field_error(card%line, 'X1', 'X1 or X2 lies beyond the end of the beam')
             if (model%dimension == 2 .and. card%kind <= 6 .and. any(load_types(card%kind) == ['FZ ', 'MX ', 'MY '])) &
                call deck%field_error(card%line, 'TYPE', trim(load_types(card%kind))//' in a plane model, which lies in x-y'// &

@@ -8,6 +8,7 @@ module constraint_equations
    use node_coupling, only: couple_node
    use numbers, only: identity
    use text_tools, only: integer_text
+   use tolerances, only: zero_pivot_of_equations
    use unknowns, only: component_place, node_axes
    implicit none
    private
@@ -329,11 +330,10 @@ contains
    pure subroutine reduce(a, ok)
       real(wp), intent(inout) :: a(:, :) !! (n, 2 n)
       logical, intent(out)    :: ok
-      real(wp), parameter :: rounding = 1.0e-10_wp ! of the largest entry: a smaller pivot is zero
       real(wp) :: least, row(size(a, 2))
       integer  :: i, j, p
 
-      least = rounding*maxval(abs(a(:, :size(a, 1))))
+      least = zero_pivot_of_equations*maxval(abs(a(:, :size(a, 1))))
       ok = .true.
       do j = 1, size(a, 1)
          p = j - 1 + maxloc(abs(a(j:, j)), dim=1)

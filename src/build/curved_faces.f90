@@ -15,13 +15,13 @@ module curved_faces
    use lists, only: list_owners
    use model_data, only: model_type, surface_type
    use numbers, only: cross
+   use tolerances, only: level_tangent
    implicit none
    private
 
    public :: find_tilts, height_over_chords, largest_sagitta
 
    real(wp), parameter :: smooth = 0.76_wp   ! cosine of the angle between faces of one smooth surface, at least: 40 degrees
-   real(wp), parameter :: level = 1.0e-6_wp  ! a smaller angle of a tangent is zero [rad]
 
 contains
 
@@ -55,7 +55,7 @@ contains
             if (.not. goes_on(2)) ends(2) = ends(1)
             if (ends(1)*ends(2) <= 0.0_wp) cycle
             tilt(k, s) = sign(min(abs(ends(1)), abs(ends(2))), ends(1))
-            if (abs(tilt(k, s)) < level) tilt(k, s) = 0.0_wp
+            if (abs(tilt(k, s)) < level_tangent) tilt(k, s) = 0.0_wp
          end do
       end do
 
@@ -80,7 +80,7 @@ contains
                associate (other => frames(owners(i)))
                   if (dot_product(other%axes(:, 3), own) < smooth) cycle
                   normal = normal + weight_at(model, surface, owners(i), at)*other%axes(:, 3)
-                  if (dot_product(other%centre - model%x(:, at), along) < -level*norm2(other%centre - model%x(:, at))) &
+                  if (dot_product(other%centre - model%x(:, at), along) < -level_tangent*norm2(other%centre - model%x(:, at))) &
                      goes_on = .true.
                end associate
             end do
@@ -129,7 +129,7 @@ contains
          do k = 1, 3
             next = modulo(k, 3) + 1
             share = l(k) + l(next)
-            if (abs(share) > level) height = height + share**2*arc(lengths(k), tilt(k), l(next)/share)
+            if (abs(share) > level_tangent) height = height + share**2*arc(lengths(k), tilt(k), l(next)/share)
          end do
       case default
          height = (1.0_wp - eta)*arc(lengths(1), tilt(1), xi) + eta*arc(lengths(3), tilt(3), xi) &

@@ -12,13 +12,11 @@ module determinate_joints
    use node_coupling, only: coupling_parts, is_coupled
    use normal_curve, only: loading_pressure
    use text_tools, only: integer_text, real_text
+   use tolerances, only: equal_gaps, pressure_of_no_load, same_direction, zero_cosine, zero_resultant
    implicit none
    private
 
    public :: find_determinate_joints, carried_resultant, find_first_pressures
-
-   real(wp), parameter :: nothing = 1.0e-12_wp ! of the load: a smaller resultant is rounding
-   real(wp), parameter :: alike = 1.0e-9_wp ! of the range of the gaps: gaps that differ by less close together
 
 contains
 
@@ -44,7 +42,7 @@ contains
          associate (spring => model%bars(i))
             if (spring%nodes(2) > 0) cycle ! else to the ground
             associate (part => model%part(spring%nodes(1)))
-               held(:, part) = held(:, part) .or. abs(spring%direction(:model%dimension, 1)) > 1.0e-9_wp
+               held(:, part) = held(:, part) .or. abs(spring%direction(:model%dimension, 1)) > zero_cosine
             end associate
          end associate
       end do
@@ -53,7 +51,7 @@ contains
             joint%carries = spread(.false., 1, model%n_parts)
             joint%determinate = .false.
             if (norm2(joint%normal) <= 0.0_wp) cycle
-            if (model%axisymmetric .and. abs(joint%normal(1)) > 1.0e-9_wp) cycle ! hoop stresses carry the rest
+            if (model%axisymmetric .and. abs(joint%normal(1)) > zero_cosine) cycle ! hoop stresses carry the rest
             ! cut the joint: groups of parts that all other joints connect, and groups that are held along the normal
             group = [(k, k = 1, base)]
             do i = 1, size(pair, 2)
@@ -61,20 +59,20 @@ contains
             end do
             do i = 1, n_sections(model) ! bolts that are being tightened hold normal to their axis
                associate (section => model%sections(i))
-                  if (abs(dot_product(section%direction, joint%normal)) < 1.0_wp - 1.0e-9_wp) &
+                  if (abs(dot_product(section%direction, joint%normal)) < 1.0_wp - same_direction) &
                      call join(group, model%part(section%node), model%part(section%point))
                end associate
             end do
             grounded = .false.
             grounded(root_of(group, base)) = .true.
             do k = 1, model%n_parts
-               if (any(held(:, k) .and. abs(joint%normal(:model%dimension)) > 1.0e-9_wp)) grounded(root_of(group, k)) = .true.
+               if (any(held(:, k) .and. abs(joint%normal(:model%dimension)) > zero_cosine)) grounded(root_of(group, k)) = .true.
             end do
             do i = 1, n_points(model) ! coupled nodes: held in a direction that is not perpendicular to the normal
                associate (parts => coupling_parts(model, i))
                   do k = parts(1), parts(2)
                      if (any(model%held(:, model%coupling%node(k)) .and. &
-                             abs(matmul(joint%normal(:model%dimension), model%coupling%t(:, :, k))) > 1.0e-9_wp)) &
+                             abs(matmul(joint%normal(:model%dimension), model%coupling%t(:, :, k))) > zero_cosine)) &
                         grounded(root_of(group, model%part(i))) = .true.
                   end do
                end associate
@@ -205,12 +203,12 @@ contains
             if (joint%determinate) resultant = first_share*carried_resultant(model, joint, loads)
             if (joint%p0 > 0.0_wp) then
                joint%p_av = joint%p0
-            else if (guess_will_do .and. (.not. joint%determinate .or. resultant <= nothing*first_share*total)) then
+            else if (guess_will_do .and. (.not. joint%determinate .or. resultant <= zero_resultant*first_share*total)) then
                joint%p_av = guessed_pressure(model, joint)
             else if (.not. joint%determinate) then
                call errors%add(joint%line, 'joint '//integer_text(joint%id)//' does not carry all the load (supports or '// &
                   'other joints take a share), so the pressure of the first increment is not known: give P0 on its PJOINT')
-            else if (resultant <= nothing*first_share*total) then
+            else if (resultant <= zero_resultant*first_share*total) then
                call errors%add(joint%line, 'the first increment does not press joint '//integer_text(joint%id)// &
                   ' (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')
             else ! over A_int; with gaps, over the area that is closed at first; where none is, over the area that closes first
@@ -219,7 +217,7 @@ contains
                   first = minval(elements%gap)
                   last = maxval(elements%gap)
                   if (last > max(0.0_wp, first)) &
-                     area = sum(elements%area, mask=elements%gap <= max(0.0_wp, first) + alike*(last - first))
+                     area = sum(elements%area, mask=elements%gap <= max(0.0_wp, first) + equal_gaps*(last - first))
                end associate
                joint%p_av = resultant/area
             end if
@@ -279,7 +277,7 @@ contains
       end do
       p = force/joint%area
       if (p <= 0.0_wp) p = loading_pressure(joint%law%normal, moved)
-      if (p <= 0.0_wp) p = 1.0e-6_wp*maxval(model%properties%e)
+      if (p <= 0.0_wp) p = pressure_of_no_load*maxval(model%properties%e)
       if (p <= 0.0_wp) p = 1.0_wp ! nothing indicates the units
    end function guessed_pressure
 

@@ -10,6 +10,7 @@ module displacement_systems
    use node_coupling, only: couple_node
    use numbers, only: identity
    use text_tools, only: integer_text
+   use tolerances, only: zero_component_along
    use unknowns, only: rotation_at
    implicit none
    private
@@ -167,7 +168,7 @@ contains
             call find_directions(deck, model%systems, grid%line, grid%cd, model%x(:, node), directions, ok, &
                                  ['CD      ', 'the node'])
             if (.not. ok) cycle
-            if (d == 2 .and. any(abs(directions(3, :2)) > 1.0e-10_wp)) then
+            if (d == 2 .and. any(abs(directions(3, :2)) > zero_component_along)) then
                call deck%field_error(grid%line, 'CD', 'the first two directions of the system do not lie in the plane of the '// &
                                      'model, x-y')
                cycle

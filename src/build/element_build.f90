@@ -13,10 +13,10 @@ module element_build
    use spring_build, only: is_bar
    use structural_build, only: is_beam_edge
    use text_tools, only: integer_text
+   use tolerances, only: same_corner
    implicit none
    private
 
-   real(wp), parameter :: coincident = 1.0e-9_wp ! of the longest edge: corners that are no farther apart lie in one place
    real(wp), parameter :: misplaced = 0.3_wp     ! of an edge: a mid-side node farther off its middle is that of another edge
    integer, parameter :: few = 4096 ! number of elements up to which one thread is used
 
@@ -291,7 +291,7 @@ contains
          places = size(corners)
          do k = 2, size(corners)
             do i = 1, k - 1
-               if (norm2(model%x(:, corners(k)) - model%x(:, corners(i))) < coincident*longest_edge(model, e)) exit
+               if (norm2(model%x(:, corners(k)) - model%x(:, corners(i))) < same_corner*longest_edge(model, e)) exit
             end do
             if (i == k) cycle
             places = places - 1

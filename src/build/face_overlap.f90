@@ -8,6 +8,7 @@ module face_overlap
    use numbers, only: cross
    use quadrature, only: integration_rule, side_product_rule
    use shape_functions, only: shape_derivatives, shape_values
+   use tolerances, only: alternating_point, edgewise_face, still_point, straight_corner, zero_overlap
    implicit none
    private
 
@@ -32,7 +33,6 @@ module face_overlap
    end type seen_face
 
    integer, parameter  :: most_steps = 30     ! of Newton
-   real(wp), parameter :: still = 1.0e-14_wp  ! a step in local coordinates below which the iteration stops
 
    !> Integration points in the plane of the first face, with their weights.
    type, public :: plane_points
@@ -43,9 +43,6 @@ module face_overlap
 
    integer, parameter  :: room = 4*2**4              ! corners of the overlap of two parts of four corners
    integer, parameter  :: corner_numbers(4) = [1, 2, 3, 4]
-   real(wp), parameter :: least_piece = 1.0e-10_wp   ! of the area of the first face: a smaller overlap is dropped
-
-   real(wp), parameter :: straight = 1.0e-3_wp       ! of least_piece: area of the triangle at a corner without a turn
 
    ! Gauss, five points. Source: Abramowitz, Stegun, Handbook of Mathematical Functions, Table 25.4.
    real(wp), parameter :: r = sqrt(10.0_wp/7.0_wp), q = sqrt(70.0_wp)
@@ -126,10 +123,10 @@ contains
          step = [j(2, 2)*miss(1) - j(1, 2)*miss(2), j(1, 1)*miss(2) - j(2, 1)*miss(1)]/determinant
          if (face%is_edge) step(2) = 0.0_wp
          point(:2) = point(:2) + step
-         is_found = maxval(abs(step)) <= still*(1.0_wp + maxval(abs(point)))
+         is_found = maxval(abs(step)) <= still_point*(1.0_wp + maxval(abs(point)))
          if (is_found .or. .not. maxval(abs(point)) < 1.0e3_wp) return
       end do
-      is_found = maxval(abs(step)) <= 1.0e-9_wp ! iterates alternate about the point by rounding
+      is_found = maxval(abs(step)) <= alternating_point ! iterates alternate about the point by rounding
    end subroutine find_point
 
    !> Shape functions N and position of FACE at a POINT.
@@ -156,7 +153,7 @@ contains
       b = [0.0_wp, 1.0_wp, 0.0_wp]
       if (.not. face%is_edge) b = matmul(face%x(:, :face%n), dn(2, :face%n))
       vector = cross(a, b)
-      if (abs(vector(3)) <= 1.0e-6_wp*norm2(vector)) then
+      if (abs(vector(3)) <= edgewise_face*norm2(vector)) then
          vector = 0.0_wp
       else
          vector = vector/abs(vector(3))
@@ -268,7 +265,7 @@ contains
       points%n = 0
       allocate (parts_1, source=parts_of(first))
       allocate (parts_2, source=parts_of(second))
-      smallest = least_piece*seen_area(first)
+      smallest = zero_overlap*seen_area(first)
       if (.not. first%is_edge) call side_product_rule(max(first%n, second%n), rule)
       do i = 1, size(parts_1, 2)
          do k = 1, size(parts_2, 2)
@@ -351,7 +348,7 @@ contains
       if (n < 3) return
       area = polygon_area(common(:, :n))
       if (abs(area) <= smallest) return
-      call drop_straight_corners(straight*smallest, n, common)
+      call drop_straight_corners(straight_corner*smallest, n, common)
       if (n < 3) return
       middle = polygon_centroid(common(:, :n))
       do k = 1, merge(1, n, n == 3)

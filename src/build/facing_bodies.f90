@@ -14,12 +14,12 @@ module facing_bodies
    use spatial_search, only: spatial_search_type
    use surface_sides, only: side_corners
    use text_tools, only: clean, integer_text, real_text
+   use tolerances, only: on_rim
    implicit none
    private
 
    public :: list_bodies, body_words, box_words, list_outer_sides, find_facing, loose_words, rounded
 
-   real(wp), parameter :: on_rim = 1.0e-6_wp   ! of the size of a side: a point nearer to its rim lies on the rim
    integer, parameter  :: most_said = 5        ! number of unsupported bodies that a message lists
 
    type, public :: body_type

@@ -9,13 +9,12 @@ module free_structure
    use model_data, only: a_point, a_rotation, corners_of, is_face_node, model_type, node_kind, place_in_kind, support_group
    use numbers, only: cross, first_largest
    use support_build, only: hold
+   use tolerances, only: balanced
    use unknowns, only: rotation_at
    implicit none
    private
 
    public :: hold_free_structure, check_balance
-
-   real(wp), parameter :: balanced = 1.0e-6_wp ! limit of the resultant over the sum of the forces of a self-equilibrated load
 
 contains
 

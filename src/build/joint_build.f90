@@ -11,6 +11,7 @@ module joint_build
    use model_kind, only: space_hint
    use node_build, only: find_nodes
    use text_tools, only: integer_text, real_text
+   use tolerances, only: closed_joint
    implicit none
    private
 
@@ -165,7 +166,7 @@ contains
                joint%area = joint%area + elements(i)%area
                joint%normal = joint%normal + elements(i)%area*elements(i)%axes(:, 3)
             end do
-            if (norm2(joint%normal) > 1.0e-6_wp*joint%area) then
+            if (norm2(joint%normal) > closed_joint*joint%area) then
                joint%normal = joint%normal/norm2(joint%normal)
             else
                joint%normal = 0.0_wp

@@ -18,14 +18,13 @@ module joint_gaps
    use kinds, only: wp
    use model_data, only: joint_type, model_type
    use text_tools, only: append, integer_text, real_text
+   use tolerances, only: flat_height, off_square, same_gap_point, touching_faces
    implicit none
    private
 
    public :: build_gaps
 
-   real(wp), parameter :: rounding = 1.0e-9_wp               ! of the extent of the points: nearer points coincide
-   real(wp), parameter :: flat = 1.0e-13_wp                  ! of the square of the extent: a smaller height is zero
-   real(wp), parameter :: oblique(2) = 1.0e-3_wp*[0.54_wp, 0.84_wp] ! cos, sin of 1: no difference for squares turned by 1/2
+   real(wp), parameter :: oblique(2) = off_square*[0.54_wp, 0.84_wp] ! cos, sin of 1: no difference for squares turned by 1/2
 
    type, public :: gap_table_type
       private
@@ -39,8 +38,6 @@ module joint_gaps
       procedure :: build
       procedure :: value_at
    end type gap_table_type
-
-   real(wp), parameter :: touching = 1.0e-12_wp ! of the coordinates: faces with a smaller distance touch
 
 contains
 
@@ -59,7 +56,7 @@ contains
       twice = 0
       do i = 1, size(values)
          do k = i + 1, size(values)
-            if (maxval(abs(self%x(:, i) - self%x(:, k))) > rounding) cycle
+            if (maxval(abs(self%x(:, i) - self%x(:, k))) > same_gap_point) cycle
             twice = [i, k]
             return
          end do
@@ -71,12 +68,12 @@ contains
       if (size(values) == 1) return
       far = maxloc(sum((self%x - spread(self%x(:, 1), 2, size(values)))**2, dim=1), dim=1)
       self%along = (self%x(:, far) - self%x(:, 1))/norm2(self%x(:, far) - self%x(:, 1))
-      if (any([(abs(cross(self%along, self%x(:, i) - self%x(:, 1))) > rounding, i = 1, size(values))])) &
+      if (any([(abs(cross(self%along, self%x(:, i) - self%x(:, 1))) > same_gap_point, i = 1, size(values))])) &
          call find_outline(self)
    end subroutine build
 
    !> The corners of the convex hull, from the leftmost on: no point lies to the right of the line to the next corner. Points within
-   !! ROUNDING of a side lie on it and are no corners, because triangles of three such points would have no area.
+   !! SAME_GAP_POINT of a side lie on it and are no corners, because triangles of three such points would have no area.
    pure subroutine find_outline(self)
       class(gap_table_type), intent(inout) :: self
       real(wp) :: right
@@ -84,7 +81,7 @@ contains
 
       first = 1
       do i = 2, size(self%values)
-         if (self%x(1, i) < self%x(1, first) - rounding .or. (abs(self%x(1, i) - self%x(1, first)) <= rounding &
+         if (self%x(1, i) < self%x(1, first) - same_gap_point .or. (abs(self%x(1, i) - self%x(1, first)) <= same_gap_point &
              .and. self%x(2, i) < self%x(2, first))) first = i
       end do
       now = first
@@ -95,7 +92,7 @@ contains
             if (i == now .or. i == next) cycle
             associate (here => self%x(:, i) - self%x(:, now), there => self%x(:, next) - self%x(:, now))
                right = cross(here, there)/max(norm2(here), norm2(there))
-               if (right > rounding .or. (abs(right) <= rounding .and. norm2(here) > norm2(there))) next = i
+               if (right > same_gap_point .or. (abs(right) <= same_gap_point .and. norm2(here) > norm2(there))) next = i
             end associate
          end do
          now = next
@@ -166,11 +163,11 @@ contains
             if (any(corners == i)) cycle
             share = shares(self%x(:, corners), self%x(:, i))
             above = self%height(i) - dot_product(share, self%height(corners))
-            if (abs(above) <= flat) then
+            if (abs(above) <= flat_height) then
                ! in the plane, the first of the four points decides, because it is lowered most: it is point i itself, or a corner
                ! with which the plane at i falls or rises
-               k = minloc(corners, mask=abs(share) > rounding, dim=1)
-               above = merge(-flat, 0.0_wp, i < corners(k) .or. share(k) < 0.0_wp)
+               k = minloc(corners, mask=abs(share) > same_gap_point, dim=1)
+               above = merge(-flat_height, 0.0_wp, i < corners(k) .or. share(k) < 0.0_wp)
             end if
             if (above >= lowest) cycle
             lowest = above
@@ -182,7 +179,7 @@ contains
          leaving = maxloc(share, dim=1)
          ratio = weights(leaving)/share(leaving)
          do k = 1, 3
-            if (share(k) <= rounding) cycle
+            if (share(k) <= same_gap_point) cycle
             if (weights(k)/share(k) >= ratio) cycle
             leaving = k
             ratio = weights(k)/share(k)
@@ -288,7 +285,7 @@ contains
          end associate
       end do
       associate (gaps => model%interface(joint%first:joint%last)%gap)
-         where (abs(gaps) <= touching*maxval(abs(gaps))) gaps = 0.0_wp
+         where (abs(gaps) <= touching_faces*maxval(abs(gaps))) gaps = 0.0_wp
       end associate
    end subroutine gaps_by_place
 
@@ -366,11 +363,11 @@ contains
             closing = joint_movement(element, model%x)
             closing(3) = closing(3) - dot_product(element%bulge, element%axes(:, 3))
             element%gap = 0.0_wp
-            if (abs(closing(3)) > touching*maxval(abs(model%x(:, element%node)))) element%gap = -closing(3)
+            if (abs(closing(3)) > touching_faces*maxval(abs(model%x(:, element%node)))) element%gap = -closing(3)
          end associate
       end do
       associate (gaps => model%interface(joint%first:joint%last)%gap, sagitta => joint%cover%sagitta)
-         if (size(gaps) == 0 .or. maxval(sagitta) <= max(maxval(abs(gaps)), touching*maxval(abs(model%x)))) return
+         if (size(gaps) == 0 .or. maxval(sagitta) <= max(maxval(abs(gaps)), touching_faces*maxval(abs(model%x)))) return
          call append(model%warnings, 'joint '//integer_text(joint%id)//': JGAP TRUE finds gaps of '//real_text(minval(gaps))// &
             ' to '//real_text(maxval(gaps))//' between arcs through the nodes, whose chords lie up to '//real_text(sagitta(1))// &
             ' (SIDE1) and '//real_text(sagitta(2))//' (SIDE2) beside them; a finer mesh, or JGAP CONST, is surer')

@@ -14,13 +14,11 @@ module joint_sides
    use numbers, only: cross
    use surface_build, only: side_influence, surface_node_list, surface_nodes
    use text_tools, only: append, integer_text, plural, real_text
+   use tolerances, only: no_inertia, zero_cosine
    implicit none
    private
 
    public :: join_sides, is_coarser, joint_axes, outward, joint_centroid, find_frame
-
-   ! ratio of moments of inertia to the largest one of the joint below which a rotation moves no element
-   real(wp), parameter, public :: straight = 1.0e-9_wp
 
 contains
 
@@ -192,7 +190,7 @@ contains
          x = x/norm2(x)
       else
          x = [-z(2), z(1), 0.0_wp]
-         if (x(1) < -1.0e-9_wp .or. (abs(x(1)) <= 1.0e-9_wp .and. x(2) < 0.0_wp)) x = -x
+         if (x(1) < -zero_cosine .or. (abs(x(1)) <= zero_cosine .and. x(2) < 0.0_wp)) x = -x
       end if
       axes(:, 1) = x
       axes(:, 2) = cross(z, x)
@@ -278,8 +276,8 @@ contains
       frame%exists = .true.
       if (model%dimension == 2) frame%exists = [.true., .false., .true., .false., .true., .false.]
       if (model%axisymmetric) frame%exists = [.false., .false., .true., .false., .false., .false.]
-      if (frame%extent <= straight*norm2(frame%centroid)) frame%exists(4:) = .false. ! all elements at one place, to rounding
-      frame%exists(4:) = frame%exists(4:) .and. inertia > straight*maxval(inertia)
+      if (frame%extent <= no_inertia*norm2(frame%centroid)) frame%exists(4:) = .false. ! all elements at one place, to rounding
+      frame%exists(4:) = frame%exists(4:) .and. inertia > no_inertia*maxval(inertia)
    end function find_frame
 
 end module joint_sides

@@ -18,6 +18,7 @@ module load_build
    use surface_build, only: find_surface, side_influence
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
+   use tolerances, only: zero_component, zero_component_along
    use unknowns, only: node_axes, place_of_component, rotation_at, rotation_component
    implicit none
    private
@@ -84,7 +85,6 @@ contains
       type(force_card), intent(in)   :: card
       integer, intent(inout)         :: node
       real(wp), intent(inout)        :: force(3) !! [moment], then [force]
-      real(wp), parameter :: rounding = 1.0e-12_wp
       real(wp) :: axes(3, 3)
       integer  :: rotation
 
@@ -99,7 +99,7 @@ contains
       node = model%rotations(rotation)%node
       force = force/model%rotations(rotation)%arm
       if (model%dimension == 2) then
-         if (any(abs(force(:2)) > rounding*norm2(force))) call deck%field_error(card%line, 'N1', &
+         if (any(abs(force(:2)) > zero_component*norm2(force))) call deck%field_error(card%line, 'N1', &
             'not zero, but in a plane model moments act about z: expected N3 alone'//space_hint(model))
          force = [force(3), 0.0_wp, 0.0_wp]
          axes = identity
@@ -115,13 +115,12 @@ contains
       type(force_card), intent(in)   :: card
       integer, intent(in)            :: node
       real(wp), intent(in)           :: axes(3, 3), force(3)
-      real(wp), parameter :: rounding = 1.0e-10_wp
       integer :: d, digit, k, parts(2)
 
       if (.not. allocated(model%left_out)) return
       parts = coupling_parts(model, node)
       do d = 1, model%dimension
-         if (.not. model%left_out(d, node) .or. abs(dot_product(axes(:, d), force)) <= rounding*norm2(force)) cycle
+         if (.not. model%left_out(d, node) .or. abs(dot_product(axes(:, d), force)) <= zero_component_along*norm2(force)) cycle
          if (any([(abs(matmul(axes(:model%dimension, d), model%coupling%t(:, :, k))) > 0.0_wp, k = parts(1), parts(2))])) cycle
          digit = d
          if (card%is_moment) digit = findloc([(rotation_component(model, digit), digit = 1, 6)], d, dim=1)

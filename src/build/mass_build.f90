@@ -5,6 +5,7 @@ module mass_build
    use kinds, only: wp
    use model_data, only: model_type, n_bars
    use text_tools, only: integer_text
+   use tolerances, only: indefinite_inertia
    use unknowns, only: component_place, node_axes, place_of_component, rotation_at
    implicit none
    private
@@ -85,7 +86,6 @@ contains
    !> Whether A is positive semidefinite: no principal minor is negative, to rounding.
    pure logical function is_inertia(a)
       real(wp), intent(in) :: a(3, 3) !! symmetric
-      real(wp), parameter :: rounding = 1.0e-12_wp
       real(wp) :: b(3, 3), size_of
       integer  :: i, j
 
@@ -95,10 +95,10 @@ contains
       b = a/size_of
       do i = 1, 3
          j = modulo(i, 3) + 1
-         is_inertia = is_inertia .and. b(i, i) >= 0.0_wp .and. b(i, i)*b(j, j) - b(i, j)**2 >= -rounding
+         is_inertia = is_inertia .and. b(i, i) >= 0.0_wp .and. b(i, i)*b(j, j) - b(i, j)**2 >= -indefinite_inertia
       end do
       is_inertia = is_inertia .and. b(1, 1)*(b(2, 2)*b(3, 3) - b(2, 3)**2) - b(1, 2)*(b(1, 2)*b(3, 3) - b(2, 3)*b(1, 3)) &
-                   + b(1, 3)*(b(1, 2)*b(2, 3) - b(2, 2)*b(1, 3)) >= -rounding
+                   + b(1, 3)*(b(1, 2)*b(2, 3) - b(2, 2)*b(1, 3)) >= -indefinite_inertia
    end function is_inertia
 
    !> Error if the deck asks for MODES: a body without mass of its own, at its nodes, or in a bar connected to it.

@@ -17,6 +17,7 @@ module mesh_build
    use node_build, only: append_nodes, build_nodes, fill_mid_sides, highest_number
    use numbers, only: cross
    use text_tools, only: integer_text
+   use tolerances, only: equal_distance
    implicit none
    private
 
@@ -114,7 +115,7 @@ contains
       end do
       ! the nodes nearest to the positions of NODEAT, on their surfaces if they name one
       if (size(deck%bulk%place) == 0 .or. model%n_nodes == 0) return
-      rounding = 1.0e-9_wp*maxval(maxval(model%x, dim=2) - minval(model%x, dim=2))
+      rounding = equal_distance*maxval(maxval(model%x, dim=2) - minval(model%x, dim=2))
       do i = 1, size(deck%bulk%place)
          associate (card => deck%bulk%place(i))
             if (card%id == 0) cycle

@@ -9,12 +9,12 @@ module mesh_watch
    use model_data, only: a_bar, bar_nodes, corners_of, is_face_node, model_type, n_bars, n_points, supported
    use spatial_search, only: spatial_search_type
    use text_tools, only: integer_text, plural
+   use tolerances, only: same_node
    implicit none
    private
 
    public :: repeated_words, crack_words
 
-   real(wp), parameter :: coincident = 1.0e-5_wp ! of the shortest edge at a node: nodes that are nearer coincide
    integer, parameter  :: most_named = 3         ! pairs that a warning names
 
 contains
@@ -162,7 +162,7 @@ contains
             do k = 1, kind%n_edges
                shortest = min(shortest, norm2(model%x(:, nodes(kind%edges(1, k))) - model%x(:, nodes(kind%edges(2, k)))))
             end do
-            reach(nodes(:kind%n_nodes)) = min(reach(nodes(:kind%n_nodes)), coincident*shortest)
+            reach(nodes(:kind%n_nodes)) = min(reach(nodes(:kind%n_nodes)), same_node*shortest)
          end associate
       end do
    end subroutine find_reach

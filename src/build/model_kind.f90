@@ -15,12 +15,11 @@ module model_kind
    use model_data, only: model_type
    use structural_build, only: is_beam_edge
    use text_tools, only: integer_text
+   use tolerances, only: zero_component
    implicit none
    private
 
    public :: find_kind, space_hint
-
-   real(wp), parameter :: rounding = 1.0e-12_wp
 
 contains
 
@@ -185,7 +184,7 @@ contains
             call directions_at(model%systems(k), x, directions, ok)
             if (ok) global = matmul(directions, vector)
          end if
-         leaves = any(abs(global(components)) > rounding*norm2(global))
+         leaves = any(abs(global(components)) > zero_component*norm2(global))
       end function leaves
 
    end function load_out_of_plane

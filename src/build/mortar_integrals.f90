@@ -12,6 +12,7 @@ module mortar_integrals
    use interface_operator, only: interface_element
    use kinds, only: wp
    use lists, only: distinct, list_owners
+   use tolerances, only: zero_area, zero_weight
    implicit none
    private
 
@@ -49,9 +50,6 @@ module mortar_integrals
       real(wp), allocatable :: opposite(:, :)                             !! (max_side_nodes, nodes opposite) likewise
       real(wp) :: bulge(3, max_side_nodes) = 0.0_wp                       !! area times bulge, along the normal of the face [length^3]
    end type face_part
-
-   real(wp), parameter :: least_weight = 1.0e-12_wp !! a smaller weight is rounding: its node is not connected
-   real(wp), parameter :: least_area = 1.0e-12_wp   !! of the area of the faces at an element: a smaller area is zero
 
    !> The sums of the interface elements at the nodes of a side.
    type, public :: interface_sums_type
@@ -308,7 +306,7 @@ contains
       class(interface_sums_type), intent(in) :: self
       integer, intent(in)                    :: i
 
-      has_area = self%area(i) > least_area*self%around(i)
+      has_area = self%area(i) > zero_area*self%around(i)
    end function has_area
 
    !> Whether the area of element I is zero to rounding: at a corner on the axis, or far from the covered part of a face.
@@ -316,7 +314,7 @@ contains
       class(interface_sums_type), intent(in) :: self
       integer, intent(in)                    :: i
 
-      has_none = abs(self%area(i)) <= least_area*self%around(i)
+      has_none = abs(self%area(i)) <= zero_area*self%around(i)
    end function has_none
 
    !> Connect ELEMENT to the nodes of its entries at I, each once, the nodes of an end in ascending order.
@@ -350,7 +348,7 @@ contains
       real(wp), intent(inout) :: weight(:)
       integer :: largest
 
-      where (abs(weight) < least_weight) weight = 0.0_wp
+      where (abs(weight) < zero_weight) weight = 0.0_wp
       largest = maxloc(abs(weight), dim=1)
       if (largest > 0) weight(largest) = weight(largest) + (1.0_wp - sum(weight))
    end subroutine make_whole

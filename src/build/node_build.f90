@@ -12,6 +12,7 @@ module node_build
    use lists, only: sorted_order, list_owners
    use model_data, only: model_type
    use text_tools, only: integer_text
+   use tolerances, only: zero_coordinate
    implicit none
    private
 
@@ -37,7 +38,6 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(grid_card), intent(inout)  :: cards(:) !! those of blocks last
       type(model_type), intent(inout) :: model
-      real(wp), parameter :: rounding = 1.0e-12_wp ! of the distance of points and systems: a smaller distance from an axis is zero
       integer, allocatable :: order(:)
       integer :: i, system
 
@@ -47,7 +47,7 @@ contains
          if (system == 0) cycle
          associate (x => cards(i)%x)
             x = position_in(model%systems(system), x)
-            where (abs(x) <= rounding*(norm2(x) + norm2(model%systems(system)%origin))) x = 0.0_wp
+            where (abs(x) <= zero_coordinate*(norm2(x) + norm2(model%systems(system)%origin))) x = 0.0_wp
          end associate
       end do
       call deck%report_repeated('node', cards%id, cards%line, n_cards=size(deck%bulk%grid))

@@ -11,13 +11,12 @@ module node_pairing
    use surface_build, only: side_influence, side_name, surface_node_list
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text, plural, real_text
+   use tolerances, only: most_aside, pairing_reach
    implicit none
    private
 
    public :: pair_nodes, fit_side
 
-   real(wp), parameter :: default_tolerance = 1.0e-3_wp ! of the shortest edge of SIDE1
-   real(wp), parameter, public :: most_aside = 1.0e-4_wp !! of the shortest edge at a node: offset of its partner across the normal
    real(wp), parameter, public :: facing = -0.5_wp      !! cosine of the normals of two sides that face each other, at most
 
    real(wp), parameter :: twice = 1.01_wp     ! covered share above which faces lie behind one another
@@ -67,7 +66,7 @@ contains
       tolerance = tol
       if (tol <= 0.0_wp) then
          associate (side => model%surfaces(surface(1)))
-            tolerance = default_tolerance*minval([(minval(edge_lengths(model%x(:, side%nodes(:side%corners(k), k)))), &
+            tolerance = pairing_reach*minval([(minval(edge_lengths(model%x(:, side%nodes(:side%corners(k), k)))), &
                                                    k = 1, side%n)])
          end associate
       end if

@@ -10,12 +10,11 @@ module pretension_section
    use surface_build, only: find_surface, side_influence, surface_node_list, surface_nodes
    use surface_sides, only: elements_behind, list_sides, side_list, reverse_side
    use text_tools, only: integer_text
+   use tolerances, only: in_section, parallel_in_mesh
    implicit none
    private
 
    public :: build_sections
-
-   real(wp), parameter :: even = 1.0e-3_wp  ! of its size: largest distance of the nodes of a section from its plane
 
 contains
 
@@ -76,11 +75,11 @@ contains
          call surface_nodes(model, model%surfaces(s), list)
          allocate (centroid, source=matmul(model%x(:, list%node), list%area)/sum(list%area))
          ! the surface must be plane, and in an axisymmetric model across the axis
-         if (model%axisymmetric .and. abs(model%sections(k)%direction(1)) > even) then
+         if (model%axisymmetric .and. abs(model%sections(k)%direction(1)) > parallel_in_mesh) then
             fault = 'is not across the axis: in an axisymmetric model a bolt is cut at a plane y = constant'
          else
             extent = maxval([(norm2(model%x(:, list%node(i)) - centroid), i = 1, list%n)])
-            i = findloc([(abs(dot_product(model%x(:, list%node(i)) - centroid, model%sections(k)%direction)) > even*extent, &
+            i = findloc([(abs(dot_product(model%x(:, list%node(i)) - centroid, model%sections(k)%direction)) > in_section*extent, &
                           i = 1, list%n)], .true., dim=1)
             if (i > 0) fault = 'is not plane: node '//integer_text(model%node_id(list%node(i)))//' lies out of its mean plane'
          end if

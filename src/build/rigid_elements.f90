@@ -15,6 +15,7 @@ module rigid_elements
    use surface_build, only: find_surface, surface_node_list, surface_nodes
    use rigid_fit, only: mean_motion
    use text_tools, only: integer_text
+   use tolerances, only: zero_area, zero_component_along
    use unknowns, only: component_place, node_axes, place_of_component, rotation_at, third_axis
    implicit none
    private
@@ -83,7 +84,7 @@ contains
             if (surface == 0) cycle
             call surface_nodes(model, model%surfaces(surface), list)
             if (card%is_mean) then ! on second-order triangles only mid-side nodes have an area
-               counts = abs(list%area) > 1.0e-12_wp*maxval(abs(list%area))
+               counts = abs(list%area) > zero_area*maxval(abs(list%area))
             else
                counts = model%node_id(list%node) /= card%node
             end if
@@ -241,7 +242,7 @@ contains
          associate (place => place_of_component(model, point, digit))
             if (place%node == 0) cycle
             direction = direction_of(model, point, digit)
-            if (any(.not. determined .and. abs(direction) > 1.0e-10_wp)) then
+            if (any(.not. determined .and. abs(direction) > zero_component_along)) then
                call deck%field_error(card%line, 'REFC', 'component '//integer_text(digit)//' of node '// &
                   integer_text(card%node)//' does not follow from the components C of these nodes; nodes on a line, for '// &
                      'example, do not determine the rotation about it')

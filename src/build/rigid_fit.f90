@@ -2,6 +2,7 @@
 module rigid_fit
    use kinds, only: wp
    use numbers, only: by_rotation
+   use tolerances, only: determined_motion, zero_pivot_of_fit
    implicit none
    private
 
@@ -49,7 +50,6 @@ contains
       real(wp), intent(in)  :: a(6, 6)
       real(wp), intent(out) :: inverse(6, 6)
       logical, intent(out)  :: determined(6)
-      real(wp), parameter :: rounding = 1.0e-12_wp ! of the largest entry: a smaller pivot is zero
       real(wp) :: m(6, 12), pivot_row(12), residual(6)
       logical  :: done(6)
       integer  :: i, j, p
@@ -62,7 +62,7 @@ contains
       done = .false.
       do j = 1, 6
          p = maxloc([(m(i, i), i = 1, 6)], dim=1, mask=.not. done)
-         if (m(p, p) <= rounding*maxval(abs(a))) exit
+         if (m(p, p) <= zero_pivot_of_fit*maxval(abs(a))) exit
          done(p) = .true.
          pivot_row = m(p, :)/m(p, p)
          do i = 1, 6
@@ -74,7 +74,7 @@ contains
          inverse(j, :) = merge(m(:, 6 + j), 0.0_wp, done) ! y, with its undetermined components zero
          residual = matmul(a, inverse(j, :))
          residual(j) = residual(j) - 1.0_wp
-         determined(j) = done(j) .and. maxval(abs(residual)) <= 1.0e-8_wp
+         determined(j) = done(j) .and. maxval(abs(residual)) <= determined_motion
          if (.not. determined(j)) inverse(j, :) = 0.0_wp
       end do
    end subroutine invert_where_determined

@@ -5,13 +5,12 @@ module rod_torsion
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: a_spring, bar_type, model_type, n_bars, n_rotations, rotation_type
+   use tolerances, only: zero_rotation_stiffness
    use unknowns, only: node_axes, rotation_at
    implicit none
    private
 
    public :: add_torsion, add_twisted, leave_out_untwisted
-
-   real(wp), parameter :: rounding = 1.0e-9_wp ! of the stiffness of a rotation, relative to the largest at its node
 
 contains
 
@@ -120,7 +119,7 @@ contains
             free = .not. model%held(:, node)
             do while (any(free))
                c = maxloc([k(1, 1), k(2, 2), k(3, 3)], dim=1, mask=free)
-               if (k(c, c) <= rounding*scale) exit
+               if (k(c, c) <= zero_rotation_stiffness*scale) exit
                free(c) = .false.
                k = k - spread(k(:, c), 2, 3)*spread(k(c, :), 1, 3)/k(c, c)
             end do

@@ -11,6 +11,7 @@ module spring_build
    use numbers, only: cross, identity
    use structural_build, only: is_beam_edge
    use text_tools, only: integer_text
+   use tolerances, only: no_lever, zero_cosine
    use unknowns, only: node_axes, rotation_at
    implicit none
    private
@@ -136,7 +137,7 @@ contains
       bar%expansion = deck%bulk%mat1(material)%alpha*length
       bar%reference = deck%bulk%mat1(material)%reference
       bar%damping = deck%bulk%mat1(material)%damping
-      if (model%axisymmetric .and. abs(bar%direction(1, 1)) > 1.0e-9_wp) call deck%errors%add(line, 'bar '// &
+      if (model%axisymmetric .and. abs(bar%direction(1, 1)) > zero_cosine) call deck%errors%add(line, 'bar '// &
          integer_text(bar%id)//': in an axisymmetric model bars stand along y; their area is that of all round the ring')
    end subroutine build_bar
 
@@ -298,7 +299,7 @@ contains
       end do
       do end = 1, 2
          if (rotation_at(model, nodes(end)) == 0) cycle
-         if (lever <= 1.0e-6_wp*model%rotations(rotation_at(model, nodes(end)))%arm) cycle
+         if (lever <= no_lever*model%rotations(rotation_at(model, nodes(end)))%arm) cycle
          call deck%field_error(card%line, 'GB', 'a spring across the line from GA to GB gives node '// &
             integer_text(model%node_id(nodes(end)))//' a moment, since the nodes are apart; expected nodes in one place, '// &
             'one of them tied to GA or GB by an RBAR')

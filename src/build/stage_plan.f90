@@ -8,13 +8,13 @@ module stage_plan
    use kinds, only: wp
    use stage_entries, only: output_all, output_last, output_request
    use text_tools, only: integer_text
+   use tolerances, only: same_frequency
    implicit none
    private
 
    public :: loss_at, asked_frequencies, merged, plan_stages, where_in_plan, factorisations_of, has_unloading_modes, shows_bodies
 
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping
-   real(wp), parameter :: same_frequency = 1.0e-9_wp ! of the largest: nearer frequencies are equal
 
    !> The response to an oscillating load by modal superposition.
    type, public :: response_plan

@@ -10,6 +10,7 @@ module temperature_build
    use model_data, only: a_bar, corners_of, is_shell, model_type, n_bars, n_points, stage_load_type, &
                          temperature_type
    use text_tools, only: append, integer_text, real_text
+   use tolerances, only: least_misfit
    use unknowns, only: node_axes
    implicit none
    private
@@ -84,7 +85,7 @@ contains
       integer  :: e, i, k, n, node, s
 
       words = ''
-      worst = 1.0e-6_wp
+      worst = least_misfit
       n = 0
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
@@ -107,7 +108,7 @@ contains
             end do
             if (e == 0) cycle
             if (held_extent(model, card) <= 0.0_wp) cycle
-            if (abs(strain) > 1.0e-6_wp) n = n + 1
+            if (abs(strain) > least_misfit) n = n + 1
             if (abs(strain) <= worst) cycle
             worst = abs(strain)
             associate (property => model%properties(model%element_property(e)), expands => abs(card%alpha) > 0.0_wp)

@@ -8,6 +8,7 @@ module unit_watch
    use model_data, only: model_type
    use normal_curve, only: loading_deflection
    use text_tools, only: append, integer_text, upper
+   use tolerances, only: exactly_one, whole_power_of_ten
    implicit none
    private
 
@@ -222,7 +223,7 @@ contains
       words = ''
       do i = 1, size(deck%bulk%gravity)
          associate (card => deck%bulk%gravity(i), a => norm2(deck%bulk%gravity(i)%acceleration))
-            if (card%is_spin .or. a <= 0.0_wp .or. abs(a - 1.0_wp) <= 1.0e-9_wp) cycle ! a LOAD may multiply 1
+            if (card%is_spin .or. a <= 0.0_wp .or. abs(a - 1.0_wp) <= exactly_one) cycle ! a LOAD may multiply 1
             if (any(a >= least_g*gravity .and. a <= most_g*gravity .and. meant)) cycle
             words = 'GRAV of'//number(a)//' is not gravity; in mm and s that is 9810, in m and s 9.81, in inches and s 386.1'
             if (any(a >= least_g*gravity .and. a <= most_g*gravity)) words = words//'; UNITS or RHO is of another system'
@@ -235,7 +236,7 @@ contains
    pure logical function is_power_of_ten(value)
       real(wp), intent(in) :: value
 
-      is_power_of_ten = abs(log10(value) - anint(log10(value))) < 1.0e-9_wp
+      is_power_of_ten = abs(log10(value) - anint(log10(value))) < whole_power_of_ten
    end function is_power_of_ten
 
    !> A warning for a structure whose largest von Mises stress is STRAINED times E.

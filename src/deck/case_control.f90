@@ -9,6 +9,7 @@ module case_control
    use nastran_compatibility, only: ignored_entries_type, parameters_type, read_echo, read_habit
    use stage_entries, only: check_vibration, read_stage_entry, stage_type
    use text_tools, only: integer_text, upper
+   use tolerances, only: back_tol, least_tol, newton_tol
    implicit none
    private
 
@@ -22,7 +23,6 @@ module case_control
                                  solver_petsc = 4, solver_mumps = 5                                !! SOLVER =
 
    integer, parameter  :: own_set = -1 ! number of the set of --watch
-   real(wp), parameter :: newton_tolerance = 1.0e-10_wp, back_tolerance = 1.0e-6_wp ! default TOL
 
    type, public :: case_control_type
       character(:), allocatable :: title
@@ -32,7 +32,7 @@ module case_control
       logical :: carry = .false.
       logical :: average = .true.                        !! BACK: average two consecutive sets of results
       integer :: solver = solver_auto
-      real(wp) :: tolerance = newton_tolerance           !! NEWTON: unbalanced force over largest load; BACK: change of pressures
+      real(wp) :: tolerance = newton_tol           !! NEWTON: unbalanced force over largest load; BACK: change of pressures
       integer :: restart = no_restart                    !! increments of a stage between restart files
       logical :: echo  = .true.
       logical :: echo_asked = .false.                    !! by ECHO: for any number of cards
@@ -118,7 +118,7 @@ contains
             goes_on = line(len(line):) == ','
          end if
       end do
-      if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tolerance, newton_tolerance, control%method == method_back)
+      if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tol, newton_tol, control%method == method_back)
       call check_stages(control, common, errors)
       call note_idle_sets(control)
    end subroutine read_case_control
@@ -201,7 +201,7 @@ contains
          call choose(entry, '|STEP|NEWTON|BACK|', control%method, errors)
       case ('TOL')
          call parse_real(upper(entry%value), control%tolerance, ok)
-         if (.not. ok .or. control%tolerance < 1.0e-14_wp .or. control%tolerance > 0.01_wp) &
+         if (.not. ok .or. control%tolerance < least_tol .or. control%tolerance > 0.01_wp) &
             call value_error(entry, 'a real number from 1.E-14 to 0.01', errors)
       case ('PRESSURE')
          call choose(entry, '|SUMF|EQ10|', control%pressure, errors)

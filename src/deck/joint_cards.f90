@@ -11,6 +11,7 @@ module joint_cards
    use normal_curve, only: least_power
    use shear_stiffness, only: shear_law
    use text_tools, only: integer_text, real_text
+   use tolerances, only: sum_of_shares
    implicit none
    private
 
@@ -231,7 +232,7 @@ contains
             if (card%is_faulty()) return
             if (card%given('N') .and. n /= size(list)) then
                call card%error('N', integer_text(n)//', but '//integer_text(size(list))//' shares follow')
-            else if (abs(sum(list) - 1.0_wp) > 1.0e-4_wp) then
+            else if (abs(sum(list) - 1.0_wp) > sum_of_shares) then
                call card%error_at(4, 'SHARE: the shares add up to '//real_text(sum(list))//', expected 1')
             else
                jincr%fractions = list/sum(list)

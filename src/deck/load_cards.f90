@@ -7,6 +7,7 @@ module load_cards
    use field_rules, only: at_least_1, positive
    use kinds, only: wp
    use text_tools, only: integer_text
+   use tolerances, only: least_fraction
    implicit none
    private
 
@@ -30,7 +31,7 @@ contains
       if (n == 1) return
       step = 2.0_wp*(1.0_wp - n*first)/(real(n, wp)*(n - 1))
       fractions = [(first + (k - 1)*step, k = 1, n)]
-      ok = fractions(1) > 0.0_wp .and. fractions(n) > 1.0e-12_wp
+      ok = fractions(1) > 0.0_wp .and. fractions(n) > least_fraction
    end subroutine arithmetic_fractions
 
    !> N fractions s_k = FIRST r^(k - 1) with sum 1; the ratio r is found by bisection and closed by scaling.
@@ -65,7 +66,7 @@ contains
          fractions(k) = fractions(k - 1)*ratio
       end do
       fractions(2:) = fractions(2:)*(1.0_wp - first)/sum(fractions(2:))
-      ok = all(fractions > 1.0e-12_wp)
+      ok = all(fractions > least_fraction)
    end subroutine geometric_fractions
 
    pure real(wp) function geometric_sum(n, first, ratio) result(total)

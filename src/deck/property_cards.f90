@@ -10,6 +10,7 @@ module property_cards
    use kinds, only: wp
    use nastran_compatibility, only: take_parameter
    use text_tools, only: integer_text, real_text
+   use tolerances, only: equal_ends
    implicit none
    private
 
@@ -232,7 +233,7 @@ contains
             do k = 3, 8
                if (card%text_at(first + k - 1) == '') cycle
                call parse_real(card%text_at(first + k - 1), value, ok)
-               if (ok) ok = abs(value - at_end_a(k)) <= 1.0e-6_wp*abs(at_end_a(k))
+               if (ok) ok = abs(value - at_end_a(k)) <= equal_ends*abs(at_end_a(k))
                if (.not. ok) call card%error_at(first + k - 1, ''''//card%text_at(first + k - 1)//''' differs from the section '// &
                   'at end A; expected a beam of constant section, or a chain of beams with sections of their own')
             end do

@@ -5,6 +5,7 @@ module vibration_cards
    use field_rules, only: not_negative, positive, real_range
    use kinds, only: wp
    use text_tools, only: integer_text, real_text
+   use tolerances, only: amplitude_tol
    implicit none
    private
 
@@ -52,7 +53,7 @@ contains
          call card%field('CYCLES', jampl%cycles, default=5, least=0)
          call card%field('INCS', jampl%increments, default=2, most=most_amplitudes)
          call card%field('GID', jampl%node, default=0)
-         call card%field('TOL', jampl%tolerance, positive, default=1.0e-4_wp)
+         call card%field('TOL', jampl%tolerance, positive, default=amplitude_tol)
          call card%finish(jampl%line)
       end associate
    end subroutine read_jampl

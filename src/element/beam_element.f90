@@ -9,6 +9,7 @@ module beam_element
    use beam_sections, only: beam_section
    use kinds, only: wp
    use numbers, only: cross
+   use tolerances, only: along_the_beam, released_pivot
    implicit none
    private
 
@@ -53,7 +54,7 @@ contains
       if (beam_length(law, x) <= 0.0_wp) return
       along = (x(:, 2) + law%offset(:, 2) - x(:, 1) - law%offset(:, 1))/beam_length(law, x)
       across = cross(along, law%orientation)
-      if (norm2(across) <= 1.0e-6_wp*norm2(law%orientation)) return
+      if (norm2(across) <= along_the_beam*norm2(law%orientation)) return
       axes(:, 1) = along
       axes(:, 3) = across/norm2(across)
       axes(:, 2) = cross(axes(:, 3), along)
@@ -163,7 +164,6 @@ contains
       type(beam_law), intent(in)        :: law
       real(wp), intent(inout)           :: k(12, 12)
       real(wp), intent(inout), optional :: f(12), m(12, 12)
-      real(wp), parameter :: rounding = 1.0e-12_wp
       real(wp) :: ratio(12), whole(12)
       integer  :: r
 
@@ -171,7 +171,7 @@ contains
       do r = 1, 12
          if (.not. law%released(r)) cycle
          ratio = 0.0_wp
-         if (k(r, r) > rounding*whole(r)) ratio = k(r, :)/k(r, r) ! an earlier release may leave none
+         if (k(r, r) > released_pivot*whole(r)) ratio = k(r, :)/k(r, r) ! an earlier release may leave none
          ratio(r) = 1.0_wp
          if (present(f)) f = f - ratio*f(r)
          if (present(m)) then

@@ -9,6 +9,7 @@ module element_mapping
    use numbers, only: cross
    use quadrature, only: body_rule, integration_rule, max_points, side_rule, volume_rule
    use shape_functions, only: shape_derivatives, shape_values
+   use tolerances, only: degenerate
    implicit none
    private
 
@@ -36,8 +37,6 @@ module element_mapping
       real(wp) :: inverse(3, 3)                           !! of the Jacobian matrix at the centre [1/length], with modes
       real(wp) :: jacobian = 0.0_wp                       !! det J at the centre, with modes
    end type element_map
-
-   real(wp), parameter :: flat = 1.0e-12_wp               ! of (longest edge)**dimension: a smaller det J is rounding
 
 contains
 
@@ -229,7 +228,7 @@ contains
          if (rule%n > n) elsewhere = min(elsewhere, least_at(kind, nodes, rule%point(:, :rule%n)))
       end if
       smallest = element_table(kind)%jacobian_scale*min(smallest, elsewhere)
-      if (.not. (smallest > flat*longest**d .and. longest**d >= tiny(longest))) smallest = min(smallest, 0.0_wp)
+      if (.not. (smallest > degenerate*longest**d .and. longest**d >= tiny(longest))) smallest = min(smallest, 0.0_wp)
       if (longest**d >= tiny(longest)) smallest = smallest/longest**d
    end function smallest_jacobian
 
@@ -271,7 +270,7 @@ contains
          end associate
       end do
       do i = 2, element_table(kind)%n_nodes
-         if (any([(sum((nodes(:, i) - nodes(:, k))**2) <= (flat*longest)**2, k = 1, i - 1)])) smallest = min(smallest, 0.0_wp)
+         if (any([(sum((nodes(:, i) - nodes(:, k))**2) <= (degenerate*longest)**2, k = 1, i - 1)])) smallest = min(smallest, 0.0_wp)
       end do
    end function least_on_sides
 

@@ -5,6 +5,7 @@ module branch_fit
    use data_columns, only: fit_load
    use kinds, only: wp
    use numbers, only: fit_line, solve_least_squares
+   use tolerances, only: equal_pressures, zero_coefficient
    implicit none
    private
 
@@ -29,11 +30,9 @@ module branch_fit
       integer, allocatable :: line_of(:) !! (points) 0: loading, -1: no line
    end type loop_fit_type
 
-   real(wp), parameter :: rounding = 1.0e-13_wp ! coefficients below this share of tau are set to zero
-
    !> Options of a branch fit.
    type, public :: fit_choice
-      real(wp) :: p_tolerance  = 1.0e-3_wp  !! relative difference of pressures that count as equal
+      real(wp) :: p_tolerance  = equal_pressures !! relative difference of pressures that count as equal
       logical  :: one_step     = .false.    !! the one-step fit is wanted: what the two-step fit lacks is not an error
       logical  :: one_pressure = .false.    !! for one pressure: coefficients independent of pressure
    end type fit_choice
@@ -355,7 +354,7 @@ contains
       real(wp), intent(inout) :: line(2)
       real(wp), intent(in)    :: p, d_power, tau !! largest p, d^k and |tau| of the data
 
-      where (abs(line)*[1.0_wp, p]*d_power <= rounding*tau) line = 0.0_wp
+      where (abs(line)*[1.0_wp, p]*d_power <= zero_coefficient*tau) line = 0.0_wp
    end subroutine drop_rounding
 
    !> Residual of tau about the law with LINES; where the branch has constants, each curve takes its best constant.

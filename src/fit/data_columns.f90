@@ -5,6 +5,7 @@ module data_columns
    use field_rules, only: parse_real
    use kinds, only: wp
    use text_tools, only: upper
+   use tolerances, only: same_unit
    implicit none
    private
 
@@ -151,7 +152,7 @@ contains
       real(wp), intent(in) :: length, stress
 
       associate (forces => unit_values(first_unit(of_force):last_unit(of_force)))
-         has_force = any(abs(forces - stress*length**2) <= 1.0e-9_wp*forces)
+         has_force = any(abs(forces - stress*length**2) <= same_unit*forces)
       end associate
    end function has_force
 

@@ -8,6 +8,7 @@ module fit_data
    use deck_text, only: deck_text_type, read_deck_text
    use kinds, only: wp
    use text_tools, only: integer_text, real_text, upper
+   use tolerances, only: whole_number
    implicit none
    private
 
@@ -174,7 +175,7 @@ contains
                call read_number(word, value, ok)
                ok = ok .and. abs(value) <= huge(run)
                if (ok) run = nint(value)
-               if (ok) ok = run > 0 .and. abs(value - run) < 1.0e-6_wp
+               if (ok) ok = run > 0 .and. abs(value - run) < whole_number
                if (.not. ok) fault = ''''//word//''' is not the number of a run, expected 1, 2, 3 and so on'
             else
                call read_number(word, value, ok)

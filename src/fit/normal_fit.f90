@@ -8,6 +8,7 @@ module normal_fit
    use normal_curve, only: least_power
    use numbers, only: fit_line, solve_least_squares
    use text_tools, only: real_text
+   use tolerances, only: m_at_one, settled_curve
    implicit none
    private
 
@@ -15,8 +16,6 @@ module normal_fit
 
    real(wp), parameter :: much = 0.05_wp ! a residual above this share of the largest reading is reported
    integer, parameter  :: most_steps = 200, most_halvings = 60
-   real(wp), parameter :: settled = 1.0e-14_wp   ! change of ln c and m in one step
-   real(wp), parameter :: m_rounding = 1.0e-9_wp ! an m above 1 by less counts as 1
 
    type, public :: normal_fit_type
       real(wp) :: c = 0.0_wp, m = 0.0_wp           !! lambda = c p^m
@@ -74,7 +73,7 @@ contains
                          real_text(least_power)//' and not above 1')
          return
       else if (fit%m > 1.0_wp) then
-         if (fit%m > 1.0_wp + m_rounding) call warnings%add(0, 'the fit gives m = '//real_text(fit%m)// &
+         if (fit%m > 1.0_wp + m_at_one) call warnings%add(0, 'the fit gives m = '//real_text(fit%m)// &
             ', but the law allows at most 1: m is set to 1')
          fit%m = 1.0_wp
       end if
@@ -116,7 +115,7 @@ contains
                          real_text(least_power)//' and not above 1')
          return
       else if (fit%m > 1.0_wp) then
-         if (fit%m > 1.0_wp + m_rounding) call warnings%add(0, 'the fit gives m = '//real_text(fit%m)// &
+         if (fit%m > 1.0_wp + m_at_one) call warnings%add(0, 'the fit gives m = '//real_text(fit%m)// &
             ', but the law allows at most 1: m is set to 1; --zero or --seat if the readings do not begin at zero')
          fit%m = 1.0_wp
          fit%c = fit_proportional(p, lambda)
@@ -177,7 +176,7 @@ contains
          if (now > before) exit  ! no direction of descent is left: q is the minimum to rounding
          q = q + step
          before = now
-         if (maxval(abs(step)) <= settled) exit
+         if (maxval(abs(step)) <= settled_curve) exit
       end do
       ok = ok .and. k <= most_steps
       m = q(2)

@@ -13,6 +13,7 @@ module reading_corrections
    use normal_fit, only: fit_power_law, fit_proportional
    use numbers, only: solve_least_squares
    use text_tools, only: plural, real_text
+   use tolerances, only: m_at_one, settled_offset
    implicit none
    private
 
@@ -20,9 +21,7 @@ module reading_corrections
 
    integer, parameter  :: fewest = 5                           ! points for three unknowns and an F test
    integer, parameter  :: most_steps = 200, most_halvings = 50
-   real(wp), parameter :: settled = 1.0e-13_wp                 ! change of the unknowns in one step
    real(wp), parameter :: much_m = 0.02_wp, much_c = 0.05_wp   ! changes of m and c (relative) below which an offset is not told
-   real(wp), parameter :: m_rounding = 1.0e-9_wp
 
    !> The offset of the readings of a test: the law is that of LAMBDA + l0 over P + p0.
    type, public :: offset_type
@@ -166,9 +165,9 @@ contains
          if (s > before) s = before
          if (halvings > most_halvings) exit ! no direction of descent is left: q is the minimum to rounding
          q = trial
-         if (maxval(abs(step)) <= settled*max(1.0_wp, maxval(abs(q)))) exit
+         if (maxval(abs(step)) <= settled_offset*max(1.0_wp, maxval(abs(q)))) exit
       end do
-      ok = k <= most_steps .and. q(2) >= least_power .and. q(2) <= 1.0_wp - m_rounding
+      ok = k <= most_steps .and. q(2) >= least_power .and. q(2) <= 1.0_wp - m_at_one
 
    contains
 

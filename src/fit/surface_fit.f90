@@ -15,6 +15,7 @@ module surface_fit
    use shear_loops, only: loop_closure, wide_gap, worst_closure
    use shear_stiffness, only: shear_law
    use text_tools, only: plural, real_text
+   use tolerances, only: same_deflection
    implicit none
    private
 
@@ -181,7 +182,7 @@ contains
          a = findloc(data%branch(:i - 1), fit_load, 1, back=.true.)
          if (a == 0) return
          associate (d => data%value(column_d, [a, i]))
-            returns = abs(d(2) - d(1)) <= 1.0e-6_wp*abs(d(1))
+            returns = abs(d(2) - d(1)) <= same_deflection*abs(d(1))
          end associate
       end function returns
 

@@ -11,6 +11,7 @@ module test_branches
    use kinds, only: wp
    use numbers, only: solve_least_squares
    use text_tools, only: integer_text, plural, real_text
+   use tolerances, only: equal_readings
    implicit none
    private
 
@@ -21,7 +22,6 @@ module test_branches
    integer, parameter  :: few = 3              ! mean number of rows in a run below which the rows are hardly in the order of time
 
    integer, parameter  :: no_branch = 0        ! for rows without a branch of the law
-   real(wp), parameter :: exact = 1.0e-6_wp    ! share of the stress, or of d, by which readings count as different
    real(wp), parameter :: farthest = 1.0e6_wp  ! its scatter grows up to this multiple
    real(wp), parameter :: known = 1.5_wp       ! the loading cubic is trusted up to this multiple of the largest d of loading
 
@@ -235,7 +235,7 @@ contains
          call fit_cubic(d_own, tau_own, reshape([logical ::], [size(own), 0]), law%coefficients(1, :), starts, ok)
          if (.not. ok) return
          scatter = norm2(tau_own - cubic_value(law, d_own, 0.0_wp))/sqrt(real(max(1, size(own) - 3), wp))
-         least = exact*maxval(abs(tau_own)) ! smallest difference between readings
+         least = equal_readings*maxval(abs(tau_own)) ! smallest difference between readings
          off = goal*stress - cubic_value(law, d, 0.0_wp)
          ! on the curve: within three times the scatter of its points, more beyond the last point
          d_most = maxval(d_own)

@@ -14,13 +14,12 @@ module analysis_state
    use numbers, only: is_measure
    use terminal, only: show_line
    use text_tools, only: integer_text, real_text
+   use tolerances, only: newton_tol, rounding_of_forces
    implicit none
    private
 
    public :: start_analysis, all_held, interface_stiffness, find_movements, find_unbalanced, subtract_joint_forces, element_force, &
              record_iteration, note_largest, free_norm, force_noise, note_turns
-
-   real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: the largest rounding error of forces that joints balance
 
    integer, parameter, public :: no_stiffness = 1, secant_stiffness = 2, tangent_stiffness = 3, e_u_stiffness = 4 !! k_n used
    integer, parameter, public :: kind_on_branch(4) = [tangent_stiffness, e_u_stiffness, no_stiffness, e_u_stiffness] !! by branch
@@ -88,7 +87,7 @@ module analysis_state
       logical  :: carry = .false.
       logical  :: eq10 = .false.                    !! STEP: p on the loading curve by Eq. (10) as printed
       logical  :: average = .true.                  !! BACK: averages two consecutive sets of results
-      real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced; BACK: of the
+      real(wp) :: load_tolerance = newton_tol         !! NEWTON: share of the largest load that may be left unbalanced; BACK: of the
                                                     !! largest pressure by which the laws may differ from the secants
       real(wp) :: tolerance = 0.0_wp                !! the same as a force, for the largest load so far
       logical  :: is_loose = .false.                !! interference has pushed a body away until nothing presses it
@@ -277,7 +276,7 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: u(:, :) !! [length]
 
-      noise = 10.0_wp*epsilon(1.0_wp)*system%stiffest*maxval(abs(u))
+      noise = rounding_of_forces*system%stiffest*maxval(abs(u))
    end function force_noise
 
    !> Update the largest pressure and deflection so far.

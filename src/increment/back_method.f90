@@ -14,16 +14,17 @@ module back_method
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: back_stiffness, exceeds_limit, limit_cuts, rest_margin, stiffness_matrices
+   use joint_laws, only: back_stiffness, exceeds_limit, limit_cuts, stiffness_matrices
    use joint_work, only: work_of_secants
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
-   use normal_curve, only: loading_deflection, loading_pressure, normal_tangent, pressure_floor
+   use normal_curve, only: loading_deflection, loading_pressure, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, has_come_to
    use numbers, only: first_largest
    use shear_stiffness, only: stand_at_limit
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
+   use tolerances, only: pressure_floor, rest_margin, rounding_of_deflections
    implicit none
    private
 
@@ -31,7 +32,6 @@ module back_method
 
    integer, parameter  :: most_averages = 1000 ! iterations with averaging
    integer, parameter  :: most_shown = 24      ! iterations without averaging: as many as the listing shows
-   real(wp), parameter :: rounding = 1.0e-12_wp ! of the deflections; TOL is at least the resulting change of pressure
 
 contains
 
@@ -81,7 +81,7 @@ contains
          associate (p => max(largest_p, pressure_floor*maxval(analysis%states%normal%p_av)))
             do i = 1, size(change)
                associate (law => model%joints(model%interface(i)%joint)%law%normal)
-                  left(i) = max(analysis%load_tolerance*p, rounding*loading_deflection(law, p)* &
+                  left(i) = max(analysis%load_tolerance*p, rounding_of_deflections*loading_deflection(law, p)* &
                                 normal_tangent(law, 1.0_wp, p, analysis%states(i)%normal%p_av))
                end associate
             end do

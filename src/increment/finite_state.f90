@@ -1,7 +1,7 @@
 !> The test of the state after an increment for values that are not finite or beyond all bounds. No such value gets into a
 !! result; the message names the first place.
 module finite_state
-   use analysis_state, only: analysis_type, force_noise, precise
+   use analysis_state, only: analysis_type, force_noise
    use equations, only: equation_system
    use equation_solver, only: failure_type
    use kinds, only: wp
@@ -11,6 +11,7 @@ module finite_state
    use numbers, only: is_measure
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
+   use tolerances, only: most_rounding_of_forces
    use unknowns, only: unknown_name
    implicit none
    private
@@ -63,7 +64,7 @@ contains
 
       if (size(model%interface) == 0) return
       noise = force_noise(system, analysis%u)
-      if (noise <= precise*analysis%largest_load) return
+      if (noise <= most_rounding_of_forces*analysis%largest_load) return
       if (analysis%is_loose .and. analysis%largest_load <= 10.0_wp*idle*analysis%loose_force) return
       if (noise >= analysis%largest_load .and. (analysis%is_moved .or. any(model%interface%gap < 0.0_wp))) return
       call failure%raise(place//no_balance//', '//real_text(noise)//' of force where '//real_text(analysis%largest_load)// &

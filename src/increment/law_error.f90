@@ -9,12 +9,11 @@ module law_error
    use kinds, only: wp
    use model_data, only: model_type
    use normal_stiffness, only: law_deflection
+   use tolerances, only: least_scale
    implicit none
    private
 
    public :: follow_laws, normal_distance, shear_distance, tangents_now
-
-   real(wp), parameter :: noise = 1.0e-9_wp !! of the largest value so far: the least scale of a difference
 
    !> The element of a joint with the largest distance from its law.
    type, public :: distance_type
@@ -55,12 +54,12 @@ contains
       associate (joint => model%joints(j), lambda => analysis%states%normal%lambda)
          do i = joint%first, joint%last
             p = analysis%states(i)%normal%pressure
-            if (p <= noise*analysis%largest_p) p = 0.0_wp
+            if (p <= least_scale*analysis%largest_p) p = 0.0_wp
             by_law(i) = law_deflection(joint%law%normal, analysis%exact(i)%normal, p)
             if (.not. p > 0.0_wp) by_law(i) = min(by_law(i), lambda(i))
          end do
          farthest = distance_of(lambda(joint%first:joint%last), by_law, maxval(lambda(joint%first:joint%last)), &
-                                noise*analysis%largest_lambda)
+                                least_scale*analysis%largest_lambda)
          farthest%element = joint%first + farthest%element - 1
       end associate
    end function normal_distance
@@ -77,7 +76,7 @@ contains
          do k = 1, 2
             if (.not. model%joints(j)%law%shear(k)%given) cycle
             found = distance_of(analysis%states(first:last)%shear(k)%tau, analysis%exact(first:last)%shear(k)%tau, &
-                                maxval(abs(analysis%states(first:last)%shear(k)%tau)), noise*analysis%largest_p)
+                                maxval(abs(analysis%states(first:last)%shear(k)%tau)), least_scale*analysis%largest_p)
             if (.not. found%is_there .or. (farthest%is_there .and. found%relative <= farthest%relative)) cycle
             farthest = found
             farthest%direction = k
@@ -96,7 +95,7 @@ contains
       farthest%is_there = largest > floor
       if (.not. farthest%is_there) return
       do i = 1, size(actual)
-         if (abs(actual(i) - by_law(i)) > (farthest%relative + noise)*largest) then
+         if (abs(actual(i) - by_law(i)) > (farthest%relative + least_scale)*largest) then
             farthest%element = i
             farthest%relative = abs(actual(i) - by_law(i))/largest
          end if

@@ -1,16 +1,17 @@
 !> The iterations of METHOD = NEWTON from a committed state, or from a guess, to equilibrium. An iteration takes full steps under
 !! the tangents of straight_laws: the first one with new tangents, then corrections with these tangents while they pay.
 module newton_iterations
-   use analysis_state, only: analysis_type, force_noise, free_norm, iteration_record, precise, record_iteration
+   use analysis_state, only: analysis_type, force_noise, free_norm, iteration_record, record_iteration
    use equations, only: equation_system, forces_in_bodies, solve_coupled_again, solve_equations
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: model_type
    use newton_trial, only: attempt_type, commit, evaluate, evaluate_at, most_iterations, search, swap, trial_type
-   use normal_curve, only: pressure_floor
    use numbers, only: first_largest
    use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, laws_at, loose_joint, next_laws, &
                             residual_of, straight_law
+   use tolerances, only: far_below_tol, finest_direction, loose_direction, most_rounding_of_forces, pressure_floor, &
+                         rounding_of_forces, tight_direction
    implicit none
    private
 
@@ -19,10 +20,8 @@ module newton_iterations
    integer, parameter  :: most_corrections = 5
    integer, parameter  :: patience = 8                 ! iterations that must leave less than the same number before them
    real(wp), parameter :: progress = 0.9_wp            ! of it: the required reduction
-   real(wp), parameter :: far_below = 1.0e-3_wp        ! of TOL: below it another iteration is not worth while
    real(wp), parameter :: half = 0.5_wp                ! of the residual of the load: a guess that leaves more is poor
    real(wp), parameter :: worth_while = 0.1_wp         ! of its residual: a correction that leaves more is the last one
-   real(wp), parameter :: loose_end = 1.0e-2_wp, tight_end = 1.0e-4_wp, least_tolerance = 1.0e-12_wp ! what a direction may leave
    real(wp), parameter :: away = 100.0_wp              ! times the initial residual: the iterations diverge
    real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: an interference pressure below it counts as none
 
@@ -74,7 +73,7 @@ contains
             call choose_sides(model, laws)
          end if
          residual = residual_of(system, attempt%load, now, laws)
-         attempt%tolerance = tolerance_of(attempt%gain, now%size, far_below*analysis%tolerance, system%coupled%price > 0)
+         attempt%tolerance = tolerance_of(attempt%gain, now%size, far_below_tol*analysis%tolerance, system%coupled%price > 0)
          call find_direction(model, residual, analysis, system, attempt, laws, direction)
          if (attempt%trouble%raised) exit
          moves = attempt%moves
@@ -93,7 +92,7 @@ contains
       end do
 
       ! for the message about an attempt that fails
-      attempt%imprecise = attempt%noise > precise*attempt%load_size .and. .not. attempt%carried
+      attempt%imprecise = attempt%noise > most_rounding_of_forces*attempt%load_size .and. .not. attempt%carried
       attempt%loose = loose_joint(model, now%states)
       attempt%slides = attempt%loose > 0 .and. any(now%states%slips)
       attempt%worst = 0
@@ -102,7 +101,7 @@ contains
       if (attempt%seats) analysis%tolerance = analysis%load_tolerance*attempt%load_size
       if (.not. attempt%converged) return
 
-      if (now%size > max(far_below*analysis%tolerance, attempt%noise)) call refine(model, system, analysis, attempt, now, next)
+      if (now%size > max(far_below_tol*analysis%tolerance, attempt%noise)) call refine(model, system, analysis, attempt, now, next)
       call commit(model, system, now, analysis)
    end subroutine iterate
 
@@ -152,11 +151,11 @@ contains
       if (.not. now%size > 0.0_wp) return ! in equilibrium to the last digit: no share of a residual is left
       first = next%size/now%size
       attempt%gain = first**2
-      enough = max(half*far_below*analysis%tolerance, attempt%noise)
+      enough = max(half*far_below_tol*analysis%tolerance, attempt%noise)
       if (attempt%searches .or. first > worth_while .or. next%size <= enough .or. any(changes(now, next))) return
       allocate (corrected, source=next)
       do i = 1, most_corrections
-         attempt%tolerance = max(half*first, 0.1_wp*enough/next%size, least_tolerance)
+         attempt%tolerance = max(half*first, 0.1_wp*enough/next%size, finest_direction)
          direction = merge(next%residual, 0.0_wp, attempt%coupled)
          if (attempt%coupled) then
             call solve_coupled_again(model, attempt%tolerance, system, direction, attempt%trouble)
@@ -182,8 +181,8 @@ contains
       real(wp), intent(in) :: enough !! [force]
       logical, intent(in)  :: dear
 
-      tolerance = min(merge(loose_end, tight_end, dear), gain)
-      tolerance = max(tolerance, min(tight_end, 0.1_wp*enough/max(size, tiny(1.0_wp))), least_tolerance)
+      tolerance = min(merge(loose_direction, tight_direction, dear), gain)
+      tolerance = max(tolerance, min(tight_direction, 0.1_wp*enough/max(size, tiny(1.0_wp))), finest_direction)
    end function tolerance_of
 
    !> Whether the trial NOW is in equilibrium, or the iterations fail. Forces in the bodies are differences of large numbers:
@@ -212,9 +211,9 @@ contains
             call evaluate(model, system, attempt%load, analysis, now)
             attempt%spoilt = noise
          end if
-         rounding = 10.0_wp*epsilon(1.0_wp)*system%stiffest*attempt%travel*sqrt(real(size(analysis%now%load), wp))
+         rounding = rounding_of_forces*system%stiffest*attempt%travel*sqrt(real(size(analysis%now%load), wp))
          attempt%carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*attempt%travel
-         attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= precise*load_size
+         attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= most_rounding_of_forces*load_size
          attempt%converged = .not. attempt%moves .and. (attempt%converged .or. (attempt%carried .and. now%size <= rounding))
          attempt%sizes(n) = merge(huge(1.0_wp), now%size, attempt%moves)
          attempt%ends = n == most_iterations .or. leads_nowhere(attempt%sizes(:n))
@@ -274,7 +273,7 @@ contains
       allocate (direction, mold=analysis%u)
       call laws_at(model, system, now, laws)
       call choose_sides(model, laws)
-      attempt%tolerance = tight_end
+      attempt%tolerance = tight_direction
       call find_direction(model, now%residual, analysis, system, attempt, laws, direction)
       if (attempt%trouble%raised) return
       call advance(model, system, analysis, attempt, now, direction, .false., next)

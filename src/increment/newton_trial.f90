@@ -9,6 +9,7 @@ module newton_trial
    use joint_work, only: work_along
    use kinds, only: wp
    use model_data, only: model_type
+   use tolerances, only: tight_direction
    implicit none
    private
 
@@ -35,7 +36,7 @@ module newton_trial
       real(wp) :: sizes(0:most_iterations) = 0.0_wp !! residuals [force]
       real(wp) :: step = 1.0_wp                   !! length of the last step, in directions [-]
       real(wp) :: gain = 1.0_wp                   !! part of the present residual that the next step should leave [-]
-      real(wp) :: tolerance = 1.0e-4_wp           !! residual that the next direction may leave, relative [-]
+      real(wp) :: tolerance = tight_direction     !! residual that the next direction may leave, relative [-]
       real(wp) :: length = 0.0_wp                 !! of the last direction [length]
       logical  :: coupled = .false.               !! the last direction was that of a coupled system
       logical  :: settled = .false.               !! no element has begun or stopped slipping in the last iteration

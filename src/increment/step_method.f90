@@ -4,7 +4,7 @@ module step_method
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: element_state, exceeds_limit, flag_margin, friction_excess, friction_limit, stiffness_matrices
+   use joint_laws, only: element_state, exceeds_limit, friction_excess, friction_limit, stiffness_matrices
    use joint_work, only: work_of_tangents
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
@@ -13,6 +13,7 @@ module step_method
    use stage_entries, only: output_joint
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
+   use tolerances, only: flag_margin
    implicit none
    private
 

@@ -17,23 +17,20 @@ module straight_laws
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, trial_type
-   use normal_curve, only: loading_deflection, loading_pressure, normal_law, normal_tangent, pressure_floor
+   use normal_curve, only: loading_deflection, loading_pressure, normal_law, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, follow_normal, normal_state
    use shear_path, only: follow_shear
    use shear_stiffness, only: shear_state
+   use tolerances, only: least_rho, on_the_graph, pressure_floor, rounding_of_deflections, stand_in_stiffness
    implicit none
    private
 
    public :: first_laws, laws_at, next_laws, choose_sides, residual_of, find_direction, loose_joint, point_of_rest
 
    integer, parameter  :: most_steps = 40
-   real(wp), parameter :: near  = 1.0e-6_wp !! of the force: a point on the graph
    real(wp), parameter :: right = 0.1_wp    !! of it: error up to which a straight law has crossed no kink
-   real(wp), parameter :: least_rho = 1.0e-3_wp !! relative to the initial rho
    real(wp), parameter :: farthest = 1.0e30_wp  !! point of rest from the movement: powers of it are finite [length]
    real(wp), parameter :: most  = 3.0_wp    !! times the residual: limit of the force of a movement
-   real(wp), parameter :: little = 1.0e-7_wp !! of the elastic stiffness: substitute for zero stiffness of an element
-   real(wp), parameter :: still = 1.0e-12_wp !! of lambda: a smaller movement is rounding
    real(wp), parameter :: far = 1.0e3_wp    !! times the last direction: the body is not held
    integer, parameter, public :: direction_digits = 6 !! the next iteration corrects the direction
 
@@ -165,7 +162,7 @@ contains
       do i = 1, size(laws)
          associate (normal => laws(i)%state%normal, tangent => laws(i)%tangent, element => model%interface(i))
             if (normal%branch /= branch_load .or. .not. tangent(3, 3) > 0.0_wp) cycle
-            if (abs(normal%lambda - normal%lambda_before) > still*abs(normal%lambda)) cycle
+            if (abs(normal%lambda - normal%lambda_before) > rounding_of_deflections*abs(normal%lambda)) cycle
             k = model%joints(element%joint)%law%normal%e_u*element%area
             if (k > tangent(3, 3)) tangent(:, 3) = tangent(:, 3)*(k/tangent(3, 3)) ! column 3 is proportional to dp/dlambda
          end associate
@@ -216,12 +213,12 @@ contains
          do i = 1, size(laws)
             associate (tangent => laws(i)%tangent, elastic => laws(i)%elastic)
                analysis%k(:, i) = [tangent(1, 1), tangent(2, 2), tangent(3, 3)]
-               matrix(3, 3, i) = max(tangent(3, 3), little*elastic(3))
+               matrix(3, 3, i) = max(tangent(3, 3), stand_in_stiffness*elastic(3))
                matrix(:2, :2, i) = 0.5_wp*(tangent(:2, :2) + transpose(tangent(:2, :2)))
                least = 0.5_wp*(matrix(1, 1, i) + matrix(2, 2, i)) - &
                        hypot(0.5_wp*(matrix(1, 1, i) - matrix(2, 2, i)), matrix(1, 2, i))
                do k = 1, 2
-                  matrix(k, k, i) = matrix(k, k, i) - min(0.0_wp, least) + little*elastic(k)
+                  matrix(k, k, i) = matrix(k, k, i) - min(0.0_wp, least) + stand_in_stiffness*elastic(k)
                   if (holds) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
                end do
                rest(:2, :, i) = tangent(:2, :) - matrix(:2, :, i)
@@ -293,7 +290,7 @@ contains
          excess = t(i) + rho(i)*start - goal(i)
          bounds = [min(start, start - excess/rho(i)), max(start, start - excess/rho(i))]
          do step = 1, most_steps
-            if (abs(excess) <= near*(abs(t(i)) + abs(goal(i) - rho(i)*start))) exit
+            if (abs(excess) <= on_the_graph*(abs(t(i)) + abs(goal(i) - rho(i)*start))) exit
             bounds(merge(2, 1, excess > 0.0_wp)) = point(i)
             point(i) = point(i) - excess/(rho(i) + slope)
             if (point(i) <= bounds(1) .or. point(i) >= bounds(2)) point(i) = 0.5_wp*sum(bounds)
@@ -349,7 +346,7 @@ contains
       do step = 1, most_steps
          lambda = loading_deflection(law, p)
          excess = area*p + rho*lambda - goal
-         if (abs(excess) <= near*goal) return
+         if (abs(excess) <= on_the_graph*goal) return
          bounds(merge(2, 1, excess > 0.0_wp)) = p
          p = p - excess/(area + rho*area/normal_tangent(law, area, p, p_av=p))
          if (p <= bounds(1) .or. p >= bounds(2)) p = 0.5_wp*sum(bounds)

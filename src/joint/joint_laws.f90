@@ -3,11 +3,12 @@
 module joint_laws
    use branch_cubic, only: cubic_secant
    use kinds, only: wp
-   use normal_curve, only: loading_pressure, normal_law, normal_secant, pressure_floor
+   use normal_curve, only: loading_pressure, normal_law, normal_secant
    use normal_stiffness, only: branch_open, closed_share, follow_normal, is_virgin, norm, normal_state
    use shear_path, only: follow_shear
    use slip_path, only: turn_slip
    use shear_stiffness, only: shear, shear_law, shear_state, slid_from, stand_at_limit
+   use tolerances, only: pressure_floor, settled_secant, slip_margin
    implicit none
    private
 
@@ -15,10 +16,6 @@ module joint_laws
    public :: rest_when_open, is_apart
    public :: friction_limit, friction_excess, exceeds_limit, limit_cuts
    public :: back_stiffness
-
-   real(wp), parameter :: slip_margin = 1.0e-9_wp ! of the limit: rounding does not cause slip
-   real(wp), parameter, public :: flag_margin = 1.0e-7_wp  !! of it: the remainder of a relief is no slip in the next increment
-   real(wp), parameter, public :: rest_margin = -1.0e-6_wp !! of the limit: settled secants are at the limit to which they are cut
 
    type, public :: joint_law
       type(normal_law) :: normal
@@ -235,11 +232,10 @@ contains
    pure logical function limit_cuts(law, pressure, deflection) result(cuts)
       type(joint_law), intent(in) :: law
       real(wp), intent(in)        :: pressure, deflection(2) !! [pressure], along x and y [length]
-      real(wp), parameter :: margin = 1.0e-4_wp ! of the secant; deflections are settled to less
 
       cuts = .false.
       if (law%has_friction) cuts = any(friction_limit(law, pressure) < &
-         (1.0_wp - margin)*norm2(deflection)*cubic_secant(law%shear%load, abs(deflection), pressure))
+         (1.0_wp - settled_secant)*norm2(deflection)*cubic_secant(law%shear%load, abs(deflection), pressure))
    end function limit_cuts
 
 end module joint_laws

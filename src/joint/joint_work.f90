@@ -26,16 +26,13 @@ module joint_work
    use shear_path, only: follow_shear
    use shear_stiffness, only: shear_state
    use slip_path, only: turn_slip
+   use tolerances, only: end_of_way, least_slope, slip_at_once, zero_stress
    implicit none
    private
 
    public :: work_along, work_of_tangents, work_of_secants
 
    integer, parameter  :: by_branches = 1, by_tangents = 2, by_curves = 3
-   real(wp), parameter :: at_once = 1.0e-6_wp   ! of the way: slip that begins before it begins at once; the error is its square
-   real(wp), parameter :: near = 1.0e-9_wp      ! of the way: a zero on it, likewise
-   real(wp), parameter :: rounding = 1.0e-13_wp ! of the stresses
-   real(wp), parameter :: least_slope = 1.0e-6_wp ! of the initial slope of a loading curve: below it delta takes no part of d D
    real(wp), parameter :: point(5) = 0.5_wp + 0.5_wp*[-0.906179845938664_wp, -0.538469310105683_wp, 0.0_wp, 0.538469310105683_wp, &
                                                       0.906179845938664_wp]
    real(wp), parameter :: weight(5) = 0.5_wp*[0.236926885056189_wp, 0.478628670499366_wp, 0.568888888888889_wp, &
@@ -143,7 +140,7 @@ contains
          way%p = [normal%sigmaf/area, normal%pressure]
          way%slope = shear%k_s/area
          tau = shear%tau_before + way%slope*way%moved
-         call share_out(law, area, way, any(abs(tau - shear%tau) > rounding*maxval(abs([tau, shear%tau]))), shear%tau, energy)
+         call share_out(law, area, way, any(abs(tau - shear%tau) > zero_stress*maxval(abs([tau, shear%tau]))), shear%tau, energy)
       end associate
    end function work_of_tangents
 
@@ -263,7 +260,7 @@ contains
       integer  :: i, side
 
       ends = [0.0_wp, end]
-      if (.not. of_power) ends(1) = at_once
+      if (.not. of_power) ends(1) = slip_at_once
       values = [value_at(ends(1)), value_at(ends(2))]
       f = 0.0_wp
       if (values(1) >= 0.0_wp) return
@@ -274,11 +271,11 @@ contains
          f = (ends(1)*values(2) - ends(2)*values(1))/(values(2) - values(1))
          if (modulo(i, 3) == 0) f = 0.5_wp*sum(ends)
          value = value_at(f)
-         if (abs(value) <= rounding*scale) return
+         if (abs(value) <= zero_stress*scale) return
          side = merge(2, 1, value > 0.0_wp)
          ends(side) = f
          values(side) = value
-         if (ends(2) - ends(1) <= near) return
+         if (ends(2) - ends(1) <= end_of_way) return
       end do
 
    contains

@@ -2,12 +2,12 @@
 !! BACK use this module. The line of unloading is in normal_stiffness.
 module normal_curve
    use kinds, only: wp
+   use tolerances, only: pressure_floor
    implicit none
    private
 
    public :: loading_deflection, loading_pressure, normal_secant, normal_tangent, curve_work
 
-   real(wp), parameter, public :: pressure_floor = 1.0e-6_wp !! of p_av: the least p of a loading element
    !> The least m. The pressure (lambda/c)^(1/m) has 1/m times the relative error of lambda: at 1/1000 three of 16 digits are
    !! lost. The pressure overflows where lambda exceeds c by the factor 10^(308 m), about 2 at 1/1000. With a smaller m no
    !! iteration would converge.

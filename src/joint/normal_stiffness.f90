@@ -16,6 +16,7 @@
 module normal_stiffness
    use kinds, only: wp
    use normal_curve, only: curve_work, loading_deflection, loading_pressure, normal_law, normal_secant, normal_tangent
+   use tolerances, only: rounding_of_a_change
    implicit none
    private
 
@@ -23,8 +24,6 @@ module normal_stiffness
    public :: line_pressure, stored_work, law_deflection, force_reached
 
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
-
-   real(wp), parameter :: rounding = 1.0e-10_wp              ! of its force, or of p_av a_i: a smaller change is rounding
 
    !> State of one interface element in its normal direction.
    type, public :: normal_state
@@ -143,21 +142,21 @@ contains
       real(wp), intent(in)           :: area
       type(normal_state), intent(in) :: state
 
-      no_change = rounding*max(abs(state%sumf), abs(state%sigmaf), state%p_av*area)
+      no_change = rounding_of_a_change*max(abs(state%sumf), abs(state%sigmaf), state%p_av*area)
    end function no_change
 
    !> Whether the deflection LAMBDA has reached POINT, apart from the rounding of deflections of this SIZE.
    elemental logical function has_come_to(point, lambda, size)
       real(wp), intent(in) :: point, lambda, size !! [length]
 
-      has_come_to = lambda >= point - rounding*size
+      has_come_to = lambda >= point - rounding_of_a_change*size
    end function has_come_to
 
    !> The largest pressure of STATE that counts as rounding.
    elemental real(wp) function no_pressure(state)
       type(normal_state), intent(in) :: state
 
-      no_pressure = rounding*max(state%p_a, state%p_av)
+      no_pressure = rounding_of_a_change*max(state%p_a, state%p_av)
    end function no_pressure
 
    !> The largest deflection so far in STATE, as far as known [length].
@@ -172,7 +171,7 @@ contains
       real(wp), intent(in)           :: area
       type(normal_state), intent(in) :: state
 
-      is_virgin = state%branch == branch_load .and. max(abs(state%sumf), abs(state%sigmaf)) <= rounding*state%p_av*area
+      is_virgin = state%branch == branch_load .and. max(abs(state%sumf), abs(state%sigmaf)) <= rounding_of_a_change*state%p_av*area
    end function is_virgin
 
    !> The exact law over one step, for methods that iterate to equilibrium, from the state BEFORE to the deflection LAMBDA: the
@@ -188,7 +187,7 @@ contains
       real(wp), intent(out)           :: work   !! done on the element, integral of p a d lambda [force x length]
       real(wp) :: least, unloaded
 
-      least = rounding*max(abs(before%lambda_a), loading_deflection(law, before%p_av))
+      least = rounding_of_a_change*max(abs(before%lambda_a), loading_deflection(law, before%p_av))
       after = before
       after%lambda_before = before%lambda
       after%sigmaf = before%sumf

@@ -34,6 +34,7 @@ module shear_loops
    use normal_stiffness, only: branch_open
    use numbers, only: find_zeros, zero_list
    use shear_stiffness, only: curve_deflection, shear_law
+   use tolerances, only: equal_loop_gaps
    implicit none
    private
 
@@ -42,7 +43,6 @@ module shear_loops
    real(wp), parameter, public :: wide_gap = 0.05_wp !! a warning is given above it
 
    integer, parameter  :: divisions = 20        ! of the tested range
-   real(wp), parameter :: alike = 1.0e-9_wp     ! gaps that differ by less are equal: the first counts
 
    !> The gap of a loop and its place.
    type, public :: loop_closure
@@ -71,7 +71,7 @@ contains
             if (law%d_max < huge(1.0_wp)) d = law%d_max*k/divisions
             here = closure_at(law, p, d)
             if (.not. here%is_known) cycle
-            if (.not. worst%is_known .or. here%share > worst%share + alike) worst = here
+            if (.not. worst%is_known .or. here%share > worst%share + equal_loop_gaps) worst = here
          end do
       end do
    end function worst_closure

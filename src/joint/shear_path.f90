@@ -10,13 +10,13 @@ module shear_path
    use numbers, only: derivative, enclosed_zero, find_zeros, polynomial, zero_list
    use shear_stiffness, only: cubic_of, goal_sense, join_loading, least_movement, least_stress, leave_offset, shear_law, &
                               shear_slope, shear_state, turn
+   use tolerances, only: rounding_of_path
    implicit none
    private
 
    public :: follow_shear
 
    integer, parameter  :: most_pieces = 50      ! more pieces than the polynomials of a path can have turns
-   real(wp), parameter :: rounding = 1.0e-12_wp ! of the path: no shorter piece is begun; of slopes: no difference
    real(wp), parameter :: gauss_2(2) = 0.5_wp + [-0.5_wp, 0.5_wp]/sqrt(3.0_wp)          ! on 0..1, weights 1/2
    real(wp), parameter :: gauss_3(3) = 0.5_wp + [-0.5_wp, 0.0_wp, 0.5_wp]*sqrt(0.6_wp)  ! on 0..1
    real(wp), parameter :: weight_3(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
@@ -99,7 +99,7 @@ contains
       end if
       least = least_stress(state, maxval(way(2, :)))
       at_a = (state%d_r - d(1))/d(2)
-      if (piece%from + rounding < at_a) then
+      if (piece%from + rounding_of_path < at_a) then
          piece%ends_at_a = at_a <= piece%to
          piece%to = min(piece%to, at_a)
       else
@@ -139,7 +139,7 @@ contains
          real(wp), intent(in) :: c(0:4)
          type(zero_list) :: zeros
 
-         call find_zeros(c, piece%from + rounding, piece%to, zeros)
+         call find_zeros(c, piece%from + rounding_of_path, piece%to, zeros)
          f = piece%to
          if (zeros%n > 0) f = zeros%x(1)
       end function first_zero
@@ -192,7 +192,7 @@ contains
       curve_by_p = d*(b(1) + d*(b(2) + d*b(3))) ! dP/dp; it does not depend on the pressure
       rate = goal*way(1, 2)*(slopes(1) - curve_slope) - curve_by_p*way(2, 2)
       jump = way(1, 2)*(slopes(1) - slopes(2))
-      if (abs(rate) > rounding*(abs(way(1, 2))*sum(slopes) + abs(curve_by_p*way(2, 2)))) then
+      if (abs(rate) > rounding_of_path*(abs(way(1, 2))*sum(slopes) + abs(curve_by_p*way(2, 2)))) then
          by_delta = by_delta - jump*goal*(by_delta - curve_slope*piece%to)/rate
          by_p = by_p - jump*(goal*by_p - curve_by_p*piece%to)/rate
       end if

@@ -23,15 +23,14 @@ module shear_stiffness
    use branch_cubic, only: cubic, cubic_slope, cubic_value, deflection_at
    use kinds, only: wp
    use normal_stiffness, only: branch_load, branch_reload, branch_unload
+   use tolerances, only: rounding_of_a_change, touching_curve
    implicit none
    private
 
    public :: shear, shear_slope, least_movement, least_stress, turn, goal_sense, join_loading, leave_offset
    public :: cubic_of, curve_deflection, slid_from, stand_at_limit, branch_shift
 
-   real(wp), parameter :: rounding = 1.0e-10_wp ! of the present stresses: a smaller change is rounding
    real(wp), parameter :: past_peaks = 1.0e6_wp ! along the initial slope: a cubic without a peak reaches that stress far beyond d
-   real(wp), parameter :: touching = 1.0e-11_wp ! of the stresses: a branch this close to a curve meets it
 
    type, public :: shear_law
       logical     :: given = .false.           !! false: no shear stiffness
@@ -113,7 +112,7 @@ contains
    pure logical function is_past_a(state)
       type(shear_state), intent(in) :: state
 
-      is_past_a = goal_sense(state)*(state%delta - state%delta_0) >= (1.0_wp - rounding)*state%d_r
+      is_past_a = goal_sense(state)*(state%delta - state%delta_0) >= (1.0_wp - rounding_of_a_change)*state%d_r
    end function is_past_a
 
    !> Set the branch that begins with a movement; STATE holds the point before it. BACK: against the sense of the branch. Only a
@@ -172,7 +171,7 @@ contains
       real(wp) :: stress
 
       stress = max(abs(state%tau), abs(state%tau_before), abs(pressure))
-      least = rounding*stress/max(cubic_slope(law%load, 0.0_wp, pressure), tiny(1.0_wp)*1.0e100_wp)
+      least = rounding_of_a_change*stress/max(cubic_slope(law%load, 0.0_wp, pressure), tiny(1.0_wp)*1.0e100_wp)
    end function least_movement
 
    !> The stress that counts as rounding relative to the present and possible stresses of the element [pressure].
@@ -180,7 +179,7 @@ contains
       type(shear_state), intent(in) :: state
       real(wp), intent(in)          :: pressure
 
-      least = touching*max(abs(state%tau), abs(state%tau_before), abs(state%tau_r), abs(pressure))
+      least = touching_curve*max(abs(state%tau), abs(state%tau_before), abs(state%tau_r), abs(pressure))
    end function least_stress
 
    !> d tau/d delta on the branch of STATE under the PRESSURE, not below zero [pressure/length]. A returning branch past d_r

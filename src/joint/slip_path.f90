@@ -10,13 +10,12 @@
 !! yield surface of von Mises.
 module slip_path
    use kinds, only: wp
+   use tolerances, only: no_stress_direction, no_turn
    implicit none
    private
 
    public :: turn_slip
 
-   real(wp), parameter :: none = 1.0e-12_wp ! of the limit: a stress without direction
-   real(wp), parameter :: small = 1.0e-8_wp ! of it: a gain that does not turn the stress
    real(wp), parameter :: far = 100.0_wp    ! x of a stress that has turned entirely
 
 contains
@@ -36,7 +35,7 @@ contains
       by_gain = 0.0_wp
       by_limit = gain/max(norm2(gain), tiny(1.0_wp))
       if (limits(2) <= 0.0_wp) return
-      if (norm2(gain) <= small*limits(2)) then ! along a line; the angle between both is the square of SMALL
+      if (norm2(gain) <= no_turn*limits(2)) then ! along a line; the angle between both is the square of NO_TURN
          by_limit = (before + gain)/norm2(before + gain)
          tau = limits(2)*by_limit
          by_gain = limits(2)/norm2(before + gain)*(reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2]) &
@@ -57,12 +56,12 @@ contains
       begins = before + f*gain
       f_change = 0.0_wp
       if (f > 0.0_wp) f_change = -f*[begins, -(first + f*(limits(2) - first))]/ &
-                                   max(c(1) + c(2)*f, none*first**2)
+                                   max(c(1) + c(2)*f, no_stress_direction*first**2)
       size_begins = norm2(begins)
       size_gain = norm2(gain)
       n = begins/max(size_begins, tiny(1.0_wp))
       e = gain/size_gain
-      if (size_begins <= none*limits(2)) n = e
+      if (size_begins <= no_stress_direction*limits(2)) n = e
       mean = 0.5_wp*(first + f*(limits(2) - first) + limits(2))
       x = min(far, (1.0_wp - f)*size_gain/mean)
       cosine = dot_product(n, e)
@@ -72,7 +71,7 @@ contains
       ! rates of the angle of e, of that of n at the beginning, of x
       angle = [-e(2), e(1), 0.0_wp]/size_gain
       turned = angle
-      if (size_begins > none*limits(2)) turned = [-n(2), n(1), 0.0_wp]*f/size_begins &
+      if (size_begins > no_stress_direction*limits(2)) turned = [-n(2), n(1), 0.0_wp]*f/size_begins &
                                                  + (n(1)*gain(2) - n(2)*gain(1))/size_begins*f_change
       x_change = [e, 0.0_wp]*(1.0_wp - f)/mean - size_gain/mean*f_change &
                  - 0.5_wp*x/mean*([0.0_wp, 0.0_wp, 1.0_wp + f] + (limits(2) - first)*f_change)

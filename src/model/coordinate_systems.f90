@@ -4,6 +4,7 @@
 module coordinate_systems
    use kinds, only: wp
    use numbers, only: cross, identity
+   use tolerances, only: on_axis, parallel_axes
    implicit none
    private
 
@@ -28,7 +29,6 @@ contains
       real(wp), intent(in)                 :: a(3), b(3), c(3) !! in global axes [length]
       type(coordinate_system), intent(out) :: system
       logical, intent(out)                 :: ok
-      real(wp), parameter :: straight = 1.0e-10_wp ! sine of the smallest angle between z and C
       real(wp) :: x(3), z(3)
 
       z = b - a
@@ -38,7 +38,7 @@ contains
       z = z/norm2(z)
       x = x/norm2(x)
       x = x - dot_product(x, z)*z
-      ok = norm2(x) > straight
+      ok = norm2(x) > parallel_axes
       if (.not. ok) return
       x = x/norm2(x)
       system = coordinate_system(id, kind, a, reshape([x, cross(z, x), z], [3, 3]))
@@ -70,7 +70,6 @@ contains
       real(wp), intent(in)                :: x(3) !! [length]
       real(wp), intent(out)               :: directions(3, 3)
       logical, intent(out)                :: ok
-      real(wp), parameter :: near = 1.0e-9_wp ! of the distance from the origin: a point nearer to the axis lies on it
       real(wp) :: along(3), local(3), rho, turn(3, 3), r
 
       ok = .true.
@@ -79,7 +78,7 @@ contains
       local = matmul(x - system%origin, system%axes)
       rho = norm2(local(:2))
       r = norm2(local)
-      ok = rho > near*max(r, norm2(x), norm2(system%origin))
+      ok = rho > on_axis*max(r, norm2(x), norm2(system%origin))
       if (.not. ok) return
       along = [local(:2)/rho, 0.0_wp] ! r of cylindrical coordinates
       turn = reshape([along, -along(2), along(1), 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])

@@ -14,6 +14,7 @@ module node_coupling
    use kinds, only: wp
    use model_data, only: corners_of, model_type, n_sections, node_coupling_type, own_nodes
    use numbers, only: identity
+   use tolerances, only: rounding_of_entries
    implicit none
    private
 
@@ -125,7 +126,6 @@ contains
       integer, intent(in)          :: nodes(:)
       real(wp), allocatable, intent(inout) :: k(:, :) !! at least one row and column per component of NODES; enlarged where the
                                                       !! unknowns need more [force/length]
-      real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp) ! of the largest entry
       real(wp), allocatable :: t(:, :), wider(:, :)
 
       if (.not. is_coupled(model, nodes)) return
@@ -137,7 +137,7 @@ contains
             call move_alloc(wider, k)
          end if
          k(:m, :m) = matmul(transpose(t), matmul(k(:n, :n), t))
-         where (abs(k(:m, :m)) <= rounding*maxval(abs(k(:m, :m)))) k(:m, :m) = 0.0_wp
+         where (abs(k(:m, :m)) <= rounding_of_entries*maxval(abs(k(:m, :m)))) k(:m, :m) = 0.0_wp
       end associate
    end subroutine onto_unknowns
 

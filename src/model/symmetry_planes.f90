@@ -8,15 +8,12 @@ module symmetry_planes
    use lists, only: distinct
    use model_data, only: model_type, n_points, supported
    use numbers, only: cross
+   use tolerances, only: on_symmetry_plane, one_direction, parallel_in_mesh
    use unknowns, only: node_axes
    implicit none
    private
 
    public :: find_planes, planes_through, parts_cut, cut_by, free_part, axis_part, onto_planes
-
-   real(wp), parameter :: level = 1.0e-5_wp   ! of the extent of the model: nodes nearer to a plane lie on it
-   real(wp), parameter :: aligned = 1.0e-8_wp ! 1 - cosine of the angle between directions that count as one
-   real(wp), parameter :: parallel = 1.0e-3_wp ! sine of the angle between planes below which they are one direction
 
    type, public :: symmetry_plane
       real(wp) :: normal(3) = 0.0_wp         !! unit, into the model
@@ -70,14 +67,14 @@ contains
       allocate (found(0))
       if (.not. any(counts)) return
       outer = outermost(model, counts)
-      near = level*maxval(maxval(outer, dim=2) - minval(outer, dim=2))
+      near = on_symmetry_plane*maxval(maxval(outer, dim=2) - minval(outer, dim=2))
       do node = 1, size(counts)
          if (.not. counts(node)) cycle
          held = supported(model, node)
          if (.not. any(held)) cycle
          axes = node_axes(model, node)
          do d = 1, model%dimension
-            if (.not. held(d) .or. (model%axisymmetric .and. abs(axes(1, d)) > aligned)) cycle
+            if (.not. held(d) .or. (model%axisymmetric .and. abs(axes(1, d)) > one_direction)) cycle
             offset = dot_product(model%x(:, node), axes(:, d))
             beyond = matmul(axes(:, d), outer) - offset
             if (minval(beyond) < -near) then
@@ -136,7 +133,7 @@ contains
    pure logical function is_along(a, b)
       real(wp), intent(in) :: a(3), b(3)
 
-      is_along = abs(dot_product(a, b)) > 1.0_wp - aligned
+      is_along = abs(dot_product(a, b)) > 1.0_wp - one_direction
    end function is_along
 
    !> Whether X lies on PLANE.
@@ -253,7 +250,7 @@ contains
       do k = 1, size(planes)
          if (.not. cuts(k)) cycle
          rest = free_part(cut, planes(k)%normal)
-         if (norm2(rest) <= parallel) cycle
+         if (norm2(rest) <= parallel_in_mesh) cycle
          cut%n = cut%n + 1
          cut%direction(:, cut%n) = rest/norm2(rest)
          cut%plane(cut%n) = k

@@ -9,6 +9,7 @@ module distributed_solution
    use kinds, only: wp
    use petscksp
    use ranks, only: n_ranks
+   use tolerances, only: krylov_residual, loosest_residual, no_residual
    implicit none
    private
 
@@ -35,7 +36,6 @@ module distributed_solution
       logical  :: has_memory = .true.          !! MUMPS: for the factor
    end type distributed_solution_type
 
-   real(wp), parameter :: loosest = 1.0e-9_wp    !! largest residual of a solution over the load: rounding allows no less
    integer, parameter  :: most_steps = 500
    integer, parameter, public :: no_limit = huge(1) !! no limit on the steps of a solution
    integer, parameter  :: lean_from = 600000     !! rows of a process, from which on the set-up of several takes a fifth less
@@ -99,7 +99,7 @@ contains
             call PCSetType(preconditioner, 'cholesky', code)
             call PCFactorSetMatSolverType(preconditioner, 'mumps', code)
          end if
-         call KSPSetTolerances(ksp, 1.0e-12_wp, 1.0e-300_wp, 1.0e5_wp, most_steps, code)
+         call KSPSetTolerances(ksp, krylov_residual, no_residual, 1.0e5_wp, most_steps, code)
          call KSPSetFromOptions(ksp, code)
          if (n_ranks > 1 .and. sum(stiffness%counts) > n_ranks*lean_from) call set_option('-matptap_via', 'allatonce')
          call KSPSetUp(ksp, code)
@@ -166,7 +166,7 @@ contains
                if (reason <= 0 .or. solution%residual <= 10.0_wp*tolerance) exit
             end do
             if (left > 0.0_wp .and. first > left) solution%gained = log10(first/left)
-            solution%converged = solution%residual <= max(loosest, 10.0_wp*tolerance)
+            solution%converged = solution%residual <= max(loosest_residual, 10.0_wp*tolerance)
          end if
          if (load > 0.0_wp .and. solution%converged .and. how(3) == 1) then ! keep the solution in place of the oldest one
             if (earlier%n < most) then

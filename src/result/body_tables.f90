@@ -10,7 +10,7 @@ module body_tables
    use kinds, only: wp
    use model_data, only: corners_of, is_beam, is_shell, model_type, n_points, n_rotations, supported
    use output_file, only: output_file_type
-   use page_lines, only: axes, heading, in_units, noise
+   use page_lines, only: axes, heading, in_units
    use result_page, only: page_type, shows
    use stage_entries, only: output_request
    use structural_results, only: list_beams, list_shells
@@ -18,6 +18,7 @@ module body_tables
    use table_column, only: column
    use table_writer, only: table_type
    use text_tools, only: clean, integer_text, upper
+   use tolerances, only: page_zero
    use unknowns, only: node_axes
    implicit none
    private
@@ -45,12 +46,12 @@ contains
 
       list = pack([(node, node = 1, n_points(model))], [(model%used(node) .and. shows(page, [node]), node = 1, n_points(model))])
       call list_vectors(page, model, [character(22) :: 'DISPLACEMENTS OF NODES', 'U.', page%labels%length], list, &
-                        analysis%all_u(:, list), spread(noise*maxval(abs(analysis%all_u(:, :n_points(model)))), 1, size(list)))
+                        analysis%all_u(:, list), spread(page_zero*maxval(abs(analysis%all_u(:, :n_points(model)))), 1, size(list)))
       m = merge(3, 1, model%dimension == 3)
       associate (rotations => model%rotations)
          if (n_rotations(model) > 0) call list_vectors(page, model, &
             [character(28) :: 'ROTATIONS OF REFERENCE NODES', 'THETA .', 'RADIANS'], rotations%point, &
-            analysis%all_u(:m, rotations%node)/spread(rotations%arm, 1, m), noise*maxval(abs(analysis%all_u))/rotations%arm, &
+            analysis%all_u(:m, rotations%node)/spread(rotations%arm, 1, m), page_zero*maxval(abs(analysis%all_u))/rotations%arm, &
             turns=.true.)
       end associate
       has_bodies = model%n_elements > 0
@@ -63,7 +64,7 @@ contains
       if (asked%stress .and. any(is_second_order(model%element_kind))) then ! stresses at nodes, averaged over their elements
          allocate (stress(max_stresses, n_points(model)))
          call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
-         floor = noise*maxval(abs(stress))
+         floor = page_zero*maxval(abs(stress))
          shown = shown_stresses(model)
          call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
                           [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')], page%file)
@@ -180,7 +181,7 @@ contains
          centre(:, e) = element_centre(model, e)
       end do
       !$omp end parallel do
-      floor = noise*maxval(abs(stress))
+      floor = page_zero*maxval(abs(stress))
       call table%start('STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
                        [column('ELEMENT', 'i11'), column('CENTRE '//axes(:model%dimension), 'es13.5'), &
                         column(stress_names(model), 'es13.5')], page%file)
@@ -284,8 +285,8 @@ contains
             return
          end if
          n = size(condensed%node)
-         k_floor = noise*maxval(abs(condensed%k))
-         load_floor = noise*max(page%largest_force, maxval(abs(condensed%load)))
+         k_floor = page_zero*maxval(abs(condensed%k))
+         load_floor = page_zero*max(page%largest_force, maxval(abs(condensed%load)))
          allocate (names(n))
          allocate (scale(n), source=1.0_wp)
          do i = 1, n ! 12Y, or 900RZ for a rotation of node 900, whose rows hold moments over its arm

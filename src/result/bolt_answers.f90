@@ -13,19 +13,17 @@ module bolt_answers
    use kinds, only: wp
    use model_data, only: corners_of, model_type, section_type, temperature_type
    use node_coupling, only: corner_displacements
-   use numbers, only: cross, is_measure, tie
+   use numbers, only: cross, is_measure
    use passing_forces, only: forces_between, passage_type
    use restart_stream, only: restart_stream_type
    use surface_build, only: surface_node_list, surface_nodes
    use symmetry_planes, only: axis_part, cut_type, free_part, symmetry_plane
    use text_tools, only: above, integer_text
+   use tolerances, only: symmetric_tie, zero_remainder
    implicit none
    private
 
    public :: start_bolts, follow_bolts, end_stage, record_bolts, bending_moment, fault_of_bolts
-
-   ! of forces and movements: the remainder of sums and differences that are zero but for rounding and the tolerance of iterations
-   real(wp), parameter, public :: remainder = 1.0e-7_wp
 
    real(wp), parameter :: along_it = 0.1_wp       ! of the whole load: a smaller part along a bolt is none
    real(wp), parameter :: pi = acos(-1.0_wp)
@@ -145,7 +143,7 @@ contains
       integer  :: i, stage
 
       stage = analysis%stage
-      floor = remainder*largest_force
+      floor = zero_remainder*largest_force
       allocate (answers(size(history%bolts)), force(size(history%bolts)))
       if (size(answers) == 0) return
       do i = 1, size(answers)
@@ -175,7 +173,7 @@ contains
             if (bolt%joint == 0) cycle
             answer%joint = model%joints(bolt%joint)%id
             answer%clamping = above(clamping(i), floor)
-            if (history%clamped(i) > floor) answer%loss = above(1.0_wp - clamping(i)/history%clamped(i), remainder)
+            if (history%clamped(i) > floor) answer%loss = above(1.0_wp - clamping(i)/history%clamped(i), zero_remainder)
             answer%has_safety = model%joints(bolt%joint)%law%has_friction .and. shear(i) > floor
             if (answer%has_safety) answer%safety = model%joints(bolt%joint)%law%mu*max(0.0_wp, clamping(i))/shear(i)
          end associate
@@ -281,7 +279,7 @@ contains
             do b = 1, size(bolts)
                off(b) = distance(bolts(b), at_first_end(element, model%x))
             end do
-            share = merge(1.0_wp, 0.0_wp, own .and. off <= (1.0_wp + tie)*minval(off, mask=own))
+            share = merge(1.0_wp, 0.0_wp, own .and. off <= (1.0_wp + symmetric_tie)*minval(off, mask=own))
             share = share/sum(share)
             clamping = clamping + share*state%normal%sumf
             do b = 1, size(bolts)
@@ -322,7 +320,7 @@ contains
          do i = 1, size(bolts)
             call find_load(bolts(i), history%crossing(:, i), history%passed - history%passed_before, axial, whole)
             call find_load(bolts(i), history%crossing(:, i), history%passed - history%passed_assembled, axial, load)
-            if (whole <= max(tie*load, floor) .or. abs(force(i) - history%assembled(i)) <= abs(history%change(i))) cycle
+            if (whole <= max(symmetric_tie*load, floor) .or. abs(force(i) - history%assembled(i)) <= abs(history%change(i))) cycle
             history%change(i) = force(i) - history%assembled(i)
             history%load(i) = load
          end do

@@ -3,17 +3,17 @@ module bolt_places
    use interface_operator, only: at_first_end
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_points, n_sections
-   use numbers, only: first_largest, tie
+   use numbers, only: first_largest
    use passing_forces, only: cut_passages, passage_type, start_passages
    use surface_build, only: surface_node_list, surface_nodes
    use symmetry_planes, only: cut_type, onto_planes, planes_through, symmetry_plane
+   use tolerances, only: beside_bolt, parallel_in_mesh, symmetric_tie
    implicit none
    private
 
    public :: find_places, distance
 
    real(wp), parameter :: about_as_near = 0.45_wp ! of the bolt's length: own joint farther than the nearest one by this
-   real(wp), parameter :: in_plane = 1.0e-3_wp ! sine of the largest angle between a plane and a bolt that it cuts
 
    !> The data of a bolt that do not change.
    type, public :: bolt_place
@@ -95,7 +95,7 @@ contains
          span = 0.0_wp
          do node = 1, n_points(model)
             if (model%part(node) /= model%part(section%point)) cycle
-            if (distance(bolt, model%x(:, node)) > radius*(1.0_wp + 1.0e-3_wp)) cycle
+            if (distance(bolt, model%x(:, node)) > radius*(1.0_wp + beside_bolt)) cycle
             along = dot_product(model%x(:, node) - bolt%point, bolt%direction)
             span = [min(span(1), along), max(span(2), along)]
          end do
@@ -112,7 +112,7 @@ contains
       integer :: k
 
       cut = planes_through(model, planes, nodes)
-      if (any([(abs(dot_product(cut%direction(:, k), direction)) > in_plane, k = 1, cut%n)])) cut = cut_type()
+      if (any([(abs(dot_product(cut%direction(:, k), direction)) > parallel_in_mesh, k = 1, cut%n)])) cut = cut_type()
    end function planes_along
 
    !> The joints that BOLT crosses: the element nearest to the axis lies within the SPAN of the bolt and faces the axis. Joints much
@@ -134,11 +134,11 @@ contains
          do j = 1, size(model%joints)
             do i = model%joints(j)%first, model%joints(j)%last
                near = distance(bolt, at_first_end(model%interface(i), model%x))
-               if (near > off(j) - tie*length) cycle
+               if (near > off(j) - symmetric_tie*length) cycle
                off(j) = near
                at(j) = i
                along = dot_product(at_first_end(model%interface(i), model%x) - bolt%point, bolt%direction)
-               crossed(j) = along > span(1) - tie*length .and. along < span(2) + tie*length .and. &
+               crossed(j) = along > span(1) - symmetric_tie*length .and. along < span(2) + symmetric_tie*length .and. &
                             abs(dot_product(model%interface(i)%axes(:, 3), bolt%direction)) > 0.5_wp
             end do
          end do

@@ -4,18 +4,16 @@
 !! secant stiffnesses leave out what planes of symmetry balance.
 module joint_answers
    use analysis_state, only: analysis_type
-   use bolt_answers, only: remainder
    use interface_operator, only: at_first_end
-   use joint_sides, only: straight
    use joint_values, only: joint_resultant, joint_values_type
    use kinds, only: wp
    use law_error, only: tangents_now
    use model_data, only: joint_frame, joint_type, model_type
    use normal_stiffness, only: branch_open
    use numbers, only: cross, identity, is_measure
-   use page_lines, only: noise
    use symmetry_planes, only: axis_part, cut_type, free_part
    use text_tools, only: above, integer_text
+   use tolerances, only: no_inertia, page_zero, zero_remainder
    implicit none
    private
 
@@ -50,7 +48,7 @@ contains
       allocate (answers(size(model%joints)))
       allocate (k, source=tangents_now(model, analysis, method))
       do j = 1, size(answers)
-         call describe_joint(model, analysis, model%joints(j), now(j), cuts(j), k, remainder*largest_force, answers(j))
+         call describe_joint(model, analysis, model%joints(j), now(j), cuts(j), k, zero_remainder*largest_force, answers(j))
       end do
    end subroutine find_joint_answers
 
@@ -86,12 +84,12 @@ contains
          answer%moment = norm2(unbalanced(4:))
          answer%has_safety = joint%law%has_friction .and. answer%shear > 0.0_wp
          if (answer%has_safety) answer%safety = joint%law%mu*max(0.0_wp, answer%normal)/answer%shear
-         least = remainder*analysis%largest_lambda
+         least = zero_remainder*analysis%largest_lambda
          least(4:) = least(4:)/max(frame%extent, tiny(1.0_wp))
          answer%movement = above(rigid_movement(model, analysis, joint, along), least)
          answer%tangent = stiffness_about(model, joint, k)
-         answer%tangent(:3) = above(answer%tangent(:3), noise*maxval(abs(answer%tangent(:3))))
-         answer%tangent(4:) = above(answer%tangent(4:), noise*maxval(abs(answer%tangent(4:))))
+         answer%tangent(:3) = above(answer%tangent(:3), page_zero*maxval(abs(answer%tangent(:3))))
+         answer%tangent(4:) = above(answer%tangent(4:), page_zero*maxval(abs(answer%tangent(4:))))
          answer%has_secant = frame%exists .and. unbalanced*answer%movement > 0.0_wp
          where (answer%has_secant) answer%secant = unbalanced/answer%movement
       end associate
@@ -143,13 +141,13 @@ contains
       if (cut%n > 0) then
          mean = free_part(cut, mean)
          j = dot_product(cut%direction(:, 1), matmul(inertia, cut%direction(:, 1)))
-         if (j > straight*area*(joint%frame%extent/unit_length)**2) q(4:) = axis_part(cut, moment)/j
-      else if (j > straight*area*(joint%frame%extent/unit_length)**2) then  ! else all elements are at one point
+         if (j > no_inertia*area*(joint%frame%extent/unit_length)**2) q(4:) = axis_part(cut, moment)/j
+      else if (j > no_inertia*area*(joint%frame%extent/unit_length)**2) then  ! else all elements are at one point
          minors(:, 1) = cross(inertia(:, 2), inertia(:, 3))
          minors(:, 2) = cross(inertia(:, 3), inertia(:, 1))
          minors(:, 3) = cross(inertia(:, 1), inertia(:, 2))
          determinant = dot_product(inertia(:, 1), minors(:, 1))
-         if (determinant > straight*j**3) then
+         if (determinant > no_inertia*j**3) then
             q(4:) = matmul(minors, moment)/determinant
          else                                            ! on one line along e: [J] = J ([1] - e e^T)
             q(4:) = moment/j

@@ -10,6 +10,7 @@ module joint_suggestions
    use model_data, only: model_type
    use output_file, only: output_file_type
    use text_tools, only: clean, integer_text, real_text
+   use tolerances, only: at_the_bottom
    implicit none
    private
 
@@ -213,7 +214,7 @@ contains
       d = model%dimension
       if (size(sides) == 0) return
       extent = maxval(sides%centre(d)) - minval(sides%centre(d))
-      lowest = sides%centre(d) <= minval(sides%centre(d)) + 1.0e-6_wp*extent .and. sides%normal(d) < -0.999_wp .and. sees == 0
+      lowest = sides%centre(d) <= minval(sides%centre(d)) + at_the_bottom*extent .and. sides%normal(d) < -0.999_wp .and. sees == 0
       if (.not. any(lowest)) return
       call take_mark(deck, pack(mark, lowest), next, id, is_new)
       call file%put('$')

@@ -7,13 +7,14 @@ module joint_tables
    use model_data, only: joint_node_id, joint_type, model_type
    use normal_curve, only: loading_deflection
    use normal_stiffness, only: branch_name, branch_open, branch_reload, branch_unload, force_reached
-   use page_lines, only: axes, heading, noise, page_width
+   use page_lines, only: axes, heading, page_width
    use result_page, only: has_gaps, joint_table, page_type, shows, table_columns, xyz
    use shear_stiffness, only: branch_shift, curve_deflection
    use stage_entries, only: output_request
    use table_column, only: column, column_type
    use table_writer, only: table_type
    use text_tools, only: clean, integer_text
+   use tolerances, only: page_zero
    implicit none
    private
 
@@ -173,8 +174,8 @@ contains
       character(7), parameter :: kinds(4) = [character(7) :: '0', 'SECANT', 'TANGENT', 'E_U'] ! in the order of analysis_state
       real(wp) :: lambda_floor, p_floor
 
-      lambda_floor = noise*analysis%largest_lambda
-      p_floor = noise*analysis%largest_p
+      lambda_floor = page_zero*analysis%largest_lambda
+      p_floor = page_zero*analysis%largest_p
       associate (element => model%interface(i), joint => model%joints(model%interface(i)%joint), state => analysis%states(i)%normal)
          select case (subject)
          case (of_elements)
@@ -215,8 +216,8 @@ contains
       integer, intent(in)                     :: i, k
       real(wp) :: delta_floor, tau_floor, shift
 
-      delta_floor = noise*analysis%largest_lambda
-      tau_floor = noise*analysis%largest_p
+      delta_floor = page_zero*analysis%largest_lambda
+      tau_floor = page_zero*analysis%largest_p
       associate (element => model%interface(i), law => model%joints(model%interface(i)%joint)%law, &
                  state => analysis%states(i)%shear(k), p => analysis%states(i)%normal%pressure)
          call table%put('BRANCH', branch_name(state%branch))
@@ -263,7 +264,7 @@ contains
       if (page%labels%moment /= '') call page%file%put('                 ('//trim(page%labels%moment)//')')
       do j = 1, size(model%joints)
          associate (energy => analysis%energy(j))
-            floor = noise*sum(energy%put_in)
+            floor = page_zero*sum(energy%put_in)
             kept = energy%kept()
             call table%put('JOINT', model%joints(j)%id)
             call table%put('NORMAL '//names, [energy%put_in(2), energy%given_back(2), kept(2)], floor)
@@ -305,8 +306,8 @@ contains
          column = 1 + nint((place(1, i) - low(1))/step)
          row = nint((high(2) - place(2, i))/(upright*step))
          associate (state => analysis%states(i)%normal, there => rows(row)(column:column))
-            sign = achar(iachar('0') + max(0, min(9, int(10.0_wp*(1.0_wp + noise)*state%pressure/p_most))))
-            if (state%pressure >= (1.0_wp - noise)*p_most) sign = '*'
+            sign = achar(iachar('0') + max(0, min(9, int(10.0_wp*(1.0_wp + page_zero)*state%pressure/p_most))))
+            if (state%pressure >= (1.0_wp - page_zero)*p_most) sign = '*'
             if (state%branch == branch_open) sign = '-'
             if (index(ranks, sign) > index(ranks, there)) there = sign
          end associate

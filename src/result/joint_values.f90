@@ -11,9 +11,9 @@ module joint_values
    use model_data, only: joint_type, model_type, stage_load_type
    use normal_stiffness, only: branch_open, normal_state
    use numbers, only: cross, first_largest
-   use page_lines, only: noise
    use symmetry_planes, only: cut_by, cut_type, find_planes, parts_cut, symmetry_plane
    use text_tools, only: above
+   use tolerances, only: page_zero
    implicit none
    private
 
@@ -67,13 +67,13 @@ contains
             of_joint%n_open = count(states%normal%branch == branch_open)
             of_joint%slipping = count(states%slips)
             of_joint%contact = above(1.0_wp - sum(model%interface(joint%first:joint%last)%area, &
-                                                  mask=states%normal%branch == branch_open)/joint%area, noise)
-            of_joint%lambda = above(maxval(states%normal%lambda), noise*analysis%largest_lambda)
-            of_joint%lambda_at = joint%first - 1 + first_largest(above(states%normal%lambda, noise*analysis%largest_lambda))
-            of_joint%pressure = above(max(0.0_wp, maxval(states%normal%pressure)), noise*analysis%largest_p)
+                                                  mask=states%normal%branch == branch_open)/joint%area, page_zero)
+            of_joint%lambda = above(maxval(states%normal%lambda), page_zero*analysis%largest_lambda)
+            of_joint%lambda_at = joint%first - 1 + first_largest(above(states%normal%lambda, page_zero*analysis%largest_lambda))
+            of_joint%pressure = above(max(0.0_wp, maxval(states%normal%pressure)), page_zero*analysis%largest_p)
             if (of_joint%pressure > 0.0_wp) of_joint%pressed_at = &
                joint%first - 1 + first_largest(states%normal%pressure, states%normal%pressure > 0.0_wp)
-            of_joint%gap = above(maxval(face_distance(states%normal)), noise*analysis%largest_lambda)
+            of_joint%gap = above(maxval(face_distance(states%normal)), page_zero*analysis%largest_lambda)
             if (of_joint%gap > 0.0_wp) of_joint%open_at = &
                joint%first - 1 + first_largest(face_distance(states%normal), states%normal%branch == branch_open)
          end associate

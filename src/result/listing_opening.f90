@@ -14,7 +14,7 @@ module listing_opening
    use kinds, only: long, wp
    use model_data, only: a_spring, model_type, n_bars, n_points, n_rotations, n_sections, supported, &
                          whole_share
-   use normal_curve, only: normal_tangent, pressure_floor
+   use normal_curve, only: normal_tangent
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
    use output_file, only: output_file_type
    use page_lines, only: axes, cut, heading, in_form, page_width, put_lines
@@ -27,6 +27,7 @@ module listing_opening
    use table_writer, only: table_type
    use terminal, only: standard_input, version
    use text_tools, only: clean, integer_text, plural, real_text, upper
+   use tolerances, only: page_zero, pressure_floor
    implicit none
    private
 
@@ -75,7 +76,7 @@ contains
             largest = max(0.0_wp, maxval(abs(loads%force(:, :loads%n))))
             call table%put([character(10) :: 'STAGE', 'INCREMENTS'], [stage%id, size(stage%fractions)])
             call table%put([character(11) :: 'FIRST SHARE', 'LAST SHARE'], stage%fractions([1, size(stage%fractions)]))
-            call table%put('TOTAL LOAD '//axes(:model%dimension), total(:model%dimension), 1.0e-9_wp*largest)
+            call table%put('TOTAL LOAD '//axes(:model%dimension), total(:model%dimension), page_zero*largest)
             call table%put('LABEL', '   '//cut(stage%label, 33))
             call table%print_row(page%file)
          end associate
@@ -306,7 +307,7 @@ contains
                            [joint%area, law%c, law%m, law%e_u, joint%p_av, pressure_floor*joint%p_av])
             if (joint%frame%faces_all_ways) call table%put('NORMAL X', ' CLOSED')
             if (joint%frame%faces_all_ways) call table%leave_rest()
-            if (.not. joint%frame%faces_all_ways) call table%put('NORMAL '//axes(:d), joint%normal(:d), 1.0e-9_wp)
+            if (.not. joint%frame%faces_all_ways) call table%put('NORMAL '//axes(:d), joint%normal(:d), page_zero)
             call table%print_row(page%file)
             lists(j) = count([(model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0, i = joint%first, joint%last)])
          end associate
@@ -330,7 +331,7 @@ contains
          associate (joint => model%joints(j))
             call table%put(['JOINT', 'PAIRS', 'LISTS'], [joint%id, joint%last - joint%first + 1 - lists(j), lists(j)])
             call table%put('SIDE1 COVERED', joint%cover%share)
-            call table%put('FARTHEST APART', joint%cover%farthest, 1.0e-9_wp*sqrt(joint%area))
+            call table%put('FARTHEST APART', joint%cover%farthest, page_zero*sqrt(joint%area))
             call table%print_row(page%file)
          end associate
       end do

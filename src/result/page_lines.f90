@@ -9,7 +9,6 @@ module page_lines
    public :: heading, put_lines, cut, in_form, in_units
 
    integer, parameter, public      :: page_width = 132
-   real(wp), parameter, public     :: noise = 1.0e-9_wp !! of the largest number of its kind: smaller values are rounding
    character(1), parameter, public :: axes(3) = ['X', 'Y', 'Z']
 
 contains

@@ -12,13 +12,12 @@ module passing_forces
    use lists, only: join, root_of
    use model_data, only: a_point, model_type, n_bars, n_points, node_kind, supported
    use symmetry_planes, only: cut_type, free_part
+   use tolerances, only: parallel_in_mesh
    use unknowns, only: node_axes
    implicit none
    private
 
    public :: start_passages, cut_passages, forces_between
-
-   real(wp), parameter :: balanced = 1.0e-3_wp ! sine of the angle within which a support acts along the normal of a plane
 
    !> The pairs of bodies between which interface elements stand. Bodies are parts that neither joints nor bolts connect; a rigid
    !! base is one. Of a body that faces itself each joint is a pair of its own.
@@ -150,7 +149,7 @@ contains
 
          along = free_part(cut, direction)
          if (model%axisymmetric) along(1) = 0.0_wp
-         if (norm2(along) > balanced) grounded(passages%part(node)) = .true.
+         if (norm2(along) > parallel_in_mesh) grounded(passages%part(node)) = .true.
       end subroutine ground
 
    end function grounded_bodies

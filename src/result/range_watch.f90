@@ -13,7 +13,6 @@ module range_watch
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, branch_unload
-   use numbers, only: tie
    use output_file, only: output_file_type
    use page_lines, only: axes, page_width
    use restart_stream, only: restart_stream_type
@@ -21,6 +20,7 @@ module range_watch
    use shear_loops, only: loop_closure, wide_gap, worst_closure
    use shear_stiffness, only: curve_deflection, shear_law, shear_slope
    use text_tools, only: append, integer_text, plural, real_text, text_item, upper
+   use tolerances, only: equal_slopes, symmetric_tie
    use unknowns, only: unknown_name
    implicit none
    private
@@ -28,7 +28,6 @@ module range_watch
    public :: start_watch, watch_increment, watch_stage, print_warnings, record_watch, tetra_words, distance_words
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: a smaller remainder gives no warning
-   real(wp), parameter :: rounding = 1.0e-9_wp
    real(wp), parameter :: far = 0.02_wp  ! of the largest deflection or stress: beyond it the answer is not that of the laws
 
    integer, parameter :: beyond_p = 1, beyond_d = 2, no_slope = 3 ! bounds of a shear law
@@ -269,7 +268,7 @@ contains
                   end if
                   if (watch%stage(which, i) /= analysis%stage) tally%n = tally%n + 1
                   watch%stage(which, i) = analysis%stage
-                  if (tally%worst_node > 0 .and. values(which) <= (1.0_wp + tie)*tally%excess) cycle
+                  if (tally%worst_node > 0 .and. values(which) <= (1.0_wp + symmetric_tie)*tally%excess) cycle
                   tally%excess = values(which)
                   tally%worst_node = joint_node_id(model, i, 1)
                   tally%p = p
@@ -331,7 +330,7 @@ contains
             associate (curves => model%joints(model%interface(i)%joint)%law%shear(k), state => analysis%states(i)%shear(k), &
                        p => max(0.0_wp, analysis%states(i)%normal%pressure))
                if (state%branch /= branch_unload .or. cubic_slope(curves%unload, state%d_r, p) >= &
-                   (1.0_wp - rounding)*cubic_slope(curves%load, state%d_r, p)) cycle
+                   (1.0_wp - equal_slopes)*cubic_slope(curves%load, state%d_r, p)) cycle
                watch%soft_unloading(law) = .true.
                call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(place)//': SHEAR LAW OF JOINT '// &
@@ -345,7 +344,7 @@ contains
             if (watch%soft_line(j) .or. state%branch /= branch_load) cycle
             associate (law => model%joints(j)%law%normal, p => state%pressure)
                slope = normal_tangent(law, 1.0_wp, p, state%p_av)
-               if (law%e_u >= slope*(1.0_wp - rounding)) cycle
+               if (law%e_u >= slope*(1.0_wp - equal_slopes)) cycle
                watch%soft_line(j) = .true.
                call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(place)//': E_U = '//real_text(law%e_u)//' OF JOINT '// &

@@ -7,12 +7,13 @@ module stage_tables
    use joint_values, only: joint_values_type
    use kinds, only: wp
    use model_data, only: a_spring, bar_nodes, joint_node_id, model_type, n_bars, n_sections, point_of
-   use page_lines, only: axes, noise
+   use page_lines, only: axes
    use result_page, only: page_type
    use step_method, only: reanalyses_shown
    use table_column, only: column
    use table_writer, only: table_type
    use text_tools, only: clean, integer_text
+   use tolerances, only: page_zero
    implicit none
    private
 
@@ -63,7 +64,7 @@ contains
              column('JOINT FORCE', 'es13.5', labels%force), column('APPLIED TO', 'es12.5', labels%force), &
              column(['DIFFERENCE', 'UNBALANCED'], 'es11.3', labels%force)])
       end associate
-      floor = noise*page%largest_force
+      floor = page_zero*page%largest_force
       do j = min(1, size(joints)), size(joints)
          call table%put('INCR', analysis%increment)
          call table%put('SHARE', analysis%increment_fraction)
@@ -72,9 +73,9 @@ contains
             associate (joint => model%joints(j), now => joints(j))
                call table%put('JOINT', joint%id)
                call table%put('OPEN', now%n_open)
-               call table%put('LAMBDA MAX', now%lambda, noise*analysis%largest_lambda)
+               call table%put('LAMBDA MAX', now%lambda, page_zero*analysis%largest_lambda)
                call table%put('of lambda', joint_node_id(model, now%lambda_at, 1))
-               call table%put('P MAX', now%pressure, noise*analysis%largest_p)
+               call table%put('P MAX', now%pressure, page_zero*analysis%largest_p)
                call table%put('of p', joint_node_id(model, max(now%pressed_at, 1), 1), where=now%pressed_at > 0)
                call table%put('JOINT FORCE', now%total%across, floor, where=.not. joint%frame%faces_all_ways)
                call table%put('APPLIED TO', now%applied, floor, where=now%has_applied)
@@ -112,15 +113,15 @@ contains
          call table%put('JOINT', model%joints(j)%id)
          associate (normal => joints(j)%distances(1), shear => joints(j)%distances(2))
             if (normal%is_there) then
-               call table%put('LAMBDA OFF %', 100.0_wp*clean(normal%relative, noise))
+               call table%put('LAMBDA OFF %', 100.0_wp*clean(normal%relative, page_zero))
                call table%put('of lambda', joint_node_id(model, normal%element, 1))
-               call table%put(['LAMBDA    ', 'LAMBDA LAW'], [normal%actual, normal%by_law], noise*analysis%largest_lambda)
+               call table%put(['LAMBDA    ', 'LAMBDA LAW'], [normal%actual, normal%by_law], page_zero*analysis%largest_lambda)
             end if
             if (shear%is_there) then
-               call table%put('TAU OFF %', 100.0_wp*clean(shear%relative, noise))
+               call table%put('TAU OFF %', 100.0_wp*clean(shear%relative, page_zero))
                call table%put('of tau', joint_node_id(model, shear%element, 1))
                call table%put('ALONG', axes(shear%direction))
-               call table%put(['TAU    ', 'TAU LAW'], [shear%actual, shear%by_law], noise*analysis%largest_p)
+               call table%put(['TAU    ', 'TAU LAW'], [shear%actual, shear%by_law], page_zero*analysis%largest_p)
             end if
          end associate
          call table%leave_rest()
@@ -146,8 +147,8 @@ contains
              column('DELTA', 'es13.5', length), column(stresses(:, 1), 'es13.5', pressure), &
              column('DELTA AFTER', 'es14.5', length), column(stresses(:, 2), 'es13.5', pressure)])
       end associate
-      delta_floor = noise*analysis%largest_lambda
-      tau_floor = noise*analysis%largest_p
+      delta_floor = page_zero*analysis%largest_lambda
+      tau_floor = page_zero*analysis%largest_p
       do i = 1, size(analysis%record%slips)
          associate (slip => analysis%record%slips(i))
             if (slip%reanalysis > reanalyses_shown + 1 .and. all(analysis%record%slips(:i - 1)%reanalysis < slip%reanalysis)) &
@@ -190,7 +191,7 @@ contains
          associate (joint => model%joints(j), total => joints(j)%total)
             values = [total%normal, total%force, total%moment]
             if (model%dimension == 2) values(2:5) = [total%along(1), total%force(:2), total%moment(3)]
-            floors = noise*page%largest_force
+            floors = page_zero*page%largest_force
             floors(5:) = floors(5:)*joint%frame%extent
             call table%put('INCR', analysis%increment)
             call table%put('JOINT', joint%id)
@@ -282,7 +283,7 @@ contains
             page%stage, [column('INCR', 'i6'), column([character(7) :: 'ELEMENT', 'NODE 1', 'NODE 2'], 'i11'), &
                          column('AXIS', 'a6'), force, longer])
       end associate
-      floors = noise*[page%largest_force, maxval(abs(analysis%u))]
+      floors = page_zero*[page%largest_force, maxval(abs(analysis%u))]
       do i = 1, n_bars(model)
          associate (bar => model%bars(i), &
                     values => clean([bar_tension(model, analysis, i), elongation_now(model, analysis, i)], floors))
@@ -321,7 +322,7 @@ contains
       if (.not. table%has_begun()) call table%start('BOLT FORCES, SOLID BOLTS (TENSION POSITIVE), '//page%stage, &
          [column('INCR', 'i6'), column([character(7) :: 'BOLT', 'SURFACE'], 'i11'), column('FORCE', 'es37.5', page%labels%force), &
           column('SHORTENED BY', 'es15.5', page%labels%length), column('', 'a', key='state')])
-      floors = noise*[page%largest_force, maxval(abs(analysis%u))]
+      floors = page_zero*[page%largest_force, maxval(abs(analysis%u))]
       do i = 1, n_sections(model)
          associate (section => model%sections(i))
             call table%put([character(7) :: 'INCR', 'BOLT', 'SURFACE'], [analysis%increment, section%bolt, section%surface])

@@ -8,7 +8,7 @@ module structural_results
    use joint_sides, only: joint_axes
    use kinds, only: wp
    use model_data, only: a_bar, corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
-   use page_lines, only: in_units, noise
+   use page_lines, only: in_units
    use result_page, only: page_type, shell_table, shows, table_columns, xyz
    use shell_element, only: shell_forces
    use shell_membrane, only: shell_frame, shell_frame_of
@@ -17,6 +17,7 @@ module structural_results
    use table_writer, only: table_type
    use temperatures, only: element_rise, element_slope
    use text_tools, only: clean
+   use tolerances, only: page_zero
    implicit none
    private
 
@@ -188,7 +189,7 @@ contains
          call face_stresses(model, e, analysis%all_u, analysis%now%temperature, stress)
          centre(:, :, model%structural%place(e)) = stress(:, size(corners_of(model, e)) + 1, :)
       end do
-      floor = noise*maxval(abs(centre))
+      floor = page_zero*maxval(abs(centre))
       call table%start('STRESSES AT THE FACES OF SHELLS, AT THEIR CENTRES'//page%now//in_units(page%labels%pressure), &
          [column('ELEMENT', 'i11'), column('HEIGHT', 'es13.5'), column(stresses, 'es13.5')], page%file)
       do e = 1, model%n_elements
@@ -236,7 +237,7 @@ contains
          end associate
       end do
       if (size(force) == 0) return
-      floor = noise*max(maxval(abs(force([1, 2, 3, 7, 8], :, :))), maxval(abs(force(4:6, :, :)))/thickness)*[1.0_wp, thickness]
+      floor = page_zero*max(maxval(abs(force([1, 2, 3, 7, 8], :, :))), maxval(abs(force(4:6, :, :)))/thickness)*[1.0_wp, thickness]
       call table%start('FORCES AND MOMENTS PER LENGTH OF SHELLS, AT THEIR CENTRES'//page%now, &
                        table_columns(shell_table, page%labels, model))
       if (is_listed) call table%print_head(page%file)
@@ -290,7 +291,7 @@ contains
             end do
          end associate
       end do
-      floor = noise*[maxval(abs(forces(:3, :, :))), maxval(abs(forces(4:, :, :))), maxval(abs(stress))]
+      floor = page_zero*[maxval(abs(forces(:3, :, :))), maxval(abs(forces(4:, :, :))), maxval(abs(stress))]
       call table%start('FORCES IN BEAMS, AT BOTH ENDS, IN THE AXES OF THE BEAM'//page%now, &
          [column('ELEMENT', 'i11'), column('NODE', 'i11'), column(force_names, 'es13.5', page%labels%force), &
           column(moment_names, 'es13.5', page%labels%moment)], page%file)

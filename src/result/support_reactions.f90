@@ -3,15 +3,14 @@
 !! card, the SPC cards of a set, every surface of SPCM, PS on GRID, every joint to a rigid base, and the springs to ground.
 module support_reactions
    use analysis_state, only: analysis_type, element_force
-   use bolt_answers, only: remainder
    use bolt_locking, only: bar_tension
    use interface_operator, only: at_first_end, named_node
    use kinds, only: wp
    use model_data, only: a_point, a_rotation, model_type, n_bars, n_points, n_rotations, node_kind, place_in_kind, supported
    use node_coupling, only: coupling_parts, forces_on_unknowns, held_forces
    use numbers, only: cross
-   use page_lines, only: noise
    use text_tools, only: above
+   use tolerances, only: page_zero, rounding_of_sums, zero_remainder
    implicit none
    private
 
@@ -46,8 +45,6 @@ module support_reactions
       real(wp) :: floors(5) = 0.0_wp           !! smaller forces are rounding
    end type balance_type
 
-   real(wp), parameter :: of_a_sum = 1.0e-14_wp ! of the sum of amounts: rounding error of a sum
-
 contains
 
    !> The balance of the external forces after an increment, the bodies recovered.
@@ -76,8 +73,8 @@ contains
                                              bar_tension(model, analysis, i)*model%bars(i)%direction(:model%dimension, 1)
       end do
       balance%force(:, balance_left) = sum(balance%force, dim=2)
-      balance%floors = noise*max(largest_force, tiny(1.0_wp))
-      balance%floors(balance_loads) = min(balance%floors(balance_loads), of_a_sum*sum(abs(analysis%now%load)))
+      balance%floors = page_zero*max(largest_force, tiny(1.0_wp))
+      balance%floors(balance_loads) = min(balance%floors(balance_loads), rounding_of_sums*sum(abs(analysis%now%load)))
    end subroutine find_balance
 
    !> The reactions at the end of the stage just completed, the bodies recovered.
@@ -146,7 +143,7 @@ contains
       end do
       answer%left = answer%total%force + answer%loads%force
       if (model%axisymmetric) answer%left(1) = 0.0_wp
-      answer%left = above(answer%left, remainder*largest_force)
+      answer%left = above(answer%left, zero_remainder*largest_force)
       call complete_part(model, largest_force, answer%total)
       call complete_part(model, largest_force, answer%loads)
    end subroutine find_reactions
@@ -196,7 +193,7 @@ contains
          part%moment = 0.0_wp
          part%about_centre = 0.0_wp
       end if
-      floor = remainder*largest_force
+      floor = zero_remainder*largest_force
       part%force = above(part%force, floor)
       floor = floor*maxval(abs(model%x(:, :n_points(model))))
       part%moment = above(part%moment, floor)

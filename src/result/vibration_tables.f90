@@ -8,25 +8,21 @@ module vibration_tables
    use mode_values, only: modes_type
    use model_data, only: model_type
    use numbers, only: first_largest
-   use page_lines, only: axes, in_form, noise
+   use page_lines, only: axes, in_form
    use result_page, only: backbone_table, bend_table, energy_table, loop_table, modes_table, page_type, response_table, &
                           table_columns, xyz
    use stage_plan, only: vibration_plan_type
    use table_column, only: column
    use table_writer, only: table_type
    use text_tools, only: above, integer_text, plural, real_text, upper
+   use tolerances, only: centre_floor, least_loss_factor, listed_share, page_zero, zero_loop_share, zero_mass
    implicit none
    private
 
    public :: list_modes, list_backbone, list_response
 
    real(wp), parameter :: percent = 100.0_wp
-   real(wp), parameter :: least_share = 1.0e-4_wp  ! of the strain energy: a smaller share has no row in the listing
-   real(wp), parameter :: no_part = 1.0e-9_wp      ! of the largest mass or participation possible: rounding
-   real(wp), parameter :: no_mass = 1.0e-12_wp     ! of the mass of the structure: rounding, in full precision
    real(wp), parameter :: steep = 2.0_wp           ! times the stiffness of the loading curves: a stiffer default is warned of
-   real(wp), parameter :: tiny_share = 1.0e-7_wp   ! of an amplitude, of a loss: rounding
-   real(wp), parameter :: least_loss = 1.0e-6_wp   ! loss factor: a smaller one has no shares
    real(wp), parameter :: wide_gap = 0.01_wp       ! of q: a loop with a wider one does not close
    integer, parameter  :: few = 5                  ! interface elements: the curve is that of the mesh where fewer slip
 
@@ -78,8 +74,8 @@ contains
       call table%start('MASS OF THE STRUCTURE', [column('MASS', 'es13.5'), column('CENTRE '//axes(:d), 'es13.5', &
                        page%labels%length), column(moments(shown), 'es13.5')], page%file)
       call table%put('MASS', modes%mass)
-      call table%put('CENTRE '//axes(:d), modes%centre(:d), no_part*extent)
-      call table%put(moments(shown), modes%inertia(shown), no_part*modes%mass*extent**2)
+      call table%put('CENTRE '//axes(:d), modes%centre(:d), page_zero*extent)
+      call table%put(moments(shown), modes%inertia(shown), page_zero*modes%mass*extent**2)
       call table%print_row(page%file)
       if (size(modes%modes) == 0) return
 
@@ -94,19 +90,19 @@ contains
             call table%put('frequency', mode%frequency)
             call table%put('omega', mode%omega)
             call table%put('GENERALISED MASS', mode%mass)
-            call table%put('residual', mode%residual, noise)
-            call table%put('mass_'//xyz, above(mode%effective, no_mass*modes%mass))
+            call table%put('residual', mode%residual, page_zero)
+            call table%put('mass_'//xyz, above(mode%effective, zero_mass*modes%mass))
             call table%put('loss_factor', mode%loss, where=plan%has_losses .and. .not. mode%is_rigid)
             call table%print_row(page%file, page%tables(modes_table))
             call parts%put('MODE', modes%n_before + m)
-            call parts%put('PARTICIPATION '//axes(:d), above(mode%participation(:d), sqrt(no_part)*largest), no_part*largest)
-            call parts%put('MASS ALONG '//axes(:d), mode%effective(:d), no_part*modes%mass)
+            call parts%put('PARTICIPATION '//axes(:d), above(mode%participation(:d), sqrt(page_zero)*largest), page_zero*largest)
+            call parts%put('MASS ALONG '//axes(:d), mode%effective(:d), page_zero*modes%mass)
             call parts%keep_row()
          end associate
       end do
       if (modes%mass > 0.0_wp) then
          call parts%put('MODE', 'SUM')
-         call parts%put('MASS ALONG '//axes(:d), [(sum(modes%modes%effective(c)), c = 1, d)], no_part*modes%mass)
+         call parts%put('MASS ALONG '//axes(:d), [(sum(modes%modes%effective(c)), c = 1, d)], page_zero*modes%mass)
          call parts%leave_rest()
          call parts%keep_row()
       end if
@@ -127,7 +123,7 @@ contains
       type(table_type) :: table
       integer :: i, m
 
-      call table%start('STRAIN ENERGY OF THE MODES, PERCENT; SHARES BELOW '//real_text(percent*least_share)// &
+      call table%start('STRAIN ENERGY OF THE MODES, PERCENT; SHARES BELOW '//real_text(percent*listed_share)// &
                        ' ARE NOT LISTED', table_columns(energy_table, page%labels, model), page%file)
       do m = 1, size(modes%modes)
          if (modes%modes(m)%is_rigid) cycle
@@ -158,7 +154,7 @@ contains
          call table%put('ALL', percent*sum(shares))
          call table%put(['NORMAL', 'SHEAR '], percent*shares, where=spread(kind == 'JOINT', 1, 2))
          call table%put(['normal', 'shear '], shares)
-         call table%print_row(page%file, page%tables(energy_table), is_listed=sum(shares) >= least_share)
+         call table%print_row(page%file, page%tables(energy_table), is_listed=sum(shares) >= listed_share)
       end subroutine put
 
    end subroutine list_energies
@@ -187,15 +183,15 @@ contains
                call table%put('mode', found%mode)
                call table%put('amplitude', loop%q*found%peak)
                call table%put('frequency', frequency)
-               call table%put('SHIFT', percent*(sqrt(loop%omega_squared)/(two_pi*linear) - 1.0_wp), percent*tiny_share)
+               call table%put('SHIFT', percent*(sqrt(loop%omega_squared)/(two_pi*linear) - 1.0_wp), percent*zero_loop_share)
                call table%put('loss_factor', loop%loss)
                call table%put('slipping', loop%slipping)
                call table%put('open', loop%open)
                call table%put('SLIPPING', percent*loop%slipping)
                call table%put('OPEN', percent*loop%open)
-               call table%put('CENTRE', loop%centre, 5.0e-5_wp) ! the last digit
-               call table%put('NOT CLOSED', loop%gap, tiny_share)
-               call table%put('distortion', loop%distortion, tiny_share)
+               call table%put('CENTRE', loop%centre, centre_floor) ! the last digit
+               call table%put('NOT CLOSED', loop%gap, zero_loop_share)
+               call table%put('distortion', loop%distortion, zero_loop_share)
                call table%put('LOOPS', loop%n_loops)
             end associate
             call table%print_row(page%file, page%tables(backbone_table))
@@ -204,10 +200,10 @@ contains
             call table%start('SHARE OF THE LOSS BY JOINT', [column('AMPLITUDE', 'es14.5', page%labels%length), &
                              column('JOINT', 'i11'), column('SHARE', 'f10.2', 'PERCENT')], page%file)
             do i = 1, size(found%loops)
-               do k = 1, merge(size(model%joints), 0, found%loops(i)%loss > least_loss)
+               do k = 1, merge(size(model%joints), 0, found%loops(i)%loss > least_loss_factor)
                   call table%put('AMPLITUDE', found%loops(i)%q*found%peak)
                   call table%put('JOINT', model%joints(k)%id)
-                  call table%put('SHARE', percent*found%loops(i)%shares(k), tiny_share)
+                  call table%put('SHARE', percent*found%loops(i)%shares(k), zero_loop_share)
                   call table%print_row(page%file)
                end do
             end do
@@ -250,7 +246,7 @@ contains
             amplitude = real_text(loop%q*found%peak)
             if (abs(loop%gap) > wide_gap) call warn('THE LOOP OF AMPLITUDE '//amplitude//' DOES NOT CLOSE: AFTER '// &
                integer_text(loop%n_loops)//' LOOPS THE STRUCTURE STILL MOVES BY '//in_form(loop%gap, '(f7.4)', 7)//' OF Q A LOOP')
-            if (loop%loss < -least_loss) call warn('THE LAWS GIVE BACK MORE THAN THEY ABSORB AT AMPLITUDE '//amplitude// &
+            if (loop%loss < -least_loss_factor) call warn('THE LAWS GIVE BACK MORE THAN THEY ABSORB AT AMPLITUDE '//amplitude// &
                ', LOSS FACTOR '//in_form(loop%loss, '(es11.4)', 11)//': UNLOADING IS LESS STEEP THAN LOADING')
          end associate
       end do

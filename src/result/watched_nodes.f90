@@ -16,13 +16,11 @@ module watched_nodes
    use connected_bodies, only: find_bodies
    use model_data, only: a_point, a_spring, bar_nodes, corners_of, model_type, n_bars, n_points, node_kind
    use structural_elements, only: bar_elongation
+   use tolerances, only: zero_movement, zero_of_sums
    implicit none
    private
 
    public :: start_watched, find_watched, state_at_end
-
-   real(wp), parameter :: cancels = 1.0e-9_wp   ! of the sum of amounts: a smaller sum of forces or works is zero
-   real(wp), parameter :: rests = 1.0e-7_wp     ! of the largest movement over the stage: a smaller one is zero
 
    !> The structure at the end of a stage.
    type, public :: watch_state
@@ -83,7 +81,7 @@ contains
             end do
          end associate
       end do
-      amount = cancels*sum(abs(load))
+      amount = zero_of_sums*sum(abs(load))
       on_nodes = sum(load(:, watched), dim=2)
       total = sum(load, dim=2)
       allocate (answer%nodes(size(watched)))
@@ -98,7 +96,7 @@ contains
             answer%is_loaded = norm2(answer%load) > amount
             if (.not. answer%is_loaded) cycle
             answer%along = dot_product(answer%change, answer%load)/norm2(answer%load)
-            answer%moves = abs(answer%along) > rests*largest
+            answer%moves = abs(answer%along) > zero_movement*largest
             if (answer%moves) answer%stiffness = norm2(answer%load)/answer%along
          end associate
       end do
@@ -173,8 +171,8 @@ contains
       ! works become shares, unless they are only rounding
       all_amounts = sum([(sum(abs(parts(i)%share)), i = 1, size(parts))])
       answer%work = sum([(sum(parts(i)%share), i = 1, size(parts))])
-      if (abs(answer%work) <= cancels*all_amounts .or. &
-          all_amounts <= cancels**2*analysis%largest_load*maxval(abs(analysis%all_u))) parts = parts(:0)
+      if (abs(answer%work) <= zero_of_sums*all_amounts .or. &
+          all_amounts <= zero_of_sums**2*analysis%largest_load*maxval(abs(analysis%all_u))) parts = parts(:0)
       do i = 1, size(parts)
          parts(i)%share = parts(i)%share/answer%work
       end do

@@ -14,17 +14,14 @@ module backbone
    use stage_plan, only: backbone_plan, loss_at, stage_plan_type, vibration_plan_type
    use terminal, only: show_line
    use text_tools, only: integer_text
+   use tolerances, only: coarse_amplitude, coarse_limit, fine_limit, largest_to_rounding, same_alpha
    implicit none
    private
 
    public :: start_backbone, find_loop, finish_backbone
 
-   real(wp), parameter :: reached = 1.0e-7_wp       ! of the largest displacement: rounding
-   real(wp), parameter :: roughly = 3.0e-3_wp       ! of an amplitude: tolerance of the search with coarse increments
    real(wp), parameter :: exactly = 0.1_wp          ! of the tolerance of JAMPL: likewise with fine increments
    real(wp), parameter :: around = 2.0_wp           ! times the load: the two find the same load within this factor
-   real(wp), parameter :: same = 1.0e-12_wp         ! of alpha: the loop jumps between two loads this close
-   real(wp), parameter :: near_limit = 1.0e-3_wp    ! of alpha: precision of the largest load carried by fine increments
    integer, parameter  :: most_trials = 60
    integer, parameter  :: steps = 20                ! of the response between two amplitudes
 
@@ -51,7 +48,7 @@ module backbone
       real(wp) :: amplitude = 0.0_wp                !! requested
       type(trial_type) :: low, now, before          !! too small; the present trial; the one before
       type(trial_type) :: high = trial_type(huge(1.0_wp), 0.0_wp) !! too large
-      real(wp) :: near = 1.0e-4_wp                  !! of alpha: precision of the largest load that is carried
+      real(wp) :: near = coarse_limit              !! of alpha: precision of the largest load that is carried
       real(wp) :: carried = 0.0_wp                  !! alpha up to which the load of the last failure was carried; 0: not known
       real(wp) :: slope = 0.0_wp                    !! of the load over the amplitude, 0: not known
       logical  :: ends = .false.
@@ -88,9 +85,9 @@ contains
             moved = sqrt(sum(modes%modes(k)%u(:, :n_points(model))**2, dim=1)/modes%modes(k)%mass)
             found%omega_squared = modes%modes(k)%lambda
             found%node = wanted%node
-            if (found%node == 0) found%node = findloc(moved >= (1.0_wp - reached)*maxval(moved), .true., dim=1)
+            if (found%node == 0) found%node = findloc(moved >= (1.0_wp - largest_to_rounding)*maxval(moved), .true., dim=1)
             found%peak = moved(found%node)
-            if (found%peak <= reached*maxval(moved)) found%problem = 'THE REQUESTED NODE DOES NOT MOVE IN THIS MODE'
+            if (found%peak <= largest_to_rounding*maxval(moved)) found%problem = 'THE REQUESTED NODE DOES NOT MOVE IN THIS MODE'
          end if
       end associate
       if (index(system%description%name, 'PETSC') == 1) found%problem = 'IT NEEDS SOLVER = TREE OR SKYLINE'
@@ -165,12 +162,12 @@ contains
          search%slope = search%low%alpha/search%low%amplitude
          search%now%alpha = search%slope*amplitude
       end if
-      call try_loads(model, wanted, roughly, search, found, coarse)
+      call try_loads(model, wanted, coarse_amplitude, search, found, coarse)
       if (coarse%n_loops == 0) return
       call choose_sense(model, found%modal, wanted, coarse)
       search%low = trial_type(coarse%alpha/around, 0.0_wp)
       search%high%alpha = min(coarse%alpha*around, 2.0_wp*search%high%alpha - search%low%alpha)
-      search%near = near_limit
+      search%near = fine_limit
       if (search%is_limited) search%now%alpha = coarse%alpha
       call try_loads(model, wanted, exactly*wanted%tolerance, search, found, loop, coarse)
       if (loop%n_loops == 0) loop = coarse
@@ -246,7 +243,7 @@ contains
          if (.not. between(alpha)) alpha = (1.0_wp + 0.5_wp*search%near)*search%carried
          if (.not. between(alpha)) alpha = merge(0.5_wp*(low + high), 2.0_wp*low, high < huge(1.0_wp))
          search%is_limited = .not. search%ends .and. search%high%amplitude >= huge(1.0_wp) .and. high - low <= search%near*high
-         search%ends = search%ends .or. search%is_limited .or. high - low <= same*high
+         search%ends = search%ends .or. search%is_limited .or. high - low <= same_alpha*high
       end associate
       search%now%alpha = alpha
 
@@ -290,7 +287,7 @@ contains
             if (i > 1 .and. before*excess < 0.0_wp) then ! resonance lies between this amplitude and the one before: bisection
                low = w - 1.0_wp/n
                high = w
-               do while (high - low > same)
+               do while (high - low > same_alpha)
                   w = 0.5_wp*(low + high)
                   call answer(w)
                   if (excess*before > 0.0_wp) low = w

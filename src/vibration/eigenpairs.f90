@@ -11,6 +11,7 @@ module eigenpairs
    use model_data, only: model_type
    use node_coupling, only: displacements, forces_on_unknowns
    use text_tools, only: integer_text
+   use tolerances, only: lanczos_tolerance, massless, settled_shape
    implicit none
    private
 
@@ -49,9 +50,6 @@ module eigenpairs
    integer, parameter  :: worth_threads = 20000      !! unknowns
    integer, parameter  :: zero_vector = -9, exhausted = -9999 ! codes of ARPACK: no more vectors with mass
    integer, parameter  :: restarts_used_up = 1                           ! likewise: restarts used up, perhaps there are no more
-   real(wp), parameter :: tolerance = 1.0e-13_wp     ! of nu: the error estimate of Lanczos
-   real(wp), parameter :: settled = 1.0e-10_wp       ! of displacements: the change of the last iteration
-   real(wp), parameter :: finite = 1.0e-12_wp        ! of the largest nu: smaller values have no significant mass
 
 contains
 
@@ -107,7 +105,7 @@ contains
          call failure%raise('MODES: the stiffness is not positive definite')
          return
       end if
-      first = findloc(nu > finite*nu(system%n), .true., dim=1)
+      first = findloc(nu > massless*nu(system%n), .true., dim=1)
       if (first == 0) first = system%n + 1
       lambda = [(system%shift + 1.0_wp/nu(i), i = system%n, first, -1)]
       x = m(:, system%n:first:-1)/spread(sqrt(nu(system%n:first:-1)), 1, system%n) ! x^T ([k] - sigma [m]) x was 1
@@ -140,8 +138,8 @@ contains
       ido = 0
       info = 1 ! given start vector: every run is the same
       do
-         call dsaupd(ido, 'G', system%n, 'LA', n, tolerance, residual, columns, v, system%n, parameters, places, work, small_work, &
-                     size(small_work), info)
+         call dsaupd(ido, 'G', system%n, 'LA', n, lanczos_tolerance, residual, columns, v, system%n, parameters, places, work, &
+                     small_work, size(small_work), info)
          if (ido == 99) exit
          associate (from => places(1), to => places(2), of_mass => places(3))
             x(:, 1) = work(merge(of_mass, from, ido == 1):merge(of_mass, from, ido == 1) + system%n - 1)
@@ -158,8 +156,8 @@ contains
       end if
       if (info == restarts_used_up .and. parameters(5) == 0 .and. system%shift > 0.0_wp) info = 0 ! all may be below the shift
       if (parameters(5) > 0 .and. (info == 0 .or. info == restarts_used_up)) &
-         call dseupd(.true., 'A', chosen, lambda, x, system%n, system%shift, 'G', system%n, 'LA', n, tolerance, residual, columns, &
-                     v, system%n, parameters, places, work, small_work, size(small_work), info)
+         call dseupd(.true., 'A', chosen, lambda, x, system%n, system%shift, 'G', system%n, 'LA', n, lanczos_tolerance, residual, &
+                     columns, v, system%n, parameters, places, work, small_work, size(small_work), info)
       if (info /= 0) then
          call failure%raise('MODES: of '//integer_text(n)//' modes '//integer_text(parameters(5))//' were found in '// &
                             integer_text(parameters(3))//' restarts (ARPACK says '//integer_text(info)//')')
@@ -201,7 +199,7 @@ contains
          return
       end if
       i = 0
-      if (n > 0) i = count(nu > finite*nu(n) .and. nu > 0.0_wp)
+      if (n > 0) i = count(nu > massless*nu(n) .and. nu > 0.0_wp)
       lambda = system%shift + 1.0_wp/nu(n:n - i + 1:-1)
       x = matmul(v, t(:, n:n - i + 1:-1))
    end subroutine solve_in_subspace
@@ -233,7 +231,7 @@ contains
          call system%solve_by_factor(u)
          u(system%locked) = 0.0_wp
          u = u - matmul(modes, matmul(u, of_mass))
-         if (norm2(u - before) <= settled*norm2(u)) exit
+         if (norm2(u - before) <= settled_shape*norm2(u)) exit
       end do
    end subroutine residual_displacements
 

@@ -22,6 +22,7 @@ module modal_loops
    use node_coupling, only: displacements, forces_on_unknowns
    use shear_stiffness, only: shear_slope
    use stage_plan, only: backbone_plan
+   use tolerances, only: equal_senses, minor_area, zero_loop_area
    implicit none
    private
 
@@ -33,11 +34,8 @@ module modal_loops
    real(wp), parameter :: not_known = 0.9_wp         ! ratio of the changes of two loops, where there are but two
    real(wp), parameter :: slowest = 0.97_wp          ! likewise: a larger one counts as this
    real(wp), parameter :: coarsely_settled = 0.01_wp ! of the area: coarse loops only look for the load
-   real(wp), parameter :: no_area = 1.0e-9_wp        ! of alpha q: rounding
-   real(wp), parameter :: negligible = 1.0e-6_wp     ! likewise: smaller areas need not settle
    real(wp), parameter :: per_part = 0.1_wp          ! of the tolerance: share of one part of a loop
    real(wp), parameter :: least_loss = 0.01_wp       ! of alpha q: a smaller D does not tighten the tolerances
-   real(wp), parameter :: even = 1.0e-6_wp           ! of a push: the two senses are equal
 
    !> The last loop under one alpha.
    type, public :: loop_type
@@ -79,7 +77,7 @@ contains
          if (.not. failure%raised) pushed(i) = coordinate(modal, now, coarse%alpha)
          call reverse(modal)
       end do
-      if (pushed(2) > pushed(1) + even*abs(pushed(1))) call reverse(modal)
+      if (pushed(2) > pushed(1) + equal_senses*abs(pushed(1))) call reverse(modal)
    end subroutine choose_sense
 
    !> 0 -> ALPHA -> -ALPHA -> ALPHA, then the same loop repeated until it has settled, at most for the cycles of WANTED. FINE, the
@@ -122,7 +120,7 @@ contains
          if (loop%n_loops < 2) cycle
          change = abs([loop%q, loop%lost, loop%gap*loop%q] - before)
          was_steady = is_steady
-         is_steady = all(left(change, change_before) <= [max(settled*[loop%q, abs(loop%lost)], [0.0_wp, negligible*alpha*loop%q]), &
+         is_steady = all(left(change, change_before) <= [max(settled*[loop%q, abs(loop%lost)], [0.0_wp, minor_area*alpha*loop%q]), &
                                                          merge(steady*abs(loop%gap)*loop%q, huge(1.0_wp), &
                                                                abs(loop%gap) > settled(1))])
          if (is_steady .and. (was_steady .or. .not. present(fine) .or. abs(loop%gap) <= settled(1))) exit
@@ -208,7 +206,7 @@ contains
       type(modal_load_type), intent(in) :: modal
       real(wp), intent(in)              :: area
 
-      error = max(no_area*area, modal%work_noise, modal%q_noise*area)
+      error = max(zero_loop_area*area, modal%work_noise, modal%q_noise*area)
    end function rounding_of_work
 
    !> What is to be added to the work of the forces beyond those at rest, F - F_0, for the loss of a loop that has led from the

@@ -19,16 +19,13 @@ module modal_path
    use normal_stiffness, only: branch_load, branch_open, branch_unload
    use stage_plan, only: stage_plan_type
    use text_tools, only: real_text
+   use tolerances, only: closing_step, exact_tol, finest_step, finest_tol, rounding_of_forces
    implicit none
    private
 
    public :: start_modal_load, start_path, begin_path, follow_path, coordinate, reverse
 
-   real(wp), parameter :: finest_step = 1.0e-7_wp    ! of alpha: a smaller step is not halved
    real(wp), parameter :: coarsest_step = 0.125_wp   ! likewise: a larger one is, for elements may slip and stick within it
-   real(wp), parameter :: closing_step = 1.0e-4_wp   ! likewise where an element closes, or turns from loading to unloading
-   real(wp), parameter :: exact = 1.0e-10_wp         ! TOL at most
-   real(wp), parameter :: finest = 1.0e-13_wp        ! limit of TOL relative to the held load
    real(wp), parameter :: margin = 10.0_wp           ! of rounding errors
 
    !> The initial data of the paths of one mode.
@@ -81,8 +78,8 @@ contains
       modal%rest = analysis
       if (allocated(modal%rest%exact)) deallocate (modal%rest%exact)
       modal%rest%states%turns = .true.
-      modal%rest%tolerance = modal%rest%tolerance*min(1.0_wp, exact/modal%rest%load_tolerance) ! TOL of BACK is of pressures
-      modal%rest%load_tolerance = min(exact, modal%rest%load_tolerance)
+      modal%rest%tolerance = modal%rest%tolerance*min(1.0_wp, exact_tol/modal%rest%load_tolerance) ! TOL of BACK is of pressures
+      modal%rest%load_tolerance = min(exact_tol, modal%rest%load_tolerance)
       modal%plan = plan
       modal%plan%stages(analysis%stage)%path = 'start of the loops'
       modal%phi = phi
@@ -101,7 +98,7 @@ contains
          modal%rest_forces(:, e) = force_of(model%interface(e)%area, modal%rest%states(e))
       end do
       associate (states => modal%rest%states)
-         modal%work_noise = margin*epsilon(1.0_wp)*(sum(abs(modal%rest_forces*modal%rest%movement)) + &
+         modal%work_noise = rounding_of_forces*(sum(abs(modal%rest_forces*modal%rest%movement)) + &
                                                     sum(abs(modal%rest_forces(3, :)*states%normal%lambda)))
       end associate
    end subroutine start_modal_load
@@ -131,7 +128,7 @@ contains
       held = free_norm(modal%rest%now%condensed_load, modal%rest%held)
       if (held <= 0.0_wp) return
       share = alpha*free_norm(modal%condensed, modal%rest%held)/held
-      now%load_tolerance = max(min(finest, now%load_tolerance), now%load_tolerance*min(1.0_wp, share))
+      now%load_tolerance = max(min(finest_tol, now%load_tolerance), now%load_tolerance*min(1.0_wp, share))
       modal%q_noise = margin*now%load_tolerance/share
       now%tolerance = now%load_tolerance/modal%rest%load_tolerance*now%tolerance
    end subroutine start_path

@@ -23,6 +23,7 @@ module modal_response
    use numbers, only: first_largest
    use stage_plan, only: asked_frequencies, loss_at, response_plan
    use text_tools, only: real_text
+   use tolerances, only: at_resonance, no_motion, unexcited
    implicit none
    private
 
@@ -41,10 +42,8 @@ module modal_response
       real(wp), allocatable :: rest(:)    !! (components) u_rest, zero where there is none [length]
    end type modal_system
 
-   real(wp), parameter :: nothing = 1.0e-10_wp    ! of the largest amplitude at a frequency: rounding, which has no phase
    real(wp), parameter :: missed_share = 0.05_wp  ! excess over the response at the adjacent frequencies of a missed peak
    real(wp), parameter :: small_share = 0.01_wp   ! of the largest amplitude of a component: smaller peaks are not searched
-   real(wp), parameter :: untouched = 1.0e-9_wp   ! of a mode: a load or component of a smaller share does not excite or show it
 
    !> The peak of a mode between the given frequencies.
    type, public :: missed_peak
@@ -75,7 +74,6 @@ contains
       real(wp), intent(in)           :: frequency !! f >= 0 [1/time]
       complex(wp), intent(out)       :: u(:)      !! (components)
       logical, intent(out)           :: ok
-      real(wp), parameter :: rounding = 1.0e-12_wp ! of lambda: at the frequency of the mode
       complex(wp) :: resistance ! dynamic stiffness of the mode per modal mass
       real(wp)    :: omega
       integer     :: r
@@ -88,7 +86,7 @@ contains
          associate (lambda => system%lambda(r))
             resistance = cmplx(lambda - omega**2, system%loss(r)*lambda + system%viscous(r)*omega*sqrt(max(0.0_wp, lambda)), wp)
          end associate
-         ok = abs(resistance) > rounding*abs(system%lambda(r))
+         ok = abs(resistance) > at_resonance*abs(system%lambda(r))
          if (.not. ok) return
          u = u + system%shape(:, r)*system%force(r)/(system%mass(r)*resistance)
       end do
@@ -157,7 +155,7 @@ contains
          associate (mode => modes%modes(m))
             superposed%shape(:, m) = pack(mode%u(:, plan%nodes), .true.)
             superposed%force(m) = sum(mode%u*plan%force(:d, :))
-            if (abs(superposed%force(m)) <= untouched*norm2(plan%force(:d, :))*maxval(abs(mode%u))) superposed%force(m) = 0.0_wp
+            if (abs(superposed%force(m)) <= unexcited*norm2(plan%force(:d, :))*maxval(abs(mode%u))) superposed%force(m) = 0.0_wp
             if (.not. allocated(plan%damping)) cycle
             superposed%loss(m) = mode%material_loss
             if (plan%is_structural) then
@@ -202,7 +200,7 @@ contains
             return
          end if
          large = abs(u)
-         where (large <= nothing*maxval(large)) u = 0.0_wp
+         where (large <= no_motion*maxval(large)) u = 0.0_wp
          response%amplitude(:, :, f) = reshape(abs(u), [d, n])
          response%phase(:, :, f) = reshape(phase_of(u), [d, n])
       end do
@@ -232,16 +230,16 @@ contains
          k = count(response%frequency <= peak%frequency) ! the one below
          if (k == 0 .or. k == size(response%frequency) .or. peak%frequency <= 0.0_wp) cycle
          associate (largest => maxval(abs(modes%modes(m)%u)))
-            if (abs(superposed%force(m)) <= untouched*of_load*largest) cycle
-            is_damped = superposed%loss(m) + superposed%viscous(m) > untouched
+            if (abs(superposed%force(m)) <= unexcited*of_load*largest) cycle
+            is_damped = superposed%loss(m) + superposed%viscous(m) > unexcited
             beside = reshape(maxval(response%amplitude(:, :, k:k + 1), dim=3), [size(u)])
             if (is_damped) then
                call response_at(superposed, peak%frequency, u, ok)
                at_peak = abs(u)
-               where (at_peak <= max(nothing*maxval(at_peak), small_share*most, (1.0_wp + missed_share)*beside)) at_peak = 0.0_wp
+               where (at_peak <= max(no_motion*maxval(at_peak), small_share*most, (1.0_wp + missed_share)*beside)) at_peak = 0.0_wp
             else
                at_peak = abs(superposed%shape(:, m))
-               where (at_peak <= untouched*largest) at_peak = 0.0_wp
+               where (at_peak <= unexcited*largest) at_peak = 0.0_wp
             end if
          end associate
          at = first_largest(at_peak)

@@ -33,14 +33,12 @@ module mode_values
    use shear_loops, only: loss_of_element
    use stage_plan, only: vibration_plan_type
    use structural_elements, only: add_pull, bar_elongation
+   use tolerances, only: equal_eigenvalues, undamped, weak_participation
    implicit none
    private
 
    public :: settle_equal_modes, settle_sign, evaluate_modes, strain_energies
 
-   real(wp), parameter :: equal = 1.0e-7_wp    ! of the larger eigenvalue: closer eigenvalues are equal
-   real(wp), parameter :: weak = 1.0e-6_wp     ! of the largest: a smaller row separates no modes
-   real(wp), parameter :: no_damping = 1.0e-12_wp ! loss factor of a mode whose damped parts have the strain energy of rounding
    real(wp), parameter :: near = 0.9283_wp     ! of the largest component: rounding must not choose between equals
 
    !> Of one mode [force x length].
@@ -97,12 +95,12 @@ contains
          next = last + 1 ! the first mode of the group
          last = next
          do while (last < size(lambda))
-            if (lambda(last + 1) - lambda(last) > equal*abs(lambda(last + 1))) exit
+            if (lambda(last + 1) - lambda(last) > equal_eigenvalues*abs(lambda(last + 1))) exit
             last = last + 1
          end do
          do d = 1, size(participation, 1)
             if (next == last) exit
-            if (norm2(participation(d, next:last)) > weak*sqrt(mass)) call give_to_one((participation(d, next:last)))
+            if (norm2(participation(d, next:last)) > weak_participation*sqrt(mass)) call give_to_one((participation(d, next:last)))
          end do
          do while (next < last) ! the first component and node, in their order, whose displacement in all modes is almost
                                 ! the largest
@@ -263,7 +261,7 @@ contains
       share = 0.0_wp
       if (.not. mode%is_rigid) then
          mode%material_loss = plan%damping
-         if (mode%energy%damped > no_damping*mode%energy%total()) &
+         if (mode%energy%damped > undamped*mode%energy%total()) &
             mode%material_loss = plan%damping + mode%energy%damped/mode%energy%total()
          mode%loss = mode%material_loss
          if (plan%amplitude > 0.0_wp) mode%loss = mode%loss + loss_of_joints(model, analysis, plan, mode)

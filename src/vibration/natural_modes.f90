@@ -21,16 +21,12 @@ module natural_modes
    use shear_loops, only: oscillation_stiffness
    use stage_plan, only: vibration_plan_type
    use text_tools, only: integer_text
+   use tolerances, only: barely_held, off_the_pole, rigid_motion, wide_gap, zero_at_shift, zero_eigenvalue
    implicit none
    private
 
    public :: release_supports, start_oscillation, factorise_at, find_natural_modes
 
-   real(wp), parameter :: clear = 1.0e-6_wp       ! of an eigenvalue: a wider gap is safe for a count
-   real(wp), parameter :: near_pole = 1.0e-7_wp   ! distance by which a shift moves away from an eigenvalue
-   real(wp), parameter :: noise = 2.0e-13_wp      ! of the largest eigenvalue: smaller values are rounding
-   real(wp), parameter :: no_mode = 1.0e-4_wp     ! of the next eigenvalue, at most
-   real(wp), parameter :: barely_held = 1.0e-8_wp ! smallest pivot relative to its diagonal entry
    integer, parameter  :: beyond = 3              ! extra modes: the last wanted one may have equals
    integer, parameter  :: most_trials = 4
 
@@ -198,12 +194,12 @@ contains
          spectrum%lambda(:spectrum%n_rigid) = 0.0_wp
          associate (lambda => spectrum%lambda, wanted => spectrum%n_wanted)
             if (wanted == below_end - spectrum%n_before) then ! the whole range, which has been counted; a mode may be at its end
-               if (count(lambda < (1.0_wp - clear)*spectrum%counted_at) <= wanted .and. &
-                   count(lambda < (1.0_wp + clear)*spectrum%counted_at) >= wanted) return
+               if (count(lambda < (1.0_wp - wide_gap)*spectrum%counted_at) <= wanted .and. &
+                   count(lambda < (1.0_wp + wide_gap)*spectrum%counted_at) >= wanted) return
                n = n + beyond
                cycle
             end if
-            last = findloc(lambda(wanted + 1:) - lambda(wanted:size(lambda) - 1) > clear*abs(lambda(wanted + 1:)), .true., dim=1)
+            last = findloc(lambda(wanted + 1:) - lambda(wanted:size(lambda) - 1) > wide_gap*abs(lambda(wanted + 1:)), .true., dim=1)
             if (last > 0) then
                last = wanted - 1 + last
                spectrum%counted_at = 0.5_wp*(lambda(last) + lambda(last + 1))
@@ -291,7 +287,7 @@ contains
          own = failure
          call factorise_at(model, structure, shift, system, own)
          if (.not. own%raised) return
-         shift = shift*(1.0_wp - near_pole*10.0_wp**trial)
+         shift = shift*(1.0_wp - off_the_pole*10.0_wp**trial)
       end do
       failure = own
    end subroutine factorise_beside
@@ -353,9 +349,9 @@ contains
       integer :: i
 
       associate (lambda => spectrum%lambda)
-         do i = count(lambda < max(noise*stiffest(model, structure, system), 1.0e-9_wp*abs(spectrum%shift))), 1, -1
+         do i = count(lambda < max(zero_eigenvalue*stiffest(model, structure, system), zero_at_shift*abs(spectrum%shift))), 1, -1
             if (i == size(lambda)) exit
-            if (lambda(i) < no_mode*lambda(i + 1)) exit
+            if (lambda(i) < rigid_motion*lambda(i + 1)) exit
          end do
          spectrum%n_rigid = i
       end associate

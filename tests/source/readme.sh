@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks src/README.md against src: the list of modules, src/modules.md, is current; snippets stand word for word in the patches;
-# names exist. Also the links of all pages, the index of the decks and that of the cards, and lines that are too long.
+# names exist. Also the links of all pages, the index of the decks and that of the cards, lines that are too long, and tolerances.
 #
 #    readme.sh README SOURCE_FOLDER
 set -u
@@ -58,6 +58,28 @@ read=$(awk '/subroutine list_cards/ { on = 1 } /^   contains/ { on = 0 }
    on && /call add\(\[/ { n = split($0, part, "\047"); for (i = 2; i <= n; i += 2) { gsub(/ /, "", part[i]); print part[i] } }
    END { for (i = 1; i <= 6; i++) print "CORD" (i > 3 ? 2 : 1) substr("RCSRCS", i, 1) }' "$source/deck/deck_input.f90" | sort)
 check 'cards with a section (<), that the program reads (>)' "$(diff <(echo "$sections") <(echo "$read"))"
+
+# tolerances stand in base/tolerances.f90: no other module has a number such as 1.0e-3_wp or smaller, but for these: FILE | TEXT | WHY
+small='build/unit_watch.f90 | real(wp), parameter | units and usual sizes of materials
+deck/field_rules.f90 | smallest_size = | the range of fields
+fit/data_columns.f90 | 1.0e-3_wp | units
+increment/newton_method.f90 | anint(1.0e4_wp*analysis%fraction)*1.0e-4_wp | a fraction of four digits, for print
+joint/normal_curve.f90 | least_power = | the range of M of JNORM
+base/text_tools.f90 | abs(value) >= 1.0e-3_wp | a smaller number is printed with an exponent
+solver/distribution.f90 | _time = | seconds
+solver/equation_solver.f90 | pivot_tolerance = | beside its algorithm, named in base/tolerances.f90
+solver/equations.f90 | dependent = | likewise
+solver/factor_reuse.f90 | dependent = | likewise
+solver/tree_solver.f90 | step_tolerance = | likewise'
+check 'tolerances outside of base/tolerances.f90; exceptions that are no longer' "$(cd "$source" && awk -v small="$small" '
+   BEGIN { n = split(small, line, "\n"); for (i = 1; i <= n; i++) { split(line[i], part, / [|] ?/); file[i] = part[1]; text[i] = part[2] } }
+   FILENAME == "base/tolerances.f90" { next }
+   { code = $0; gsub(/\047[^\047]*\047/, "", code); sub(/!.*/, "", code) }
+   code ~ /epsilon\(|[0-9.]e-(0?[3-9]|[1-9][0-9]+)_wp|0\.00[0-3][0-9]*_wp/ {
+      for (i = 1; i <= n; i++) if (FILENAME == file[i] && index($0, text[i])) { met[i] = 1; next }
+      print FILENAME ", line " FNR ":" $0
+   }
+   END { for (i = 1; i <= n; i++) if (!met[i]) print line[i] }' *.f90 */*.f90)"
 
 # prose in lines of at most 120 characters: all but tables, code and comments for the reader of the text
 check 'lines of prose above 120 characters' "$(awk '/^ *```/ { fence = !fence; next }
