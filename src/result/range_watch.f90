@@ -373,21 +373,53 @@ contains
       type(range_watch_type), intent(inout)    :: watch
       integer :: i, n
 
-      call stream%any_text(watch%farthest%quantity)
-      call stream%any_text(watch%farthest%place)
-      call stream%any_text(watch%poor_condition)
-      call stream%any_text(watch%divided)
-      call stream%item(watch%farthest%relative, watch%farthest%node)
+      call stream%part('range_watch_type', 1)
+      call stream%item('n_warnings', watch%n_warnings)
+      call stream%text('poor_condition', watch%poor_condition)
+      call stream%text('divided', watch%divided)
+      call stream%item('stage', watch%stage)
+      call stream%item('soft_line', watch%soft_line)
+      call stream%item('first_of', watch%first_of)
+      call stream%item('soft_unloading', watch%soft_unloading)
       n = size(watch%lines)
-      call stream%extent(n, 4)
+      call stream%extent('lines', n, 10)
       if (.not. stream%writes) then
          deallocate (watch%lines)
          allocate (watch%lines(n))
       end if
       do i = 1, n
-         call stream%any_text(watch%lines(i)%words)
+         call stream%text('lines', watch%lines(i)%words)
       end do
-      call stream%item(watch%n_warnings, watch%stage, watch%tallies, watch%soft_line, watch%first_of, watch%soft_unloading)
+      do i = 1, size(watch%tallies, 2)
+         call record_tallies(stream, watch%tallies(:, i))
+      end do
+      call record_farthest(stream, watch%farthest)
    end subroutine record_watch
+
+   subroutine record_tallies(stream, tallies)
+      type(restart_stream_type), intent(inout) :: stream
+      type(tally_type), intent(inout)          :: tallies(:) !! of a joint
+
+      call stream%part('tally_type', 1)
+      call stream%item('n', tallies%n)
+      call stream%item('node', tallies%node)
+      call stream%item('increment', tallies%increment)
+      call stream%item('worst_node', tallies%worst_node)
+      call stream%item('p', tallies%p)
+      call stream%item('d', tallies%d)
+      call stream%item('excess', tallies%excess)
+      call stream%item('bound', tallies%bound)
+   end subroutine record_tallies
+
+   subroutine record_farthest(stream, farthest)
+      type(restart_stream_type), intent(inout) :: stream
+      type(farthest_type), intent(inout)       :: farthest
+
+      call stream%part('farthest_type', 1)
+      call stream%item('relative', farthest%relative)
+      call stream%item('node', farthest%node)
+      call stream%text('quantity', farthest%quantity)
+      call stream%text('place', farthest%place)
+   end subroutine record_farthest
 
 end module range_watch

@@ -14,7 +14,7 @@
 !! shows. Values of a column without a heading are written only to the CSV file, those of a column without a name only to the
 !! listing. A table of a whole stage keeps the values of its rows until they are printed.
 module table_writer
-   use kinds, only: wp
+   use kinds, only: long, wp
    use output_file, only: output_file_type
    use page_lines, only: heading, in_form, page_width
    use restart_stream, only: restart_stream_type
@@ -407,25 +407,90 @@ contains
    subroutine record(self, stream)
       class(table_type), intent(inout)         :: self
       type(restart_stream_type), intent(inout) :: stream
-      integer :: i, k, n, n_cells
+      type(cell_type), allocatable :: all_cells(:)
+      integer, allocatable :: counts(:) ! cells of each row
+      integer :: i, first, n
 
       n = self%n_kept
-      call stream%extent(n, 8)
-      if (.not. stream%writes) self%n_kept = 0
-      do i = 1, n
-         if (.not. stream%writes) call make_room(self)
-         n_cells = 0
-         if (stream%writes) n_cells = size(self%kept(i)%cells)
-         call stream%extent(n_cells, 24)
-         if (.not. stream%writes) allocate (self%kept(i)%cells(n_cells))
-         do k = 1, n_cells
-            associate (cell => self%kept(i)%cells(k))
-               call stream%item(cell%kind, cell%number, cell%value, cell%shown)
-               if (any(cell%kind == [in_words, across])) call stream%any_text(cell%words)
-            end associate
-         end do
+      call stream%part('table_type', 1)
+      call stream%extent('n_kept', n, 4)
+      allocate (counts(n), source=0)
+      if (stream%writes) counts = [(size(self%kept(i)%cells), i = 1, n)]
+      call stream%item('kept', counts)
+      first = 0
+      allocate (all_cells(merge(sum(counts), 0, stream%writes)))
+      do i = 1, merge(n, 0, stream%writes)
+         all_cells(first + 1:first + counts(i)) = self%kept(i)%cells
+         first = first + counts(i)
       end do
-      if (.not. stream%writes .and. allocated(self%columns)) deallocate (self%columns)
+      call record_cells(stream, all_cells)
+      if (stream%writes) return
+      self%n_kept = 0
+      if (allocated(self%columns)) deallocate (self%columns)
+      if (any(counts < 0) .or. sum(int(counts, long)) /= size(all_cells)) call stream%fail('its rows have no cells')
+      if (allocated(stream%fault)) return
+      first = 0
+      do i = 1, n
+         call make_room(self)
+         self%kept(self%n_kept)%cells = all_cells(first + 1:first + counts(i))
+         first = first + counts(i)
+      end do
    end subroutine record
+
+   !> The CELLS of all rows; the words of all cells are one text.
+   subroutine record_cells(stream, cells)
+      type(restart_stream_type), intent(inout)    :: stream
+      type(cell_type), allocatable, intent(inout) :: cells(:)
+      character(:), allocatable :: words
+      integer, allocatable :: lengths(:) ! -1: not allocated
+      integer :: i, n
+      integer(long) :: last
+
+      n = size(cells)
+      call stream%part('cell_type', 1)
+      call stream%extent('cells', n, 28)
+      if (.not. stream%writes) then
+         deallocate (cells)
+         allocate (cells(n))
+      end if
+      allocate (lengths(n), source=-1)
+      words = ''
+      if (stream%writes) call join_words(cells, lengths, words)
+      call stream%item('kind', cells%kind)
+      call stream%item('number', cells%number)
+      call stream%item('value', cells%value)
+      call stream%item('shown', cells%shown)
+      call stream%item('lengths', lengths)
+      call stream%text('words', words)
+      if (stream%writes) return
+      last = 0
+      if (allocated(words)) last = len(words, long)
+      if (sum(int(max(0, lengths), long)) /= last) call stream%fail('its cells have no words')
+      if (allocated(stream%fault)) return
+      last = 0
+      do i = 1, n
+         if (lengths(i) >= 0) cells(i)%words = words(last + 1:last + lengths(i))
+         last = last + max(0, lengths(i))
+      end do
+   end subroutine record_cells
+
+   !> The WORDS of CELLS as one text, and their LENGTHS, which are -1 where there are none.
+   pure subroutine join_words(cells, lengths, words)
+      type(cell_type), intent(in) :: cells(:)
+      integer, intent(inout)      :: lengths(:)
+      character(:), allocatable, intent(out) :: words
+      integer(long) :: last
+      integer :: i
+
+      do i = 1, size(cells)
+         if (allocated(cells(i)%words)) lengths(i) = len(cells(i)%words)
+      end do
+      allocate (character(sum(int(max(0, lengths), long))) :: words)
+      last = 0
+      do i = 1, size(cells)
+         if (lengths(i) > 0) words(last + 1:last + lengths(i)) = cells(i)%words
+         last = last + max(0, lengths(i))
+      end do
+   end subroutine join_words
 
 end module table_writer
