@@ -352,6 +352,7 @@ contains
       type(results_type), intent(inout)        :: results
       integer :: i
 
+      call stream%part('results_type', 1)
       call record_page(stream, results%page)
       call record_counts(stream, results%counts)
       do i = 1, n_stage_tables
