@@ -16,6 +16,7 @@ module range_watch
    use numbers, only: tie
    use output_file, only: output_file_type
    use page_lines, only: axes, page_width
+   use range_tally, only: record_tallies, tally_type
    use restart_stream, only: restart_stream_type
    use result_page, only: page_type
    use shear_loops, only: loop_closure, wide_gap, worst_closure
@@ -32,16 +33,6 @@ module range_watch
    real(wp), parameter :: far = 0.02_wp  ! of the largest deflection or stress: beyond it the answer is not that of the laws
 
    integer, parameter :: beyond_p = 1, beyond_d = 2, no_slope = 3 ! bounds of a shear law
-
-   !> Elements of a joint beyond a bound of its shear law in the stage so far.
-   type :: tally_type
-      integer  :: n = 0
-      integer  :: node = 0, increment = 0          ! of the first element
-      integer  :: worst_node = 0
-      real(wp) :: p = 0.0_wp, d = 0.0_wp           ! of the worst element
-      real(wp) :: excess = 0.0_wp                  ! its p or d beyond the bound
-      real(wp) :: bound = 0.0_wp
-   end type tally_type
 
    !> The largest distance from a law in a run.
    type, public :: farthest_type
@@ -383,10 +374,8 @@ contains
       call stream%item('soft_unloading', watch%soft_unloading)
       n = size(watch%lines)
       call stream%extent('lines', n, 10)
-      if (.not. stream%writes) then
-         deallocate (watch%lines)
-         allocate (watch%lines(n))
-      end if
+      if (.not. stream%writes) deallocate (watch%lines)
+      if (.not. stream%writes) allocate (watch%lines(n))
       do i = 1, n
          call stream%text('lines', watch%lines(i)%words)
       end do
@@ -395,21 +384,6 @@ contains
       end do
       call record_farthest(stream, watch%farthest)
    end subroutine record_watch
-
-   subroutine record_tallies(stream, tallies)
-      type(restart_stream_type), intent(inout) :: stream
-      type(tally_type), intent(inout)          :: tallies(:) !! of a joint
-
-      call stream%part('tally_type', 1)
-      call stream%item('n', tallies%n)
-      call stream%item('node', tallies%node)
-      call stream%item('increment', tallies%increment)
-      call stream%item('worst_node', tallies%worst_node)
-      call stream%item('p', tallies%p)
-      call stream%item('d', tallies%d)
-      call stream%item('excess', tallies%excess)
-      call stream%item('bound', tallies%bound)
-   end subroutine record_tallies
 
    subroutine record_farthest(stream, farthest)
       type(restart_stream_type), intent(inout) :: stream
