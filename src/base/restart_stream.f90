@@ -1,43 +1,42 @@
 !> Defines the layout of a restart file, and writes or reads the state of a run through it.
-!! A module with state in the file has one routine that names its parts in order. The same routine writes and reads them.
+!! Each type with state in the file has one routine that names its components in order. The same routine writes and reads them.
 !!
 !!     byte  1   'JOINTFEM RESTART'
 !!          17   the number of the layout [4]
 !!          21   16909060, which is 1, 2, 3, 4 byte by byte where the most significant comes first [4]
 !!          25   the version of the program that wrote it [16 letters]
 !!          41   the checksum of the deck with its INCLUDE files [8]
-!!          49   the state: blocks of memory one behind the other, each with the number of its bytes before it [8]
+!!          49   the state: its items one behind the other
 !!       n - 15  n, the bytes of the whole file [8]
 !!        n - 7  the checksum of all before [8]
 !!
-!! An array of any size, or one that may be unallocated, has its extent before it [4], -1: unallocated. Types that pass as blocks have
-!! no allocatable components and no padding: a filler component stands where padding would be.
+!! An item: length of its name [1], its kind (part, integer, real and so on) [1], its name, the number of its bytes [8], -1: not
+!! allocated, and these bytes. A part has a version, and the items behind it are the components of one type; a component of many
+!! elements is one item. Reading compares kinds, names and versions. An array of any size, or one that may be unallocated, has its
+!! extent before it, -1: unallocated.
 !!
 !! open_restart checks that a file is whole and of this layout, program and order of bytes. A length in the file is accepted only as
 !! far as there are bytes for it.
-!!
-!! The checksum is CRC-64 as in the xz format. It detects every damage within 64 consecutive bits, and any other damage but with a
-!! probability of 2**-64.
-!! Source: ECMA-182, annex B (polynomial), in the reflected form of the .xz file format 1.1.0, section 6; the sum of '123456789'
-!! is 995DC9BBDF1939FA.
 module restart_stream
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
    use c_library, only: read_all_bytes, write_bytes
+   use checksum, only: add_to_checksum, no_bytes
    use, intrinsic :: iso_fortran_env, only: int32, int64
-   use kinds, only: long
+   use kinds, only: long, wp
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: open_restart, add_to_checksum
+   public :: open_restart
 
-   integer, parameter, public :: layout = 8 !! changes with the layout and with its contents
+   integer, parameter, public :: layout = 9 !! changes with the layout and with its contents
    character(*), parameter    :: magic = 'JOINTFEM RESTART'
    integer(int32), parameter  :: order_mark = int(z'01020304', int32), other_order = int(z'04030201', int32)
    integer, parameter, public :: version_length = 16
    integer, parameter :: head_length = 48, tail_length = 16
    character(8), parameter :: eight_letters = ''
-   integer(int64), parameter, public :: no_bytes = 0_int64 !! the checksum of no bytes, the start value
+   integer, parameter :: is_part = 1, is_integer = 2, is_real = 3, is_logical = 4, is_text = 5, is_extent = 6, is_file = 7
+   character(7), parameter :: kind_words(is_file) = ['part   ', 'integer', 'real   ', 'logical', 'text   ', 'extent ', 'file   ']
 
    type, public :: restart_stream_type
       logical :: writes = .false.                 !! false: it reads
@@ -47,30 +46,21 @@ module restart_stream
       integer(long), private  :: last = 0         ! reading: the last byte before the tail
       integer(int64), private :: sum = no_bytes   ! checksum of the bytes written
       integer, private        :: descriptor = -1
+      character(:), allocatable, private :: name  ! of the last part
    contains
       procedure :: start
       procedure :: complete
       procedure :: is_at_end
-      procedure :: item
+      procedure :: part
+      generic   :: item => integer_value, integer_row, integer_plane, long_value, real_value, real_row, real_plane, &
+                           logical_value, logical_row, logical_plane
       procedure :: text
-      procedure :: any_text
       procedure :: extent
       procedure :: file
+      procedure :: fail
+      procedure, private :: integer_value, integer_row, integer_plane, long_value, real_value, real_row, real_plane
+      procedure, private :: logical_value, logical_row, logical_plane
    end type restart_stream_type
-
-   integer :: i
-   integer(int64), parameter :: polynomial = ior(shiftl(int(z'C96C5795', int64), 32), int(z'D7870F42', int64))
-
-   ! the remainder of each byte after eight shifts
-   integer(int64), parameter :: t0(0:255) = [(int(i, int64), i = 0, 255)]
-   integer(int64), parameter :: t1(0:255) = ieor(shiftr(t0, 1), iand(t0, 1_int64)*polynomial)
-   integer(int64), parameter :: t2(0:255) = ieor(shiftr(t1, 1), iand(t1, 1_int64)*polynomial)
-   integer(int64), parameter :: t3(0:255) = ieor(shiftr(t2, 1), iand(t2, 1_int64)*polynomial)
-   integer(int64), parameter :: t4(0:255) = ieor(shiftr(t3, 1), iand(t3, 1_int64)*polynomial)
-   integer(int64), parameter :: t5(0:255) = ieor(shiftr(t4, 1), iand(t4, 1_int64)*polynomial)
-   integer(int64), parameter :: t6(0:255) = ieor(shiftr(t5, 1), iand(t5, 1_int64)*polynomial)
-   integer(int64), parameter :: t7(0:255) = ieor(shiftr(t6, 1), iand(t6, 1_int64)*polynomial)
-   integer(int64), parameter :: table(0:255) = ieor(shiftr(t7, 1), iand(t7, 1_int64)*polynomial)
 
 contains
 
@@ -149,71 +139,210 @@ contains
       is_at_end = .not. allocated(self%fault) .and. self%used == self%last
    end function is_at_end
 
-   !> Write, or read, up to six variables or contiguous arrays of any intrinsic type but character.
-   subroutine item(self, a, b, c, d, e, f)
+   !> Begin the part NAME, the components of the type of this name, in this VERSION: the routine that names them counts it up with
+   !! each change.
+   subroutine part(self, name, version)
       class(restart_stream_type), intent(inout) :: self
-      class(*), intent(inout)                   :: a(..)
-      class(*), intent(inout), optional         :: b(..), c(..), d(..), e(..), f(..)
+      character(*), intent(in)                  :: name
+      integer, intent(in)                       :: version
+      integer :: found
 
-      call block(self, storage_size(a)/8*size(a, kind=long), a)
-      if (present(b)) call block(self, storage_size(b)/8*size(b, kind=long), b)
-      if (present(c)) call block(self, storage_size(c)/8*size(c, kind=long), c)
-      if (present(d)) call block(self, storage_size(d)/8*size(d, kind=long), d)
-      if (present(e)) call block(self, storage_size(e)/8*size(e, kind=long), e)
-      if (present(f)) call block(self, storage_size(f)/8*size(f, kind=long), f)
-   end subroutine item
+      found = version
+      self%name = ''
+      call block(self, name, is_part, 4_long, found)
+      self%name = name
+      if (found /= version) call self%fail('its part '''//name//''' has version '//integer_text(found)// &
+                                           ', this program reads '//integer_text(version))
+   end subroutine part
 
-   !> The N bytes of VALUES.
-   subroutine block(self, n, values)
+   ! ---- item: the value or values A of the component NAME ----
+
+   subroutine integer_value(self, name, a)
       class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      integer, intent(inout)                    :: a
+
+      call block(self, name, is_integer, 4_long, a)
+   end subroutine integer_value
+
+   subroutine integer_row(self, name, a)
+      class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      integer, intent(inout), contiguous        :: a(:)
+
+      call block(self, name, is_integer, 4*size(a, kind=long), a)
+   end subroutine integer_row
+
+   subroutine integer_plane(self, name, a)
+      class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      integer, intent(inout), contiguous        :: a(:, :)
+
+      call block(self, name, is_integer, 4*size(a, kind=long), a)
+   end subroutine integer_plane
+
+   subroutine long_value(self, name, a)
+      class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      integer(long), intent(inout)              :: a
+
+      call block(self, name, is_integer, 8_long, a)
+   end subroutine long_value
+
+   subroutine real_value(self, name, a)
+      class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      real(wp), intent(inout)                   :: a
+
+      call block(self, name, is_real, 8_long, a)
+   end subroutine real_value
+
+   subroutine real_row(self, name, a)
+      class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      real(wp), intent(inout), contiguous       :: a(:)
+
+      call block(self, name, is_real, 8*size(a, kind=long), a)
+   end subroutine real_row
+
+   subroutine real_plane(self, name, a)
+      class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      real(wp), intent(inout), contiguous       :: a(:, :)
+
+      call block(self, name, is_real, 8*size(a, kind=long), a)
+   end subroutine real_plane
+
+   subroutine logical_value(self, name, a)
+      class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      logical, intent(inout)                    :: a
+
+      call block(self, name, is_logical, 4_long, a)
+   end subroutine logical_value
+
+   subroutine logical_row(self, name, a)
+      class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      logical, intent(inout), contiguous        :: a(:)
+
+      call block(self, name, is_logical, 4*size(a, kind=long), a)
+   end subroutine logical_row
+
+   subroutine logical_plane(self, name, a)
+      class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      logical, intent(inout), contiguous        :: a(:, :)
+
+      call block(self, name, is_logical, 4*size(a, kind=long), a)
+   end subroutine logical_plane
+
+   !> The N bytes of VALUES, which keep their values where they cannot be read.
+   subroutine block(self, name, kind, n, values)
+      class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      integer, intent(in)                       :: kind
       integer(long), intent(in)                 :: n
       type(*), intent(inout), target            :: values(..)
       character(n), pointer :: bytes
+      integer(long) :: found
 
+      found = n
+      call head(self, name, kind, found)
+      if (n /= found) call self%fail(quoted(self, name)//' does not fit the model')
+      if (n == 0 .or. allocated(self%fault)) return
       call c_f_pointer(c_loc(values), bytes)
-      call self%text(bytes)
+      call content(self, bytes)
    end subroutine block
 
-   !> Write or read BYTES; where they cannot be read they keep their values.
-   subroutine text(self, bytes)
+   !> Write or read the head of the item NAME of this KIND and of N bytes. Reading gives 0 where it is another item.
+   subroutine head(self, name, kind, n)
+      class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      integer, intent(in)                       :: kind
+      integer(long), intent(inout)              :: n
+      character(:), allocatable :: there
+      integer :: length, found
+
+      if (self%writes) then
+         call put(self, achar(len(name))//achar(kind)//name//transfer(n, eight_letters))
+         return
+      end if
+      n = 0
+      length = 0
+      if (allocated(self%fault)) return
+      if (self%last - self%used >= 10) length = iachar(self%bytes(self%used + 1:self%used + 1))
+      if (self%last - self%used < 10 + length) then
+         call self%fail('it ends before '//quoted(self, name))
+         return
+      end if
+      found = iachar(self%bytes(self%used + 2:self%used + 2))
+      there = self%bytes(self%used + 3:self%used + 2 + length)
+      if (found /= kind .or. there /= name .or. length /= len(name)) then
+         call self%fail(trim(kind_words(kind))//' '//quoted(self, name)//' is expected, '// &
+                        trim(kind_words(max(is_part, min(found, is_file))))//' '''//there//''' is there')
+         return
+      end if
+      self%used = self%used + 10 + length
+      n = transfer(self%bytes(self%used - 7:self%used), n)
+      if (n >= -1 .and. n <= self%last - self%used) return
+      call self%fail('it ends within '//quoted(self, name))
+      n = 0
+   end subroutine head
+
+   !> Write or read BYTES, behind their head.
+   subroutine content(self, bytes)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(inout)               :: bytes
+
+      if (self%writes) then
+         call put(self, bytes)
+      else
+         bytes = self%bytes(self%used + 1:self%used + len(bytes))
+         self%used = self%used + len(bytes)
+      end if
+   end subroutine content
+
+   !> The component NAME in words.
+   pure function quoted(self, name) result(words)
+      class(restart_stream_type), intent(in) :: self
+      character(*), intent(in)               :: name
+      character(:), allocatable :: words
+
+      words = ''''//name//''''
+      if (allocated(self%name)) then
+         if (self%name /= '') words = words//' of '//self%name
+      end if
+   end function quoted
+
+   !> Write or read a text of any length, or an unallocated one.
+   subroutine text(self, name, value)
+      class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
+      character(:), allocatable, intent(inout)  :: value
       integer(long) :: n
 
-      n = len(bytes, long)
-      if (n == 0 .or. allocated(self%fault)) return
-      if (self%writes) then
-         call put(self, transfer(n, eight_letters))
-         call put(self, bytes)
-      else if (n /= next_size(self)) then
-         call fail(self, 'a part of the state does not fit the model')
-      else
-         bytes = self%bytes(self%used + 1:self%used + n)
-         self%used = self%used + n
+      n = -1
+      if (allocated(value)) n = len(value, long)
+      call head(self, name, is_text, n)
+      if (.not. self%writes) then
+         if (allocated(value)) deallocate (value)
+         if (n >= 0) allocate (character(n) :: value)
       end if
+      if (n > 0) call content(self, value)
    end subroutine text
 
-   !> Reading: the byte count at this place, if so many bytes follow; otherwise -1.
-   integer(long) function next_size(self) result(n)
-      class(restart_stream_type), intent(inout) :: self
-
-      n = -1
-      if (self%last - self%used < 8) return
-      n = transfer(self%bytes(self%used + 1:self%used + 8), n)
-      self%used = self%used + 8
-      if (n > self%last - self%used) n = -1
-   end function next_size
-
    !> Write or read the count N of items of at least BYTES_EACH, -1: not allocated. Reading gives 0 where the bytes are missing.
-   subroutine extent(self, n, bytes_each)
+   subroutine extent(self, name, n, bytes_each)
       class(restart_stream_type), intent(inout) :: self
+      character(*), intent(in)                  :: name
       integer, intent(inout)                    :: n
       integer, intent(in)                       :: bytes_each
 
-      call self%item(n)
+      call block(self, name, is_extent, 4_long, n)
       if (self%writes) return
-      if (n < -1 .or. (n > 0 .and. int(n, long)*bytes_each + 8 > self%last - self%used)) &
-         call fail(self, 'it ends too early')
+      if (n < -1 .or. (n > 0 .and. int(n, long)*bytes_each > self%last - self%used)) &
+         call self%fail('it ends within '//quoted(self, name))
       if (allocated(self%fault)) n = 0
    end subroutine extent
 
@@ -230,35 +359,21 @@ contains
       if (self%writes) then
          call read_all_bytes(path, bytes, ok)
          if (.not. ok) then
-            call fail(self, path//' cannot be read')
+            call self%fail(path//' cannot be read')
             return
          end if
-         call put(self, transfer(len(bytes, long), eight_letters))
+         n = len(bytes, long)
+      end if
+      call head(self, 'bytes', is_file, n)
+      if (self%writes) then
          call put(self, bytes)
-         return
+      else if (.not. allocated(self%fault)) then
+         n = max(0_long, n)
+         call write_bytes(descriptor, self%bytes(self%used + 1:self%used + n), ok)
+         self%used = self%used + n
+         if (.not. ok) call self%fail(path//' cannot be written')
       end if
-      n = next_size(self)
-      ok = n >= 0
-      if (ok) call write_bytes(descriptor, self%bytes(self%used + 1:self%used + n), ok)
-      self%used = self%used + max(0_long, n)
-      if (.not. ok) call fail(self, path//' cannot be written')
    end subroutine file
-
-   !> Write or read a text of any length, or an unallocated one.
-   subroutine any_text(self, value)
-      class(restart_stream_type), intent(inout) :: self
-      character(:), allocatable, intent(inout)  :: value
-      integer :: n
-
-      n = -1
-      if (allocated(value)) n = len(value)
-      call self%extent(n, 1)
-      if (.not. self%writes) then
-         if (allocated(value)) deallocate (value)
-         if (n >= 0) allocate (character(n) :: value)
-      end if
-      if (n >= 0) call self%text(value)
-   end subroutine any_text
 
    subroutine put(self, bytes)
       class(restart_stream_type), intent(inout) :: self
@@ -269,7 +384,7 @@ contains
       call add_to_checksum(bytes, self%sum)
       call write_bytes(self%descriptor, bytes, ok)
       self%used = self%used + len(bytes, long)
-      if (.not. ok) call fail(self, 'it cannot be written')
+      if (.not. ok) call self%fail('it cannot be written')
    end subroutine put
 
    !> Note the failure; the first message counts.
@@ -279,18 +394,5 @@ contains
 
       if (.not. allocated(self%fault)) self%fault = words
    end subroutine fail
-
-   !> Extend the checksum SUM by BYTES.
-   pure subroutine add_to_checksum(bytes, sum)
-      character(*), intent(in)      :: bytes
-      integer(int64), intent(inout) :: sum
-      integer(long) :: k
-
-      sum = not(sum)
-      do k = 1, len(bytes, long)
-         sum = ieor(table(ieor(int(iand(sum, 255_int64)), iachar(bytes(k:k)))), shiftr(sum, 8))
-      end do
-      sum = not(sum)
-   end subroutine add_to_checksum
 
 end module restart_stream

@@ -1,7 +1,7 @@
 !> Reads the lines of a deck in order and inserts INCLUDE files in their place.
 module deck_text
    use c_library, only: is_regular_file, read_all_bytes, true_path
-   use restart_stream, only: add_to_checksum, no_bytes
+   use checksum, only: add_to_checksum, no_bytes
    use terminal, only: standard_input
    use deck_errors, only: deck_error_list
    use deck_parameters, only: fill_parameters, parameter_type

@@ -27,7 +27,6 @@ module analysis_state
    !> Where a shear branch of an interface element began, for the listing only.
    type, public :: turning_point
       integer  :: branch = branch_load              !! that began there
-      integer, private :: filler = 0                ! as in normal_state
       real(wp) :: delta = 0.0_wp, tau = 0.0_wp      !! [length], [pressure]
    end type turning_point
 

@@ -28,7 +28,6 @@ module normal_stiffness
    !> State of one interface element in its normal direction.
    type, public :: normal_state
       integer  :: branch   = branch_load
-      integer, private :: filler = 0 ! no undefined bytes between components: states are copied to restart files
       real(wp) :: p_av     = 0.0_wp  !! mean pressure of the joint in the first increment [pressure], > 0
       real(wp) :: sigmaf   = 0.0_wp  !! sum of the incremental normal forces before the last increment [force]
       real(wp) :: sumf     = 0.0_wp  !! the same after it, compression positive [force]

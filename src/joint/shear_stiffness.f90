@@ -42,7 +42,6 @@ module shear_stiffness
    !> State of one interface element in one shear direction. Point A, o and d are in the sense s, so d_r >= 0.
    type, public :: shear_state
       integer  :: branch = branch_load
-      integer, private :: filler = 0           ! as in normal_state
       real(wp) :: sense  = 1.0_wp              !! s
       real(wp) :: delta  = 0.0_wp              !! total movement of the faces since they closed [length]
       real(wp) :: delta_0 = 0.0_wp             !! the origin, which slip moves: d = s (delta - delta_0) [length]

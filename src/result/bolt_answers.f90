@@ -341,8 +341,17 @@ contains
       type(restart_stream_type), intent(inout) :: stream
       type(bolt_history), intent(inout)        :: history
 
-      call stream%item(history%assembly, history%load, history%before, history%tightened, history%largest, history%assembled)
-      call stream%item(history%change, history%clamped, history%passed_before, history%passed_assembled)
+      call stream%part('bolt_history', 1)
+      call stream%item('assembly', history%assembly)
+      call stream%item('before', history%before)
+      call stream%item('tightened', history%tightened)
+      call stream%item('largest', history%largest)
+      call stream%item('assembled', history%assembled)
+      call stream%item('change', history%change)
+      call stream%item('load', history%load)
+      call stream%item('clamped', history%clamped)
+      call stream%item('passed_before', history%passed_before)
+      call stream%item('passed_assembled', history%passed_assembled)
    end subroutine record_bolts
 
 end module bolt_answers

@@ -15,7 +15,7 @@ module finished_stages
    implicit none
    private
 
-   public :: count_increment, mark_finished, return_to_finished, name_companion, listing_end, record_finished, record_digest
+   public :: count_increment, mark_finished, return_to_finished, name_companion, listing_end, record_finished, record_counts
 
    character(*), parameter, public :: listing_ending = '.out', early_ending = '.early'
 
@@ -197,18 +197,37 @@ contains
       type(page_type), intent(in)              :: page
       type(finished_type), intent(inout)       :: finished
 
-      call stream%any_text(finished%place)
-      call stream%item(finished%counts%n_removed, finished%counts%n_warnings, finished%n_stages)
-      call record_digest(stream, finished%counts%digest)
+      call stream%part('finished_type', 1)
+      call stream%text('place', finished%place)
+      call stream%item('n_stages', finished%n_stages)
+      call record_counts(stream, finished%counts)
       if (.not. (stream%writes .or. allocated(stream%fault))) call watch_finished(base, page, finished)
    end subroutine record_finished
+
+   subroutine record_counts(stream, counts)
+      type(restart_stream_type), intent(inout) :: stream
+      type(count_type), intent(inout)          :: counts
+
+      call stream%part('count_type', 1)
+      call stream%item('n_removed', counts%n_removed)
+      call stream%item('n_warnings', counts%n_warnings)
+      call record_digest(stream, counts%digest)
+   end subroutine record_counts
 
    subroutine record_digest(stream, d)
       type(restart_stream_type), intent(inout) :: stream
       type(digest_type), intent(inout)         :: d
 
-      call stream%item(d%stages, d%increments, d%iterations, d%u_max, d%mises_max, d%contact)
-      call stream%item(d%safety, d%frequency, d%strained)
+      call stream%part('digest_type', 1)
+      call stream%item('stages', d%stages)
+      call stream%item('increments', d%increments)
+      call stream%item('iterations', d%iterations)
+      call stream%item('u_max', d%u_max)
+      call stream%item('mises_max', d%mises_max)
+      call stream%item('strained', d%strained)
+      call stream%item('contact', d%contact)
+      call stream%item('safety', d%safety)
+      call stream%item('frequency', d%frequency)
    end subroutine record_digest
 
 end module finished_stages

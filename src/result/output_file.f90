@@ -213,10 +213,11 @@ contains
       integer(long) :: kept
 
       kept = self%kept
-      call stream%item(kept)
+      call stream%part('output_file_type', 1)
+      call stream%item('kept', kept)
       if (self%path == '') then
          if (stream%writes) text = self%buffer(:self%used)
-         call stream%any_text(text)
+         call stream%text('buffer', text)
          if (stream%writes .or. .not. allocated(text)) return
          self%used = 0
          call make_room(self, len(text))

@@ -15,6 +15,7 @@ module range_watch
    use normal_stiffness, only: branch_load, branch_open, branch_unload
    use output_file, only: output_file_type
    use page_lines, only: axes, page_width
+   use range_tally, only: record_tallies, tally_type
    use restart_stream, only: restart_stream_type
    use result_page, only: page_type
    use shear_loops, only: loop_closure, wide_gap, worst_closure
@@ -31,16 +32,6 @@ module range_watch
    real(wp), parameter :: far = 0.02_wp  ! of the largest deflection or stress: beyond it the answer is not that of the laws
 
    integer, parameter :: beyond_p = 1, beyond_d = 2, no_slope = 3 ! bounds of a shear law
-
-   !> Elements of a joint beyond a bound of its shear law in the stage so far.
-   type :: tally_type
-      integer  :: n = 0
-      integer  :: node = 0, increment = 0          ! of the first element
-      integer  :: worst_node = 0
-      real(wp) :: p = 0.0_wp, d = 0.0_wp           ! of the worst element
-      real(wp) :: excess = 0.0_wp                  ! its p or d beyond the bound
-      real(wp) :: bound = 0.0_wp
-   end type tally_type
 
    !> The largest distance from a law in a run.
    type, public :: farthest_type
@@ -372,21 +363,36 @@ contains
       type(range_watch_type), intent(inout)    :: watch
       integer :: i, n
 
-      call stream%any_text(watch%farthest%quantity)
-      call stream%any_text(watch%farthest%place)
-      call stream%any_text(watch%poor_condition)
-      call stream%any_text(watch%divided)
-      call stream%item(watch%farthest%relative, watch%farthest%node)
+      call stream%part('range_watch_type', 1)
+      call stream%item('n_warnings', watch%n_warnings)
+      call stream%text('poor_condition', watch%poor_condition)
+      call stream%text('divided', watch%divided)
+      call stream%item('stage', watch%stage)
+      call stream%item('soft_line', watch%soft_line)
+      call stream%item('first_of', watch%first_of)
+      call stream%item('soft_unloading', watch%soft_unloading)
       n = size(watch%lines)
-      call stream%extent(n, 4)
-      if (.not. stream%writes) then
-         deallocate (watch%lines)
-         allocate (watch%lines(n))
-      end if
+      call stream%extent('lines', n, 10)
+      if (.not. stream%writes) deallocate (watch%lines)
+      if (.not. stream%writes) allocate (watch%lines(n))
       do i = 1, n
-         call stream%any_text(watch%lines(i)%words)
+         call stream%text('lines', watch%lines(i)%words)
       end do
-      call stream%item(watch%n_warnings, watch%stage, watch%tallies, watch%soft_line, watch%first_of, watch%soft_unloading)
+      do i = 1, size(watch%tallies, 2)
+         call record_tallies(stream, watch%tallies(:, i))
+      end do
+      call record_farthest(stream, watch%farthest)
    end subroutine record_watch
+
+   subroutine record_farthest(stream, farthest)
+      type(restart_stream_type), intent(inout) :: stream
+      type(farthest_type), intent(inout)       :: farthest
+
+      call stream%part('farthest_type', 1)
+      call stream%item('relative', farthest%relative)
+      call stream%item('node', farthest%node)
+      call stream%text('quantity', farthest%quantity)
+      call stream%text('place', farthest%place)
+   end subroutine record_farthest
 
 end module range_watch

@@ -5,11 +5,12 @@ module result_page
    use model_data, only: model_type
    use output_file, only: output_file_type
    use page_lines, only: axes
+   use restart_stream, only: restart_stream_type
    use table_column, only: column, column_type, csv
    implicit none
    private
 
-   public :: set_labels, shows, has_gaps, table_columns
+   public :: set_labels, shows, has_gaps, table_columns, record_page
 
    character(1), parameter, public :: xyz(3) = ['x', 'y', 'z']
 
@@ -179,5 +180,33 @@ contains
          columns = csv([character(9) :: 'stage', 'frequency', 'node', 'component', 'amplitude', 'phase'])
       end select
    end function more_columns
+
+   !> Write the page to a restart file, or read it into the open files of the same deck. Labels and date are in the head of the
+   !! listing.
+   subroutine record_page(stream, page)
+      type(restart_stream_type), intent(inout) :: stream
+      type(page_type), intent(inout)           :: page
+      integer :: i, n
+
+      call stream%part('page_type', 1)
+      call stream%item('stage_id', page%stage_id)
+      call stream%text('stage', page%stage)
+      call stream%text('now', page%now)
+      call stream%text('label', page%label)
+      call stream%text('place', page%place)
+      call stream%item('largest_force', page%largest_force)
+      call stream%item('along_cd', page%along_cd)
+      n = -1
+      if (allocated(page%shown)) n = size(page%shown)
+      call stream%extent('shown', n, 4)
+      if (.not. stream%writes .and. allocated(page%shown)) deallocate (page%shown)
+      if (.not. stream%writes .and. n >= 0) allocate (page%shown(n))
+      if (n >= 0) call stream%item('shown', page%shown)
+      call page%file%record(stream)
+      call page%screen%record(stream)
+      do i = 1, size(page%tables)
+         if (page%tables(i)%is_open) call page%tables(i)%record(stream)
+      end do
+   end subroutine record_page
 
 end module result_page

@@ -11,7 +11,7 @@ module results
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
    use finished_stages, only: count_increment, count_type, early_ending, finished_type, listing_end, listing_ending, &
-                              mark_finished, name_companion, record_digest, record_finished, return_to_finished
+                              mark_finished, name_companion, record_counts, record_finished, return_to_finished
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
    use joint_answers, only: fault_of_joints, find_joint_answers, joint_answer
    use joint_tables, only: list_energy, list_joints, plot_joint, write_history
@@ -24,7 +24,8 @@ module results
    use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, watch_increment, watch_stage
    use restart_stream, only: restart_stream_type
    use result_page, only: backbone_table, bend_table, bolt_table, energy_table, joint_table, loop_table, modes_table, page_type, &
-                          response_table, set_labels, shell_table, split_table, table_columns, table_endings, watch_table
+                          record_page, response_table, set_labels, shell_table, split_table, table_columns, &
+                          table_endings, watch_table
    use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: stage_plan_type
    use stage_tables, only: n_stage_tables, note_stage_tables, pass_rows
@@ -37,7 +38,7 @@ module results
    use vibration_tables, only: list_modes
    use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, record_vtu, remove_old_vtu, start_vtu, vtu_names, &
                           vtu_results_type, write_modes, write_vtu
-   use watched_nodes, only: find_watched, start_watched, state_at_end, watch_answer, watch_state
+   use watched_nodes, only: find_watched, record_watched, start_watched, state_at_end, watch_answer, watch_state
    implicit none
    private
 
@@ -349,36 +350,19 @@ contains
    subroutine record_results(stream, results)
       type(restart_stream_type), intent(inout) :: stream
       type(results_type), intent(inout)        :: results
-      integer :: i, n_shown
+      integer :: i
 
-      associate (page => results%page, watch => results%watch, d => results%counts%digest)
-         call page%file%record(stream)
-         n_shown = -1
-         if (allocated(page%shown)) n_shown = size(page%shown)
-         call stream%extent(n_shown, 4)
-         if (.not. stream%writes .and. allocated(page%shown)) deallocate (page%shown)
-         if (.not. stream%writes .and. n_shown >= 0) allocate (page%shown(n_shown))
-         if (n_shown >= 0) call stream%item(page%shown)
-         call stream%any_text(page%stage)
-         call stream%any_text(page%now)
-         call stream%any_text(page%place)
-         call stream%item(page%largest_force, d%increments, results%counts%n_removed)
-         do i = 1, n_stage_tables
-            call results%stage_tables(i)%record(stream)
-         end do
-         call record_watch(stream, watch)
-         do i = 1, size(table_endings)
-            if (page%tables(i)%is_open) call page%tables(i)%record(stream)
-         end do
-         call page%screen%record(stream)
-         call record_vtu(results%vtu, stream)
-         call record_bolts(stream, results%bolts)
-         associate (before => results%watched_before)
-            if (allocated(before%u)) call stream%item(before%u, before%force, before%movement, before%tension)
-         end associate
-         call record_digest(stream, d)
-         call record_finished(stream, results%base, page, results%finished)
-      end associate
+      call stream%part('results_type', 1)
+      call record_page(stream, results%page)
+      call record_counts(stream, results%counts)
+      do i = 1, n_stage_tables
+         call results%stage_tables(i)%record(stream)
+      end do
+      call record_watch(stream, results%watch)
+      call record_vtu(results%vtu, stream)
+      call record_bolts(stream, results%bolts)
+      if (allocated(results%watched_before%u)) call record_watched(stream, results%watched_before)
+      call record_finished(stream, results%base, results%page, results%finished)
    end subroutine record_results
 
    !> Remove the results of an earlier run of the same deck, which are no longer valid.

@@ -14,25 +14,15 @@
 !! shows. Values of a column without a heading are written only to the CSV file, those of a column without a name only to the
 !! listing. A table of a whole stage keeps the values of its rows until they are printed.
 module table_writer
-   use kinds, only: wp
+   use kinds, only: long, wp
    use output_file, only: output_file_type
    use page_lines, only: heading, in_form, page_width
    use restart_stream, only: restart_stream_type
+   use table_cell, only: across, cell_type, empty, in_words, missing, real_number, record_cells, whole
    use table_column, only: column_type
    use text_tools, only: clean, csv_line_type, fitted_text, integer_width, short_width, write_integer, write_short
    implicit none
    private
-
-   integer, parameter :: missing = 0, empty = 1, whole = 2, real_number = 3, in_words = 4, &
-                         across = 5 ! what a cell has
-
-   type :: cell_type
-      integer  :: kind = missing
-      integer  :: number = 0
-      real(wp) :: value = 0.0_wp
-      real(wp) :: shown = 0.0_wp      ! the same without its rounding, in the listing
-      character(:), allocatable :: words
-   end type cell_type
 
    type :: row_type
       type(cell_type), allocatable :: cells(:) ! (columns), or one across all columns
@@ -407,25 +397,34 @@ contains
    subroutine record(self, stream)
       class(table_type), intent(inout)         :: self
       type(restart_stream_type), intent(inout) :: stream
-      integer :: i, k, n, n_cells
+      type(cell_type), allocatable :: all_cells(:)
+      integer, allocatable :: counts(:) ! cells of each row
+      integer :: i, first, n
 
       n = self%n_kept
-      call stream%extent(n, 8)
-      if (.not. stream%writes) self%n_kept = 0
-      do i = 1, n
-         if (.not. stream%writes) call make_room(self)
-         n_cells = 0
-         if (stream%writes) n_cells = size(self%kept(i)%cells)
-         call stream%extent(n_cells, 24)
-         if (.not. stream%writes) allocate (self%kept(i)%cells(n_cells))
-         do k = 1, n_cells
-            associate (cell => self%kept(i)%cells(k))
-               call stream%item(cell%kind, cell%number, cell%value, cell%shown)
-               if (any(cell%kind == [in_words, across])) call stream%any_text(cell%words)
-            end associate
-         end do
+      call stream%part('table_type', 1)
+      call stream%extent('n_kept', n, 4)
+      allocate (counts(n), source=0)
+      if (stream%writes) counts = [(size(self%kept(i)%cells), i = 1, n)]
+      call stream%item('kept', counts)
+      first = 0
+      allocate (all_cells(merge(sum(counts), 0, stream%writes)))
+      do i = 1, merge(n, 0, stream%writes)
+         all_cells(first + 1:first + counts(i)) = self%kept(i)%cells
+         first = first + counts(i)
       end do
-      if (.not. stream%writes .and. allocated(self%columns)) deallocate (self%columns)
+      call record_cells(stream, all_cells)
+      if (stream%writes) return
+      self%n_kept = 0
+      if (allocated(self%columns)) deallocate (self%columns)
+      if (any(counts < 0) .or. sum(int(counts, long)) /= size(all_cells)) call stream%fail('its rows have no cells')
+      if (allocated(stream%fault)) return
+      first = 0
+      do i = 1, n
+         call make_room(self)
+         self%kept(self%n_kept)%cells = all_cells(first + 1:first + counts(i))
+         first = first + counts(i)
+      end do
    end subroutine record
 
 end module table_writer

@@ -286,19 +286,26 @@ contains
    subroutine record_vtu(results, stream)
       type(vtu_results_type), intent(inout)    :: results
       type(restart_stream_type), intent(inout) :: stream
+      character(:), allocatable :: ending
       integer :: i, k, n, n_files
 
       n = results%n
-      call stream%extent(n, 64)
+      call stream%part('vtu_results_type', 1)
+      call stream%item('n_kept', results%n_kept)
+      call stream%extent('parts', n, 64)
       n = min(n, size(results%parts))
-      call stream%item(results%n_kept)
       do i = 1, n
          associate (part => results%parts(i))
-            call stream%text(part%ending)
-            call stream%item(part%time, part%part, part%is_index)
+            call stream%part('part_type', 1)
+            ending = trim(part%ending)
+            call stream%text('ending', ending)
+            if (allocated(ending)) part%ending = ending
+            call stream%item('time', part%time)
+            call stream%item('part', part%part)
+            call stream%item('is_index', part%is_index)
             n_files = 1
             if (allocated(part%files)) n_files = size(part%files)
-            call stream%extent(n_files, 8)
+            call stream%extent('files', n_files, 8)
             if (.not. stream%writes) then
                part%is_indexed = .false.
                if (allocated(part%files)) deallocate (part%files)

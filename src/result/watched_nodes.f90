@@ -15,12 +15,13 @@ module watched_nodes
    use kinds, only: wp
    use connected_bodies, only: find_bodies
    use model_data, only: a_point, a_spring, bar_nodes, corners_of, model_type, n_bars, n_points, node_kind
+   use restart_stream, only: restart_stream_type
    use structural_elements, only: bar_elongation
    use tolerances, only: zero_movement, zero_of_sums
    implicit none
    private
 
-   public :: start_watched, find_watched, state_at_end
+   public :: start_watched, find_watched, state_at_end, record_watched
 
    !> The structure at the end of a stage.
    type, public :: watch_state
@@ -202,5 +203,16 @@ contains
       end do
       allocate (now%tension, source=[(bar_tension(model, analysis, i), i = 1, n_bars(model))])
    end function state_at_end
+
+   subroutine record_watched(stream, state)
+      type(restart_stream_type), intent(inout) :: stream
+      type(watch_state), intent(inout)         :: state !! made by start_watched for the same model
+
+      call stream%part('watch_state', 1)
+      call stream%item('u', state%u)
+      call stream%item('force', state%force)
+      call stream%item('movement', state%movement)
+      call stream%item('tension', state%tension)
+   end subroutine record_watched
 
 end module watched_nodes

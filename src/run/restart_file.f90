@@ -4,7 +4,8 @@
 !! The factors of the equations and the earlier solutions are too large for the file. The resumed run computes them anew, and the
 !! run that wrote the file discards them too: both runs then agree to the last digit. The model is built from the deck.
 module restart_file
-   use analysis_state, only: analysis_type, iteration_record, load_state, slip_record
+   use analysis_record, only: record_analysis
+   use analysis_state, only: analysis_type
    use bolt_locking, only: lock_again
    use c_library, only: c_fsync, close_file, is_regular_file, read_all_bytes, remove_file
    use case_control, only: no_restart, restart_stages
@@ -22,7 +23,7 @@ module restart_file
    implicit none
    private
 
-   public :: open_restart_file, take_up, write_restart, record_analysis
+   public :: open_restart_file, take_up, write_restart
 
 contains
 
@@ -136,73 +137,5 @@ contains
       end if
       call system%forget_past()
    end subroutine write_restart
-
-   !> Write A, or read it into one that start_analysis has just made for the same model. Two components are left out: condensed,
-   !! which does not change in an increment and which the first increment prints, and goes_on, which is true only while the run
-   !! resumes.
-   subroutine record_analysis(stream, a)
-      type(restart_stream_type), intent(inout) :: stream
-      type(analysis_type), intent(inout)       :: a
-      integer :: n_loaded, n_slips, rows, columns
-
-      call stream%item(a%stage, a%increment, a%increment_fraction, a%fraction, a%carry, a%eq10)
-      call stream%item(a%average, a%is_loose, a%loose_force, a%load_tolerance, a%tolerance)
-      call record_loads(stream, a%before)
-      call record_loads(stream, a%after)
-      call record_loads(stream, a%now)
-      n_loaded = 0
-      if (stream%writes) n_loaded = size(a%loaded)
-      call stream%extent(n_loaded, 4)
-      if (.not. stream%writes) allocate (a%loaded(n_loaded))
-      call stream%item(a%loaded, a%is_moved, a%moves, a%all_u, a%all_unbalanced, a%retained_index)
-      ! of retained nodes, bars and sections
-      call stream%item(a%held, a%change, a%move, a%body, a%u, a%du)
-      call stream%item(a%unbalanced, a%is_elastic, a%pull, a%is_locked)
-      ! of interface elements and joints
-      call stream%item(a%states, a%movement, a%k, a%turns, a%next_kind)
-      if (allocated(a%exact)) call stream%item(a%exact)
-      call stream%item(a%energy, a%largest_p, a%largest_lambda, a%largest_load)
-      rows = 0
-      columns = 0
-      if (allocated(a%kept)) rows = size(a%kept, 1)
-      if (allocated(a%kept)) columns = size(a%kept, 2)
-      call stream%extent(rows, 8)
-      call stream%extent(columns, 8)
-      if (.not. stream%writes .and. columns > 0) allocate (a%kept(rows, columns))
-      if (columns > 0) call stream%item(a%kept)
-      associate (record => a%record)
-         call stream%item(record%condition, record%kind, record%n_removed, record%n_parts)
-         call stream%item(record%ends_early, record%is_partial, record%is_settled)
-         call stream%extent(record%n_iterations, 32)
-         n_slips = size(record%slips)
-         call stream%extent(n_slips, 88)
-         if (record%n_iterations > size(record%iterations)) record%iterations = spread(iteration_record(), 1, record%n_iterations)
-         if (n_slips /= size(record%slips)) record%slips = spread(slip_record(), 1, n_slips)
-         call stream%item(record%iterations(:record%n_iterations), record%slips)
-      end associate
-   end subroutine record_analysis
-
-   subroutine record_loads(stream, at)
-      type(restart_stream_type), intent(inout) :: stream
-      type(load_state), intent(inout)          :: at
-      integer :: n
-
-      call stream%item(at%load, at%moved, at%condensed_load)
-      associate (temperature => at%temperature)
-         n = -1
-         if (allocated(temperature%at)) n = size(temperature%at)
-         call stream%extent(n, 8)
-         if (.not. stream%writes .and. allocated(temperature%at)) deallocate (temperature%at)
-         if (.not. stream%writes .and. n >= 0) allocate (temperature%at(n))
-         if (n >= 0) call stream%item(temperature%at)
-         call stream%item(temperature%reference_share)
-         n = -1
-         if (allocated(temperature%plate)) n = size(temperature%plate, 2)
-         call stream%extent(n, 40)
-         if (.not. stream%writes .and. allocated(temperature%plate)) deallocate (temperature%plate)
-         if (.not. stream%writes .and. n >= 0) allocate (temperature%plate(5, n))
-         if (n >= 0) call stream%item(temperature%plate)
-      end associate
-   end subroutine record_loads
 
 end module restart_file

@@ -25,7 +25,6 @@ module condition_estimate
       integer  :: node = 0, direction = 0  !! of the largest component of the displacement that [k] resists least
       real(wp) :: weakest = 1.0_wp         !! smallest relative pivot examined so far, as in equation_system
       logical  :: is_new = .false.         !! the condition is poor and has not been reported
-      integer, private :: filler = 0       ! no undefined bytes: it is copied to restart files as it is
    end type condition_type
 
 contains

@@ -1,0 +1,79 @@
+!> A cell of a table: nothing, a number or words; and the cells of many rows in a restart file.
+module table_cell
+   use kinds, only: long, wp
+   use restart_stream, only: restart_stream_type
+   implicit none
+   private
+
+   public :: record_cells
+
+   integer, parameter, public :: missing = 0, empty = 1, whole = 2, real_number = 3, in_words = 4, &
+                         across = 5 !! what a cell has
+
+   type, public :: cell_type
+      integer  :: kind = missing
+      integer  :: number = 0
+      real(wp) :: value = 0.0_wp
+      real(wp) :: shown = 0.0_wp      !! the same without its rounding, in the listing
+      character(:), allocatable :: words
+   end type cell_type
+
+contains
+
+   !> The CELLS of all rows; the words of all cells are one text.
+   subroutine record_cells(stream, cells)
+      type(restart_stream_type), intent(inout)    :: stream
+      type(cell_type), allocatable, intent(inout) :: cells(:)
+      character(:), allocatable :: words
+      integer, allocatable :: lengths(:) ! -1: not allocated
+      integer :: i, n
+      integer(long) :: last
+
+      n = size(cells)
+      call stream%part('cell_type', 1)
+      call stream%extent('cells', n, 28)
+      if (.not. stream%writes) then
+         deallocate (cells)
+         allocate (cells(n))
+      end if
+      allocate (lengths(n), source=-1)
+      words = ''
+      if (stream%writes) call join_words(cells, lengths, words)
+      call stream%item('kind', cells%kind)
+      call stream%item('number', cells%number)
+      call stream%item('value', cells%value)
+      call stream%item('shown', cells%shown)
+      call stream%item('lengths', lengths)
+      call stream%text('words', words)
+      if (stream%writes) return
+      last = 0
+      if (allocated(words)) last = len(words, long)
+      if (sum(int(max(0, lengths), long)) /= last) call stream%fail('its cells have no words')
+      if (allocated(stream%fault)) return
+      last = 0
+      do i = 1, n
+         if (lengths(i) >= 0) cells(i)%words = words(last + 1:last + lengths(i))
+         last = last + max(0, lengths(i))
+      end do
+   end subroutine record_cells
+
+   !> The WORDS of CELLS as one text, and their LENGTHS, which are -1 where there are none.
+   pure subroutine join_words(cells, lengths, words)
+      type(cell_type), intent(in) :: cells(:)
+      integer, intent(inout)      :: lengths(:)
+      character(:), allocatable, intent(out) :: words
+      integer(long) :: last
+      integer :: i
+
+      do i = 1, size(cells)
+         if (allocated(cells(i)%words)) lengths(i) = len(cells(i)%words)
+      end do
+      allocate (character(sum(int(max(0, lengths), long))) :: words)
+      last = 0
+      do i = 1, size(cells)
+         if (lengths(i) > 0) words(last + 1:last + lengths(i)) = cells(i)%words
+         last = last + max(0, lengths(i))
+      end do
+   end subroutine join_words
+
+end module table_cell
