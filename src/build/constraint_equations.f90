@@ -7,7 +7,7 @@ module constraint_equations
    use model_data, only: a_rotation, model_type, node_kind, point_of
    use node_coupling, only: couple_node
    use numbers, only: identity
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use unknowns, only: component_place, node_axes
    implicit none
    private
@@ -136,7 +136,7 @@ contains
          end do
          is_named(this) = .true.
          call deck%field_error(list%item(this)%line, list%item(this)%field, message, &
-                               called=trim(merge('PID1', 'G   ', deck%card_on(list%item(this)%line) == 'SHELLTO')))
+                               called=one_of(deck%card_on(list%item(this)%line) == 'SHELLTO', 'PID1', 'G'))
       end subroutine name_once
 
    end subroutine check_dependences

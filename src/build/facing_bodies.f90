@@ -13,7 +13,7 @@ module facing_bodies
    use numbers, only: cross
    use spatial_search, only: spatial_search_type
    use surface_sides, only: side_corners
-   use text_tools, only: clean, integer_text, real_text
+   use text_tools, only: clean, integer_text, one_of, real_text
    implicit none
    private
 
@@ -310,7 +310,7 @@ contains
          words = words//body_words(i, bodies(i))
          k = count(part == part(i)) - 1
          if (k > 0) then
-            words = words//', on which '//integer_text(k)//trim(merge(' other body hangs,   ', ' other bodies hang,  ', k == 1))
+            words = words//', on which '//integer_text(k)//one_of(k == 1, ' other body hangs,', ' other bodies hang,')
             words = words//' is held by no support'
          else
             words = words//' is held by no support, joint, bolt or spring'//neighbour_words(model, body, i)

@@ -13,7 +13,7 @@ module joint_sides
    use node_pairing, only: aside_type, pair_nodes, fit_side
    use numbers, only: cross
    use surface_build, only: side_influence, surface_node_list, surface_nodes
-   use text_tools, only: append, integer_text, plural, real_text
+   use text_tools, only: append, integer_text, one_of, plural, real_text
    implicit none
    private
 
@@ -67,7 +67,7 @@ contains
          else if (card%fit == fit_no) then
             fault = fault//'; FIT = AUTO joins faces that do not match'
             if (in_tolerance) then
-               call deck%field_error(card%line, trim(merge('TOL  ', 'SIDE2', card%tolerance > 0.0_wp)), fault, called='TOL')
+               call deck%field_error(card%line, one_of(card%tolerance > 0.0_wp, 'TOL', 'SIDE2'), fault, called='TOL')
             else
                call deck%field_error(card%line, 'SIDE2', fault)
             end if

@@ -41,18 +41,20 @@ contains
             faces = [faces, face_node_type(point=n, lever=matmul(axes, card%offset))]
          end associate
       end do
-      do k = 1, merge(size(model%surfaces), 0, allocated(model%structural%place))
-         associate (surface => model%surfaces(k))
-            if (.not. any([(is_shell(model, surface%element(n)), n = 1, surface%n)])) cycle
-            do n = 1, surface%n
-               if (surface%other(n) == 0) cycle
-               call deck%errors%add(surface%line(n), 'surface '//integer_text(surface%id)// &
-                  ': a joint cannot lie on an edge between two shells; expected a free edge')
-               return
-            end do
-            call offset_sides(model, surface, faces)
-         end associate
-      end do
+      if (allocated(model%structural%place)) then
+         do k = 1, size(model%surfaces)
+            associate (surface => model%surfaces(k))
+               if (.not. any([(is_shell(model, surface%element(n)), n = 1, surface%n)])) cycle
+               do n = 1, surface%n
+                  if (surface%other(n) == 0) cycle
+                  call deck%errors%add(surface%line(n), 'surface '//integer_text(surface%id)// &
+                     ': a joint cannot lie on an edge between two shells; expected a free edge')
+                  return
+               end do
+               call offset_sides(model, surface, faces)
+            end associate
+         end do
+      end if
       if (size(faces) == 0) return
       ! the nodes of the faces follow those of the deck, with the elements of the shell nodes, which give their material
       n = model%n_nodes

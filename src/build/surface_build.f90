@@ -8,7 +8,7 @@ module surface_build
    use lists, only: id_table_type, sorted_order, list_owners
    use model_data, only: is_shell, model_type, surface_type
    use surface_sides, only: nodes_of, side_corners
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    implicit none
    private
 
@@ -68,7 +68,7 @@ contains
             call check_repeated(deck, model, this)
             if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! a number given twice is reported elsewhere
             words = 'surface '//integer_text(card%id)//' has no '// &
-                    trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
+                    one_of(model%dimension == 3, 'face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD')// &
                     ' or side of a block with this PID'
             if (any([(index(deck%text%files(i)%bytes(:min(200, len(deck%text%files(i)%bytes))), 'Created by Gmsh') > 0, &
                       i = 1, deck%text%n_files)])) words = words// &
@@ -185,7 +185,7 @@ contains
       character(:), allocatable    :: words
       integer :: k
 
-      words = trim(merge('edge between nodes', 'face of nodes     ', size(nodes) == 2))
+      words = one_of(size(nodes) == 2, 'edge between nodes', 'face of nodes')
       do k = 1, size(nodes)
          if (k == size(nodes)) words = words//' and'
          words = words//' '//integer_text(model%node_id(nodes(k)))

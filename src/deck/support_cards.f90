@@ -6,7 +6,7 @@ module support_cards
    use card_fields, only: card_fields_type
    use field_rules, only: at_least_1, not_negative
    use kinds, only: wp
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    implicit none
    private
 
@@ -47,7 +47,7 @@ contains
       integer :: k, set
       logical :: ok
 
-      a_set = trim(merge('a support set     ', 'a set of equations', card%name == 'SPCADD'))
+      a_set = one_of(card%name == 'SPCADD', 'a support set', 'a set of equations')
       total%line = card%line
       call card%field('SID', total%set)
       call card%field('S1', set)

@@ -9,7 +9,7 @@ module joint_suggestions
    use lists, only: list_owners
    use model_data, only: model_type
    use output_file, only: output_file_type
-   use text_tools, only: clean, integer_text, real_text
+   use text_tools, only: clean, integer_text, one_of, real_text
    implicit none
    private
 
@@ -184,9 +184,9 @@ contains
          case (2)
             line = 'CBAR'
          case (3)
-            line = trim(merge('CTRIA6', 'CTRIA3', size(nodes) > 3))
+            line = one_of(size(nodes) > 3, 'CTRIA6', 'CTRIA3')
          case default
-            line = trim(merge('CQUAD8', 'CQUAD4', size(nodes) > 4))
+            line = one_of(size(nodes) > 4, 'CQUAD8', 'CQUAD4')
          end select
          line = line//','//integer_text(next%element)//','//integer_text(mark)
          do k = 1, size(nodes)
@@ -219,7 +219,7 @@ contains
       call file%put('$')
       call file%put('$ the model has no support; the lowest flat sides have an area of '//number(sum(sides%area, mask=lowest)))
       if (is_new) call file%put('PMARK,'//integer_text(id))
-      call file%put('SPCM,1,'//trim(merge('12 ', '123', d == 2))//','//integer_text(id))
+      call file%put('SPCM,1,'//one_of(d == 2, '12', '123')//','//integer_text(id))
       if (is_new) call put_sides(model, pack(sides, lowest), id, next, file)
    end subroutine suggest_support
 

@@ -126,15 +126,17 @@ contains
 
       grounded = .false.
       grounded(passages%base) = .true.
-      do node = 1, merge(0, n_points(model), model%floats)
-         if (grounded(passages%part(node))) cycle
-         held = supported(model, node)
-         if (.not. any(held)) cycle
-         axes = node_axes(model, node)
-         do d = 1, model%dimension
-            if (held(d)) call ground(node, axes(:, d))
+      if (.not. model%floats) then
+         do node = 1, n_points(model)
+            if (grounded(passages%part(node))) cycle
+            held = supported(model, node)
+            if (.not. any(held)) cycle
+            axes = node_axes(model, node)
+            do d = 1, model%dimension
+               if (held(d)) call ground(node, axes(:, d))
+            end do
          end do
-      end do
+      end if
       do i = 1, n_bars(model)
          if (model%bars(i)%nodes(2) == 0 .and. node_kind(model, model%bars(i)%nodes(1)) == a_point) &
             call ground(model%bars(i)%nodes(1), model%bars(i)%direction(:, 1))

@@ -165,11 +165,13 @@ contains
       moves = .false.
       if (present(moved)) moves = any(abs(moved) > 0.0_wp)
       allocate (less, source=f)
-      do i = 1, merge(size(system%interface), 0, moves)
-         associate (element => system%interface(i))
-            call add_global_force(element, -matmul(system%k_int(:, :, i), relative_movement(element, moved)), less)
-         end associate
-      end do
+      if (moves) then
+         do i = 1, size(system%interface)
+            associate (element => system%interface(i))
+               call add_global_force(element, -matmul(system%k_int(:, :, i), relative_movement(element, moved)), less)
+            end associate
+         end do
+      end if
       allocate (x(system%n))
       call system%gather(less, x)
       system%options%digits = exact_digits
