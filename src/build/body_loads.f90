@@ -288,14 +288,14 @@ contains
       real(wp), intent(in)                 :: f(12)
       type(stage_load_type), intent(inout) :: loads
       real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes) [force]
-      real(wp) :: own(model%dimension, 4)
+      real(wp) :: nodal(model%dimension, 4)
 
       associate (place => model%structural%place(e), d => model%dimension)
          if (.not. allocated(loads%beam)) allocate (loads%beam(12, size(model%structural%beams)), source=0.0_wp)
          loads%beam(:, place) = loads%beam(:, place) + f
-         call onto_own(model, e, beam_nodal_forces(model%structural%beams(place), model%x(:, corners_of(model, e)), f), own)
+         call onto_own(model, e, beam_nodal_forces(model%structural%beams(place), model%x(:, corners_of(model, e)), f), nodal)
          associate (nodes => own_nodes(model, e))
-            force(:d, nodes) = force(:d, nodes) + own
+            force(:d, nodes) = force(:d, nodes) + nodal
          end associate
       end associate
    end subroutine add_to_beam

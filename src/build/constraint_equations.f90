@@ -125,18 +125,18 @@ contains
    contains
 
       !> One error per field of a card, though several components may be wrong.
-      subroutine name_once(this, message)
-         integer, intent(in)      :: this
+      subroutine name_once(equation, message)
+         integer, intent(in)      :: equation
          character(*), intent(in) :: message
          integer :: j
 
-         do j = this - 1, 1, -1
-            if (list%item(j)%line /= list%item(this)%line) exit
-            if (list%item(j)%field == list%item(this)%field .and. is_named(j)) return
+         do j = equation - 1, 1, -1
+            if (list%item(j)%line /= list%item(equation)%line) exit
+            if (list%item(j)%field == list%item(equation)%field .and. is_named(j)) return
          end do
-         is_named(this) = .true.
-         call deck%field_error(list%item(this)%line, list%item(this)%field, message, &
-                               called=one_of(deck%card_on(list%item(this)%line) == 'SHELLTO', 'PID1', 'G'))
+         is_named(equation) = .true.
+         call deck%field_error(list%item(equation)%line, list%item(equation)%field, message, &
+                               called=one_of(deck%card_on(list%item(equation)%line) == 'SHELLTO', 'PID1', 'G'))
       end subroutine name_once
 
    end subroutine check_dependences
@@ -253,13 +253,13 @@ contains
 
    contains
 
-      subroutine add_master(this)
-         integer, intent(in) :: this
+      subroutine add_master(master)
+         integer, intent(in) :: master
 
-         if (column(this) > 0) return
+         if (column(master) > 0) return
          n = n + 1
-         masters(n) = this
-         column(this) = n
+         masters(n) = master
+         column(master) = n
       end subroutine add_master
 
    end subroutine eliminate

@@ -120,12 +120,12 @@ contains
             share = whole_shares(model%dimension, n)
             part%n = n
             do k = 1, n
-               part%own(:, k) = share(:, k)*area(k)
+               part%same_side(:, k) = share(:, k)*area(k)
                at(k) = place%find(surface%nodes(k, s))
                opposite(k) = surface%nodes(k, s) ! a node at the edge of a split surface is its own partner
                if (at(k) > 0) opposite(k) = partner(at(k))
             end do
-            part%opposite = part%own
+            part%opposite = part%same_side
             part%area = matmul(share, area)
             part%normal = matmul(normal, transpose(share))
             call sums%add_face(at(:n), surface%nodes(:n, s), opposite(:merge(n, 0, any(partner > 0))), part)

@@ -35,7 +35,7 @@ module mortar_integrals
       real(wp) :: along(3) = 0.0_wp                                 !! normal of the face, of bulges
       real(wp) :: area(max_side_nodes) = 0.0_wp                     !! of N_k [length^2]
       real(wp) :: normal(3, max_side_nodes) = 0.0_wp                !! of N_k n, in global axes [length^2]
-      real(wp) :: own(max_side_nodes, max_side_nodes) = 0.0_wp      !! of N_k N_k' [length^2]
+      real(wp) :: same_side(max_side_nodes, max_side_nodes) = 0.0_wp !! of N_k N_k' [length^2]
       integer, allocatable  :: node(:)                              !! the nodes opposite, positions in the model
       real(wp), allocatable :: opposite(:, :)                       !! (max_side_nodes, nodes opposite) of N_k N_j [length^2]
    end type cover_integrals
@@ -45,7 +45,7 @@ module mortar_integrals
       integer  :: n = 0                                                   !! number of nodes
       real(wp) :: area(max_side_nodes) = 0.0_wp                           !! [length^2]
       real(wp) :: normal(3, max_side_nodes) = 0.0_wp                      !! area times normal [length^2]
-      real(wp) :: own(max_side_nodes, max_side_nodes) = 0.0_wp            !! (element, node k) area times weight [length^2]
+      real(wp) :: same_side(max_side_nodes, max_side_nodes) = 0.0_wp      !! (element, node k) area times weight [length^2]
       real(wp), allocatable :: opposite(:, :)                             !! (max_side_nodes, nodes opposite) likewise
       real(wp) :: bulge(3, max_side_nodes) = 0.0_wp                       !! area times bulge, along the normal of the face [length^3]
    end type face_part
@@ -119,7 +119,7 @@ contains
             do j = 1, n
                integrals%area(j) = integrals%area(j) + weight*n_1(j)
                integrals%normal(:, j) = integrals%normal(:, j) + surface*n_1(j)
-               integrals%own(:n, j) = integrals%own(:n, j) + (weight*n_1(j))*n_1(:n)
+               integrals%same_side(:n, j) = integrals%same_side(:n, j) + (weight*n_1(j))*n_1(:n)
             end do
             do j = 1, size(nodes)
                integrals%opposite(:n, column(j)) = integrals%opposite(:n, column(j)) + (weight*n_2(j))*n_1(:n)
@@ -164,17 +164,18 @@ contains
       part%n = n
       if (is_whole) then
          share = whole_shares(dimension, n)
-         call solve_symmetric(integrals%own(:n, :n), integrals%opposite(:n, :), fitted)
+         call solve_symmetric(integrals%same_side(:n, :n), integrals%opposite(:n, :), fitted)
          do k = 1, n
-            part%own(:, k) = share(:, k)*integrals%area(k)
+            part%same_side(:, k) = share(:, k)*integrals%area(k)
          end do
-         part%opposite = matmul(part%own(:, :n), fitted)
+         part%opposite = matmul(part%same_side(:, :n), fitted)
          bulge(:, 1) = integrals%bulge(:n)
-         if (any(abs(bulge) > 0.0_wp)) call solve_symmetric(integrals%own(:n, :n), reshape(integrals%bulge(:n), [n, 1]), bulge)
-         part%bulge = matmul(reshape(integrals%along, [3, 1]), transpose(matmul(part%own(:, :n), bulge)))
+         if (any(abs(bulge) > 0.0_wp)) &
+            call solve_symmetric(integrals%same_side(:n, :n), reshape(integrals%bulge(:n), [n, 1]), bulge)
+         part%bulge = matmul(reshape(integrals%along, [3, 1]), transpose(matmul(part%same_side(:, :n), bulge)))
       else
          share = partial_shares(dimension, n)
-         part%own(:, :n) = matmul(share(:, :n), integrals%own(:n, :n))
+         part%same_side(:, :n) = matmul(share(:, :n), integrals%same_side(:n, :n))
          part%opposite = matmul(share(:, :n), integrals%opposite(:n, :))
          bulge(:, 1) = integrals%bulge(:n)
          part%bulge = matmul(reshape(integrals%along, [3, 1]), transpose(matmul(share(:, :n), bulge)))
@@ -264,22 +265,22 @@ contains
    end subroutine start
 
    !> Add the contribution of a face to the elements at its nodes.
-   pure subroutine add_face(self, elements, own, opposite, part)
+   pure subroutine add_face(self, elements, nodes, opposite, part)
       class(interface_sums_type), intent(inout) :: self
       integer, intent(in)         :: elements(:) !! at its nodes, 0: none
-      integer, intent(in)         :: own(:)      !! its nodes, positions in the model
+      integer, intent(in)         :: nodes(:)    !! its nodes, positions in the model
       integer, intent(in)         :: opposite(:) !! the nodes opposite; none: a rigid base
       type(face_part), intent(in) :: part
       integer :: i, k
 
       do i = 1, part%n
-         if (elements(i) == 0 .or. all(abs(part%own(i, :part%n)) <= 0.0_wp)) cycle
+         if (elements(i) == 0 .or. all(abs(part%same_side(i, :part%n)) <= 0.0_wp)) cycle
          self%area(elements(i)) = self%area(elements(i)) + part%area(i)
          self%normal(:, elements(i)) = self%normal(:, elements(i)) + part%normal(:, i)
          self%bulge(:, elements(i)) = self%bulge(:, elements(i)) + part%bulge(:, i)
          self%around(elements(i)) = self%around(elements(i)) + sum(abs(part%area(:part%n)))
-         associate (key => [own(:part%n), self%n_nodes + opposite], &
-                    weight => [part%own(i, :part%n), part%opposite(i, :size(opposite))])
+         associate (key => [nodes(:part%n), self%n_nodes + opposite], &
+                    weight => [part%same_side(i, :part%n), part%opposite(i, :size(opposite))])
             do k = 1, size(key)
                if (abs(weight(k)) <= 0.0_wp) cycle
                if (self%n == size(self%owner)) then

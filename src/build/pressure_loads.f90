@@ -84,9 +84,9 @@ contains
       integer :: k, place(size(id))
       logical :: outward
 
-      associate (own => side_corners(model, e, s))
-         if (size(own) /= size(id)) return
-         place = [(place_of(model, id(k), own), k = 1, size(id))]
+      associate (corners => side_corners(model, e, s))
+         if (size(corners) /= size(id)) return
+         place = [(place_of(model, id(k), corners), k = 1, size(id))]
       end associate
       if (any(place == 0)) return
       outward = all(place == cshift([(k, k = 1, size(id))], place(1) - 1))
@@ -271,26 +271,26 @@ contains
          end do
          do k = 1, kind%n_sides
             c = kind%side_corners(k)
-            associate (own => kind%side_nodes(:c, k))
-               if (all(own /= corner(1))) cycle
+            associate (side_nodes => kind%side_nodes(:c, k))
+               if (all(side_nodes /= corner(1))) cycle
                select case (kind%linear)
                case (kind_tetra4)            ! G4 is the corner opposite to the face
-                  fits = corner(2) > 0 .and. all(own /= corner(2))
+                  fits = corner(2) > 0 .and. all(side_nodes /= corner(2))
                case (kind_hexa8, kind_penta6, kind_pyram5)
-                  if (size(own) == 3 .and. kind%linear == kind_pyram5) then ! G1 and G3 are those of the base
-                     fits = any(own(:2) == corner(1)) .and. any(own(:2) == corner(2)) .and. corner(1) /= corner(2)
-                  else if (size(own) == 3) then
+                  if (size(side_nodes) == 3 .and. kind%linear == kind_pyram5) then ! G1 and G3 are those of the base
+                     fits = any(side_nodes(:2) == corner(1)) .and. any(side_nodes(:2) == corner(2)) .and. corner(1) /= corner(2)
+                  else if (size(side_nodes) == 3) then
                      fits = corner(2) == 0
                   else                       ! G3 is opposite to G1
-                     fits = own(modulo(findloc(own, corner(1), dim=1) + 1, 4) + 1) == corner(2)
+                     fits = side_nodes(modulo(findloc(side_nodes, corner(1), dim=1) + 1, 4) + 1) == corner(2)
                   end if
                case default
-                  fits = any(own == corner(2)) .and. corner(1) /= corner(2)
+                  fits = any(side_nodes == corner(2)) .and. corner(1) /= corner(2)
                end select
                if (.not. fits) cycle
                if (lacks_corner(deck, card, c)) return
                new%side = k
-               new%p(:c) = cshift(card%pressure(:c), 1 - findloc(own, corner(1), dim=1))
+               new%p(:c) = cshift(card%pressure(:c), 1 - findloc(side_nodes, corner(1), dim=1))
                call append(new, pressed)
                return
             end associate

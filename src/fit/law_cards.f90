@@ -164,10 +164,10 @@ contains
             if (by_run) then
                call comment_row(out, [character(14) :: 'run', 'p', letter//'0', 'd from', 'to', 'points'])
                do i = 1, size(branch%start)
-                  associate (at => branch%curve_at(i), own => branch%curve == i, d => data%value(column_d, branch%row))
+                  associate (at => branch%curve_at(i), of_run => branch%curve == i, d => data%value(column_d, branch%row))
                      cells = [character(14) :: integer_text(data%run(branch%row(at))), &
                               real_text(branch%group_p(branch%group(at))), real_text(branch%start(i)), &
-                              real_text(minval(d, own)), real_text(maxval(d, own)), integer_text(count(own))]
+                              real_text(minval(d, of_run)), real_text(maxval(d, of_run)), integer_text(count(of_run))]
                   end associate
                   call comment_row(out, cells)
                end do

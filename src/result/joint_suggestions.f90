@@ -34,7 +34,7 @@ contains
       type(facing_type), allocatable :: pairs(:)
       type(next_numbers)   :: next
       integer, allocatable :: sees(:), mark(:)
-      logical, allocatable :: own(:, :)
+      logical, allocatable :: on_side(:, :)
       integer  :: body(model%n_elements), first, i, k, marks(2), p
       logical  :: is_new(2)
       real(wp) :: reach
@@ -56,7 +56,7 @@ contains
          call file%put('$ '//body_words(i, bodies(i)))
       end do
       first = next%joint
-      allocate (own(size(sides), 2))
+      allocate (on_side(size(sides), 2))
       each_pair: do p = 1, size(pairs)
          associate (pair => pairs(p))
             call file%put('$')
@@ -69,13 +69,13 @@ contains
                              ' has sides opposite to the other; marks on its sides alone would have no opposite side')
                cycle
             end if
-            own(:, 1) = sides%body == pair%body(1) .and. sees == pair%body(2)
-            own(:, 2) = sides%body == pair%body(2) .and. sees == pair%body(1)
+            on_side(:, 1) = sides%body == pair%body(1) .and. sees == pair%body(2)
+            on_side(:, 2) = sides%body == pair%body(2) .and. sees == pair%body(1)
             do i = 1, size(deck%bulk%joint) ! a joint connects them there if its marks cover more than half of the area
                associate (joint => deck%bulk%joint(i))
                   do k = 1, 2
-                     is_new(k) = sum(sides%area, mask=own(:, k) .and. mark > 0 .and. (mark == joint%sides(1) .or. &
-                                 mark == joint%sides(2))) <= 0.5_wp*sum(sides%area, mask=own(:, k))
+                     is_new(k) = sum(sides%area, mask=on_side(:, k) .and. mark > 0 .and. (mark == joint%sides(1) .or. &
+                                 mark == joint%sides(2))) <= 0.5_wp*sum(sides%area, mask=on_side(:, k))
                   end do
                   if (any(is_new) .and. (joint%sides(2) /= 0 .or. all(is_new))) cycle
                   call file%put('$ JOINT '//integer_text(joint%id)//' of the deck connects them there')
@@ -83,7 +83,7 @@ contains
                end associate
             end do
             do k = 1, 2
-               call take_mark(deck, pack(mark, own(:, k)), next, marks(k), is_new(k))
+               call take_mark(deck, pack(mark, on_side(:, k)), next, marks(k), is_new(k))
                if (is_new(k)) call file%put('PMARK,'//integer_text(marks(k)))
             end do
             reach = max(2.0_wp*pair%gap(2), 0.01_wp*minval(sides%size, mask=sides%body == pair%body(1))) ! TOL
@@ -91,7 +91,7 @@ contains
                           integer_text(marks(2))//','//number(reach))
             next%joint = next%joint + 1
             do k = 1, 2
-               if (is_new(k)) call put_sides(model, pack(sides, own(:, k)), marks(k), next, file)
+               if (is_new(k)) call put_sides(model, pack(sides, on_side(:, k)), marks(k), next, file)
             end do
          end associate
       end do each_pair
@@ -125,23 +125,23 @@ contains
 
    contains
 
-      !> Whether SIDE has the corners OWN, or the opposite corners after a split, or the nodes of shells below them, in the same
+      !> Whether SIDE has these CORNERS, or the opposite corners after a split, or the nodes of shells below them, in the same
       !! sense.
-      pure logical function same_side(own, side)
-         integer, intent(in)          :: own(:)
+      pure logical function same_side(corners, side)
+         integer, intent(in)          :: corners(:)
          type(outer_side), intent(in) :: side
-         integer :: at, c, below(size(own))
+         integer :: at, c, below(size(corners))
 
-         below = own
+         below = corners
          if (allocated(model%face_of)) then
-            do c = 1, size(own)
-               if (model%face_of(own(c)) > 0) below(c) = model%faces(model%face_of(own(c)))%point
+            do c = 1, size(corners)
+               if (model%face_of(corners(c)) > 0) below(c) = model%faces(model%face_of(corners(c)))%point
             end do
          end if
          same_side = .false.
-         do at = 1, size(own)
+         do at = 1, size(corners)
             same_side = same_side .or. all([(any([side%corners(c), model%duplicate(side%corners(c))] == &
-                                                 below(1 + modulo(at + c - 2, size(own)))), c = 1, size(own))])
+                                                 below(1 + modulo(at + c - 2, size(corners)))), c = 1, size(corners))])
          end do
       end function same_side
 

@@ -43,7 +43,7 @@ contains
       type(cut_type), intent(in)      :: cuts(:) !! (joints) by planes of symmetry
       type(passage_type), intent(out) :: passages
       integer, allocatable :: nodes(:), pairs(:, :)
-      integer :: bodies(2), end, i, j, this(3)
+      integer :: bodies(2), end, i, j, candidate(3)
 
       call number_parts(model, .false., passages%part, passages%base)
       passages%base = passages%base + 1
@@ -56,11 +56,11 @@ contains
             if (size(nodes) > 0) bodies(end) = passages%part(nodes(1))
          end do
          if (bodies(1) > bodies(2)) passages%sense(i) = -1
-         this = [minval(bodies), maxval(bodies), merge(model%interface(i)%joint, 0, bodies(1) == bodies(2))]
+         candidate = [minval(bodies), maxval(bodies), merge(model%interface(i)%joint, 0, bodies(1) == bodies(2))]
          do j = size(pairs, 2), 1, -1 ! most elements are of the last pair
-            if (all(pairs(:, j) == this)) exit
+            if (all(pairs(:, j) == candidate)) exit
          end do
-         if (j == 0) pairs = reshape([pairs, this], [3, size(pairs, 2) + 1])
+         if (j == 0) pairs = reshape([pairs, candidate], [3, size(pairs, 2) + 1])
          passages%of_element(i) = merge(j, size(pairs, 2), j > 0)
       end do
       passages%n = size(pairs, 2)

@@ -157,7 +157,7 @@ contains
       call stream%item(a%loaded, a%is_moved, a%moves, a%all_u, a%all_unbalanced, a%retained_index)
       ! of retained nodes, bars and sections
       call stream%item(a%held, a%change, a%move, a%body, a%u, a%du)
-      call stream%item(a%unbalanced, a%is_elastic, a%pull, a%is_locked)
+      call stream%item(a%unbalanced, a%is_elastic, a%rest_tension, a%is_locked)
       ! of interface elements and joints
       call stream%item(a%states, a%movement, a%k, a%turns, a%next_kind)
       if (allocated(a%exact)) call stream%item(a%exact)

@@ -111,8 +111,9 @@ contains
       end if
       if (.not. (with_bodies .and. allocated(model%coupling%of_node))) return
       do e = 1, model%n_elements
-         associate (felt => participating_nodes(model, e), unknown => coupled_nodes(model, e)) ! some of which it does not touch?
-            if (any([(all(felt /= unknown(i)), i = 1, size(unknown))])) call join(unknown)
+         ! an unknown of the element may belong to a node that does not participate
+         associate (participating => participating_nodes(model, e), unknown => coupled_nodes(model, e))
+            if (any([(all(participating /= unknown(i)), i = 1, size(unknown))])) call join(unknown)
          end associate
       end do
       joined = joined(:, :n)
