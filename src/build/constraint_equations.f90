@@ -2,6 +2,7 @@
 !! Dependent components are eliminated: their nodes move with the unknowns of the independent components. UM of RBE3 solves the
 !! equations for other components.
 module constraint_equations
+   use blas_lapack, only: dgesv
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: a_rotation, model_type, node_kind, point_of
@@ -274,13 +275,12 @@ contains
       integer, intent(in)                  :: at(:) !! (places)
       logical, intent(out)                 :: ok
       type(dependence_list), allocatable :: solved ! on the heap: the compiler warns of its bounds where it is a local variable
-      real(wp) :: a(size(places), 2*size(places))
+      real(wp) :: a(size(places), size(places)), inverse(size(places), size(places))
       integer  :: i, j, k, n
 
       n = size(places)
       a = 0.0_wp
       do j = 1, n
-         a(j, n + j) = 1.0_wp
          associate (item => list%item(first - 1 + j))
             i = among(item%node, item%d)
             if (i > 0) a(j, i) = 1.0_wp
@@ -290,13 +290,13 @@ contains
             end do
          end associate
       end do
-      call reduce(a, ok)
+      call invert(a, inverse, ok)
       if (.not. ok) return
       allocate (solved)
       do i = 1, n
          call add_dependence(solved, places(i), list%item(first)%line, at(i))
          do j = 1, n
-            associate (item => list%item(first - 1 + j), by => a(i, n + j))
+            associate (item => list%item(first - 1 + j), by => inverse(i, j))
                call add_other(component_place(item%node, item%d), -by)
                do k = 1, item%n
                   call add_other(item%on(k), by*item%on(k)%scale)
@@ -324,28 +324,22 @@ contains
 
    end subroutine solve_for
 
-   !> Transform A = [M 1] to [1 M^-1] by row operations with the largest pivot of each column. OK is false where M is singular to
-   !! rounding.
-   pure subroutine reduce(a, ok)
-      real(wp), intent(inout) :: a(:, :) !! (n, 2 n)
-      logical, intent(out)    :: ok
+   !> The INVERSE of M. OK is false where M is singular to rounding.
+   pure subroutine invert(m, inverse, ok)
+      real(wp), intent(in)  :: m(:, :) !! (n, n)
+      real(wp), intent(out) :: inverse(:, :)
+      logical, intent(out)  :: ok
       real(wp), parameter :: rounding = 1.0e-10_wp ! of the largest entry: a smaller pivot is zero
-      real(wp) :: least, row(size(a, 2))
-      integer  :: i, j, p
+      real(wp) :: factors(size(m, 1), size(m, 1))
+      integer  :: i, info, pivots(size(m, 1))
 
-      least = rounding*maxval(abs(a(:, :size(a, 1))))
-      ok = .true.
-      do j = 1, size(a, 1)
-         p = j - 1 + maxloc(abs(a(j:, j)), dim=1)
-         ok = abs(a(p, j)) > least
-         if (.not. ok) return
-         row = a(p, :)/a(p, j)
-         a(p, :) = a(j, :)
-         do i = 1, size(a, 1)
-            a(i, :) = a(i, :) - a(i, j)*row
-         end do
-         a(j, :) = row
+      factors = m
+      inverse = 0.0_wp
+      do i = 1, size(m, 1)
+         inverse(i, i) = 1.0_wp
       end do
-   end subroutine reduce
+      call dgesv(size(m, 1), size(m, 1), factors, size(m, 1), pivots, inverse, size(m, 1), info)
+      ok = info == 0 .and. all([(abs(factors(i, i)) > rounding*maxval(abs(m)), i = 1, size(m, 1))])
+   end subroutine invert
 
 end module constraint_equations

@@ -5,6 +5,8 @@
 !! elements at these nodes only, because the tributary areas of the corners are zero or negative (0 and 1/3 of the triangle with 6
 !! nodes; -1/12 and 1/3 of the quadrilateral with 8).
 module mortar_integrals
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use blas_lapack, only: dposv
    use curved_faces, only: height_over_chords
    use element_kinds, only: max_nodes, max_side_nodes
    use element_mapping, only: two_pi
@@ -184,28 +186,17 @@ contains
       part%normal = matmul(integrals%normal(:, :n), transpose(share(:, :n)))
    end subroutine fit_face
 
-   !> X of M X = B, M symmetric and positive definite: the factor of Cholesky.
+   !> X of M X = B, M symmetric and positive definite.
    pure subroutine solve_symmetric(m, b, x)
       real(wp), intent(in)  :: m(:, :), b(:, :)
       real(wp), intent(out) :: x(:, :)
-      real(wp) :: l(size(m, 1), size(m, 1))
-      integer  :: i, k, n
+      real(wp) :: factor(size(m, 1), size(m, 1))
+      integer  :: info
 
-      n = size(m, 1)
-      l = 0.0_wp
-      do k = 1, n
-         l(k, k) = sqrt(m(k, k) - sum(l(k, :k - 1)**2))
-         do i = k + 1, n
-            l(i, k) = (m(i, k) - dot_product(l(i, :k - 1), l(k, :k - 1)))/l(k, k)
-         end do
-      end do
+      factor = m
       x = b
-      do k = 1, n
-         x(k, :) = (x(k, :) - matmul(l(k, :k - 1), x(:k - 1, :)))/l(k, k)
-      end do
-      do k = n, 1, -1
-         x(k, :) = (x(k, :) - matmul(l(k + 1:, k), x(k + 1:, :)))/l(k, k)
-      end do
+      call dposv('L', size(x, 1), size(x, 2), factor, size(x, 1), x, size(x, 1), info)
+      if (info > 0) x = ieee_value(1.0_wp, ieee_quiet_nan) ! the shape functions of the face are linearly dependent
    end subroutine solve_symmetric
 
    !> Shares of a fully covered face: SHARE(i, k) is the share of the element at node i in area, movement and normal of node k.
