@@ -5,7 +5,7 @@ module blas_lapack
    implicit none
    private
 
-   public :: ddot, dgemm, dgemv, dlacn2, dpotrf, dsygv, dsymv, dsyrk, dtrmv, dtrsm
+   public :: ddot, dgemm, dgemv, dgesv, dlacn2, dposv, dpotrf, dpstrf, dsygv, dsymv, dsyrk, dtrmv, dtrsm
 
    interface
 
@@ -35,6 +35,14 @@ module blas_lapack
          real(wp), intent(inout) :: y(*)
       end subroutine dgemv
 
+      !> A X = B by the factors P L U of A, which replace it; X replaces B. INFO > 0: that pivot is zero, and B stays.
+      pure subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         integer, intent(in)     :: n, nrhs, lda, ldb
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         integer, intent(out)    :: ipiv(*), info
+      end subroutine dgesv
+
       !> Estimates the 1-norm of a matrix from a few products with it. Begin with KASE = 0. On return KASE = 1 asks for X = A X,
       !! KASE = 2 for X = A^T X, each before the next call; KASE = 0 ends the estimate EST = norm(V)/norm(W), V = A W.
       pure subroutine dlacn2(n, v, x, isgn, est, kase, isave)
@@ -44,6 +52,15 @@ module blas_lapack
          integer, intent(inout)  :: isgn(*), kase, isave(3)
       end subroutine dlacn2
 
+      !> A X = B by the factor A = L L^T, which replaces A; X replaces B. INFO > 0: A is not positive definite, and B stays.
+      pure subroutine dposv(uplo, n, nrhs, a, lda, b, ldb, info)
+         import :: wp
+         character, intent(in)   :: uplo
+         integer, intent(in)     :: n, nrhs, lda, ldb
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         integer, intent(out)    :: info
+      end subroutine dposv
+
       !> A = L L^T in place; INFO > 0: the leading minor of that order is not positive.
       pure subroutine dpotrf(uplo, n, a, lda, info)
          import :: wp
@@ -52,6 +69,18 @@ module blas_lapack
          real(wp), intent(inout) :: a(lda, *)
          integer, intent(out)    :: info
       end subroutine dpotrf
+
+      !> P^T A P = L L^T in place, A symmetric and positive semidefinite: the largest remaining pivot first, until none exceeds TOL.
+      !! PIV are the rows of A in this order, of which RANK have a pivot.
+      pure subroutine dpstrf(uplo, n, a, lda, piv, rank, tol, work, info)
+         import :: wp
+         character, intent(in)   :: uplo
+         integer, intent(in)     :: n, lda
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out)    :: piv(*), rank, info
+         real(wp), intent(in)    :: tol
+         real(wp), intent(inout) :: work(*) !! (2 N)
+      end subroutine dpstrf
 
       !> All eigenvalues W, ascending, and eigenvectors (returned in A) of A x = w B x (ITYPE = 1); B is positive definite, x^T
       !! B x = 1.

@@ -9,7 +9,8 @@ module text_tools
    implicit none
    private
 
-   public :: upper, integer_text, real_text, write_short, write_full, write_integer, fitted_text, plural, above, clean, append
+   public :: upper, integer_text, real_text, write_short, write_full, write_integer, fitted_text, plural, one_of, above, clean, &
+             append
 
    integer, parameter, public :: short_width = 13   !! characters of write_short
    integer, parameter, public :: full_width = 24    !! of write_full, at most
@@ -236,6 +237,16 @@ contains
       text = integer_text(count)//' '//noun
       if (count /= 1) text = text//'s'
    end function plural
+
+   !> YES where CONDITION is true, otherwise NO: as merge, of texts of different lengths.
+   pure function one_of(condition, yes, no) result(text)
+      logical, intent(in)       :: condition
+      character(*), intent(in)  :: yes, no
+      character(:), allocatable :: text
+
+      text = no
+      if (condition) text = yes
+   end function one_of
 
    !> Append WORDS to TEXTS, if there are any.
    pure subroutine append(texts, words)

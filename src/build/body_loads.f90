@@ -16,7 +16,7 @@ module body_loads
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity
    use structural_elements, only: onto_own
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use tolerances, only: past_the_end, zero_component
    implicit none
    private
@@ -42,8 +42,8 @@ contains
       character(*), intent(in)       :: field     !! N3; CID, or the first node of a line that gives the direction
 
       if (model%dimension == 3 .or. abs(vector(3)) <= zero_component*norm2(vector)) return
-      call deck%field_error(line, field, trim(merge('not zero                        ', 'the load points out of the plane', &
-                                                    field == 'N3'))//', but a plane model lies in x-y'//space_hint(model))
+      call deck%field_error(line, field, one_of(field == 'N3', 'not zero', 'the load points out of the plane')// &
+                            ', but a plane model lies in x-y'//space_hint(model))
    end subroutine check_plane
 
    !> The FIELDS of the GRAV, ACCEL1 and RFORCE cards. Errors: no mass; a direction or an axis that the model does not have.
@@ -58,20 +58,20 @@ contains
       do i = 1, size(fields)
          fields(i)%gravity_card = deck%bulk%gravity(i)
          associate (field => fields(i))
-            call rectangular_axes(deck, model%systems, field%line, field%system, trim(merge('the axis has', 'gravity has ', &
-                                  field%is_spin))//' one direction everywhere', axes)
+            call rectangular_axes(deck, model%systems, field%line, field%system, &
+                                  one_of(field%is_spin, 'the axis has', 'gravity has')//' one direction everywhere', axes)
             field%uniform = matmul(axes, field%acceleration)
             if (field%is_spin) then
                call set_spin(field)
             else
                if (allocated(field%nodes%first)) call check_listed(field)
-               call check_plane(deck, model, field%line, field%uniform, trim(merge('CID', 'N3 ', field%system > 0)))
+               call check_plane(deck, model, field%line, field%uniform, one_of(field%system > 0, 'CID', 'N3'))
                if (model%axisymmetric .and. abs(field%uniform(1)) > zero_component*norm2(field%uniform)) &
                   call deck%field_error(field%line, 'N1', 'not zero, but in an axisymmetric model gravity acts along y')
             end if
             if (all(model%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp) .and. &
                 all(model%bars%mass <= 0.0_wp)) call deck%errors%add(field%line, &
-               trim(merge('RFORCE', 'GRAV  ', field%is_spin))//': no body has a mass; give RHO on its MAT1')
+               one_of(field%is_spin, 'RFORCE', 'GRAV')//': no body has a mass; give RHO on its MAT1')
          end associate
       end do
 
@@ -287,14 +287,14 @@ contains
       real(wp), intent(in)                 :: f(12)
       type(stage_load_type), intent(inout) :: loads
       real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes) [force]
-      real(wp) :: own(model%dimension, 4)
+      real(wp) :: nodal(model%dimension, 4)
 
       associate (place => model%structural%place(e), d => model%dimension)
          if (.not. allocated(loads%beam)) allocate (loads%beam(12, size(model%structural%beams)), source=0.0_wp)
          loads%beam(:, place) = loads%beam(:, place) + f
-         call onto_own(model, e, beam_nodal_forces(model%structural%beams(place), model%x(:, corners_of(model, e)), f), own)
+         call onto_own(model, e, beam_nodal_forces(model%structural%beams(place), model%x(:, corners_of(model, e)), f), nodal)
          associate (nodes => own_nodes(model, e))
-            force(:d, nodes) = force(:d, nodes) + own
+            force(:d, nodes) = force(:d, nodes) + nodal
          end associate
       end associate
    end subroutine add_to_beam

@@ -106,9 +106,11 @@ contains
             call join(parent, first, uncut(model, e, k))
          end do
       end do
-      do k = 1, merge(n_sections(model), 0, with_bolts)
-         call join(parent, model%sections(k)%node, model%sections(k)%point)
-      end do
+      if (with_bolts) then
+         do k = 1, n_sections(model)
+            call join(parent, model%sections(k)%node, model%sections(k)%point)
+         end do
+      end if
    end subroutine join_elements
 
    !> Corner I of element E, or the section node that replaces it.

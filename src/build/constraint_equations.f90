@@ -2,12 +2,13 @@
 !! Dependent components are eliminated: their nodes move with the unknowns of the independent components. UM of RBE3 solves the
 !! equations for other components.
 module constraint_equations
+   use blas_lapack, only: dgesv
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: a_rotation, model_type, node_kind, point_of
    use node_coupling, only: couple_node
    use numbers, only: identity
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use tolerances, only: zero_pivot_of_equations
    use unknowns, only: component_place, node_axes
    implicit none
@@ -126,18 +127,18 @@ contains
    contains
 
       !> One error per field of a card, though several components may be wrong.
-      subroutine name_once(this, message)
-         integer, intent(in)      :: this
+      subroutine name_once(equation, message)
+         integer, intent(in)      :: equation
          character(*), intent(in) :: message
          integer :: j
 
-         do j = this - 1, 1, -1
-            if (list%item(j)%line /= list%item(this)%line) exit
-            if (list%item(j)%field == list%item(this)%field .and. is_named(j)) return
+         do j = equation - 1, 1, -1
+            if (list%item(j)%line /= list%item(equation)%line) exit
+            if (list%item(j)%field == list%item(equation)%field .and. is_named(j)) return
          end do
-         is_named(this) = .true.
-         call deck%field_error(list%item(this)%line, list%item(this)%field, message, &
-                               called=trim(merge('PID1', 'G   ', deck%card_on(list%item(this)%line) == 'SHELLTO')))
+         is_named(equation) = .true.
+         call deck%field_error(list%item(equation)%line, list%item(equation)%field, message, &
+                               called=one_of(deck%card_on(list%item(equation)%line) == 'SHELLTO', 'PID1', 'G'))
       end subroutine name_once
 
    end subroutine check_dependences
@@ -254,13 +255,13 @@ contains
 
    contains
 
-      subroutine add_master(this)
-         integer, intent(in) :: this
+      subroutine add_master(master)
+         integer, intent(in) :: master
 
-         if (column(this) > 0) return
+         if (column(master) > 0) return
          n = n + 1
-         masters(n) = this
-         column(this) = n
+         masters(n) = master
+         column(master) = n
       end subroutine add_master
 
    end subroutine eliminate
@@ -275,13 +276,12 @@ contains
       integer, intent(in)                  :: at(:) !! (places)
       logical, intent(out)                 :: ok
       type(dependence_list), allocatable :: solved ! on the heap: the compiler warns of its bounds where it is a local variable
-      real(wp) :: a(size(places), 2*size(places))
+      real(wp) :: a(size(places), size(places)), inverse(size(places), size(places))
       integer  :: i, j, k, n
 
       n = size(places)
       a = 0.0_wp
       do j = 1, n
-         a(j, n + j) = 1.0_wp
          associate (item => list%item(first - 1 + j))
             i = among(item%node, item%d)
             if (i > 0) a(j, i) = 1.0_wp
@@ -291,13 +291,13 @@ contains
             end do
          end associate
       end do
-      call reduce(a, ok)
+      call invert(a, inverse, ok)
       if (.not. ok) return
       allocate (solved)
       do i = 1, n
          call add_dependence(solved, places(i), list%item(first)%line, at(i))
          do j = 1, n
-            associate (item => list%item(first - 1 + j), by => a(i, n + j))
+            associate (item => list%item(first - 1 + j), by => inverse(i, j))
                call add_other(component_place(item%node, item%d), -by)
                do k = 1, item%n
                   call add_other(item%on(k), by*item%on(k)%scale)
@@ -325,27 +325,21 @@ contains
 
    end subroutine solve_for
 
-   !> Transform A = [M 1] to [1 M^-1] by row operations with the largest pivot of each column. OK is false where M is singular to
-   !! rounding.
-   pure subroutine reduce(a, ok)
-      real(wp), intent(inout) :: a(:, :) !! (n, 2 n)
-      logical, intent(out)    :: ok
-      real(wp) :: least, row(size(a, 2))
-      integer  :: i, j, p
+   !> The INVERSE of M. OK is false where M is singular to rounding.
+   pure subroutine invert(m, inverse, ok)
+      real(wp), intent(in)  :: m(:, :) !! (n, n)
+      real(wp), intent(out) :: inverse(:, :)
+      logical, intent(out)  :: ok
+      real(wp) :: factors(size(m, 1), size(m, 1))
+      integer  :: i, info, pivots(size(m, 1))
 
-      least = zero_pivot_of_equations*maxval(abs(a(:, :size(a, 1))))
-      ok = .true.
-      do j = 1, size(a, 1)
-         p = j - 1 + maxloc(abs(a(j:, j)), dim=1)
-         ok = abs(a(p, j)) > least
-         if (.not. ok) return
-         row = a(p, :)/a(p, j)
-         a(p, :) = a(j, :)
-         do i = 1, size(a, 1)
-            a(i, :) = a(i, :) - a(i, j)*row
-         end do
-         a(j, :) = row
+      factors = m
+      inverse = 0.0_wp
+      do i = 1, size(m, 1)
+         inverse(i, i) = 1.0_wp
       end do
-   end subroutine reduce
+      call dgesv(size(m, 1), size(m, 1), factors, size(m, 1), pivots, inverse, size(m, 1), info)
+      ok = info == 0 .and. all([(abs(factors(i, i)) > zero_pivot_of_equations*maxval(abs(m)), i = 1, size(m, 1))])
+   end subroutine invert
 
 end module constraint_equations

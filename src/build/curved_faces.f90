@@ -72,19 +72,19 @@ contains
 
          normal = 0.0_wp
          goes_on = .false.
-         associate (own => frames(s)%axes(:, 3))
+         associate (face_normal => frames(s)%axes(:, 3))
             along = model%x(:, to) - model%x(:, at)
-            along = along - dot_product(along, own)*own
+            along = along - dot_product(along, face_normal)*face_normal
             along = along/max(norm2(along), tiny(1.0_wp))
             do i = first(at), first(at + 1) - 1
                associate (other => frames(owners(i)))
-                  if (dot_product(other%axes(:, 3), own) < smooth) cycle
+                  if (dot_product(other%axes(:, 3), face_normal) < smooth) cycle
                   normal = normal + weight_at(model, surface, owners(i), at)*other%axes(:, 3)
                   if (dot_product(other%centre - model%x(:, at), along) < -level_tangent*norm2(other%centre - model%x(:, at))) &
                      goes_on = .true.
                end associate
             end do
-            theta = atan2(-dot_product(normal, along), dot_product(normal, own))
+            theta = atan2(-dot_product(normal, along), dot_product(normal, face_normal))
          end associate
       end subroutine tilt_at
 

@@ -100,7 +100,7 @@ contains
    pure subroutine list_pairs(model, pair)
       type(model_type), intent(in)      :: model
       integer, allocatable, intent(out) :: pair(:, :) !! (4, pairs)
-      integer :: i, k, n, side, this(4)
+      integer :: i, k, n, side, candidate(4)
 
       allocate (pair(4, 2*size(model%interface)), source=0)
       n = 0
@@ -108,13 +108,13 @@ contains
          do i = 1, size(model%interface)
             associate (first => parts_at(model, i, 1), parts => parts_at(model, i, side))
                do k = 1, size(parts)
-                  this = [first(1), parts(k), model%interface(i)%joint, side]
+                  candidate = [first(1), parts(k), model%interface(i)%joint, side]
                   if (n > 0) then
-                     if (all(this == pair(:, n))) cycle
+                     if (all(candidate == pair(:, n))) cycle
                   end if
                   if (n == size(pair, 2)) pair = reshape([pair, pair], [4, 2*n])
                   n = n + 1
-                  pair(:, n) = this
+                  pair(:, n) = candidate
                end do
             end associate
          end do

@@ -12,7 +12,7 @@ module element_build
    use shell_membrane, only: flat_coordinates
    use spring_build, only: is_bar
    use structural_build, only: is_beam_edge
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use tolerances, only: same_corner
    implicit none
    private
@@ -150,8 +150,8 @@ contains
             call deck%field_error(card%line, 'PID', integer_text(card%property)//' is a PMARK: a surface of a plane body is '// &
                                   'marked with CBAR or CROD edges')
          else if (card%property > 0) then
-            call deck%field_error(card%line, 'PID', 'there is no '//trim(merge('PSOLID         ', 'PSHELL or PAXIS', &
-                                  kind%dimension == 3))//' '//integer_text(card%property))
+            call deck%field_error(card%line, 'PID', 'there is no '//one_of(kind%dimension == 3, 'PSOLID', 'PSHELL or PAXIS')// &
+                                  ' '//integer_text(card%property))
          end if
       end associate
    end subroutine check_property
@@ -284,8 +284,7 @@ contains
       allocate (nodes, source=corners_of(model, e))
       associate (kind => element_table(model%element_kind(e)))
          allocate (corners, source=nodes(:kind%n_corners))
-         words = ' has no positive '//trim(merge('volume at some integration point', 'area at some integration point  ', &
-                                                 kind%dimension == 3))
+         words = ' has no positive '//one_of(kind%dimension == 3, 'volume', 'area')//' at some integration point'
          if (kind%dimension == 2 .and. kind%linear == model%element_kind(e)) words = ' has no positive area at some corner'
          twins = ''
          places = size(corners)
@@ -328,7 +327,7 @@ contains
             words = words//'; expected the corners counter-clockwise, then the nodes near the middle of its edges, the first '// &
                     'between corners 1 and 2'
          case default
-            words = words//'; expected the '//trim(merge('nodes  ', 'corners', size(nodes) > size(corners)))// &
+            words = words//'; expected the '//one_of(size(nodes) > size(corners), 'nodes', 'corners')// &
                     ' in the order of '//trim(kind%card)//' in the card manual'
          end select
       end associate

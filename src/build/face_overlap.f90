@@ -273,10 +273,12 @@ contains
                if (first%is_edge) then
                   low = max(minval(a(1, :)), minval(b(1, :)))
                   high = min(maxval(a(1, :)), maxval(b(1, :)))
-                  do p = 1, merge(5, 0, high - low > smallest)
-                     call add_point([0.5_wp*(low + high) + 0.5_wp*(high - low)*gauss_place(p), 0.0_wp], &
-                                    (high - low)*gauss_weight(p), points)
-                  end do
+                  if (high - low > smallest) then
+                     do p = 1, 5
+                        call add_point([0.5_wp*(low + high) + 0.5_wp*(high - low)*gauss_place(p), 0.0_wp], &
+                                       (high - low)*gauss_weight(p), points)
+                     end do
+                  end if
                else
                   call add_polygon(a, b, rule, smallest, points)
                end if

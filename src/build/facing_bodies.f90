@@ -13,7 +13,7 @@ module facing_bodies
    use numbers, only: cross
    use spatial_search, only: spatial_search_type
    use surface_sides, only: side_corners
-   use text_tools, only: clean, integer_text, real_text
+   use text_tools, only: clean, integer_text, one_of, real_text
    use tolerances, only: on_rim
    implicit none
    private
@@ -62,16 +62,16 @@ contains
       allocate (bodies(n))
       seen = 0
       do e = 1, model%n_elements
-         associate (own => bodies(body(e)), nodes => corners_of(model, e))
-            own%first = min(own%first, model%element_id(e))
-            own%last = max(own%last, model%element_id(e))
-            own%n_elements = own%n_elements + 1
+         associate (record => bodies(body(e)), nodes => corners_of(model, e))
+            record%first = min(record%first, model%element_id(e))
+            record%last = max(record%last, model%element_id(e))
+            record%n_elements = record%n_elements + 1
             do i = 1, size(nodes)
                if (seen(nodes(i)) == body(e)) cycle
                seen(nodes(i)) = body(e)
-               own%n_nodes = own%n_nodes + 1
-               own%low = min(own%low, model%x(:, nodes(i)))
-               own%high = max(own%high, model%x(:, nodes(i)))
+               record%n_nodes = record%n_nodes + 1
+               record%low = min(record%low, model%x(:, nodes(i)))
+               record%high = max(record%high, model%x(:, nodes(i)))
             end do
          end associate
       end do
@@ -113,11 +113,11 @@ contains
             sides(i)%element = e
             sides(i)%side = merge(1 - s, s, is_shell(model, e))
             sides(i)%body = body(e)
-            associate (own => side_corners(model, e, max(0, sides(i)%side)))
-               sides(i)%n = size(own)
-               sides(i)%corners(:size(own)) = own
-               if (sides(i)%side < 0) sides(i)%corners(:size(own)) = own(size(own):1:-1)
-               least(1, i) = merge(minval(own), 0, sides(i)%side > 0) ! the face of a shell is equal to no other side
+            associate (corners_here => side_corners(model, e, max(0, sides(i)%side)))
+               sides(i)%n = size(corners_here)
+               sides(i)%corners(:size(corners_here)) = corners_here
+               if (sides(i)%side < 0) sides(i)%corners(:size(corners_here)) = corners_here(size(corners_here):1:-1)
+               least(1, i) = merge(minval(corners_here), 0, sides(i)%side > 0) ! the face of a shell is equal to no other side
             end associate
          end do
       end do
@@ -310,7 +310,7 @@ contains
          words = words//body_words(i, bodies(i))
          k = count(part == part(i)) - 1
          if (k > 0) then
-            words = words//', on which '//integer_text(k)//trim(merge(' other body hangs,   ', ' other bodies hang,  ', k == 1))
+            words = words//', on which '//integer_text(k)//one_of(k == 1, ' other body hangs,', ' other bodies hang,')
             words = words//' is held by no support'
          else
             words = words//' is held by no support, joint, bolt or spring'//neighbour_words(model, body, i)
@@ -328,7 +328,7 @@ contains
       type(outer_side), allocatable  :: sides(:)
       type(facing_type), allocatable :: pairs(:)
       type(spatial_search_type) :: search
-      integer, allocatable :: sees(:), own(:), others(:)
+      integer, allocatable :: sees(:), of_body(:), others(:)
       real(wp) :: distance, nearest
       integer  :: k, p, point
 
@@ -345,13 +345,13 @@ contains
          end associate
       end if
       if (words /= '' .or. all(sides%body == i)) return
-      own = pack([(k, k = 1, size(sides))], sides%body == i)
+      of_body = pack([(k, k = 1, size(sides))], sides%body == i)
       others = pack([(k, k = 1, size(sides))], sides%body /= i)
       call search%build(model%x(:, sides(others)%corners(1)))
       p = others(1)
       nearest = huge(1.0_wp)
-      do k = 1, size(own)
-         call search%nearest(model%x(:, sides(own(k))%corners(1)), huge(1.0_wp), point, distance)
+      do k = 1, size(of_body)
+         call search%nearest(model%x(:, sides(of_body(k))%corners(1)), huge(1.0_wp), point, distance)
          if (distance >= nearest) cycle
          nearest = distance
          p = others(point)

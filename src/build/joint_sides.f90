@@ -13,7 +13,7 @@ module joint_sides
    use node_pairing, only: aside_type, pair_nodes, fit_side
    use numbers, only: cross
    use surface_build, only: side_influence, surface_node_list, surface_nodes
-   use text_tools, only: append, integer_text, plural, real_text
+   use text_tools, only: append, integer_text, one_of, plural, real_text
    use tolerances, only: no_inertia, zero_cosine
    implicit none
    private
@@ -65,7 +65,7 @@ contains
          else if (card%fit == fit_no) then
             fault = fault//'; FIT = AUTO joins faces that do not match'
             if (in_tolerance) then
-               call deck%field_error(card%line, trim(merge('TOL  ', 'SIDE2', card%tolerance > 0.0_wp)), fault, called='TOL')
+               call deck%field_error(card%line, one_of(card%tolerance > 0.0_wp, 'TOL', 'SIDE2'), fault, called='TOL')
             else
                call deck%field_error(card%line, 'SIDE2', fault)
             end if
@@ -118,12 +118,12 @@ contains
             share = whole_shares(model%dimension, n)
             part%n = n
             do k = 1, n
-               part%own(:, k) = share(:, k)*area(k)
+               part%same_side(:, k) = share(:, k)*area(k)
                at(k) = place%find(surface%nodes(k, s))
                opposite(k) = surface%nodes(k, s) ! a node at the edge of a split surface is its own partner
                if (at(k) > 0) opposite(k) = partner(at(k))
             end do
-            part%opposite = part%own
+            part%opposite = part%same_side
             part%area = matmul(share, area)
             part%normal = matmul(normal, transpose(share))
             call sums%add_face(at(:n), surface%nodes(:n, s), opposite(:merge(n, 0, any(partner > 0))), part)

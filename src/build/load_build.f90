@@ -17,7 +17,7 @@ module load_build
    use support_build, only: check_kept, keep_moved, move
    use surface_build, only: find_surface, side_influence
    use surface_sides, only: nodes_of
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use tolerances, only: zero_component, zero_component_along
    use unknowns, only: node_axes, place_of_component, rotation_at, rotation_component
    implicit none
@@ -73,7 +73,7 @@ contains
                call check_movable(deck, model, card, node(i), node_axes(model, node(i)), force(:, i))
             end if
             call check_plane(deck, model, card%line, force(:, i), &
-                             trim(merge('G1 ', merge('CID', 'N3 ', card%system > 0), card%ends(1) > 0)))
+                             one_of(card%ends(1) > 0, 'G1', one_of(card%system > 0, 'CID', 'N3')))
          end associate
       end do
    end subroutine find_nodal_forces
@@ -360,10 +360,12 @@ contains
       integer  :: k, s
 
       total_area = 0.0_wp
-      do s = 1, merge(0, surface%n, card%is_pressure)
-         call side_influence(model, surface, s, area, normal)
-         total_area = total_area + sum(area)
-      end do
+      if (.not. card%is_pressure) then
+         do s = 1, surface%n
+            call side_influence(model, surface, s, area, normal)
+            total_area = total_area + sum(area)
+         end do
+      end if
       if (total_area <= 0.0_wp .and. .not. card%is_pressure) return
       do s = 1, surface%n
          call side_influence(model, surface, s, area, normal)

@@ -4,7 +4,7 @@ module mass_build
    use displacement_systems, only: find_directions, find_system
    use kinds, only: wp
    use model_data, only: model_type, n_bars
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use tolerances, only: indefinite_inertia
    use unknowns, only: component_place, node_axes, place_of_component, rotation_at
    implicit none
@@ -31,7 +31,7 @@ contains
             model%lumped = parameters%lumped
          else if (parameters%mass_line > 0 .and. (parameters%lumped .neqv. model%lumped)) then
             call deck%errors%add(parameters%mass_line, 'PARAM COUPMASS asks for '// &
-               trim(merge('lumped    ', 'consistent', parameters%lumped))//' mass, but MASS in case control does not; expected '// &
+               one_of(parameters%lumped, 'lumped', 'consistent')//' mass, but MASS in case control does not; expected '// &
                   'only one of them')
          end if
       end associate
@@ -42,7 +42,7 @@ contains
          associate (card => deck%bulk%mass(i), node => model%node_table%find(deck%bulk%mass(i)%node))
             if (node == 0) cycle
             if (.not. model%used(node)) &
-               call deck%field_error(card%line, trim(merge('G1', 'G ', card%component > 0)), 'node '// &
+               call deck%field_error(card%line, one_of(card%component > 0, 'G1', 'G'), 'node '// &
                                      integer_text(card%node)//' belongs to no element')
             n = n + 1
             model%masses(n)%node = node

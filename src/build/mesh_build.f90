@@ -16,7 +16,7 @@ module mesh_build
    use model_kind, only: find_kind, space_hint
    use node_build, only: append_nodes, build_nodes, fill_mid_sides, highest_number
    use numbers, only: cross
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use tolerances, only: equal_distance
    implicit none
    private
@@ -126,9 +126,11 @@ contains
             end if
             is_meant = spread(card%surface == 0, 1, model%n_nodes)
             marking = side_cards(deck, sides, card%surface)
-            do k = 1, merge(size(marking), 0, card%surface > 0)
-               is_meant(nodes_on(model, marking(k), merge(3, 8, marking(k)%kind <= 0))) = .true.
-            end do
+            if (card%surface > 0) then
+               do k = 1, size(marking)
+                  is_meant(nodes_on(model, marking(k), merge(3, 8, marking(k)%kind <= 0))) = .true.
+               end do
+            end if
             do k = 1, size(model%placed)
                if (model%placed(k)%surface == card%surface .and. model%placed(k)%node > 0) is_meant(model%placed(k)%node) = .true.
             end do
@@ -219,11 +221,11 @@ contains
          x = model%x(:, node)
          associate (grid => deck%bulk%grid(i))
             if (grid%cp <= 0) x = grid%x ! a number given twice has one node
-            if (abs(x(3)) > 0.0_wp) call deck%field_error(grid%line, trim(merge('CP', 'X3', grid%cp > 0)), &
-               trim(merge('puts the node out of the plane', 'not zero                      ', grid%cp > 0))// &
+            if (abs(x(3)) > 0.0_wp) call deck%field_error(grid%line, one_of(grid%cp > 0, 'CP', 'X3'), &
+               one_of(grid%cp > 0, 'puts the node out of the plane', 'not zero')// &
                ', but a plane model lies in x-y'//space_hint(model))
-            if (model%axisymmetric .and. x(1) < 0.0_wp) call deck%field_error(grid%line, trim(merge('CP', 'X1', grid%cp > 0)), &
-               trim(merge('puts the node at a negative x', 'negative                     ', grid%cp > 0))// &
+            if (model%axisymmetric .and. x(1) < 0.0_wp) call deck%field_error(grid%line, one_of(grid%cp > 0, 'CP', 'X1'), &
+               one_of(grid%cp > 0, 'puts the node at a negative x', 'negative')// &
                ', but an axisymmetric model lies in x >= 0')
          end associate
       end do

@@ -8,7 +8,7 @@ module mesh_watch
    use lists, only: join, list_owners, root_of
    use model_data, only: a_bar, bar_nodes, corners_of, is_face_node, model_type, n_bars, n_points, supported
    use spatial_search, only: spatial_search_type
-   use text_tools, only: integer_text, plural
+   use text_tools, only: integer_text, one_of, plural
    use tolerances, only: same_node
    implicit none
    private
@@ -50,7 +50,7 @@ contains
          end do
       end do
       words = ''
-      if (n > 0) words = plural(n, 'element')//trim(merge(' has ', ' have', n == 1))//' the nodes of another one:'//named// &
+      if (n > 0) words = plural(n, 'element')//one_of(n == 1, ' has', ' have')//' the nodes of another one:'//named// &
                          ': the stiffness there counts twice; delete one of each pair'
    end function repeated_words
 
@@ -133,7 +133,7 @@ contains
          call name_pair(n, integer_text(model%node_id(nodes(i)))//' at '//integer_text(model%node_id(found(k))), named)
       end do
       words = ''
-      if (n > 0) words = plural(n, 'node')//trim(merge(' lies', ' lie ', n == 1))//' at the place of another one, and no '// &
+      if (n > 0) words = plural(n, 'node')//one_of(n == 1, ' lies', ' lie')//' at the place of another one, and no '// &
          'joint, rigid element, MPC, bar or spring connects them:'//named// &
          ': the bodies come apart there; merge these nodes or give a JOINT'
    end function crack_words

@@ -14,7 +14,7 @@ module model_kind
    use kinds, only: wp
    use model_data, only: model_type
    use structural_build, only: is_beam_edge
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use tolerances, only: zero_component
    implicit none
    private
@@ -46,8 +46,8 @@ contains
             if (has_solids) call deck%errors%add(control%model_line, 'MODEL: the deck has solids; expected SPACE')
             if (.not. has_solids) model%dimension = 2
             if (has_rings .eqv. control%model == model_plane) call deck%errors%add(control%model_line, &
-               trim(merge('MODEL = PLANE, but the deck has a PAXIS        ', &
-                          'MODEL = AXISYMMETRIC, but the deck has no PAXIS', control%model == model_plane)))
+               one_of(control%model == model_plane, 'MODEL = PLANE, but the deck has a PAXIS', &
+                      'MODEL = AXISYMMETRIC, but the deck has no PAXIS'))
          case default
             if (has_solids .or. has_rings .or. any(bulk%block%dimension == 2)) return
             if (any(abs(model%x(3, :)) > 0.0_wp)) return
@@ -101,7 +101,7 @@ contains
          if (k > 0) words = 'node '//integer_text(model%node_id(k))//' lies out of x-y'
          do i = 1, size(bulk%edge)
             if (words /= '') return
-            if (is_beam_edge(deck, bulk%edge(i))) words = trim(merge('CBEAM', 'CBAR ', bulk%edge(i)%kind == edge_cbeam))//' '// &
+            if (is_beam_edge(deck, bulk%edge(i))) words = one_of(bulk%edge(i)%kind == edge_cbeam, 'CBEAM', 'CBAR')//' '// &
                                                           integer_text(bulk%edge(i)%id)//' is a beam'
          end do
          do i = 1, size(bulk%spring)

@@ -5,6 +5,8 @@
 !! elements at these nodes only, because the tributary areas of the corners are zero or negative (0 and 1/3 of the triangle with 6
 !! nodes; -1/12 and 1/3 of the quadrilateral with 8).
 module mortar_integrals
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use blas_lapack, only: dposv
    use curved_faces, only: height_over_chords
    use element_kinds, only: max_nodes, max_side_nodes
    use element_mapping, only: two_pi
@@ -36,7 +38,7 @@ module mortar_integrals
       real(wp) :: along(3) = 0.0_wp                                 !! normal of the face, of bulges
       real(wp) :: area(max_side_nodes) = 0.0_wp                     !! of N_k [length^2]
       real(wp) :: normal(3, max_side_nodes) = 0.0_wp                !! of N_k n, in global axes [length^2]
-      real(wp) :: own(max_side_nodes, max_side_nodes) = 0.0_wp      !! of N_k N_k' [length^2]
+      real(wp) :: same_side(max_side_nodes, max_side_nodes) = 0.0_wp !! of N_k N_k' [length^2]
       integer, allocatable  :: node(:)                              !! the nodes opposite, positions in the model
       real(wp), allocatable :: opposite(:, :)                       !! (max_side_nodes, nodes opposite) of N_k N_j [length^2]
    end type cover_integrals
@@ -46,7 +48,7 @@ module mortar_integrals
       integer  :: n = 0                                                   !! number of nodes
       real(wp) :: area(max_side_nodes) = 0.0_wp                           !! [length^2]
       real(wp) :: normal(3, max_side_nodes) = 0.0_wp                      !! area times normal [length^2]
-      real(wp) :: own(max_side_nodes, max_side_nodes) = 0.0_wp            !! (element, node k) area times weight [length^2]
+      real(wp) :: same_side(max_side_nodes, max_side_nodes) = 0.0_wp      !! (element, node k) area times weight [length^2]
       real(wp), allocatable :: opposite(:, :)                             !! (max_side_nodes, nodes opposite) likewise
       real(wp) :: bulge(3, max_side_nodes) = 0.0_wp                       !! area times bulge, along the normal of the face [length^3]
    end type face_part
@@ -117,7 +119,7 @@ contains
             do j = 1, n
                integrals%area(j) = integrals%area(j) + weight*n_1(j)
                integrals%normal(:, j) = integrals%normal(:, j) + surface*n_1(j)
-               integrals%own(:n, j) = integrals%own(:n, j) + (weight*n_1(j))*n_1(:n)
+               integrals%same_side(:n, j) = integrals%same_side(:n, j) + (weight*n_1(j))*n_1(:n)
             end do
             do j = 1, size(nodes)
                integrals%opposite(:n, column(j)) = integrals%opposite(:n, column(j)) + (weight*n_2(j))*n_1(:n)
@@ -162,17 +164,18 @@ contains
       part%n = n
       if (is_whole) then
          share = whole_shares(dimension, n)
-         call solve_symmetric(integrals%own(:n, :n), integrals%opposite(:n, :), fitted)
+         call solve_symmetric(integrals%same_side(:n, :n), integrals%opposite(:n, :), fitted)
          do k = 1, n
-            part%own(:, k) = share(:, k)*integrals%area(k)
+            part%same_side(:, k) = share(:, k)*integrals%area(k)
          end do
-         part%opposite = matmul(part%own(:, :n), fitted)
+         part%opposite = matmul(part%same_side(:, :n), fitted)
          bulge(:, 1) = integrals%bulge(:n)
-         if (any(abs(bulge) > 0.0_wp)) call solve_symmetric(integrals%own(:n, :n), reshape(integrals%bulge(:n), [n, 1]), bulge)
-         part%bulge = matmul(reshape(integrals%along, [3, 1]), transpose(matmul(part%own(:, :n), bulge)))
+         if (any(abs(bulge) > 0.0_wp)) &
+            call solve_symmetric(integrals%same_side(:n, :n), reshape(integrals%bulge(:n), [n, 1]), bulge)
+         part%bulge = matmul(reshape(integrals%along, [3, 1]), transpose(matmul(part%same_side(:, :n), bulge)))
       else
          share = partial_shares(dimension, n)
-         part%own(:, :n) = matmul(share(:, :n), integrals%own(:n, :n))
+         part%same_side(:, :n) = matmul(share(:, :n), integrals%same_side(:n, :n))
          part%opposite = matmul(share(:, :n), integrals%opposite(:n, :))
          bulge(:, 1) = integrals%bulge(:n)
          part%bulge = matmul(reshape(integrals%along, [3, 1]), transpose(matmul(share(:, :n), bulge)))
@@ -181,28 +184,17 @@ contains
       part%normal = matmul(integrals%normal(:, :n), transpose(share(:, :n)))
    end subroutine fit_face
 
-   !> X of M X = B, M symmetric and positive definite: the factor of Cholesky.
+   !> X of M X = B, M symmetric and positive definite.
    pure subroutine solve_symmetric(m, b, x)
       real(wp), intent(in)  :: m(:, :), b(:, :)
       real(wp), intent(out) :: x(:, :)
-      real(wp) :: l(size(m, 1), size(m, 1))
-      integer  :: i, k, n
+      real(wp) :: factor(size(m, 1), size(m, 1))
+      integer  :: info
 
-      n = size(m, 1)
-      l = 0.0_wp
-      do k = 1, n
-         l(k, k) = sqrt(m(k, k) - sum(l(k, :k - 1)**2))
-         do i = k + 1, n
-            l(i, k) = (m(i, k) - dot_product(l(i, :k - 1), l(k, :k - 1)))/l(k, k)
-         end do
-      end do
+      factor = m
       x = b
-      do k = 1, n
-         x(k, :) = (x(k, :) - matmul(l(k, :k - 1), x(:k - 1, :)))/l(k, k)
-      end do
-      do k = n, 1, -1
-         x(k, :) = (x(k, :) - matmul(l(k + 1:, k), x(k + 1:, :)))/l(k, k)
-      end do
+      call dposv('L', size(x, 1), size(x, 2), factor, size(x, 1), x, size(x, 1), info)
+      if (info > 0) x = ieee_value(1.0_wp, ieee_quiet_nan) ! the shape functions of the face are linearly dependent
    end subroutine solve_symmetric
 
    !> Shares of a fully covered face: SHARE(i, k) is the share of the element at node i in area, movement and normal of node k.
@@ -262,22 +254,22 @@ contains
    end subroutine start
 
    !> Add the contribution of a face to the elements at its nodes.
-   pure subroutine add_face(self, elements, own, opposite, part)
+   pure subroutine add_face(self, elements, nodes, opposite, part)
       class(interface_sums_type), intent(inout) :: self
       integer, intent(in)         :: elements(:) !! at its nodes, 0: none
-      integer, intent(in)         :: own(:)      !! its nodes, positions in the model
+      integer, intent(in)         :: nodes(:)    !! its nodes, positions in the model
       integer, intent(in)         :: opposite(:) !! the nodes opposite; none: a rigid base
       type(face_part), intent(in) :: part
       integer :: i, k
 
       do i = 1, part%n
-         if (elements(i) == 0 .or. all(abs(part%own(i, :part%n)) <= 0.0_wp)) cycle
+         if (elements(i) == 0 .or. all(abs(part%same_side(i, :part%n)) <= 0.0_wp)) cycle
          self%area(elements(i)) = self%area(elements(i)) + part%area(i)
          self%normal(:, elements(i)) = self%normal(:, elements(i)) + part%normal(:, i)
          self%bulge(:, elements(i)) = self%bulge(:, elements(i)) + part%bulge(:, i)
          self%around(elements(i)) = self%around(elements(i)) + sum(abs(part%area(:part%n)))
-         associate (key => [own(:part%n), self%n_nodes + opposite], &
-                    weight => [part%own(i, :part%n), part%opposite(i, :size(opposite))])
+         associate (key => [nodes(:part%n), self%n_nodes + opposite], &
+                    weight => [part%same_side(i, :part%n), part%opposite(i, :size(opposite))])
             do k = 1, size(key)
                if (abs(weight(k)) <= 0.0_wp) cycle
                if (self%n == size(self%owner)) then

@@ -126,11 +126,11 @@ contains
       n_new = 0
       do i = 1, edges%n
          if (node_at(model, edges, i) /= blank_node) cycle
-         associate (own => model%element_nodes(edges%place(i), edges%element(i)))
-            own = node_at(model, edges, edges%namer(edges%first(i)))
-            if (own /= blank_node) cycle
+         associate (mid_node => model%element_nodes(edges%place(i), edges%element(i)))
+            mid_node = node_at(model, edges, edges%namer(edges%first(i)))
+            if (mid_node /= blank_node) cycle
             n_new = n_new + 1
-            own = n + n_new
+            mid_node = n + n_new
          end associate
       end do
       model%n_filled = n_new
@@ -219,10 +219,10 @@ contains
       type(model_type), intent(in)   :: model
       type(edge_list), intent(in)    :: edges
       integer :: i, last, node, other
-      character(:), allocatable :: edge, own
+      character(:), allocatable :: edge, element
 
       last = 0
-      own = ''
+      element = ''
       edge = ''
       do i = 1, edges%n
          other = edges%namer(edges%first(i))
@@ -231,16 +231,17 @@ contains
          if (edges%place(i) == 0 .and. edges%place(other) == 0) cycle
          if (edges%place(i) > 0 .and. (node <= 0 .or. node == node_at(model, edges, other))) cycle
          last = edges%element(i)
-         own = 'element '//integer_text(model%element_id(last))
+         element = 'element '//integer_text(model%element_id(last))
          associate (a => model%node_id(edges%ends(1, i)), b => model%node_id(edges%ends(2, i)))
             edge = 'the edge between nodes '//integer_text(a)//' and '//integer_text(b)//' with element '// &
                    integer_text(model%element_id(edges%element(other)))
          end associate
          if (edges%place(i) == 0) then
-            call deck%errors%add(model%element_line(last), own//' is linear, and shares '//edge//', which is of second order; '// &
-               'expected both of one order, or bodies that do not share their nodes and a JOINT between them')
+            call deck%errors%add(model%element_line(last), element//' is linear, and shares '//edge// &
+               ', which is of second order; expected both of one order, or '// &
+               'bodies that do not share their nodes and a JOINT between them')
          else
-            call deck%errors%add(model%element_line(last), own//' has node '//integer_text(model%node_id(node))// &
+            call deck%errors%add(model%element_line(last), element//' has node '//integer_text(model%node_id(node))// &
                ' at the middle of '//edge//', which has node '//integer_text(model%node_id(node_at(model, edges, other)))//' there')
          end if
       end do

@@ -11,7 +11,7 @@ module pressure_loads
    use model_data, only: corners_of, is_shell, model_type
    use node_coupling, only: add_section_share
    use surface_sides, only: side_corners
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    implicit none
    private
 
@@ -84,9 +84,9 @@ contains
       integer :: k, place(size(id))
       logical :: outward
 
-      associate (own => side_corners(model, e, s))
-         if (size(own) /= size(id)) return
-         place = [(place_of(model, id(k), own), k = 1, size(id))]
+      associate (corners => side_corners(model, e, s))
+         if (size(corners) /= size(id)) return
+         place = [(place_of(model, id(k), corners), k = 1, size(id))]
       end associate
       if (any(place == 0)) return
       outward = all(place == cshift([(k, k = 1, size(id))], place(1) - 1))
@@ -150,7 +150,7 @@ contains
             else if (element_table(model%element_kind(e))%dimension /= merge(3, 2, card%kind == of_face)) then
                call deck%field_error(card%line, 'EID', 'element '//integer_text(card%first)//' is a '// &
                   trim(element_table(model%element_kind(e))%card)// &
-                  trim(merge(': PLOAD4 is for faces of solids', ': PLOADE is for plane edges    ', card%kind == of_face)))
+                  one_of(card%kind == of_face, ': PLOAD4 is for faces of solids', ': PLOADE is for plane edges'))
             else if (any(corners_of(model, e) == 0)) then
                cycle ! reported already
             else if (card%corners(1) == 0) then
@@ -192,13 +192,15 @@ contains
       is_normal = norm2(side%direction) <= 0.0_wp
       any_face = .false.
       associate (card => deck%bulk%pressure(new%card))
-         do e = 1, merge(model%n_elements, 0, allocated(model%structural%place))
-            if (model%element_id(e) < range(1) .or. model%element_id(e) > range(2) .or. .not. is_shell(model, e)) cycle
-            any_face = .true.
-            side%element = e
-            side%p = merge(-card%pressure, card%pressure, is_normal)
-            call append(side, pressed)
-         end do
+         if (allocated(model%structural%place)) then
+            do e = 1, model%n_elements
+               if (model%element_id(e) < range(1) .or. model%element_id(e) > range(2) .or. .not. is_shell(model, e)) cycle
+               any_face = .true.
+               side%element = e
+               side%p = merge(-card%pressure, card%pressure, is_normal)
+               call append(side, pressed)
+            end do
+         end if
          if (card%corners(1) > 0) then
             call deck%field_error(card%line, 'G1', 'element '//integer_text(card%first)//' marks a face; expected a blank, or '// &
                                   'in EID the solid that the face belongs to')
@@ -230,7 +232,7 @@ contains
          end do
          if (.not. any_face .and. range(1) <= range(2)) call deck%field_error(card%line, at, 'no element from '// &
             integer_text(range(1))//' to '//integer_text(range(2))//' marks a face of a solid or is a shell; '// &
-            trim(merge('PLOAD2', 'THRU  ', card%kind == of_marks))// &
+            one_of(card%kind == of_marks, 'PLOAD2', 'THRU')// &
             ' is for CTRIA3 and CQUAD4 with a PMARK or PSHELL', called='EID')
       end associate
    end subroutine press_on_marked
@@ -263,32 +265,32 @@ contains
             if (card%corners(k) == 0) cycle
             corner(k) = place_of(model, card%corners(k), model%element_nodes(:kind%n_corners, e))
             if (corner(k) > 0) cycle
-            call deck%field_error(card%line, trim(merge('G1 ', merge('G34', 'G2 ', card%kind == of_face), k == 1)), 'node '// &
+            call deck%field_error(card%line, one_of(k == 1, 'G1', one_of(card%kind == of_face, 'G34', 'G2')), 'node '// &
                integer_text(card%corners(k))//' is no corner of element '//integer_text(card%first))
             return
          end do
          do k = 1, kind%n_sides
             c = kind%side_corners(k)
-            associate (own => kind%side_nodes(:c, k))
-               if (all(own /= corner(1))) cycle
+            associate (side_nodes => kind%side_nodes(:c, k))
+               if (all(side_nodes /= corner(1))) cycle
                select case (kind%linear)
                case (kind_tetra4)            ! G4 is the corner opposite to the face
-                  fits = corner(2) > 0 .and. all(own /= corner(2))
+                  fits = corner(2) > 0 .and. all(side_nodes /= corner(2))
                case (kind_hexa8, kind_penta6, kind_pyram5)
-                  if (size(own) == 3 .and. kind%linear == kind_pyram5) then ! G1 and G3 are those of the base
-                     fits = any(own(:2) == corner(1)) .and. any(own(:2) == corner(2)) .and. corner(1) /= corner(2)
-                  else if (size(own) == 3) then
+                  if (size(side_nodes) == 3 .and. kind%linear == kind_pyram5) then ! G1 and G3 are those of the base
+                     fits = any(side_nodes(:2) == corner(1)) .and. any(side_nodes(:2) == corner(2)) .and. corner(1) /= corner(2)
+                  else if (size(side_nodes) == 3) then
                      fits = corner(2) == 0
                   else                       ! G3 is opposite to G1
-                     fits = own(modulo(findloc(own, corner(1), dim=1) + 1, 4) + 1) == corner(2)
+                     fits = side_nodes(modulo(findloc(side_nodes, corner(1), dim=1) + 1, 4) + 1) == corner(2)
                   end if
                case default
-                  fits = any(own == corner(2)) .and. corner(1) /= corner(2)
+                  fits = any(side_nodes == corner(2)) .and. corner(1) /= corner(2)
                end select
                if (.not. fits) cycle
                if (lacks_corner(deck, card, c)) return
                new%side = k
-               new%p(:c) = cshift(card%pressure(:c), 1 - findloc(own, corner(1), dim=1))
+               new%p(:c) = cshift(card%pressure(:c), 1 - findloc(side_nodes, corner(1), dim=1))
                call append(new, pressed)
                return
             end associate

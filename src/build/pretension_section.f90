@@ -93,19 +93,19 @@ contains
       type(model_type), intent(inout)   :: model
       integer, intent(in)               :: s
       type(section_type), intent(inout) :: section
-      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), own(3), total(3)
+      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), of_side(3), total(3)
       integer  :: i
 
       section%area = 0.0_wp
       total = 0.0_wp
       do i = 1, model%surfaces(s)%n
          call side_influence(model, model%surfaces(s), i, area, normal)
-         own = sum(normal, dim=2)
-         if (dot_product(own, total) < 0.0_wp) then
+         of_side = sum(normal, dim=2)
+         if (dot_product(of_side, total) < 0.0_wp) then
             call reverse_side(model%surfaces(s), i)
-            own = -own
+            of_side = -of_side
          end if
-         total = total + own
+         total = total + of_side
          section%area = section%area + sum(area)
       end do
       section%direction = -total/max(norm2(total), tiny(1.0_wp))

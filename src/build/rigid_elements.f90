@@ -104,7 +104,7 @@ contains
       type(model_type), intent(in)         :: model
       type(dependence_list), intent(inout) :: list
       type(component_place) :: own_place, place
-      real(wp) :: direction(6), own(3, 3), motion(6, 6)
+      real(wp) :: direction(6), axes(3, 3), motion(6, 6)
       integer  :: c, digit, first, k, node, point
       logical  :: turns_others
 
@@ -123,7 +123,7 @@ contains
                                   'expected other nodes that move with it', called='G')
             cycle
          end if
-         own = node_axes(model, node)
+         axes = node_axes(model, node)
          do digit = 1, 6
             direction = direction_of(model, point, digit)
             motion(:3, digit) = direction(:3) + matmul(by_rotation(model%x(:, node) - model%x(:, point)), direction(4:))
@@ -136,11 +136,11 @@ contains
             first = merge(0, 3, c <= 3) ! of a displacement, or of a rotation
             do digit = 1, 6
                place = place_of_component(model, point, digit)
-               if (place%node > 0) call add_term(list, place, dot_product(own(:, c - first), motion(first + 1:first + 3, digit))* &
+               if (place%node > 0) call add_term(list, place, dot_product(axes(:, c - first), motion(first + 1:first + 3, digit))* &
                                                  own_place%scale/place%scale)
             end do
             if (c <= 3) call add_expansion(list, [point, node], card%alpha* &
-               dot_product(own(:, c), model%x(:, node) - model%x(:, point)), card%reference)
+               dot_product(axes(:, c), model%x(:, node) - model%x(:, point)), card%reference)
          end do
       end do
    end subroutine add_rigid

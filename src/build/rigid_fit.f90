@@ -1,5 +1,6 @@
 !> The rigid-body motion that fits the displacements of some points best: the constraint of RBE3 and of shells tied to faces.
 module rigid_fit
+   use blas_lapack, only: dpstrf, dtrsm
    use kinds, only: wp
    use numbers, only: by_rotation
    use tolerances, only: determined_motion, zero_pivot_of_fit
@@ -45,36 +46,30 @@ contains
    end subroutine mean_motion
 
    !> Rows of the INVERSE of A, symmetric and positive semidefinite, for the components of x that A x = b determines; the other rows
-   !! are zero. Row j is the solution y of A y = e_j where it exists. Elimination takes the largest remaining pivot.
+   !! are zero. Row j is the solution y of A y = e_j where it exists. The factor takes the largest remaining pivot.
    pure subroutine invert_where_determined(a, inverse, determined)
       real(wp), intent(in)  :: a(6, 6)
       real(wp), intent(out) :: inverse(6, 6)
       logical, intent(out)  :: determined(6)
-      real(wp) :: m(6, 12), pivot_row(12), residual(6)
-      logical  :: done(6)
-      integer  :: i, j, p
+      real(wp) :: factor(6, 6), of_pivots(6, 6), residual(6), work(12)
+      integer  :: info, j, order(6), rank
 
-      m(:, :6) = a
-      m(:, 7:) = 0.0_wp
-      do i = 1, 6
-         m(i, 6 + i) = 1.0_wp
+      factor = a
+      call dpstrf('L', 6, factor, 6, order, rank, zero_pivot_of_fit*maxval(abs(a)), work, info)
+      of_pivots = 0.0_wp
+      do j = 1, rank
+         of_pivots(j, j) = 1.0_wp
       end do
-      done = .false.
+      call dtrsm('L', 'L', 'N', 'N', rank, rank, 1.0_wp, factor, 6, of_pivots, 6)
+      call dtrsm('L', 'L', 'T', 'N', rank, rank, 1.0_wp, factor, 6, of_pivots, 6)
+      inverse = 0.0_wp
+      inverse(order(:rank), order(:rank)) = of_pivots(:rank, :rank)
+      determined = .false.
+      determined(order(:rank)) = .true.
       do j = 1, 6
-         p = maxloc([(m(i, i), i = 1, 6)], dim=1, mask=.not. done)
-         if (m(p, p) <= zero_pivot_of_fit*maxval(abs(a))) exit
-         done(p) = .true.
-         pivot_row = m(p, :)/m(p, p)
-         do i = 1, 6
-            m(i, :) = m(i, :) - m(i, p)*pivot_row
-         end do
-         m(p, :) = pivot_row
-      end do
-      do j = 1, 6
-         inverse(j, :) = merge(m(:, 6 + j), 0.0_wp, done) ! y, with its undetermined components zero
          residual = matmul(a, inverse(j, :))
          residual(j) = residual(j) - 1.0_wp
-         determined(j) = done(j) .and. maxval(abs(residual)) <= determined_motion
+         determined(j) = determined(j) .and. maxval(abs(residual)) <= determined_motion
          if (.not. determined(j)) inverse(j, :) = 0.0_wp
       end do
    end subroutine invert_where_determined

@@ -41,18 +41,20 @@ contains
             faces = [faces, face_node_type(point=n, lever=matmul(axes, card%offset))]
          end associate
       end do
-      do k = 1, merge(size(model%surfaces), 0, allocated(model%structural%place))
-         associate (surface => model%surfaces(k))
-            if (.not. any([(is_shell(model, surface%element(n)), n = 1, surface%n)])) cycle
-            do n = 1, surface%n
-               if (surface%other(n) == 0) cycle
-               call deck%errors%add(surface%line(n), 'surface '//integer_text(surface%id)// &
-                  ': a joint cannot lie on an edge between two shells; expected a free edge')
-               return
-            end do
-            call offset_sides(model, surface, faces)
-         end associate
-      end do
+      if (allocated(model%structural%place)) then
+         do k = 1, size(model%surfaces)
+            associate (surface => model%surfaces(k))
+               if (.not. any([(is_shell(model, surface%element(n)), n = 1, surface%n)])) cycle
+               do n = 1, surface%n
+                  if (surface%other(n) == 0) cycle
+                  call deck%errors%add(surface%line(n), 'surface '//integer_text(surface%id)// &
+                     ': a joint cannot lie on an edge between two shells; expected a free edge')
+                  return
+               end do
+               call offset_sides(model, surface, faces)
+            end associate
+         end do
+      end if
       if (size(faces) == 0) return
       ! the nodes of the faces follow those of the deck, with the elements of the shell nodes, which give their material
       n = model%n_nodes
@@ -76,14 +78,14 @@ contains
       type(model_type), intent(in)      :: model
       type(surface_type), intent(inout) :: surface
       type(face_node_type), allocatable, intent(inout) :: faces(:)
-      type(face_node_type), allocatable :: own(:)
+      type(face_node_type), allocatable :: added(:)
       integer, allocatable :: n_of(:), of_node(:, :)
       integer  :: c, i, line, n, nodes(4), row, s
       real(wp) :: side, up(3, model%n_nodes)
       type(shell_frame) :: frame
 
       call cut_edges(surface)
-      allocate (own(4*surface%n), of_node(0:strips, model%n_nodes))
+      allocate (added(4*surface%n), of_node(0:strips, model%n_nodes))
       allocate (n_of(4*surface%n), source=0)
       of_node = 0
       up = 0.0_wp
@@ -117,9 +119,9 @@ contains
          surface%n_nodes(s) = surface%corners(s)
       end do
       do i = 1, n
-         own(i)%lever = own(i)%lever/n_of(i)
+         added(i)%lever = added(i)%lever/n_of(i)
       end do
-      faces = [faces, own(:n)]
+      faces = [faces, added(:n)]
 
    contains
 
@@ -132,10 +134,10 @@ contains
          if (of_node(line, node) == 0) then
             n = n + 1
             of_node(line, node) = n
-            own(n)%point = node
+            added(n)%point = node
          end if
          associate (face => of_node(line, node))
-            own(face)%lever = own(face)%lever + lever
+            added(face)%lever = added(face)%lever + lever
             n_of(face) = n_of(face) + 1
             at = model%n_nodes + size(faces) + face
          end associate

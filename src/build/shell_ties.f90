@@ -72,7 +72,7 @@ contains
       integer, intent(in)             :: line
       type(surface_type), intent(in)  :: side, base
       type(tie_type), allocatable, intent(inout) :: ties(:)
-      type(tie_type), allocatable :: own(:)
+      type(tie_type), allocatable :: added(:)
       type(face_frame)  :: frames(base%n)
       type(shell_frame) :: frame
       real(wp) :: along(3), arms(3, 3), farthest, miss, t
@@ -81,7 +81,7 @@ contains
       do s = 1, base%n
          call make_frame(3, model%x(:, base%nodes(:base%n_nodes(s), s)), frames(s))
       end do
-      allocate (own(2*side%n))
+      allocate (added(2*side%n))
       of_node = 0
       n = 0
       do s = 1, side%n
@@ -98,11 +98,11 @@ contains
                if (of_node(node) == 0) then
                   n = n + 1
                   of_node(node) = n
-                  own(n) = tie_type(line=line, node=node)
+                  added(n) = tie_type(line=line, node=node)
                end if
                farthest = 0.0_wp
                do p = 1, 3
-                  call attach_point(model, base, frames, arms(:, p), own(of_node(node)), miss)
+                  call attach_point(model, base, frames, arms(:, p), added(of_node(node)), miss)
                   farthest = max(farthest, miss)
                end do
                if (farthest <= t) cycle
@@ -113,16 +113,16 @@ contains
             end do
          end associate
       end do
-      ties = [ties, own(:n)]
+      ties = [ties, added(:n)]
    end subroutine tie
 
-   !> Add to OWN the point of BASE, whose sides have FRAMES, nearest to the position at ARM from its node; MISS is the distance.
-   pure subroutine attach_point(model, base, frames, arm, own, miss)
+   !> Add to TIE the point of BASE, whose sides have FRAMES, nearest to the position at ARM from its node; MISS is the distance.
+   pure subroutine attach_point(model, base, frames, arm, tie, miss)
       type(model_type), intent(in)   :: model
       type(surface_type), intent(in) :: base
       type(face_frame), intent(in)   :: frames(:)
       real(wp), intent(in)           :: arm(3)  !! [length]
-      type(tie_type), intent(inout)  :: own
+      type(tie_type), intent(inout)  :: tie
       real(wp), intent(out)          :: miss    !! [length]
       type(seen_face) :: face
       real(wp) :: beyond, place(3), point(3), share(max_nodes), size_of, there(3)
@@ -130,13 +130,13 @@ contains
       integer  :: s
 
       miss = huge(1.0_wp)
-      if (own%n == most_points) return
-      own%n = own%n + 1
-      own%arm(:, own%n) = arm
+      if (tie%n == most_points) return
+      tie%n = tie%n + 1
+      tie%arm(:, tie%n) = arm
       do s = 1, base%n
          associate (nodes => base%nodes(:base%n_nodes(s), s))
             size_of = norm2(model%x(:, nodes(1)) - frames(s)%centre)
-            place = matmul(model%x(:, own%node) + arm - frames(s)%centre, frames(s)%axes)
+            place = matmul(model%x(:, tie%node) + arm - frames(s)%centre, frames(s)%axes)
             if (norm2(place) - 2.0_wp*size_of >= miss) cycle
             face = in_frame(3, model%x(:, nodes), frames(s))
             call find_point(face, place(:2), point, is_found)
@@ -150,9 +150,9 @@ contains
             beyond = beyond*size_of + abs(place(3) - there(3))
             if (beyond >= miss) cycle
             miss = beyond
-            own%at(:, own%n) = 0
-            own%at(:size(nodes), own%n) = nodes
-            own%share(:size(nodes), own%n) = share(:size(nodes))
+            tie%at(:, tie%n) = 0
+            tie%at(:size(nodes), tie%n) = nodes
+            tie%share(:size(nodes), tie%n) = share(:size(nodes))
          end associate
       end do
    end subroutine attach_point
@@ -162,7 +162,7 @@ contains
       type(model_type), intent(in)         :: model
       type(tie_type), intent(in)           :: ties(:)
       type(dependence_list), intent(inout) :: list
-      real(wp) :: axes(3, 3), own(3, 3), row(3), t(6, 3, most_points)
+      real(wp) :: axes(3, 3), directions(3, 3), row(3), t(6, 3, most_points)
       logical  :: determined(6)
       type(component_place) :: place
       integer  :: c, digit, first, i, k, p
@@ -179,9 +179,9 @@ contains
                do p = 1, n
                   row = place%scale*matmul(axes(:, digit - first), t(first + 1:first + 3, :, p))
                   do k = 1, count(tie%at(:, p) > 0)
-                     own = node_axes(model, tie%at(k, p))
+                     directions = node_axes(model, tie%at(k, p))
                      do c = 1, 3
-                        call add_term(list, component_place(tie%at(k, p), c), tie%share(k, p)*dot_product(row, own(:, c)))
+                        call add_term(list, component_place(tie%at(k, p), c), tie%share(k, p)*dot_product(row, directions(:, c)))
                      end do
                   end do
                end do

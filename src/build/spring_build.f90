@@ -10,7 +10,7 @@ module spring_build
    use node_build, only: find_nodes
    use numbers, only: cross, identity
    use structural_build, only: is_beam_edge
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use tolerances, only: no_lever, zero_cosine
    use unknowns, only: node_axes, rotation_at
    implicit none
@@ -175,7 +175,7 @@ contains
                stiffness = laws(k)%stiffness
                damping = laws(k)%damping
             else if (cards(i)%property > 0) then
-               call deck%field_error(cards(i)%line, 'PID', 'there is no '//trim(merge('PBUSH', 'PELAS', cards(i)%is_bush))//' '// &
+               call deck%field_error(cards(i)%line, 'PID', 'there is no '//one_of(cards(i)%is_bush, 'PBUSH', 'PELAS')//' '// &
                                      integer_text(cards(i)%property))
             end if
             call build_spring(deck, cards(i), stiffness, damping, model, bars, n)

@@ -258,22 +258,22 @@ contains
       if (i > 0 .and. set > 0) sets = sums(i)%sets
    end function summed_sets
 
-   !> Errors of SUMS, cards called NAME: missing sets, and a number that is also one of a set. OWN are the sets of the cards CALLED
+   !> Errors of SUMS, cards called NAME: missing sets, and a number that is also one of a set. KNOWN are the sets of the cards CALLED
    !! so that may be combined.
-   subroutine check_sums(deck, name, sums, own, called)
+   subroutine check_sums(deck, name, sums, known, called)
       type(checked_deck), intent(in) :: deck
       character(*), intent(in)       :: name, called
       type(set_sum_card), intent(in) :: sums(:)
-      integer, intent(in)            :: own(:)
+      integer, intent(in)            :: known(:)
       integer :: i, k
 
       call deck%report_repeated(name, sums%set, sums%line)
       do i = 1, size(sums)
          associate (card => sums(i))
-            if (any(own == card%set) .and. card%set > 0) call deck%field_error(card%line, 'SID', 'set '//integer_text(card%set)// &
-               ' is that of an '//called//' too: case control is ambiguous')
+            if (any(known == card%set) .and. card%set > 0) call deck%field_error(card%line, 'SID', &
+               'set '//integer_text(card%set)//' is that of an '//called//' too: case control is ambiguous')
             do k = 1, size(card%sets)
-               if (card%sets(k) <= 0 .or. any(own == card%sets(k))) cycle
+               if (card%sets(k) <= 0 .or. any(known == card%sets(k))) cycle
                if (any(sums%set == card%sets(k))) then
                   call deck%field_error(card%line, card%at(k), integer_text(card%sets(k))//' is an '//name// &
                                         ' too; expected the sets of '//called//' that it sums up', called='S'//integer_text(k))

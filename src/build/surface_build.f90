@@ -8,7 +8,7 @@ module surface_build
    use lists, only: id_table_type, sorted_order, list_owners
    use model_data, only: is_shell, model_type, surface_type
    use surface_sides, only: nodes_of, side_corners
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    implicit none
    private
 
@@ -56,19 +56,19 @@ contains
       end do
       call list_owners(size(model%surfaces), reshape(surface, [1, size(sides)]), first, members)
       do k = 1, size(model%surfaces)
-         associate (this => model%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
-            this%id = card%id
-            allocate (this%nodes(most_nodes, n), source=0)
-            allocate (this%element(n), this%other(n), this%line(n), this%corners(n), this%n_nodes(n))
+         associate (marked => model%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
+            marked%id = card%id
+            allocate (marked%nodes(most_nodes, n), source=0)
+            allocate (marked%element(n), marked%other(n), marked%line(n), marked%corners(n), marked%n_nodes(n))
             do i = first(k), first(k + 1) - 1
                associate (side => sides(members(i)))
-                  if (all(side%nodes(:side%corners) > 0)) call add_side(deck, side, model, this) ! else reported already
+                  if (all(side%nodes(:side%corners) > 0)) call add_side(deck, side, model, marked) ! else reported already
                end associate
             end do
-            call check_repeated(deck, model, this)
+            call check_repeated(deck, model, marked)
             if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! a number given twice is reported elsewhere
             words = 'surface '//integer_text(card%id)//' has no '// &
-                    trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
+                    one_of(model%dimension == 3, 'face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD')// &
                     ' or side of a block with this PID'
             if (any([(index(deck%text%files(i)%bytes(:min(200, len(deck%text%files(i)%bytes))), 'Created by Gmsh') > 0, &
                       i = 1, deck%text%n_files)])) words = words// &
@@ -97,7 +97,7 @@ contains
       type(marked_side), intent(in)     :: side
       type(model_type), intent(in)      :: model
       type(surface_type), intent(inout) :: surface
-      integer, allocatable :: own(:)
+      integer, allocatable :: side_nodes(:)
       integer :: at, owner, other, found, e, j, own_side
       logical :: same_sense, owner_same
 
@@ -124,37 +124,37 @@ contains
             call deck%errors%add(side%line, 'the '//side_name(model, nodes)//' is no side of a body element')
             return
          end if
-         own = nodes ! of the face of a shell on the marked side
+         side_nodes = nodes ! of the face of a shell on the marked side
       end associate
       if (own_side > 0) then
          associate (kind => element_table(model%element_kind(owner)))
-            own = model%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner)
+            side_nodes = model%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner)
          end associate
-         if (any(own == 0)) return ! reported already
-         call check_mark(deck, side, model, owner, own)
+         if (any(side_nodes == 0)) return ! reported already
+         call check_mark(deck, side, model, owner, side_nodes)
       end if
       surface%n = surface%n + 1
       surface%line(surface%n) = side%line
       surface%corners(surface%n) = side%corners
-      surface%n_nodes(surface%n) = size(own)
-      surface%nodes(:size(own), surface%n) = own
+      surface%n_nodes(surface%n) = size(side_nodes)
+      surface%nodes(:size(side_nodes), surface%n) = side_nodes
       surface%element(surface%n) = owner
       surface%other(surface%n) = other
    end subroutine add_side
 
-   !> Error: mid-side nodes of SIDE other than OWN, those of the side of element E. Gmsh writes the mid-side node of an edge as X1
-   !! of a CBAR.
-   subroutine check_mark(deck, side, model, e, own)
+   !> Error: mid-side nodes of SIDE other than SIDE_NODES, those of the side of element E. Gmsh writes the mid-side node of an edge
+   !! as X1 of a CBAR.
+   subroutine check_mark(deck, side, model, e, side_nodes)
       type(checked_deck), intent(in) :: deck
       type(marked_side), intent(in)  :: side
-      integer, intent(in)            :: e, own(:)
+      integer, intent(in)            :: e, side_nodes(:)
       type(model_type), intent(in)   :: model
       character(:), allocatable :: element
       integer :: a, b, k, m, mid, place
 
       element = 'element '//integer_text(model%element_id(e))//', a '//trim(element_table(model%element_kind(e))%card)
       m = side%corners
-      if (size(own) == m .and. side%n_nodes > m) then
+      if (size(side_nodes) == m .and. side%n_nodes > m) then
          if (m == 2) then
             call deck%field_error(side%line, 'X1', 'a node, as the middle of the edge, but the edge is one of '// &
                                   element//', which is linear; expected a real number, or blank')
@@ -166,11 +166,11 @@ contains
       end if
       do k = 1, side%n_nodes - m
          if (side%nodes(m + k) == 0) cycle ! blank: the node of the element; or reported already
-         a = findloc(own(:m), side%nodes(k), dim=1)
-         b = findloc(own(:m), side%nodes(modulo(k, m) + 1), dim=1)
+         a = findloc(side_nodes(:m), side%nodes(k), dim=1)
+         b = findloc(side_nodes(:m), side%nodes(modulo(k, m) + 1), dim=1)
          place = merge(a, b, modulo(a, m) + 1 == b) ! the mark may have the opposite sense
          if (m == 2) place = 1
-         mid = own(m + place)
+         mid = side_nodes(m + place)
          if (mid == side%nodes(m + k)) cycle
          call deck%field_error(side%line, 2 + m + k, integer_text(model%node_id(side%nodes(m + k)))//', but '// &
                                element//', has node '//integer_text(model%node_id(mid))//' at the middle of this edge')
@@ -185,7 +185,7 @@ contains
       character(:), allocatable    :: words
       integer :: k
 
-      words = trim(merge('edge between nodes', 'face of nodes     ', size(nodes) == 2))
+      words = one_of(size(nodes) == 2, 'edge between nodes', 'face of nodes')
       do k = 1, size(nodes)
          if (k == size(nodes)) words = words//' and'
          words = words//' '//integer_text(model%node_id(nodes(k)))
@@ -203,12 +203,12 @@ contains
       integer :: at, k
 
       do side = merge(0, 1, is_shell(model, e)), element_table(model%element_kind(e))%n_sides
-         associate (own => side_corners(model, e, side), n => size(nodes))
-            if (size(own) /= n) cycle
-            if (any([(all(own /= nodes(k)) .or. all(nodes /= own(k)), k = 1, n)])) cycle
-            at = findloc(own, nodes(1), dim=1)
+         associate (corners => side_corners(model, e, side), n => size(nodes))
+            if (size(corners) /= n) cycle
+            if (any([(all(corners /= nodes(k)) .or. all(nodes /= corners(k)), k = 1, n)])) cycle
+            at = findloc(corners, nodes(1), dim=1)
             same_sense = at == 1
-            if (n > 2) same_sense = own(modulo(at, n) + 1) == nodes(2)
+            if (n > 2) same_sense = corners(modulo(at, n) + 1) == nodes(2)
             return
          end associate
       end do
@@ -233,11 +233,11 @@ contains
          do j = k - 1, 1, -1
             if (lowest(order(k)) /= lowest(order(j))) exit
             if (surface%corners(order(k)) /= surface%corners(order(j))) cycle
-            associate (this => surface%nodes(:surface%corners(order(k)), order(k)), &
-                       that => surface%nodes(:surface%corners(order(j)), order(j)))
-               if (any([(all(that /= this(m)), m = 1, size(this))])) cycle
+            associate (corners => surface%nodes(:surface%corners(order(k)), order(k)), &
+                       corners_before => surface%nodes(:surface%corners(order(j)), order(j)))
+               if (any([(all(corners_before /= corners(m)), m = 1, size(corners))])) cycle
                call deck%errors%add(max(surface%line(order(k)), surface%line(order(j))), 'surface '//integer_text(surface%id)// &
-                  ': the '//side_name(model, this)//' is marked twice')
+                  ': the '//side_name(model, corners)//' is marked twice')
             end associate
          end do
       end do

@@ -245,13 +245,15 @@ contains
       call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
       do s = 1, size(model%surfaces) ! the sides of surfaces that were not split follow their elements
          associate (surface => model%surfaces(s))
-            do j = 1, merge(0, surface%n, surface%was_split)
-               do k = 1, surface%n_nodes(j)
-                  node = model%duplicate(surface%nodes(k, j))
-                  if (node == 0) cycle
-                  if (any(model%element_nodes(:, surface%element(j)) == node)) surface%nodes(k, j) = node
+            if (.not. surface%was_split) then
+               do j = 1, surface%n
+                  do k = 1, surface%n_nodes(j)
+                     node = model%duplicate(surface%nodes(k, j))
+                     if (node == 0) cycle
+                     if (any(model%element_nodes(:, surface%element(j)) == node)) surface%nodes(k, j) = node
+                  end do
                end do
-            end do
+            end if
          end associate
       end do
    end subroutine split_shared_surfaces

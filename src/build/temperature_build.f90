@@ -9,7 +9,7 @@ module temperature_build
    use lists, only: first_not_below
    use model_data, only: a_bar, corners_of, is_shell, model_type, n_bars, n_points, stage_load_type, &
                          temperature_type
-   use text_tools, only: append, integer_text, real_text
+   use text_tools, only: append, integer_text, one_of, real_text
    use tolerances, only: least_misfit
    use unknowns, only: node_axes
    implicit none
@@ -115,7 +115,7 @@ contains
                words = 'RBE2 '//integer_text(card%id)//' holds nodes up to '//real_text(held_extent(model, card))// &
                        ' apart, where the warm body beside them would expand by '// &
                        real_text(merge(abs(strain), strain, expands)*held_extent(model, card))// &
-                       trim(merge(merge(' less', ' more', strain < 0.0_wp)//' than the RBE2', repeat(' ', 19), expands))// &
+                       one_of(expands, one_of(strain < 0.0_wp, ' less', ' more')//' than the RBE2', '')// &
                        ': a strain of '//real_text(strain)//', E times which is a stress of '//real_text(strain*property%e)//'; '
                if (expands) words = words//'its ALPHA '//real_text(card%alpha)//' and TREF '//real_text(card%reference)// &
                        ' are not those of the body, '//real_text(property%alpha)//' and '//real_text(property%reference)
@@ -123,7 +123,7 @@ contains
             end associate
          end associate
       end do
-      if (n > 1) words = words//'; '//integer_text(n - 1)//trim(merge(' other does so too  ', ' others do so too   ', n == 2))
+      if (n > 1) words = words//'; '//integer_text(n - 1)//one_of(n == 2, ' other does so too', ' others do so too')
    end function squeeze_words
 
    !> The largest distance of the nodes of CARD along a direction in which it holds them [length].
@@ -324,9 +324,11 @@ contains
       card_of = 0
       do i = 1, size(deck%bulk%plate_temperature)
          associate (card => deck%bulk%plate_temperature(i))
-            do k = 1, merge(size(card%ranges%first), 0, card%set == set)
-               card_of(plates_of(model, card%ranges%first(k), card%ranges%last(k))) = i
-            end do
+            if (card%set == set) then
+               do k = 1, size(card%ranges%first)
+                  card_of(plates_of(model, card%ranges%first(k), card%ranges%last(k))) = i
+               end do
+            end if
          end associate
       end do
       do node = 1, n_points(model)

@@ -7,7 +7,7 @@ module unit_watch
    use kinds, only: wp
    use model_data, only: model_type
    use normal_curve, only: loading_deflection
-   use text_tools, only: append, integer_text, upper
+   use text_tools, only: append, integer_text, one_of, upper
    use tolerances, only: exactly_one, whole_power_of_ten
    implicit none
    private
@@ -152,8 +152,8 @@ contains
          best = i
       end do
       if (best == 0) return
-      words = '; is '//trim(merge('E  ', 'RHO', of_e(best) > 1.0_wp))//' in '//trim(mistakes(best))//' in a deck of '// &
-              trim(merge('mm', 'm ', in_system(best) == 1))//' and N? There it would be'// &
+      words = '; is '//one_of(of_e(best) > 1.0_wp, 'E', 'RHO')//' in '//trim(mistakes(best))//' in a deck of '// &
+              one_of(in_system(best) == 1, 'mm', 'm')//' and N? There it would be'// &
               number(merge(e*of_e(best), rho*of_rho(best), of_e(best) > 1.0_wp))
    end function guess
 
@@ -208,7 +208,7 @@ contains
       do i = 1, size(units)
          approach = c*at(i)**m*length(i) ! [m]
          if (approach < 0.01_wp*micron .or. approach > 100.0_wp*micron) cycle
-         words = words//trim(merge('; from', ', from', words == ''))//' '//trim(units(i))//' C would be'// &
+         words = words//one_of(words == '', '; from', ', from')//' '//trim(units(i))//' C would be'// &
                  number(approach/metre/pressure**m)
       end do
    end function conversions

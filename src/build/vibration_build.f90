@@ -8,7 +8,7 @@ module vibration_build
    use model_data, only: model_type, stage_load_type
    use stage_plan, only: stage_plan_type, backbone_plan, merged, response_plan, vibration_plan_type
    use surface_sides, only: nodes_of
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use stage_entries, only: vibration_entries_type
    implicit none
    private
@@ -161,7 +161,7 @@ contains
             call find_limited_nodes(deck, model, 'OUTPUT', given%only, stage%shown)
             do i = 1, size(given%only)
                associate (only => given%only(i))
-                  stage%shown_words = stage%shown_words//trim(merge(', ONLY PMARK', ', ONLY SET  ', only%is_mark))//' '// &
+                  stage%shown_words = stage%shown_words//one_of(only%is_mark, ', ONLY PMARK', ', ONLY SET')//' '// &
                                       integer_text(only%id)
                end associate
             end do
@@ -188,7 +188,7 @@ contains
                at = findloc(deck%control%sets%id, only%id, dim=1, back=.true.)
                if (at > 0) call add_set(deck%control%sets(at))
             end if
-            if (at == 0) call deck%errors%add(only%line, key//': there is no '//trim(merge('PMARK', 'SET  ', only%is_mark))// &
+            if (at == 0) call deck%errors%add(only%line, key//': there is no '//one_of(only%is_mark, 'PMARK', 'SET')// &
                                               ' '//integer_text(only%id))
          end associate
       end do

@@ -7,7 +7,7 @@ module card_fields
    use field_rules, only: any_real, at_least_1, component_words, in_range, integer_fault, is_component_list, largest_size, &
                           list_of, parse_integer, parse_real, real_fault, real_range, real_words, smallest_size
    use kinds, only: wp
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    implicit none
    private
 
@@ -307,7 +307,7 @@ contains
       else
          words = 'an integer of '//integer_text(bounds(1))//' or more'
       end if
-      if (present(or_blank)) words = words//trim(merge(', or blank', repeat(' ', 10), or_blank))
+      if (present(or_blank)) words = words//one_of(or_blank, ', or blank', '')
       call self%error_at(k, trim(name)//': '//integer_fault(self%text_at(k), is_integer, words))
    end subroutine integer_at
 
@@ -336,7 +336,7 @@ contains
       if (ok) return
       words = real_words(within)
       if (present(expected)) words = expected
-      if (present(or_blank)) words = words//trim(merge(', or blank', repeat(' ', 10), or_blank))
+      if (present(or_blank)) words = words//one_of(or_blank, ', or blank', '')
       call self%error_at(k, trim(name)//': '//real_fault(self%text_at(k), value, is_real, within, words))
       value = 0.0_wp
    end subroutine real_at

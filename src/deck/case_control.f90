@@ -288,10 +288,10 @@ contains
       if (control%method == method_back .and. size(control%stages) > 1) call errors%add(control%stages(2)%line, &
          'SUBCASE: METHOD = BACK solves one stage of loading only; expected METHOD = STEP or NEWTON for a history')
       do i = 2, size(control%stages)
-         associate (this => control%stages(i), first => control%stages(1))
-            if (this%supports%id /= first%supports%id) call errors%add(max(this%supports%line, this%line), &
+         associate (stage => control%stages(i), first => control%stages(1))
+            if (stage%supports%id /= first%supports%id) call errors%add(max(stage%supports%line, stage%line), &
                'SPC: all stages must have the same supports; give SPC above the first SUBCASE')
-            if (this%equations%id /= first%equations%id) call errors%add(max(this%equations%line, this%line), &
+            if (stage%equations%id /= first%equations%id) call errors%add(max(stage%equations%line, stage%line), &
                'MPC: all stages must have the same equations; give MPC above the first SUBCASE')
          end associate
       end do

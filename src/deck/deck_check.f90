@@ -8,7 +8,7 @@ module deck_check
    use deck_input, only: card_kind, deck_type
    use deck_text, only: deck_text_type
    use lists, only: id_table_type, sorted_order
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    implicit none
    private
 
@@ -190,7 +190,7 @@ contains
          do k = 1, size(again)
             if (id(again(k)) == 0 .or. any(lines(max(1, k - 1):k - 1) == lines(k))) cycle ! unreadable, or reported
             has_more = any(lines(k + 1:min(k + 1, size(lines))) == lines(k))
-            words = noun//' '//integer_text(id(again(k)))//trim(merge(', and more of this card,', repeat(' ', 24), has_more))// &
+            words = noun//' '//integer_text(id(again(k)))//one_of(has_more, ', and more of this card,', '')// &
                     ' is given twice, first in '//self%text%place(line(table%find(id(again(k)))))
             if (again(k) > last_card) then
                call self%field_error(lines(k), merge('N1', 'E1', noun == 'node'), words)

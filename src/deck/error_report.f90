@@ -29,12 +29,12 @@ contains
       call sort_into_kinds(errors, order, kinds, kind_of)
       printed = 0
       do k = 1, errors%n
-         associate (item => errors%items(order(k)), this => kinds(kind_of(k)))
-            this%n = this%n + 1
-            if (this%n > this%most .or. printed == most_printed) cycle
+         associate (item => errors%items(order(k)), group => kinds(kind_of(k)))
+            group%n = group%n + 1
+            if (group%n > group%most .or. printed == most_printed) cycle
             printed = printed + 1
-            this%printed = this%printed + 1
-            this%last = printed
+            group%printed = group%printed + 1
+            group%last = printed
             write (unit, '(5a, 3x, a)') kind, ' ERROR ', integer_text(printed), ' OF ', integer_text(errors%n), &
                text%place(item%line)
             if (item%line > 0) then
@@ -45,11 +45,11 @@ contains
          end associate
       end do
       do i = 1, size(kinds)
-         associate (this => kinds(i))
-            if (this%printed < this%most .or. this%n == this%most) cycle
-            write (unit, '(4a, /)') 'and ', plural(this%n - this%most, 'more error'), ', not printed, of the kind of ERROR ', &
-               integer_text(this%last)
-            printed = printed + this%n - this%most
+         associate (group => kinds(i))
+            if (group%printed < group%most .or. group%n == group%most) cycle
+            write (unit, '(4a, /)') 'and ', plural(group%n - group%most, 'more error'), ', not printed, of the kind of ERROR ', &
+               integer_text(group%last)
+            printed = printed + group%n - group%most
          end associate
       end do
       if (errors%n > printed) write (unit, '(3a, /)') 'and ', plural(errors%n - printed, 'more error'), ', not printed'

@@ -6,7 +6,7 @@ module field_rules
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char, c_null_ptr, c_ptr
    use kinds, only: long, wp
-   use text_tools, only: integer_text, real_text
+   use text_tools, only: integer_text, one_of, real_text
    implicit none
    private
 
@@ -194,9 +194,9 @@ contains
 
       words = 'a real number'
       associate (has_least => range%least > -huge(1.0_wp), has_most => range%most < huge(1.0_wp))
-         if (has_least) words = words//trim(merge(' above      ', ' of at least', range%above))//' '//real_text(range%least)
+         if (has_least) words = words//one_of(range%above, ' above', ' of at least')//' '//real_text(range%least)
          if (has_least .and. has_most) words = words//' and'
-         if (has_most) words = words//trim(merge(' below  ', ' at most', range%below))//' '//real_text(range%most)
+         if (has_most) words = words//one_of(range%below, ' below', ' at most')//' '//real_text(range%most)
       end associate
    end function real_words
 

@@ -6,7 +6,7 @@ module load_cards
    use card_fields, only: card_fields_type, id_ranges
    use field_rules, only: at_least_1, positive
    use kinds, only: wp
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use tolerances, only: least_fraction
    implicit none
    private
@@ -109,7 +109,7 @@ contains
             call card%field(merge('M', 'F', force%is_moment), f)
             call card%field(['N1', 'N2', 'N3'], direction, default=0.0_wp)
             call card%finish(force%line)
-            call card%check_direction('N1', trim(merge('the moment', 'the force ', force%is_moment)), direction)
+            call card%check_direction('N1', one_of(force%is_moment, 'the moment', 'the force'), direction)
             force%force = f*direction
          end select
       end associate
@@ -147,7 +147,7 @@ contains
             if (card%text_at(7) /= 'THRU') then ! two corners of a face
                do k = 7, 8
                   if (card%text_at(k) == '') cycle
-                  call card%integer_at(k, trim(merge('G1 ', 'G34', k == 7)), pressure%corners(k - 6), ok, bounds=at_least_1, &
+                  call card%integer_at(k, one_of(k == 7, 'G1', 'G34'), pressure%corners(k - 6), ok, bounds=at_least_1, &
                                        expected='a node number or THRU')
                end do
             else if (card%n < 8) then ! the last element of the range that marks faces
@@ -240,7 +240,7 @@ contains
             call card%finish(gravity%line)
          end if
          call card%check_direction(merge('R1', 'N1', gravity%is_spin), &
-                                   trim(merge('the rotation    ', 'the acceleration', gravity%is_spin)), direction)
+                                   one_of(gravity%is_spin, 'the rotation', 'the acceleration'), direction)
       end associate
    end subroutine read_gravity
 

@@ -8,7 +8,7 @@ module nastran_compatibility
    use deck_errors, only: deck_error_list
    use field_rules, only: parse_integer, parse_real
    use kinds, only: wp
-   use text_tools, only: integer_text, upper
+   use text_tools, only: integer_text, one_of, upper
    implicit none
    private
 
@@ -251,7 +251,7 @@ contains
       character(:), allocatable           :: text
 
       text = ''
-      if (self%n > 0) text = integer_text(self%n)//trim(merge(' entry  ', ' entries', self%n == 1))//' without effect: '// &
+      if (self%n > 0) text = integer_text(self%n)//one_of(self%n == 1, ' entry', ' entries')//' without effect: '// &
                              self%names(3:)
    end function words
 

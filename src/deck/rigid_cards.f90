@@ -6,6 +6,7 @@ module rigid_cards
    use card_fields, only: card_fields_type
    use field_rules, only: at_least_1, component_words, has_component, parse_integer, positive
    use kinds, only: wp
+   use text_tools, only: one_of
    implicit none
    private
 
@@ -56,8 +57,8 @@ contains
             end if
             call read_list(card, 4, last, rigid%components, 1.0_wp, rigid)
          case default ! rigid_elements adds the nodes of the surface
-            call card%field(trim(merge('REFGRID', 'GN     ', rigid%is_mean)), rigid%node, default=0, least=0)
-            call card%components(trim(merge('REFC', 'CM  ', rigid%is_mean)), rigid%components)
+            call card%field(one_of(rigid%is_mean, 'REFGRID', 'GN'), rigid%node, default=0, least=0)
+            call card%components(one_of(rigid%is_mean, 'REFC', 'CM'), rigid%components)
             directions = rigid%components
             if (rigid%is_mean) call card%components('C', directions)
             call card%field('PID', rigid%surface)

@@ -6,7 +6,7 @@ module support_cards
    use card_fields, only: card_fields_type
    use field_rules, only: at_least_1, not_negative
    use kinds, only: wp
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    implicit none
    private
 
@@ -47,7 +47,7 @@ contains
       integer :: k, set
       logical :: ok
 
-      a_set = trim(merge('a support set     ', 'a set of equations', card%name == 'SPCADD'))
+      a_set = one_of(card%name == 'SPCADD', 'a support set', 'a set of equations')
       total%line = card%line
       call card%field('SID', total%set)
       call card%field('S1', set)
@@ -93,12 +93,12 @@ contains
       if (any(card%given(['G2', 'C2', 'D2'])) .and. .not. all(card%given(['G2', 'C2']))) &
          call card%error('G2', 'node, components C2 and displacement D2 go together')
       do k = 1, n
-         associate (this => moved(k), at => card%i + k - 1)
+         associate (held => moved(k), at => card%i + k - 1)
             if (card%name == 'SPC') then
-               bulk%support(at) = support_card(line=this%line, set=this%set, components=this%components, value=this%value, &
-                                               first=[this%node], last=[this%node], at=[this%field])
+               bulk%support(at) = support_card(line=held%line, set=held%set, components=held%components, value=held%value, &
+                                               first=[held%node], last=[held%node], at=[held%field])
             else
-               bulk%displacement(at) = this
+               bulk%displacement(at) = held
             end if
          end associate
       end do

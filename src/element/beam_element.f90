@@ -205,27 +205,27 @@ contains
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)    !! [length]
       logical, intent(in)        :: lumped
-      real(wp) :: m(12, 12), k(12, 12), t(12, 12), moved(6, 12), own(6, 6), length
+      real(wp) :: m(12, 12), k(12, 12), t(12, 12), moved(6, 12), section_mass(6, 6), length
       integer  :: i
 
       length = beam_length(law, x)
-      own = 0.0_wp                             ! of the section per unit length
+      section_mass = 0.0_wp                    ! of the section per unit length
       do i = 1, 3
-         own(i, i) = law%rho*law%area + law%extra_mass
+         section_mass(i, i) = law%rho*law%area + law%extra_mass
       end do
-      own(4, 4) = law%rho*(law%inertia(1) + law%inertia(2))
-      own(5, 5) = law%rho*law%inertia(2)
-      own(6, 6) = law%rho*law%inertia(1)
-      own(5, 6) = -law%rho*law%inertia(3)
-      own(6, 5) = own(5, 6)
+      section_mass(4, 4) = law%rho*(law%inertia(1) + law%inertia(2))
+      section_mass(5, 5) = law%rho*law%inertia(2)
+      section_mass(6, 6) = law%rho*law%inertia(1)
+      section_mass(5, 6) = -law%rho*law%inertia(3)
+      section_mass(6, 5) = section_mass(5, 6)
       m = 0.0_wp
       if (lumped) then
-         m(:3, :3) = 0.5_wp*length*own(:3, :3)
+         m(:3, :3) = 0.5_wp*length*section_mass(:3, :3)
          m(7:9, 7:9) = m(:3, :3)
       else
          do i = 1, size(gauss_at)
             moved = movement_at(law, length, gauss_at(i))
-            m = m + gauss_weight(i)*length*matmul(transpose(moved), matmul(own, moved))
+            m = m + gauss_weight(i)*length*matmul(transpose(moved), matmul(section_mass, moved))
          end do
       end if
       k = end_stiffness(law, length)
@@ -277,12 +277,12 @@ contains
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)    !! [length]
       real(wp), intent(in)       :: f(12)
-      real(wp) :: nodal(3, 4), k(12, 12), own(12)
+      real(wp) :: nodal(3, 4), k(12, 12), end_forces(12)
 
-      own = f
+      end_forces = f
       k = end_stiffness(law, beam_length(law, x))
-      call release(law, k, f=own)
-      nodal = reshape(matmul(own, from_nodes(law, x)), [3, 4])
+      call release(law, k, f=end_forces)
+      nodal = reshape(matmul(end_forces, from_nodes(law, x)), [3, 4])
    end function beam_nodal_forces
 
    !> The forces and moments at the ends of a beam under the nodal values U; F are the end forces equivalent to the loads along it.
@@ -291,12 +291,12 @@ contains
       real(wp), intent(in)       :: x(3, 2)    !! [length]
       real(wp), intent(in)       :: u(3, 4)    !! [length], [rad]
       real(wp), intent(in)       :: f(12)
-      real(wp) :: s(12), k(12, 12), own(12)
+      real(wp) :: s(12), k(12, 12), end_forces(12)
 
-      own = f
+      end_forces = f
       k = end_stiffness(law, beam_length(law, x))
-      call release(law, k, f=own)
-      s = matmul(k, matmul(from_nodes(law, x), reshape(u, [12]))) - own
+      call release(law, k, f=end_forces)
+      s = matmul(k, matmul(from_nodes(law, x), reshape(u, [12]))) - end_forces
    end function beam_end_forces
 
 end module beam_element

@@ -24,7 +24,7 @@ module element_kinds
    integer, parameter, public :: n_shapes = n_kinds + 2             !! all kinds with shape functions: body elements and edges
 
    integer, parameter, public :: max_nodes = 20, max_dofs = 60      !! of one element
-   integer, parameter, public :: max_felt_dofs = max_dofs + 3       !! with the node of a pretension section
+   integer, parameter, public :: max_section_dofs = max_dofs + 3    !! with the node of a pretension section
    integer, parameter, public :: max_sides = 6, max_side_nodes = 8, max_edges = 12
 
    !> The properties of one kind. Sides of plane elements are edges, in the direction that has the body on its left;

@@ -259,12 +259,12 @@ contains
 
       smallest = huge(1.0_wp)
       do side = 1, element_table(kind)%n_sides
-         associate (m => element_table(kind)%side_size(side), own => element_table(kind)%side_nodes(:, side))
+         associate (m => element_table(kind)%side_size(side), side_nodes_of => element_table(kind)%side_nodes(:, side))
             of_side = side_kind(element_table(kind)%dimension, m)
             call side_rule(of_side, rule)
             do i = 1, rule%n
                call shape_values(of_side, rule%point(:, i), n)
-               points(:, i) = matmul(node_point(:, own(:m), kind), n(:m))
+               points(:, i) = matmul(node_point(:, side_nodes_of(:m), kind), n(:m))
             end do
             smallest = min(smallest, least_at(kind, nodes, points(:, :rule%n)))
          end associate

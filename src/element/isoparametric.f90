@@ -319,7 +319,7 @@ contains
       real(wp), intent(out) :: f(max_unknowns)                          !! [force]
       type(element_map)      :: map
       type(integration_rule) :: rule
-      real(wp) :: g(3, max_shapes), n(max_nodes), stress(3), volume, warmth
+      real(wp) :: g(3, max_shapes), n(max_nodes), stress(3), volume, weighted_rise
       integer  :: d, i, k, p
 
       call map_element(law, x, map)
@@ -330,10 +330,10 @@ contains
       do k = 1, rule%n
          call map_point(law, map, rule%point(:, k), g, volume)
          call shape_values(law%kind, rule%point(:, k), n)
-         warmth = rule%weight(k)*volume*dot_product(n(:map%n), rise(:map%n))
+         weighted_rise = rule%weight(k)*volume*dot_product(n(:map%n), rise(:map%n))
          do i = 1, map%n + map%n_modes
-            f(d*(i - 1) + 1:d*i) = f(d*(i - 1) + 1:d*i) + g(:d, i)*(stress(:d)*warmth)
-            if (law%state == axisymmetric) f(2*i - 1) = f(2*i - 1) + g(3, i)*(stress(3)*warmth) ! the hoop
+            f(d*(i - 1) + 1:d*i) = f(d*(i - 1) + 1:d*i) + g(:d, i)*(stress(:d)*weighted_rise)
+            if (law%state == axisymmetric) f(2*i - 1) = f(2*i - 1) + g(3, i)*(stress(3)*weighted_rise) ! the hoop
          end do
       end do
       do p = d*(map%n + map%n_modes), d*map%n + 1, -1

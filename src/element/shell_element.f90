@@ -13,7 +13,7 @@ module shell_element
    use kinds, only: wp
    use quadrature, only: body_rule, integration_rule, mass_rule
    use shape_functions, only: shape_derivatives, shape_values
-   use shell_membrane, only: add_membrane, add_membrane_warmth, find_membrane, corner_kind, flat_coordinates, shell_frame, &
+   use shell_membrane, only: add_membrane, add_thermal_membrane_forces, find_membrane, corner_kind, flat_coordinates, shell_frame, &
                              shell_frame_of, shell_law, thickness_at
    implicit none
    private
@@ -29,13 +29,13 @@ contains
       real(wp), intent(inout)     :: k(:, :)  !! (6 corners, 6 corners), set here [force/length], [force], [force length]
       type(shell_frame)      :: frame
       type(integration_rule) :: rule
-      real(wp) :: curvature(3, 12), gamma(2, 12), own(24, 24), plate(12, 12), t, volume
+      real(wp) :: curvature(3, 12), gamma(2, 12), k_local(24, 24), plate(12, 12), t, volume
       integer  :: a, at(12), b, m, p
 
       frame = shell_frame_of(x, law%offset)
       m = 3*frame%n
-      own = 0.0_wp
-      call add_membrane(law, frame, own)
+      k_local = 0.0_wp
+      call add_membrane(law, frame, k_local)
       ! bending and transverse shear
       plate = 0.0_wp
       call body_rule(merge(kind_quad4, kind_tria6, frame%n == 4), .false., rule)
@@ -48,10 +48,10 @@ contains
       end do
       at(:m) = [([6*a - 3, 6*a - 2, 6*a - 1], a = 1, frame%n)]
       do b = 1, m
-         own(at(:m), at(b)) = own(at(:m), at(b)) + plate(:m, b)
+         k_local(at(:m), at(b)) = k_local(at(:m), at(b)) + plate(:m, b)
       end do
       associate (n => 2*m, t => from_nodes(frame))
-         k(:n, :n) = matmul(transpose(t), matmul(own(:n, :n), t))
+         k(:n, :n) = matmul(transpose(t), matmul(k_local(:n, :n), t))
       end associate
    end subroutine shell_stiffness
 
@@ -64,11 +64,11 @@ contains
 
       t = 0.0_wp
       do i = 1, frame%n
-         associate (u => 3*i - 2, r => 3*(frame%n + i) - 2, own => 6*i - 5)
-            t(own:own + 2, u:u + 2) = transpose(frame%axes)
-            t(own + 3:own + 5, r:r + 2) = transpose(frame%axes)
-            t(own, r:r + 2) = frame%lever(i)*frame%axes(:, 2)
-            t(own + 1, r:r + 2) = -frame%lever(i)*frame%axes(:, 1)
+         associate (u => 3*i - 2, r => 3*(frame%n + i) - 2, row => 6*i - 5)
+            t(row:row + 2, u:u + 2) = transpose(frame%axes)
+            t(row + 3:row + 5, r:r + 2) = transpose(frame%axes)
+            t(row, r:r + 2) = frame%lever(i)*frame%axes(:, 2)
+            t(row + 1, r:r + 2) = -frame%lever(i)*frame%axes(:, 1)
          end associate
       end do
    end function from_nodes
@@ -157,13 +157,13 @@ contains
       real(wp), intent(in)          :: u(:, :)          !! (3, 2 corners) [length], [rad]
       real(wp), intent(in)          :: rise(:), slope   !! (corners) [temperature], [temperature/length]
       real(wp), intent(out)         :: membrane(3, 5), curvature(3, 5), shear(2, 5) !! [-], [1/length], [-]
-      real(wp) :: b(3, 12), gamma(2, 12), own(6, 4), plate(12), volume, warm(5)
+      real(wp) :: b(3, 12), gamma(2, 12), u_local(6, 4), plate(12), volume, warm(5)
       integer  :: i, m
 
       m = frame%n
-      own(:, :m) = reshape(matmul(from_nodes(frame), reshape(u, [6*m])), [6, m])
-      plate(:3*m) = reshape(own(3:5, :m), [3*m])
-      call find_membrane(law, frame, rise, own, membrane)
+      u_local(:, :m) = reshape(matmul(from_nodes(frame), reshape(u, [6*m])), [6, m])
+      plate(:3*m) = reshape(u_local(3:5, :m), [3*m])
+      call find_membrane(law, frame, rise, u_local, membrane)
       warm(:m) = rise
       warm(m + 1) = sum(rise)/m
       do i = 1, m + 1
@@ -212,15 +212,15 @@ contains
       real(wp), intent(out)       :: force(:, :)     !! (8, corners + 1) [force/length], moments [force]
       real(wp), parameter :: rigid = 1.0e12_wp
       type(shell_frame) :: frame
-      type(shell_law)   :: own
+      type(shell_law)   :: stiff_law
       real(wp) :: membrane(3, 5), curvature(3, 5), shear(2, 5), t, turn(2, 2)
       integer  :: i, m
 
-      own = law
-      if (law%shear <= 0.0_wp) own%shear = rigid*law%bending(1, 1) ! the shear force is that of a plate nearly rigid in shear
+      stiff_law = law
+      if (law%shear <= 0.0_wp) stiff_law%shear = rigid*law%bending(1, 1) ! the shear force is that of a plate nearly rigid in shear
       frame = shell_frame_of(x, law%offset)
       m = frame%n
-      call find_strains(own, frame, u, rise, slope, membrane, curvature, shear)
+      call find_strains(stiff_law, frame, u, rise, slope, membrane, curvature, shear)
       turn(1, :) = matmul(along, frame%axes(:, :2))
       turn(2, :) = [-turn(1, 2), turn(1, 1)]
       do i = 1, m + 1
@@ -228,7 +228,7 @@ contains
          if (i <= m) t = law%thickness(i)
          force(:3, i) = turned(t*matmul(law%d, membrane(:, i)))
          force(4:6, i) = turned(t**3/12.0_wp*matmul(law%bending, curvature(:, i)))
-         force(7:, i) = t*own%shear*matmul(turn, shear(:, i))
+         force(7:, i) = t*stiff_law%shear*matmul(turn, shear(:, i))
       end do
 
    contains
@@ -253,23 +253,23 @@ contains
       real(wp), intent(inout)     :: f(:, :)         !! (3, 2 corners) [force], [force length], set here
       type(shell_frame) :: frame
       type(integration_rule) :: rule
-      real(wp) :: b(3, 12), gamma(2, 12), own(6, 4), t, volume
+      real(wp) :: b(3, 12), gamma(2, 12), f_local(6, 4), t, volume
       integer  :: m, p
 
       frame = shell_frame_of(x, law%offset)
       m = frame%n
-      own = 0.0_wp
-      call add_membrane_warmth(law, frame, rise, own)
+      f_local = 0.0_wp
+      call add_thermal_membrane_forces(law, frame, rise, f_local)
       if (abs(slope) > 0.0_wp) then
          call body_rule(merge(kind_quad4, kind_tria6, m == 4), .false., rule)
          do p = 1, rule%n
             call plate_strains(law, frame, rule%point(:, p), b, gamma, volume)
             t = thickness_at(law, frame, rule%point(:, p))
-            own(3:5, :m) = own(3:5, :m) + reshape(rule%weight(p)*volume*t**3/12.0_wp*law%expansion*slope* &
+            f_local(3:5, :m) = f_local(3:5, :m) + reshape(rule%weight(p)*volume*t**3/12.0_wp*law%expansion*slope* &
                            matmul(transpose(b(:, :3*m)), law%bending(:, 1) + law%bending(:, 2)), [3, m])
          end do
       end if
-      f(:, :2*m) = reshape(matmul(reshape(own(:, :m), [6*m]), from_nodes(frame)), [3, 2*m])
+      f(:, :2*m) = reshape(matmul(reshape(f_local(:, :m), [6*m]), from_nodes(frame)), [3, 2*m])
    end subroutine shell_thermal_forces
 
    !> M = integral of q N_i N_j over an element; the shape functions interpolate q between its VALUES at the corners.

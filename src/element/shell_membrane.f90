@@ -27,7 +27,7 @@ module shell_membrane
    implicit none
    private
 
-   public :: corner_kind, flat_coordinates, shell_frame_of, thickness_at, add_membrane, add_membrane_warmth, find_membrane
+   public :: corner_kind, flat_coordinates, shell_frame_of, thickness_at, add_membrane, add_thermal_membrane_forces, find_membrane
 
    !> Section and material of a shell element.
    type, public :: shell_law
@@ -120,11 +120,11 @@ contains
       t = dot_product(n(:frame%n), law%thickness(:frame%n))
    end function thickness_at
 
-   !> Add the membrane to OWN.
-   pure subroutine add_membrane(law, frame, own)
+   !> Add the membrane to K_LOCAL, in the axes of the element.
+   pure subroutine add_membrane(law, frame, k_local)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
-      real(wp), intent(inout)       :: own(24, 24)
+      real(wp), intent(inout)       :: k_local(24, 24)
       real(wp) :: at_corner(3, 9, 3), basic(3, 9), d(3, 3), e(3, 9), k(16, 16), f(16), area
       integer  :: at(12), b, m
 
@@ -142,7 +142,7 @@ contains
       end if
       at(:m) = [([6*b - 5, 6*b - 4, 6*b], b = 1, frame%n)]
       do b = 1, m
-         own(at(:m), at(b)) = k(:m, b)
+         k_local(at(:m), at(b)) = k(:m, b)
       end do
    end subroutine add_membrane
 
@@ -270,19 +270,19 @@ contains
       end do
    end subroutine membrane_strains
 
-   !> Strains of the mean plane at the corners and at the centre from OWN, the values u, v, w and rotations of every corner in the
+   !> Strains of the mean plane at the corners and at the centre from U_LOCAL, the values u, v, w and rotations of every corner in the
    !! axes of the element. Only a thermal load acts on the modes of a quadrilateral.
-   pure subroutine find_membrane(law, frame, rise, own, strain)
+   pure subroutine find_membrane(law, frame, rise, u_local, strain)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
       real(wp), intent(in)          :: rise(:)   !! (corners) [temperature]
-      real(wp), intent(in)          :: own(6, 4)
+      real(wp), intent(in)          :: u_local(6, 4)
       real(wp), intent(out)         :: strain(3, 5)
       real(wp) :: at_corner(3, 9, 3), b(3, 16), basic(3, 9), f(16), k(16, 16), q(16), r(16), area, volume
       integer  :: i
 
       if (frame%n == 3) then
-         q(:9) = pack(own([1, 2, 6], :3), .true.)
+         q(:9) = pack(u_local([1, 2, 6], :3), .true.)
          call membrane_strains(law, frame%x(:, :3), area, basic, at_corner)
          strain(:, 4) = matmul(basic, q(:9))
          do i = 1, 3
@@ -290,7 +290,7 @@ contains
          end do
          return
       end if
-      q(:12) = pack(own([1, 2, 6], :), .true.)
+      q(:12) = pack(u_local([1, 2, 6], :), .true.)
       call condensed_quadrilateral(law, frame, rise, k, f)
       do i = 13, 16
          q(i) = (f(i) - dot_product(k(:i - 1, i), q(:i - 1)))/k(i, i)
@@ -305,7 +305,7 @@ contains
    end subroutine find_membrane
 
    !> Add to F the thermal nodal forces of a membrane; RISE is T - TREF at its corners.
-   pure subroutine add_membrane_warmth(law, frame, rise, f)
+   pure subroutine add_thermal_membrane_forces(law, frame, rise, f)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
       real(wp), intent(in)          :: rise(:) !! (corners) [temperature]
@@ -319,6 +319,6 @@ contains
          call condensed_quadrilateral(law, frame, rise, k, q)
       end if
       f([1, 2, 6], :frame%n) = f([1, 2, 6], :frame%n) + reshape(q(:3*frame%n), [3, frame%n])
-   end subroutine add_membrane_warmth
+   end subroutine add_thermal_membrane_forces
 
 end module shell_membrane

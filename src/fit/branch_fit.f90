@@ -370,9 +370,11 @@ contains
       do k = 1, 3
          off = off - (lines(1, k) + lines(2, k)*p)*terms(:, k)
       end do
-      do i = 1, merge(size(fit%start), 0, fit%constant)
-         where (fit%curve == i) off = off - sum(off, fit%curve == i)/count(fit%curve == i)
-      end do
+      if (fit%constant) then
+         do i = 1, size(fit%start)
+            where (fit%curve == i) off = off - sum(off, fit%curve == i)/count(fit%curve == i)
+         end do
+      end if
       residual = residual_of(off)
    end function law_residual
 

@@ -4,7 +4,7 @@ module data_columns
    use deck_errors, only: deck_error_list
    use field_rules, only: parse_real
    use kinds, only: wp
-   use text_tools, only: upper
+   use text_tools, only: one_of, upper
    use tolerances, only: same_unit
    implicit none
    private
@@ -224,8 +224,8 @@ contains
          else if (header%holds /= 0 .and. holds /= header%holds) then
             call errors%add(at, 'a header of a different kind: expected one kind of data in a file')
          else if (is_force .neqv. reading%area > 0.0_wp) then
-            call errors%add(at, trim(merge('a column f, a force, needs --area, the area of the joint', &
-                                           '--area needs a column f, a force, in place of p         ', is_force)))
+            call errors%add(at, one_of(is_force, 'a column f, a force, needs --area, the area of the joint', &
+                                       '--area needs a column f, a force, in place of p'))
          end if
       end if
       header%line = at

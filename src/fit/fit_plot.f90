@@ -62,19 +62,23 @@ contains
       do b = fit_load, fit_reload
          associate (branch => fit%branch(b))
             if (branch%n_points == 0) cycle
-            do k = 1, merge(size(branch%start), 0, fit%kind == data_shear)
-               rows = pack(branch%row, branch%curve == k)
-               g = branch%group(branch%curve_at(k))
-               d = data%value(column_d, rows)
-               tau = data%value(column_tau, rows)
-               fitted = cubic_value(cubic(fit%card(:, :, b)), d, branch%group_p(g))
-               if (branch%constant) fitted = fitted + sum(tau - fitted)/size(rows)
-               call put_block(out, plots, trim(branch_words(b))//', p = '//real_text(branch%group_p(g)), [b, g], d, tau, d, fitted)
-            end do
-            do k = 1, merge(0, 3, fit%kind == data_shear)
-               call put_block(out, plots, branch_letters(b)//integer_text(k), [b, k], branch%group_p, branch%cubic(k, :), &
-                              branch%group_p, branch%lines(1, k) + branch%lines(2, k)*branch%group_p)
-            end do
+            if (fit%kind == data_shear) then
+               do k = 1, size(branch%start)
+                  rows = pack(branch%row, branch%curve == k)
+                  g = branch%group(branch%curve_at(k))
+                  d = data%value(column_d, rows)
+                  tau = data%value(column_tau, rows)
+                  fitted = cubic_value(cubic(fit%card(:, :, b)), d, branch%group_p(g))
+                  if (branch%constant) fitted = fitted + sum(tau - fitted)/size(rows)
+                  call put_block(out, plots, trim(branch_words(b))//', p = '//real_text(branch%group_p(g)), [b, g], d, tau, &
+                                 d, fitted)
+               end do
+            else
+               do k = 1, 3
+                  call put_block(out, plots, branch_letters(b)//integer_text(k), [b, k], branch%group_p, branch%cubic(k, :), &
+                                 branch%group_p, branch%lines(1, k) + branch%lines(2, k)*branch%group_p)
+               end do
+            end if
          end associate
       end do
 

@@ -11,7 +11,7 @@ module law_cards
    use kinds, only: wp
    use output_file, only: output_file_type
    use surface_fit, only: normal_fit_type, surface_fit_type
-   use text_tools, only: integer_text, plural, real_text
+   use text_tools, only: integer_text, one_of, plural, real_text
    implicit none
    private
 
@@ -74,7 +74,7 @@ contains
       character(14) :: cells(6)
       integer :: k
 
-      points = plural(fit%n_points, 'point')//trim(merge(' of loading', repeat(' ', 11), size(fit%loops%lines) > 0))
+      points = plural(fit%n_points, 'point')//one_of(size(fit%loops%lines) > 0, ' of loading', '')
       call comment(out, 'law', 'lambda = c p^m, c = '//real_text(fit%c)//', m = '//real_text(fit%m))
       points = points//', p '//range_text(fit%p_low, fit%p_high)//', '//trim(fit%reading)//' to '//real_text(fit%high)
       call comment(out, 'data', points)
@@ -118,8 +118,8 @@ contains
       if (fit%has_loading) then
          words = 'unloading does not reach tau = 0'
          if (fit%closure%is_known) words = real_text(0.01_wp*nint(1.0e4_wp*min(fit%closure%share, 1.0e4_wp)))//' % of tau_r, '// &
-            trim(merge('widest at                              ', 'of the smallest loops, DMAX unknown, at', &
-                       fit%closure%d > 0.0_wp))//' p = '//real_text(fit%closure%p)//', d = '//real_text(fit%closure%d)
+            one_of(fit%closure%d > 0.0_wp, 'widest at', 'of the smallest loops, DMAX unknown, at')//' p = '// &
+            real_text(fit%closure%p)//', d = '//real_text(fit%closure%d)
          call comment(out, 'closure', words)
       end if
       if (.not. all(is_used)) call comment(out, '', plural(count(.not. is_used), 'row')//' of other branches left out')
@@ -164,10 +164,10 @@ contains
             if (by_run) then
                call comment_row(out, [character(14) :: 'run', 'p', letter//'0', 'd from', 'to', 'points'])
                do i = 1, size(branch%start)
-                  associate (at => branch%curve_at(i), own => branch%curve == i, d => data%value(column_d, branch%row))
+                  associate (at => branch%curve_at(i), of_run => branch%curve == i, d => data%value(column_d, branch%row))
                      cells = [character(14) :: integer_text(data%run(branch%row(at))), &
                               real_text(branch%group_p(branch%group(at))), real_text(branch%start(i)), &
-                              real_text(minval(d, own)), real_text(maxval(d, own)), integer_text(count(own))]
+                              real_text(minval(d, of_run)), real_text(maxval(d, of_run)), integer_text(count(of_run))]
                   end associate
                   call comment_row(out, cells)
                end do

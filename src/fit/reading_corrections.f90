@@ -12,7 +12,7 @@ module reading_corrections
    use normal_curve, only: least_power
    use normal_fit, only: fit_power_law, fit_proportional
    use numbers, only: solve_least_squares
-   use text_tools, only: plural, real_text
+   use text_tools, only: one_of, plural, real_text
    use tolerances, only: m_at_one, settled_offset
    implicit none
    private
@@ -87,7 +87,7 @@ contains
          data%value(column_lambda, :data%n) = data%value(column_lambda, :data%n) + offset%lambda
          call data%notes%add(0, words//' (--seat); rms of lambda '//real_text(offset%rms)//' in place of '// &
                              real_text(offset%rms_before))
-         call data%notes%add(0, 'the offset is '//trim(merge('significant    ', 'not significant', offset%f > offset%f_chance))// &
+         call data%notes%add(0, 'the offset is '//one_of(offset%f > offset%f_chance, 'significant', 'not significant')// &
                              ': F = '//real_text(offset%f)//', by chance in 1 of 1000 tests above '//real_text(offset%f_chance))
       else if (offset%f > offset%f_chance .and. (abs(offset%m - offset%m_before) > much_m .or. &
                                                  abs(offset%c - offset%c_before) > much_c*offset%c_before)) then

@@ -14,7 +14,7 @@ module surface_fit
    use normal_fit, only: check_residual, fit_normal_test, normal_fit_type
    use shear_loops, only: loop_closure, wide_gap, worst_closure
    use shear_stiffness, only: shear_law
-   use text_tools, only: plural, real_text
+   use text_tools, only: one_of, plural, real_text
    use tolerances, only: same_deflection
    implicit none
    private
@@ -154,8 +154,8 @@ contains
          i = findloc(fit%group, fit%fault_at, 1)
          call errors%add(data%line(rows(i)), name//', p = '//real_text(fit%group_p(fit%fault_at))//': '// &
                          plural(count(fit%group == fit%fault_at), 'point')//' that fix no cubic, expected '// &
-                         trim(merge('four different d or more             ', 'three different d or more, not zero  ', &
-                         fit%constant))//'; --joint-fit needs no cubic of each pressure'//help)
+                         one_of(fit%constant, 'four different d or more', 'three different d or more, not zero')// &
+                         '; --joint-fit needs no cubic of each pressure'//help)
       case (fault_dependent)
          call errors%add(data%line(rows(1)), name//': '//plural(size(rows), 'point')// &
                          ' that do not fix the coefficients: expected more different d and p'//help)

@@ -222,19 +222,19 @@ contains
       integer, intent(inout) :: joins               !! first point of loading
       integer, intent(inout) :: branch(:)
       type(cubic) :: law
-      integer, allocatable  :: own(:)
+      integer, allocatable  :: of_load(:)
       real(wp), allocatable :: starts(:)
       real(wp) :: d(size(forward)), d_most, least, off(size(forward)), scatter, side
       logical  :: is_on(size(forward)), ok
       integer  :: i, last_off
 
-      own = pack([(i, i = 1, first - 1)], branch(:first - 1) == fit_load)
-      if (size(own) < few) return
+      of_load = pack([(i, i = 1, first - 1)], branch(:first - 1) == fit_load)
+      if (size(of_load) < few) return
       d = goal*forward
-      associate (d_own => sense(own)*forward(own), tau_own => sense(own)*stress(own))
-         call fit_cubic(d_own, tau_own, reshape([logical ::], [size(own), 0]), law%coefficients(1, :), starts, ok)
+      associate (d_own => sense(of_load)*forward(of_load), tau_own => sense(of_load)*stress(of_load))
+         call fit_cubic(d_own, tau_own, reshape([logical ::], [size(of_load), 0]), law%coefficients(1, :), starts, ok)
          if (.not. ok) return
-         scatter = norm2(tau_own - cubic_value(law, d_own, 0.0_wp))/sqrt(real(max(1, size(own) - 3), wp))
+         scatter = norm2(tau_own - cubic_value(law, d_own, 0.0_wp))/sqrt(real(max(1, size(of_load) - 3), wp))
          least = equal_readings*maxval(abs(tau_own)) ! smallest difference between readings
          off = goal*stress - cubic_value(law, d, 0.0_wp)
          ! on the curve: within three times the scatter of its points, more beyond the last point
@@ -252,7 +252,7 @@ contains
       if (last_off == 0) return
       if (last_off < joins - 1) then
          joins = behind(last_off, joins)
-      else if (size(own) > 2*few) then
+      else if (size(of_load) > 2*few) then
          do i = joins, size(d)
             if (is_on(i) .or. d(i) > known*d_most) exit
             branch(i) = no_branch

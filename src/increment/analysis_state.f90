@@ -104,7 +104,7 @@ module analysis_state
       real(wp), allocatable :: unbalanced(:, :)     !! condensed load - internal forces
       ! of bars and of the sections of solid bolts
       logical, allocatable  :: is_elastic(:)        !! of bars: no bolt, or locked
-      real(wp), allocatable :: pull(:)              !! of locked bolts: tension at the lengths at rest and at TREF [force]
+      real(wp), allocatable :: rest_tension(:)      !! of locked bolts: tension at the lengths at rest and at TREF [force]
       logical, allocatable  :: is_locked(:)         !! of sections
       ! of interface elements and joints
       type(element_state), allocatable :: states(:)
@@ -143,7 +143,7 @@ contains
                 source=analysis%u)
       analysis%before = analysis%now
       analysis%after = analysis%now
-      allocate (analysis%pull(n_bars(model)), source=0.0_wp)
+      allocate (analysis%rest_tension(n_bars(model)), source=0.0_wp)
       allocate (analysis%is_locked(n_sections(model)), source=.false.)
       allocate (analysis%is_elastic(n_bars(model)), source=.true.)
       if (n_bars(model) > 0) analysis%is_elastic = model%bars%bolt == 0

@@ -8,7 +8,7 @@ module bolt_locking
    use kinds, only: wp
    use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use node_coupling, only: displacements_at
-   use structural_elements, only: add_pull, bar_elongation, thermal_pull
+   use structural_elements, only: add_axial_force, bar_elongation, thermal_tension
    implicit none
    private
 
@@ -28,9 +28,10 @@ contains
          associate (bar => model%bars(i))
             if (bar%bolt == 0 .or. bar%stage /= analysis%stage) cycle
             analysis%is_elastic(i) = .true.
-            analysis%pull(i) = bar%preload - bar%stiffness*elongation_now(model, analysis, i)
-            call add_pull(model, i, analysis%pull(i) - bar%preload, analysis%now%load)
-            analysis%pull(i) = analysis%pull(i) - thermal_pull(bar, analysis%now%temperature) ! the loads contain it from now on
+            analysis%rest_tension(i) = bar%preload - bar%stiffness*elongation_now(model, analysis, i)
+            call add_axial_force(model, i, analysis%rest_tension(i) - bar%preload, analysis%now%load)
+            ! the loads contain the thermal tension from now on
+            analysis%rest_tension(i) = analysis%rest_tension(i) - thermal_tension(bar, analysis%now%temperature)
             call add_bar(model, i, system)
          end associate
       end do
@@ -93,8 +94,8 @@ contains
       tension = 0.0_wp
       associate (bar => model%bars(i))
          if (analysis%is_elastic(i)) then
-            tension = analysis%pull(i) + bar%stiffness*elongation_now(model, analysis, i) + &
-                      thermal_pull(bar, analysis%now%temperature)
+            tension = analysis%rest_tension(i) + bar%stiffness*elongation_now(model, analysis, i) + &
+                      thermal_tension(bar, analysis%now%temperature)
          else if (bar%stage == analysis%stage) then
             tension = analysis%fraction*bar%preload
          end if

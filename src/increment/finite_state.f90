@@ -56,7 +56,7 @@ contains
                                                                 analysis%energy(i)%given_back, analysis%energy(i)%lost])
       end do
       do i = 1, n_bars(model)
-         call check('the pull of element '//integer_text(model%bars(i)%id), [analysis%pull(i)])
+         call check('the tension of element '//integer_text(model%bars(i)%id), [analysis%rest_tension(i)])
       end do
       call check_nodes('the force out of balance', analysis%unbalanced, system%retained)
       call check_nodes('the displacement', analysis%all_u, [(i, i = 1, model%n_nodes)])

@@ -9,7 +9,7 @@ module load_path
    use model_data, only: model_type, n_bars, n_sections
    use node_coupling, only: displacements, forces_on_unknowns
    use stage_plan, only: stage_plan_type
-   use structural_elements, only: add_bar_forces, add_pull, thermal_pull
+   use structural_elements, only: add_bar_forces, add_axial_force, thermal_tension
    use temperatures, only: temperature_between
    implicit none
    private
@@ -47,14 +47,14 @@ contains
          end do
       end associate
       do i = 1, n_bars(model)
-         if (model%bars(i)%stage == stage) analysis%pull(i) = model%bars(i)%preload
-         call add_pull(model, i, analysis%pull(i), analysis%after%load)
+         if (model%bars(i)%stage == stage) analysis%rest_tension(i) = model%bars(i)%preload
+         call add_axial_force(model, i, analysis%rest_tension(i), analysis%after%load)
       end do
       if (allocated(analysis%after%temperature%at)) then
          call add_thermal_forces(model, analysis%after%temperature, analysis%after%load)
          do i = 1, n_bars(model)
             if (analysis%is_elastic(i)) &
-               call add_pull(model, i, thermal_pull(model%bars(i), analysis%after%temperature), analysis%after%load)
+               call add_axial_force(model, i, thermal_tension(model%bars(i), analysis%after%temperature), analysis%after%load)
          end do
       end if
       do i = 1, n_sections(model)
@@ -194,13 +194,13 @@ contains
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
-      real(wp), allocatable :: felt(:, :), q(:, :)
+      real(wp), allocatable :: on_unknowns(:, :), q(:, :)
 
       call recover(model, system, analysis, analysis%now, analysis%u, q, analysis%all_unbalanced)
       analysis%all_u = displacements(model, q)
       analysis%u = q(:, system%retained)
-      allocate (felt, source=forces_on_unknowns(model, analysis%all_unbalanced))
-      analysis%unbalanced = felt(:, system%retained)
+      allocate (on_unknowns, source=forces_on_unknowns(model, analysis%all_unbalanced))
+      analysis%unbalanced = on_unknowns(:, system%retained)
    end subroutine recover_bodies
 
    !> The unknowns Q of all nodes and the UNBALANCED forces on them in global axes, for the unknowns U of retained nodes under

@@ -43,7 +43,7 @@ contains
       logical :: guessed, moves
 
       allocate (direction, mold=analysis%u)
-      attempt%travel = max(maxval(abs(analysis%now%moved)), maxval(abs(analysis%u)))
+      attempt%displacement_scale = max(maxval(abs(analysis%now%moved)), maxval(abs(analysis%u)))
       attempt%load_size = analysis%tolerance/analysis%load_tolerance ! the largest so far
       guessed = present(from)
       allocate (now)
@@ -204,15 +204,15 @@ contains
       end if
       associate (noise => attempt%noise, load_size => attempt%load_size, n => attempt%iteration)
          noise = force_noise(system, now%u)
-         attempt%spoilt = max(attempt%spoilt, noise)
-         if (attempt%spoilt > max(10.0_wp*noise, 0.1_wp*analysis%tolerance)) then
+         attempt%largest_noise = max(attempt%largest_noise, noise)
+         if (attempt%largest_noise > max(10.0_wp*noise, 0.1_wp*analysis%tolerance)) then
             ! summed from step to step, these forces have an error that after a distant trial is no longer small: compute them anew
             call forces_in_bodies(system, now%u, now%body)
             call evaluate(model, system, attempt%load, analysis, now)
-            attempt%spoilt = noise
+            attempt%largest_noise = noise
          end if
-         rounding = rounding_of_forces*system%stiffest*attempt%travel*sqrt(real(size(analysis%now%load), wp))
-         attempt%carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*attempt%travel
+         rounding = rounding_of_forces*system%stiffest*attempt%displacement_scale*sqrt(real(size(analysis%now%load), wp))
+         attempt%carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*attempt%displacement_scale
          attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= most_rounding_of_forces*load_size
          attempt%converged = .not. attempt%moves .and. (attempt%converged .or. (attempt%carried .and. now%size <= rounding))
          attempt%sizes(n) = merge(huge(1.0_wp), now%size, attempt%moves)

@@ -263,10 +263,10 @@ contains
          attempt%floats = i == 3
          attempt%iteration = 0
          attempt%gain = 1.0_wp
-         attempt%circles = 0
+         attempt%n_slow = 0
          if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states))) ! = alone would read its bounds
          attempt%flips = 0
-         attempt%spoilt = 0.0_wp
+         attempt%largest_noise = 0.0_wp
          attempt%converged = .false.
          attempt%trouble = none
          call iterate(model, system, analysis, attempt, from)

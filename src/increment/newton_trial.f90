@@ -41,12 +41,12 @@ module newton_trial
       logical  :: coupled = .false.               !! the last direction was that of a coupled system
       logical  :: settled = .false.               !! no element has begun or stopped slipping in the last iteration
       logical  :: floats = .false.                !! only friction holds a body, which stays held
-      integer  :: circles = 0                     !! iterations that did not halve the residual
+      integer  :: n_slow = 0                      !! iterations that did not halve the residual
       integer, allocatable :: flips(:)            !! changes of branch of each interface element
       real(wp) :: load_size = 0.0_wp              !! reference force of the residuals [force]
       real(wp) :: noise = 0.0_wp                  !! present rounding error of the forces in the bodies [force]
-      real(wp) :: spoilt = 0.0_wp                 !! its largest value since these forces were computed [force]
-      real(wp) :: travel = 0.0_wp                 !! of the supports or anything, at the beginning [length]
+      real(wp) :: largest_noise = 0.0_wp          !! its largest value since these forces were computed [force]
+      real(wp) :: displacement_scale = 0.0_wp     !! of the supports or anything, at the beginning [length]
       logical  :: carried = .false.               !! bodies only move with supports, and no force acts
       ! the outcome
       logical  :: converged = .false.

@@ -119,12 +119,12 @@ contains
 
       associate (n => attempt%iteration)
          if (n > 4) then
-            if (now%size > 0.5_wp*minval(attempt%sizes(n - 2:n))) attempt%circles = attempt%circles + 1
+            if (now%size > 0.5_wp*minval(attempt%sizes(n - 2:n))) attempt%n_slow = attempt%n_slow + 1
          end if
          attempt%settled = n > 1
       end associate
       softer = 1.0_wp
-      if (attempt%circles > 0) softer = merge(10.0_wp, 0.1_wp, modulo(attempt%circles, 2) == 1)
+      if (attempt%n_slow > 0) softer = merge(10.0_wp, 0.1_wp, modulo(attempt%n_slow, 2) == 1)
       do i = 1, size(laws)
          associate (straight => laws(i), area => model%interface(i)%area, law => model%joints(model%interface(i)%joint)%law)
             movement = joint_movement(system%interface(i), now%u)

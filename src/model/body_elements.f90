@@ -2,7 +2,7 @@
 module body_elements
    use beam_element, only: beam_nodal_forces, beam_stiffness, beam_thermal_load
    use elasticity, only: max_stresses, n_stresses, plane_strain
-   use element_kinds, only: element_table, max_felt_dofs, max_nodes, centre_point
+   use element_kinds, only: element_table, max_section_dofs, max_nodes, centre_point
    use element_mapping, only: element_law, make_element_law
    use isoparametric, only: stiffness, nodal_thermal_forces
    use kinds, only: wp
@@ -32,7 +32,7 @@ contains
       integer, intent(in)                  :: e
       real(wp), allocatable, intent(inout) :: k(:, :) !! dimension x coupled nodes rows and columns are set
 
-      if (.not. allocated(k)) allocate (k(max_felt_dofs, max_felt_dofs))
+      if (.not. allocated(k)) allocate (k(max_section_dofs, max_section_dofs))
       call element_stiffness(model, e, k)
       if (allocated(model%coupling%of_node)) call onto_unknowns(model, participating_nodes(model, e), k)
    end subroutine coupled_stiffness
@@ -146,15 +146,15 @@ contains
       pure subroutine find_shares(e, share)
          integer, intent(in)     :: e
          real(wp), intent(inout) :: share(:, :) !! (max_stresses, nodes)
-         real(wp) :: own(max_stresses, max_nodes), rise(max_nodes)
+         real(wp) :: nodal(max_stresses, max_nodes), rise(max_nodes)
          integer  :: c, i
 
          associate (nodes => corners_of(model, e))
             c = n_stresses(model%properties(model%element_property(e))%state)
             rise(:size(nodes)) = element_rise(model, e, temperature)
-            call element_nodal_stress(model, e, u, temperature, own(:c, :size(nodes)))
+            call element_nodal_stress(model, e, u, temperature, nodal(:c, :size(nodes)))
             do i = 1, size(nodes)
-               share(:, i) = full_stress(model, e, own(:c, i), rise(i))/real(n_at(nodes(i)), wp)
+               share(:, i) = full_stress(model, e, nodal(:c, i), rise(i))/real(n_at(nodes(i)), wp)
             end do
          end associate
       end subroutine find_shares
@@ -229,7 +229,7 @@ contains
       integer, intent(in)          :: e
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
       real(wp), intent(inout)      :: p(:, :) !! (dimension, nodes) [force], set here
-      real(wp) :: k(max_felt_dofs, max_felt_dofs), q(max_felt_dofs)
+      real(wp) :: k(max_section_dofs, max_section_dofs), q(max_section_dofs)
       integer  :: n
 
       call element_stiffness(model, e, k)
@@ -269,14 +269,14 @@ contains
       type(model_type), intent(in)       :: model
       type(temperature_type), intent(in) :: temperature
       real(wp), intent(inout)            :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp) :: own(model%dimension, max_nodes)
+      real(wp) :: nodal(model%dimension, max_nodes)
       integer  :: e
 
       do e = 1, model%n_elements
          associate (nodes => own_nodes(model, e))
-            call element_thermal_forces(model, e, temperature, own)
-            f(:, nodes) = f(:, nodes) + own(:, :size(nodes))
-            call add_section_share(model, e, nodes, own, f)
+            call element_thermal_forces(model, e, temperature, nodal)
+            f(:, nodes) = f(:, nodes) + nodal(:, :size(nodes))
+            call add_section_share(model, e, nodes, nodal, f)
          end associate
       end do
    end subroutine add_thermal_forces

@@ -4,7 +4,7 @@
 module mass_matrix
    use beam_element, only: beam_mass
    use body_elements, only: coupled_stiffness, law_of
-   use element_kinds, only: element_table, max_felt_dofs, max_nodes
+   use element_kinds, only: element_table, max_section_dofs, max_nodes
    use isoparametric, only: lump, shape_products
    use kinds, only: wp
    use lists, only: list_owners
@@ -107,7 +107,7 @@ contains
 
       call coupled_stiffness(model, e, k)
       if (.not. abs(shift) > 0.0_wp) return
-      allocate (full(max_felt_dofs, max_felt_dofs))
+      allocate (full(max_section_dofs, max_section_dofs))
       call whole_mass(model, e, full)
       if (allocated(model%coupling%of_node)) call onto_unknowns(model, participating_nodes(model, e), full)
       n = model%dimension*size(unknown_nodes(model, participating_nodes(model, e)))
@@ -295,7 +295,7 @@ contains
       type(mass_matrix_type), intent(in) :: mass
       real(wp), contiguous, intent(in)   :: a(:, :) !! (dimension, n_nodes), with the nodes of rotations and sections
       real(wp), contiguous, intent(out)  :: f(:, :) !! likewise
-      real(wp) :: m(max_felt_dofs, max_felt_dofs), s(3)
+      real(wp) :: m(max_section_dofs, max_section_dofs), s(3)
       integer  :: i, k, n
 
       !$omp parallel do default(shared) private(k, s) if(model%n_nodes > worth_threads)
@@ -361,8 +361,8 @@ contains
       inertia = [second(2, 2) + second(3, 3), second(3, 3) + second(1, 1), second(1, 1) + second(2, 2), &
                  second(1, 2), second(2, 3), second(3, 1)]
       do i = 1, n_masses(model)
-         associate (own => model%masses(i)%inertia)
-            inertia = inertia + [own(1, 1), own(2, 2), own(3, 3), -own(1, 2), -own(2, 3), -own(3, 1)]
+         associate (tensor => model%masses(i)%inertia)
+            inertia = inertia + [tensor(1, 1), tensor(2, 2), tensor(3, 3), -tensor(1, 2), -tensor(2, 3), -tensor(3, 1)]
          end associate
       end do
    end subroutine total_mass

@@ -11,7 +11,7 @@ module structural_elements
    private
 
    public :: structural_stress, nodal_values, between_own, onto_own
-   public :: bar_elongation, thermal_pull, add_pull, add_bar_forces, bar_stiffness
+   public :: bar_elongation, thermal_tension, add_axial_force, add_bar_forces, bar_stiffness
 
    integer, parameter, public :: most_own = 8 !! own nodes of an element: corners and their rotations
 
@@ -108,7 +108,7 @@ contains
 
    !> Tension of BAR at constant length and at this TEMPERATURE: compression where the mean temperature along the bar rises above
    !! TREF; zero for a spring [force].
-   pure real(wp) function thermal_pull(bar, temperature) result(tension)
+   pure real(wp) function thermal_tension(bar, temperature) result(tension)
       type(bar_type), intent(in)         :: bar
       type(temperature_type), intent(in) :: temperature
 
@@ -116,10 +116,10 @@ contains
       if (bar%kind == a_spring .or. .not. allocated(temperature%at)) return
       tension = -bar%stiffness*bar%expansion* &
                 (0.5_wp*sum(temperature%at(bar%nodes)) - temperature%reference_share*bar%reference)
-   end function thermal_pull
+   end function thermal_tension
 
    !> Add to F the nodal forces of bar I under a tension N.
-   pure subroutine add_pull(model, i, n, f)
+   pure subroutine add_axial_force(model, i, n, f)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i
       real(wp), intent(in)         :: n       !! [force]
@@ -129,7 +129,7 @@ contains
          f(:, bar%nodes(1)) = f(:, bar%nodes(1)) + n*bar%direction(:d, 1)
          if (bar%nodes(2) > 0) f(:, bar%nodes(2)) = f(:, bar%nodes(2)) - n*bar%direction(:d, 2)
       end associate
-   end subroutine add_pull
+   end subroutine add_axial_force
 
    !> Add to F the internal forces of the elastic bars under the displacements U.
    pure subroutine add_bar_forces(model, is_elastic, u, f)
@@ -141,7 +141,7 @@ contains
 
       do i = 1, size(is_elastic)
          associate (bar => model%bars(i))
-            if (is_elastic(i)) call add_pull(model, i, -bar%stiffness*bar_elongation(bar, u(:, bar_nodes(bar))), f)
+            if (is_elastic(i)) call add_axial_force(model, i, -bar%stiffness*bar_elongation(bar, u(:, bar_nodes(bar))), f)
          end associate
       end do
    end subroutine add_bar_forces

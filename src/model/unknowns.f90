@@ -6,7 +6,7 @@ module unknowns
    use kinds, only: wp
    use model_data, only: a_point, a_rotation, an_overlap, model_type, node_kind, place_in_kind, point_of
    use numbers, only: cross, identity
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    implicit none
    private
 
@@ -33,7 +33,7 @@ contains
          words = 'no stiffness holds '//owner//' together at its section'
       else
          words = owner//' has no stiffness '// &
-                 trim(merge('against', 'in     ', node_kind(model, node) == a_rotation))//' '//direction
+                 one_of(node_kind(model, node) == a_rotation, 'against', 'in')//' '//direction
       end if
    end function what_is_loose
 

@@ -17,7 +17,7 @@ module petsc_solver
    use partition, only: add_touched, is_entangled, list_touched, partition_nodes, partition_type, pass_subdomain, subdomain_of, &
                         subdomain_type, touched_type
    use ranks, only: n_ranks
-   use text_tools, only: integer_text, real_text
+   use text_tools, only: integer_text, one_of, real_text
    use worker_loop, only: broadcast_command, command_diagonal, command_finish, command_forget, command_multiply, command_read, &
                           command_renew, command_solve, command_start, command_take, command_way, &
                           command_write, solution, stiffest_of_all => stiffest, stiffness, subdomain
@@ -85,8 +85,7 @@ contains
       allocate (self%diagonal(self%n), source=0.0_wp)
       self%reuse%most_steps = steps_of_set_up
       associate (description => self%description)
-         description%name = trim(merge('PETSC, CONJUGATE GRADIENTS WITH GAMG', 'PETSC, FACTOR BY MUMPS              ', &
-                                       self%wanted == by_gamg))
+         description%name = one_of(self%wanted == by_gamg, 'PETSC, CONJUGATE GRADIENTS WITH GAMG', 'PETSC, FACTOR BY MUMPS')
          description%words(1) = 'ENTRIES OF THE STIFFNESS MATRIX'
          description%numbers(1) = int(model%dimension, long)**2*(size(graph%neighbours) + int(model%n_nodes, long))
       end associate

@@ -13,7 +13,7 @@ module answer_tables
    use support_reactions, only: reaction_type, reactions_type
    use table_column, only: column
    use table_writer, only: table_type
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use watched_nodes, only: watch_answer
    implicit none
    private
@@ -89,7 +89,7 @@ contains
             call table%put(['n', 't', 'm'], [joint%normal, joint%shear, joint%moment])
             call table%put('safety', joint%safety, where=joint%has_safety)
             call table%put('MU N/T', min(joint%safety, 1.0e6_wp), where=joint%has_safety)
-            call table%put('ring', trim(merge('  CLOSED', '        ', frame%closed)))
+            call table%put('ring', one_of(frame%closed, '  CLOSED', ''))
             call table%put(resultant_names, joint%force, where=frame%exists)
             call table%put(movement_names, joint%movement, where=frame%exists)
             call table%put(tangent_names, joint%tangent, where=frame%exists)
@@ -125,8 +125,8 @@ contains
       integer :: i
 
       do i = 1, size(id)
-         if (cuts(i) > 0) call page%screen%put('  NOTE: '//trim(merge('A PLANE OF SYMMETRY CUTS', 'PLANES OF SYMMETRY CUT  ', &
-            cuts(i) == 1))//' '//kind//' '//integer_text(id(i))//': '//what)
+         if (cuts(i) > 0) call page%screen%put('  NOTE: '//one_of(cuts(i) == 1, 'A PLANE OF SYMMETRY CUTS', &
+            'PLANES OF SYMMETRY CUT')//' '//kind//' '//integer_text(id(i))//': '//what)
       end do
    end subroutine note_cuts
 

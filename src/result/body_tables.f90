@@ -17,7 +17,7 @@ module body_tables
    use support_reactions, only: balance_springs, balance_supports, balance_type, find_balance
    use table_column, only: column
    use table_writer, only: table_type
-   use text_tools, only: clean, integer_text, upper
+   use text_tools, only: clean, integer_text, one_of, upper
    use tolerances, only: page_zero
    use unknowns, only: node_axes
    implicit none
@@ -105,17 +105,19 @@ contains
       if (n_places == 0) last = 3
       allocate (along, source=vectors)
       allocate (system(size(nodes)), source=0)
-      do i = 1, merge(size(nodes), 0, page%along_cd)
-         directions = node_axes(model, nodes(i))
-         along(:, i) = matmul(along(:, i), directions(first:last, first:last))
-         if (allocated(model%node_system)) system(i) = model%node_system(nodes(i))
-         if (system(i) > 0) system(i) = model%systems(system(i))%id
-      end do
+      if (page%along_cd) then
+         do i = 1, size(nodes)
+            directions = node_axes(model, nodes(i))
+            along(:, i) = matmul(along(:, i), directions(first:last, first:last))
+            if (allocated(model%node_system)) system(i) = model%node_system(nodes(i))
+            if (system(i) > 0) system(i) = model%systems(system(i))%id
+         end do
+      end if
       allocate (keys(1 + n_places + size(along, 1)))
       keys(1) = 'NODE'
       keys(2:1 + n_places) = axes(:n_places)
       keys(2 + n_places:) = words(2)(:index(words(2), '.') - 1)//merge(numbers(first:last), axes(first:last), page%along_cd)
-      call table%start(trim(words(1))//trim(merge(' ALONG THEIR SYSTEMS CD (0: X, Y, Z)', repeat(' ', 36), page%along_cd))// &
+      call table%start(trim(words(1))//one_of(page%along_cd, ' ALONG THEIR SYSTEMS CD (0: X, Y, Z)', '')// &
                        page%now//in_units(words(3)), [column(keys(1), 'i11'), column(keys(2:), 'es13.5'), &
                        column('CD', 'i11', is_listed=page%along_cd)], page%file)
       allocate (values(n_places + size(along, 1), size(nodes)))
@@ -247,7 +249,7 @@ contains
       first = merge(2, 1, model%axisymmetric)
       call table%start('BALANCE OF FORCES'//page%now//in_units(page%labels%force), &
                        [column('', 'a35', key='of'), column(axes(first:model%dimension), 'es13.5'), &
-                        column(merge('  (THE RADIAL FORCES BALANCE ROUND THE RING)', repeat(' ', 44), model%axisymmetric), 'a', &
+                        column(one_of(model%axisymmetric, '  (THE RADIAL FORCES BALANCE ROUND THE RING)', ''), 'a', &
                                key='note')], page%file)
       do i = 1, size(names)
          if (i == balance_springs .and. all(model%bars%nodes(2) > 0)) cycle

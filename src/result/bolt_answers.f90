@@ -8,7 +8,7 @@ module bolt_answers
    use body_elements, only: element_thermal_forces, element_stiffness
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
    use bolt_places, only: bolt_place, distance, find_places
-   use element_kinds, only: max_felt_dofs, max_nodes
+   use element_kinds, only: max_section_dofs, max_nodes
    use interface_operator, only: at_first_end
    use kinds, only: wp
    use model_data, only: corners_of, model_type, section_type, temperature_type
@@ -100,7 +100,8 @@ contains
       real(wp), intent(in)           :: u(:, :) !! (dimension, n_nodes) of all nodes [length]
       type(temperature_type), intent(in) :: temperature
       type(surface_node_list) :: list
-      real(wp) :: moment(3), centroid(3), force(3), thermal(3, max_nodes), k(max_felt_dofs, max_felt_dofs), p(max_felt_dofs)
+      real(wp) :: moment(3), centroid(3), force(3), thermal(3, max_nodes)
+      real(wp) :: k(max_section_dofs, max_section_dofs), p(max_section_dofs)
       integer  :: d, e, i, j, n, s
 
       d = model%dimension
@@ -274,12 +275,12 @@ contains
       clamping = 0.0_wp
       along = 0.0_wp
       do i = 1, size(model%interface)
-         associate (element => model%interface(i), state => analysis%states(i), own => bolts%joint == model%interface(i)%joint)
-            if (.not. any(own)) cycle
+         associate (element => model%interface(i), state => analysis%states(i), of_joint => bolts%joint == model%interface(i)%joint)
+            if (.not. any(of_joint)) cycle
             do b = 1, size(bolts)
                off(b) = distance(bolts(b), at_first_end(element, model%x))
             end do
-            share = merge(1.0_wp, 0.0_wp, own .and. off <= (1.0_wp + symmetric_tie)*minval(off, mask=own))
+            share = merge(1.0_wp, 0.0_wp, of_joint .and. off <= (1.0_wp + symmetric_tie)*minval(off, mask=of_joint))
             share = share/sum(share)
             clamping = clamping + share*state%normal%sumf
             do b = 1, size(bolts)

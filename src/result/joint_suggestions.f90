@@ -9,7 +9,7 @@ module joint_suggestions
    use lists, only: list_owners
    use model_data, only: model_type
    use output_file, only: output_file_type
-   use text_tools, only: clean, integer_text, real_text
+   use text_tools, only: clean, integer_text, one_of, real_text
    use tolerances, only: at_the_bottom
    implicit none
    private
@@ -35,7 +35,7 @@ contains
       type(facing_type), allocatable :: pairs(:)
       type(next_numbers)   :: next
       integer, allocatable :: sees(:), mark(:)
-      logical, allocatable :: own(:, :)
+      logical, allocatable :: on_side(:, :)
       integer  :: body(model%n_elements), first, i, k, marks(2), p
       logical  :: is_new(2)
       real(wp) :: reach
@@ -57,7 +57,7 @@ contains
          call file%put('$ '//body_words(i, bodies(i)))
       end do
       first = next%joint
-      allocate (own(size(sides), 2))
+      allocate (on_side(size(sides), 2))
       each_pair: do p = 1, size(pairs)
          associate (pair => pairs(p))
             call file%put('$')
@@ -70,13 +70,13 @@ contains
                              ' has sides opposite to the other; marks on its sides alone would have no opposite side')
                cycle
             end if
-            own(:, 1) = sides%body == pair%body(1) .and. sees == pair%body(2)
-            own(:, 2) = sides%body == pair%body(2) .and. sees == pair%body(1)
+            on_side(:, 1) = sides%body == pair%body(1) .and. sees == pair%body(2)
+            on_side(:, 2) = sides%body == pair%body(2) .and. sees == pair%body(1)
             do i = 1, size(deck%bulk%joint) ! a joint connects them there if its marks cover more than half of the area
                associate (joint => deck%bulk%joint(i))
                   do k = 1, 2
-                     is_new(k) = sum(sides%area, mask=own(:, k) .and. mark > 0 .and. (mark == joint%sides(1) .or. &
-                                 mark == joint%sides(2))) <= 0.5_wp*sum(sides%area, mask=own(:, k))
+                     is_new(k) = sum(sides%area, mask=on_side(:, k) .and. mark > 0 .and. (mark == joint%sides(1) .or. &
+                                 mark == joint%sides(2))) <= 0.5_wp*sum(sides%area, mask=on_side(:, k))
                   end do
                   if (any(is_new) .and. (joint%sides(2) /= 0 .or. all(is_new))) cycle
                   call file%put('$ JOINT '//integer_text(joint%id)//' of the deck connects them there')
@@ -84,7 +84,7 @@ contains
                end associate
             end do
             do k = 1, 2
-               call take_mark(deck, pack(mark, own(:, k)), next, marks(k), is_new(k))
+               call take_mark(deck, pack(mark, on_side(:, k)), next, marks(k), is_new(k))
                if (is_new(k)) call file%put('PMARK,'//integer_text(marks(k)))
             end do
             reach = max(2.0_wp*pair%gap(2), 0.01_wp*minval(sides%size, mask=sides%body == pair%body(1))) ! TOL
@@ -92,7 +92,7 @@ contains
                           integer_text(marks(2))//','//number(reach))
             next%joint = next%joint + 1
             do k = 1, 2
-               if (is_new(k)) call put_sides(model, pack(sides, own(:, k)), marks(k), next, file)
+               if (is_new(k)) call put_sides(model, pack(sides, on_side(:, k)), marks(k), next, file)
             end do
          end associate
       end do each_pair
@@ -126,23 +126,23 @@ contains
 
    contains
 
-      !> Whether SIDE has the corners OWN, or the opposite corners after a split, or the nodes of shells below them, in the same
+      !> Whether SIDE has these CORNERS, or the opposite corners after a split, or the nodes of shells below them, in the same
       !! sense.
-      pure logical function same_side(own, side)
-         integer, intent(in)          :: own(:)
+      pure logical function same_side(corners, side)
+         integer, intent(in)          :: corners(:)
          type(outer_side), intent(in) :: side
-         integer :: at, c, below(size(own))
+         integer :: at, c, below(size(corners))
 
-         below = own
+         below = corners
          if (allocated(model%face_of)) then
-            do c = 1, size(own)
-               if (model%face_of(own(c)) > 0) below(c) = model%faces(model%face_of(own(c)))%point
+            do c = 1, size(corners)
+               if (model%face_of(corners(c)) > 0) below(c) = model%faces(model%face_of(corners(c)))%point
             end do
          end if
          same_side = .false.
-         do at = 1, size(own)
+         do at = 1, size(corners)
             same_side = same_side .or. all([(any([side%corners(c), model%duplicate(side%corners(c))] == &
-                                                 below(1 + modulo(at + c - 2, size(own)))), c = 1, size(own))])
+                                                 below(1 + modulo(at + c - 2, size(corners)))), c = 1, size(corners))])
          end do
       end function same_side
 
@@ -185,9 +185,9 @@ contains
          case (2)
             line = 'CBAR'
          case (3)
-            line = trim(merge('CTRIA6', 'CTRIA3', size(nodes) > 3))
+            line = one_of(size(nodes) > 3, 'CTRIA6', 'CTRIA3')
          case default
-            line = trim(merge('CQUAD8', 'CQUAD4', size(nodes) > 4))
+            line = one_of(size(nodes) > 4, 'CQUAD8', 'CQUAD4')
          end select
          line = line//','//integer_text(next%element)//','//integer_text(mark)
          do k = 1, size(nodes)
@@ -220,7 +220,7 @@ contains
       call file%put('$')
       call file%put('$ the model has no support; the lowest flat sides have an area of '//number(sum(sides%area, mask=lowest)))
       if (is_new) call file%put('PMARK,'//integer_text(id))
-      call file%put('SPCM,1,'//trim(merge('12 ', '123', d == 2))//','//integer_text(id))
+      call file%put('SPCM,1,'//one_of(d == 2, '12', '123')//','//integer_text(id))
       if (is_new) call put_sides(model, pack(sides, lowest), id, next, file)
    end subroutine suggest_support
 

@@ -13,7 +13,7 @@ module joint_tables
    use stage_entries, only: output_request
    use table_column, only: column, column_type
    use table_writer, only: table_type
-   use text_tools, only: clean, integer_text
+   use text_tools, only: clean, integer_text, one_of
    use tolerances, only: page_zero
    implicit none
    private
@@ -88,12 +88,14 @@ contains
             call list_elements(page, of_shear, model, analysis, j, k)
          end do
       end do
-      do j = 1, merge(size(model%joints), 0, asked%state)
-         call list_elements(page, of_state, model, analysis, j)
-         do k = 1, model%dimension - 1
-            call list_elements(page, of_shear_state, model, analysis, j, k)
+      if (asked%state) then
+         do j = 1, size(model%joints)
+            call list_elements(page, of_state, model, analysis, j)
+            do k = 1, model%dimension - 1
+               call list_elements(page, of_shear_state, model, analysis, j, k)
+            end do
          end do
-      end do
+      end if
    end subroutine list_joints
 
    !> The table of SUBJECT of joint J: a row for each element. A table of shear is for direction K, if that has a shear law.
@@ -227,7 +229,7 @@ contains
             call table%put('FORCE', state%tau*element%area, tau_floor*element%area)
             call table%put('K_S, USED', state%k_s)
             call table%put('LIMIT', friction_limit(law, p), tau_floor, where=law%has_friction)
-            call table%put('note', trim(merge('  SLIPS', '       ', analysis%states(i)%slips)))
+            call table%put('note', one_of(analysis%states(i)%slips, '  SLIPS', ''))
          else
             shift = branch_shift(law%shear(k), state, max(0.0_wp, p), analysis%turns(k, i)%delta, analysis%turns(k, i)%tau)
             call table%put('SENSE', nint(state%sense))
@@ -256,7 +258,7 @@ contains
       slides = any(model%joints%law%has_friction)
       call heading(page%file, 'ENERGY OF JOINTS, '//page%stage)
       call page%file%put('                 ------------- NORMAL -------------------   -------------- SHEAR -------------------'// &
-                         trim(merge('   SLIDING', '          ', slides)))
+                         one_of(slides, '   SLIDING', ''))
       call table%start('', [column('JOINT', 'i11', heading_shift=-1), &
                             column(names, ['es14.5', 'es13.5', 'es13.5'], key='NORMAL '//names), &
                             column(names, ['es15.5', 'es13.5', 'es13.5'], key='SHEAR '//names), &

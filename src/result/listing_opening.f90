@@ -26,7 +26,7 @@ module listing_opening
    use table_column, only: column
    use table_writer, only: table_type
    use terminal, only: standard_input, version
-   use text_tools, only: clean, integer_text, plural, real_text, upper
+   use text_tools, only: clean, integer_text, one_of, plural, real_text, upper
    use tolerances, only: page_zero, pressure_floor
    implicit none
    private
@@ -181,7 +181,7 @@ contains
       do k = 1, size(element_table)
          associate (kind => element_table(k))
             if (n(1, k) > 0) call count_line(file, '   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)//' NODES, '// &
-                                             trim(merge('PLAIN       ', 'SECOND ORDER', kind%linear == k)), n(1, k))
+                                             one_of(kind%linear == k, 'PLAIN', 'SECOND ORDER'), n(1, k))
             if (n(2, k) > 0) call count_line(file, '   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)// &
                                              ' NODES, INCOMPATIBLE MODES', n(2, k))
          end associate
@@ -208,18 +208,18 @@ contains
       associate (control => deck%control, solver => system%description)
          select case (control%method)
          case (method_step)
-            call file%put('  METHOD STEP   PRESSURE '//trim(merge('EQ10', 'SUMF', control%pressure == pressure_eq10))// &
-                          '   CARRY '//trim(merge('YES', 'NO ', control%carry))//'   SOLVER '//solver%name)
+            call file%put('  METHOD STEP   PRESSURE '//one_of(control%pressure == pressure_eq10, 'EQ10', 'SUMF')// &
+                          '   CARRY '//one_of(control%carry, 'YES', 'NO')//'   SOLVER '//solver%name)
          case (method_newton)
             call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   SOLVER '//solver%name)
          case default
-            call file%put('  METHOD BACK   AVERAGE '//trim(merge('YES', 'NO ', control%average))//'   TOL '// &
+            call file%put('  METHOD BACK   AVERAGE '//one_of(control%average, 'YES', 'NO')//'   TOL '// &
                           real_text(control%tolerance)//'   SOLVER '//solver%name)
          end select
          if (allocated(solver%reason)) call file%put('  '//solver%reason)
       end associate
-      if (any(deck%control%stages%vibration%modes%id > 0)) call file%put(trim(merge( &
-         '  MASS LUMPED                                 ', '  MASS CONSISTENT (DEFAULT OF NASTRAN: LUMPED)', model%lumped)))
+      if (any(deck%control%stages%vibration%modes%id > 0)) call file%put('  MASS '// &
+         one_of(model%lumped, 'LUMPED', 'CONSISTENT (DEFAULT OF NASTRAN: LUMPED)'))
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
       call put_lines(file, upper(deck%bulk%ignored%words()), ',')
@@ -259,15 +259,17 @@ contains
           column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i13'), &
           column('FROM '//axes(:d), 'es12.4', page%labels%length), &
           column('TO '//axes(:d), 'es12.4', page%labels%length)], page%file)
-      do i = 1, merge(size(bodies), 0, size(bodies) > 1)
-         associate (b => bodies(i))
-            call table%put([character(12) :: 'BODY', 'ELEMENTS', 'NODES', 'FROM ELEMENT', 'TO ELEMENT'], &
-                           [i, b%n_elements, b%n_nodes, b%first, b%last])
-            call table%put('FROM '//axes(:d), b%low(:d))
-            call table%put('TO '//axes(:d), b%high(:d))
-            call table%print_row(page%file)
-         end associate
-      end do
+      if (size(bodies) > 1) then
+         do i = 1, size(bodies)
+            associate (b => bodies(i))
+               call table%put([character(12) :: 'BODY', 'ELEMENTS', 'NODES', 'FROM ELEMENT', 'TO ELEMENT'], &
+                              [i, b%n_elements, b%n_nodes, b%first, b%last])
+               call table%put('FROM '//axes(:d), b%low(:d))
+               call table%put('TO '//axes(:d), b%high(:d))
+               call table%print_row(page%file)
+            end associate
+         end do
+      end if
       if (.not. allocated(model%placed)) return ! nodes by place
       call table%start('NODES BY PLACE AND SURFACE', [column([character(8) :: 'NODE', 'NODEAT', 'ELEMENT', 'PMARK'], 'i11'), &
                        column(axes(:d), 'es14.5', page%labels%length), column('DISTANCE', 'es12.3', page%labels%length)], page%file)
@@ -313,13 +315,16 @@ contains
          end associate
       end do
 
-      do j = 1, merge(0, size(model%joints), modes_tell)
-         associate (joint => model%joints(j), law => model%joints(j)%law%normal)
-            if (.not. joint%e_u_given .and. law%c > 0.0_wp) call page%file%put('  NOTE: E_U OF JOINT '//integer_text(joint%id)// &
-               ' IS THE DEFAULT, E OF THE BODIES,'//in_form(law%e_u/normal_tangent(law, 1.0_wp, joint%p_av, joint%p_av), &
-               '(es10.2)', 10)//' TIMES THE SLOPE OF LOADING AT ITS FIRST P')
-         end associate
-      end do
+      if (.not. modes_tell) then
+         do j = 1, size(model%joints)
+            associate (joint => model%joints(j), law => model%joints(j)%law%normal)
+               if (.not. joint%e_u_given .and. law%c > 0.0_wp) call page%file%put('  NOTE: E_U OF JOINT '// &
+                  integer_text(joint%id)//' IS THE DEFAULT, E OF THE BODIES,'// &
+                  in_form(law%e_u/normal_tangent(law, 1.0_wp, joint%p_av, joint%p_av), '(es10.2)', 10)// &
+                  ' TIMES THE SLOPE OF LOADING AT ITS FIRST P')
+            end associate
+         end do
+      end if
 
       ! the cover of sides that do not match
       shown = model%joints%cover%fitted .and. (lists > 0 .or. model%joints%cover%share < whole_share)
@@ -398,7 +403,7 @@ contains
                line = '   D ='//in_form(closure%d, '(es13.5)', 13)
                if (.not. closure%d > 0.0_wp) line = '   OF SMALL LOOPS: THE CARD HAS NO DMAX'
                if (closure%is_known) call file%put(behind//'CLOSURE'//in_form(100.0_wp*closure%share, '(f9.3)', 9)// &
-                  ' PER CENT OF TAU_R'//trim(merge(', WIDEST', '        ', closure%d > 0.0_wp))//' AT P ='// &
+                  ' PER CENT OF TAU_R'//one_of(closure%d > 0.0_wp, ', WIDEST', '')//' AT P ='// &
                   in_form(closure%p, '(es13.5)', 13)//line)
                if (.not. closure%is_known) call file%put(behind//'CLOSURE: UNLOADING DOES NOT REACH TAU = 0')
             end do

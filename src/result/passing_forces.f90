@@ -42,7 +42,7 @@ contains
       type(cut_type), intent(in)      :: cuts(:) !! (joints) by planes of symmetry
       type(passage_type), intent(out) :: passages
       integer, allocatable :: nodes(:), pairs(:, :)
-      integer :: bodies(2), end, i, j, this(3)
+      integer :: bodies(2), end, i, j, candidate(3)
 
       call number_parts(model, .false., passages%part, passages%base)
       passages%base = passages%base + 1
@@ -55,11 +55,11 @@ contains
             if (size(nodes) > 0) bodies(end) = passages%part(nodes(1))
          end do
          if (bodies(1) > bodies(2)) passages%sense(i) = -1
-         this = [minval(bodies), maxval(bodies), merge(model%interface(i)%joint, 0, bodies(1) == bodies(2))]
+         candidate = [minval(bodies), maxval(bodies), merge(model%interface(i)%joint, 0, bodies(1) == bodies(2))]
          do j = size(pairs, 2), 1, -1 ! most elements are of the last pair
-            if (all(pairs(:, j) == this)) exit
+            if (all(pairs(:, j) == candidate)) exit
          end do
-         if (j == 0) pairs = reshape([pairs, this], [3, size(pairs, 2) + 1])
+         if (j == 0) pairs = reshape([pairs, candidate], [3, size(pairs, 2) + 1])
          passages%of_element(i) = merge(j, size(pairs, 2), j > 0)
       end do
       passages%n = size(pairs, 2)
@@ -125,15 +125,17 @@ contains
 
       grounded = .false.
       grounded(passages%base) = .true.
-      do node = 1, merge(0, n_points(model), model%floats)
-         if (grounded(passages%part(node))) cycle
-         held = supported(model, node)
-         if (.not. any(held)) cycle
-         axes = node_axes(model, node)
-         do d = 1, model%dimension
-            if (held(d)) call ground(node, axes(:, d))
+      if (.not. model%floats) then
+         do node = 1, n_points(model)
+            if (grounded(passages%part(node))) cycle
+            held = supported(model, node)
+            if (.not. any(held)) cycle
+            axes = node_axes(model, node)
+            do d = 1, model%dimension
+               if (held(d)) call ground(node, axes(:, d))
+            end do
          end do
-      end do
+      end if
       do i = 1, n_bars(model)
          if (model%bars(i)%nodes(2) == 0 .and. node_kind(model, model%bars(i)%nodes(1)) == a_point) &
             call ground(model%bars(i)%nodes(1), model%bars(i)%direction(:, 1))

@@ -20,7 +20,7 @@ module range_watch
    use result_page, only: page_type
    use shear_loops, only: loop_closure, wide_gap, worst_closure
    use shear_stiffness, only: curve_deflection, shear_law, shear_slope
-   use text_tools, only: append, integer_text, plural, real_text, text_item, upper
+   use text_tools, only: append, integer_text, one_of, plural, real_text, text_item, upper
    use tolerances, only: equal_slopes, symmetric_tie
    use unknowns, only: unknown_name
    implicit none
@@ -340,7 +340,7 @@ contains
                call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(place)//': E_U = '//real_text(law%e_u)//' OF JOINT '// &
                   integer_text(model%joints(j)%id)//' IS BELOW THE LOADING SLOPE '//real_text(slope)//' AT P = '//real_text(p)// &
-                  trim(merge(': NEGATIVE SET', '              ', p/law%e_u > loading_deflection(law, max(p, 0.0_wp)))))
+                  one_of(p/law%e_u > loading_deflection(law, max(p, 0.0_wp)), ': NEGATIVE SET', ''))
             end associate
          end associate
       end do

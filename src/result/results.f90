@@ -194,9 +194,11 @@ contains
       associate (stage => plan%stages(analysis%stage), page => results%page)
          if (.not. allocated(results%joints_now)) call find_values(model, analysis, results) ! the run has resumed, and ends here
          if (stage%output%level >= output_last) call list_joints(page, stage%output, model, analysis)
-         do i = 1, merge(size(model%joints), 0, stage%output%plot)
-            call plot_joint(page, model, analysis, model%joints(i))
-         end do
+         if (stage%output%plot) then
+            do i = 1, size(model%joints)
+               call plot_joint(page, model, analysis, model%joints(i))
+            end do
+         end if
          if (any(stage%output%level == [output_all, output_last])) then
             call list_bodies(page, stage%output, model, analysis)
          else if (stage%output%forces) then

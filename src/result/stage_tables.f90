@@ -12,7 +12,7 @@ module stage_tables
    use step_method, only: reanalyses_shown
    use table_column, only: column
    use table_writer, only: table_type
-   use text_tools, only: clean, integer_text
+   use text_tools, only: clean, integer_text, one_of
    use tolerances, only: page_zero
    implicit none
    private
@@ -102,7 +102,7 @@ contains
       associate (p => page%labels%pressure, length => page%labels%length)
          if (.not. table%has_begun()) call table%start('DISTANCE FROM THE LAWS, '//page%stage// &
             ': LARGEST |LAMBDA - LAMBDA LAW| OF THE LARGEST LAMBDA'// &
-            trim(merge(', |TAU - TAU LAW| OF THE LARGEST TAU', repeat(' ', 36), has_shear)), &
+            one_of(has_shear, ', |TAU - TAU LAW| OF THE LARGEST TAU', ''), &
             [column('INCR', 'i6'), column('JOINT', 'i11'), column('LAMBDA OFF %', 'f13.3'), &
              column('AT NODE', 'i11', key='of lambda'), column(['LAMBDA    ', 'LAMBDA LAW'], 'es13.5', length), &
              column('TAU OFF %', 'f11.3', is_listed=has_shear), column('AT NODE', 'i11', is_listed=has_shear, key='of tau'), &

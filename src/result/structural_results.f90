@@ -117,11 +117,11 @@ contains
       allocate (stress(max_stresses, 5, 2, size(model%structural%shells)), normal(3, size(model%structural%shells)))
       do e = 1, model%n_elements
          if (is_shell(model, e)) then
-            associate (own => stress(:, :, :, model%structural%place(e)), n => size(corners_of(model, e)))
-               call face_stresses(model, e, u, temperature, own)
+            associate (of_face => stress(:, :, :, model%structural%place(e)), n => size(corners_of(model, e)))
+               call face_stresses(model, e, u, temperature, of_face)
                frame = shell_frame_of(model%x(:, corners_of(model, e)), 0.0_wp)
                normal(:, model%structural%place(e)) = frame%axes(:, 3)
-               at_centre(e) = max(von_mises(own(:, n + 1, 1)), von_mises(own(:, n + 1, 2)))
+               at_centre(e) = max(von_mises(of_face(:, n + 1, 1)), von_mises(of_face(:, n + 1, 2)))
             end associate
          else if (is_beam(model, e) .and. present(analysis)) then
             forces = end_forces(model, analysis, e)
@@ -195,11 +195,12 @@ contains
       do e = 1, model%n_elements
          if (.not. is_shell(model, e)) cycle
          if (.not. shows(page, corners_of(model, e))) cycle
-         associate (own => centre(:, :, model%structural%place(e)), fibre => model%properties(model%element_property(e))%fibre)
+         associate (of_element => centre(:, :, model%structural%place(e)), &
+                    fibre => model%properties(model%element_property(e))%fibre)
             do f = 1, 2
                call table%put('ELEMENT', model%element_id(e))
                call table%put('HEIGHT', fibre(f))
-               call table%put(stresses, [own(:, f), von_mises(own(:, f))], floor)
+               call table%put(stresses, [of_element(:, f), von_mises(of_element(:, f))], floor)
                call table%print_row(page%file)
             end do
          end associate
@@ -250,16 +251,16 @@ contains
                x = sum(model%x(:, nodes), dim=2)/n
                if (i <= n) node = model%node_id(nodes(i))
                if (i <= n) x = model%x(:, nodes(i))
-               associate (own => force(:, i, model%structural%place(e)))
+               associate (of_corner => force(:, i, model%structural%place(e)))
                   call table%put('stage', page%stage_id)
                   call table%put('increment', analysis%increment)
                   call table%put('load', analysis%fraction)
                   call table%put('element', model%element_id(e))
                   call table%put('node', node)
                   call table%put(xyz, x)
-                  call table%put(['n_x ', 'n_y ', 'n_xy'], own(:3), floor(1))
-                  call table%put(['m_x ', 'm_y ', 'm_xy'], own(4:6), floor(2))
-                  call table%put(['q_x', 'q_y'], own(7:), floor(1))
+                  call table%put(['n_x ', 'n_y ', 'n_xy'], of_corner(:3), floor(1))
+                  call table%put(['m_x ', 'm_y ', 'm_xy'], of_corner(4:6), floor(2))
+                  call table%put(['q_x', 'q_y'], of_corner(7:), floor(1))
                end associate
                call table%print_row(page%file, page%tables(shell_table), is_listed=is_listed .and. i > n)
             end do

@@ -83,7 +83,7 @@ contains
       type(analysis_type), intent(in)   :: analysis
       real(wp), intent(in)              :: largest_force !! ever applied at a node, for the noise
       type(reactions_type), intent(out) :: answer
-      real(wp), allocatable :: felt(:, :)
+      real(wp), allocatable :: on_unknowns(:, :)
       real(wp) :: force(model%dimension)
       integer  :: d, g, i, j, last, n, node
 
@@ -96,13 +96,13 @@ contains
       answer%parts(n + 1:last - 1)%kind = 'BASE'
       answer%parts(n + 1:last - 1)%id = model%joints%id
       answer%parts(last)%kind = 'SPRINGS'
-      allocate (felt, source=forces_on_unknowns(model, analysis%all_unbalanced))
+      allocate (on_unknowns, source=forces_on_unknowns(model, analysis%all_unbalanced))
       do node = 1, size(model%support_of, 2)
          associate (groups => model%support_of(:, node), coupled => coupling_parts(model, node))
             do d = 1, model%dimension
                g = groups(d)
                if (g == 0 .or. any(groups(:d - 1) == g) .or. .not. model%used(node)) cycle
-               force = -merge(felt(:, node), 0.0_wp, groups == g)
+               force = -merge(on_unknowns(:, node), 0.0_wp, groups == g)
                do i = coupled(1), coupled(2) ! from the unknowns of the node to global axes
                   if (model%coupling%node(i) == node) force = matmul(model%coupling%t(:, :, i), force)
                end do

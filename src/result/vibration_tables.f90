@@ -14,7 +14,7 @@ module vibration_tables
    use stage_plan, only: vibration_plan_type
    use table_column, only: column
    use table_writer, only: table_type
-   use text_tools, only: above, integer_text, plural, real_text, upper
+   use text_tools, only: above, integer_text, one_of, plural, real_text, upper
    use tolerances, only: centre_floor, least_loss_factor, listed_share, page_zero, zero_loop_share, zero_mass
    implicit none
    private
@@ -44,17 +44,17 @@ contains
 
       call page%file%put('')
       call page%file%put(' NATURAL MODES ABOUT THE END OF '//page%stage//'   '// &
-                         trim(merge('STIFFNESS OF LOADING  ', 'STIFFNESS OF UNLOADING', plan%on_loading))//', '// &
-                         trim(merge('SUPPORTS RELEASED', 'SUPPORTS HELD    ', plan%free))//', '// &
-                         trim(merge('LUMPED MASS    ', 'CONSISTENT MASS', model%lumped)))
+                         one_of(plan%on_loading, 'STIFFNESS OF LOADING', 'STIFFNESS OF UNLOADING')//', '// &
+                         one_of(plan%free, 'SUPPORTS RELEASED', 'SUPPORTS HELD')//', '// &
+                         one_of(model%lumped, 'LUMPED MASS', 'CONSISTENT MASS'))
       if (size(model%interface) > 0) call page%file%put('  INTERFACE ELEMENTS IN CONTACT: '// &
          integer_text(modes%n_touching)//' OF '//integer_text(size(model%interface))//'; THE OTHERS HAVE NO STIFFNESS')
       do j = 1, size(model%joints)
          if (.not. modes%steeper(j) > 0.0_wp) cycle
          warns = modes%steeper(j) > steep
-         call page%file%put(trim(merge('  WARNING: E_U OF JOINT', '  NOTE: E_U OF JOINT   ', warns))//' '// &
+         call page%file%put(one_of(warns, '  WARNING: E_U OF JOINT', '  NOTE: E_U OF JOINT')//' '// &
             integer_text(model%joints(j)%id)//' IS THE DEFAULT, AND MAKES IT '//trim(adjustl(in_form(modes%steeper(j), &
-            '(es10.2)', 10)))//' TIMES AS STIFF AS ITS LOADING CURVES'//trim(merge(': GIVE EU ON JNORM', repeat(' ', 18), warns)))
+            '(es10.2)', 10)))//' TIMES AS STIFF AS ITS LOADING CURVES'//one_of(warns, ': GIVE EU ON JNORM', ''))
          if (warns) n_warnings = n_warnings + 1
       end do
       if (modes%counted_at < huge(1.0_wp)) then
@@ -62,7 +62,7 @@ contains
                             ', COUNTED BY THE SIGNS OF THE PIVOTS; NONE IS MISSING')
       else
          call page%file%put('  THE STRUCTURE HAS '//upper(plural(modes%n_counted, 'mode'))//' IN ALL, '// &
-                            trim(merge('AND IT HAS BEEN FOUND  ', 'AND ALL HAVE BEEN FOUND', modes%n_counted == 1)))
+                            one_of(modes%n_counted == 1, 'AND IT HAS BEEN FOUND', 'AND ALL HAVE BEEN FOUND'))
       end if
       if (modes%n_before > 0) call page%file%put('  BELOW THE RANGE: '//integer_text(modes%n_before))
       if (size(modes%modes) == 0) call page%file%put('  NO MODE IS IN THE RANGE')
@@ -200,12 +200,14 @@ contains
             call table%start('SHARE OF THE LOSS BY JOINT', [column('AMPLITUDE', 'es14.5', page%labels%length), &
                              column('JOINT', 'i11'), column('SHARE', 'f10.2', 'PERCENT')], page%file)
             do i = 1, size(found%loops)
-               do k = 1, merge(size(model%joints), 0, found%loops(i)%loss > least_loss_factor)
-                  call table%put('AMPLITUDE', found%loops(i)%q*found%peak)
-                  call table%put('JOINT', model%joints(k)%id)
-                  call table%put('SHARE', percent*found%loops(i)%shares(k), zero_loop_share)
-                  call table%print_row(page%file)
-               end do
+               if (found%loops(i)%loss > least_loss_factor) then
+                  do k = 1, size(model%joints)
+                     call table%put('AMPLITUDE', found%loops(i)%q*found%peak)
+                     call table%put('JOINT', model%joints(k)%id)
+                     call table%put('SHARE', percent*found%loops(i)%shares(k), zero_loop_share)
+                     call table%print_row(page%file)
+                  end do
+               end if
             end do
          end if
          if (allocated(found%answers)) call list_resonances(page, model, found)

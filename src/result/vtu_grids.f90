@@ -195,25 +195,25 @@ contains
       type(joint_type), intent(in)    :: joint
       type(surface_type), intent(in)  :: surface
       type(grid_type), intent(inout)  :: grid
-      integer, allocatable :: all_nodes(:), near(:), own(:), point(:), share(:)
+      integer, allocatable :: all_nodes(:), near(:), element_at(:), point(:), share(:)
       logical, allocatable :: second(:)
       integer :: before, f, i, k
 
-      allocate (own(model%n_nodes), point(model%n_nodes), source=0) ! element and point of a node
+      allocate (element_at(model%n_nodes), point(model%n_nodes), source=0) ! element and point of a node
       allocate (share(size(grid%element)), source=0)
       allocate (second(joint%first:joint%last), source=.false.) ! whether an earlier element has the same node
       do i = joint%first, joint%last
          associate (nodes => nodes_of_end(model%interface(i), 1), weights => weights_of_end(model%interface(i), 1))
             associate (node => nodes(maxloc(weights, dim=1)))
-               second(i) = own(node) > 0
-               if (.not. second(i)) own(node) = i
+               second(i) = element_at(node) > 0
+               if (.not. second(i)) element_at(node) = i
             end associate
          end associate
       end do
       before = grid%n_points
       do f = 1, surface%n
          associate (nodes => surface%nodes(:surface%n_nodes(f), f))
-            if (any(own(nodes) > 0)) point(nodes) = -1
+            if (any(element_at(nodes) > 0)) point(nodes) = -1
          end associate
       end do
       all_nodes = nodes_of(surface)
@@ -224,12 +224,13 @@ contains
       end do
       do f = 1, surface%n
          associate (nodes => surface%nodes(:surface%n_nodes(f), f))
-            if (all(own(nodes) == 0)) cycle
+            if (all(element_at(nodes) == 0)) cycle
             do k = 1, size(nodes)
                near = beside(k, surface%corners(f), size(nodes))
-               if (own(nodes(k)) > 0) near = [k]
+               if (element_at(nodes(k)) > 0) near = [k]
                do i = 1, size(near)
-                  if (own(nodes(near(i))) > 0) call take(own(nodes(near(i))), point(nodes(k)), own(nodes(k)) > 0)
+                  if (element_at(nodes(near(i))) > 0) &
+                     call take(element_at(nodes(near(i))), point(nodes(k)), element_at(nodes(k)) > 0)
                end do
             end do
             call add_cell(point(nodes), surface%corners(f), grid)
@@ -240,8 +241,8 @@ contains
             do k = 1, size(nodes)
                if (point(nodes(k)) == 0) cycle
                if (share(point(nodes(k))) > 0) cycle
-               i = findloc(own(nodes) > 0, .true., dim=1)
-               if (i > 0) call take(own(nodes(i)), point(nodes(k)), .true.)
+               i = findloc(element_at(nodes) > 0, .true., dim=1)
+               if (i > 0) call take(element_at(nodes(i)), point(nodes(k)), .true.)
             end do
          end associate
       end do

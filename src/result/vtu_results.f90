@@ -173,9 +173,11 @@ contains
                call results%subdomains%write(analysis%all_u, analysis%now%temperature, labels%length//labels%pressure, names, ok)
             end block
          end if
-         do k = 1, merge(0, size(files), ok)
-            call files(k)%discard()
-         end do
+         if (.not. ok) then
+            do k = 1, size(files)
+               call files(k)%discard()
+            end do
+         end if
       end associate
    end subroutine write_pieces
 
@@ -236,9 +238,11 @@ contains
 
       words = ''
       if (results%many .and. results%n > 0) words = ', .pvd'
-      do i = 1, merge(0, results%n, results%many)
-         words = words//', '//trim(results%parts(i)%ending)
-      end do
+      if (.not. results%many) then
+         do i = 1, results%n
+            words = words//', '//trim(results%parts(i)%ending)
+         end do
+      end if
    end function vtu_names
 
    !> Discard all files, even those that already have their names.

@@ -19,7 +19,7 @@ module restart_file
    use results, only: record_results, restart_ending
    use stage_plan, only: stage_plan_type, where_in_plan
    use terminal, only: version
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    implicit none
    private
 
@@ -39,7 +39,7 @@ contains
       inquire (file=name, exist=there)
       if (.not. there) then
          call tell(run, 'there is no '//name//', the run '// &
-                       trim(merge('would start from the beginning', 'starts from the beginning     ', run%check_only)))
+                       one_of(run%check_only, 'would start from the beginning', 'starts from the beginning'))
          return
       end if
       run%ending = is_refused

@@ -166,11 +166,13 @@ contains
       do s = 1, n
          last = supers%first(s + 1) - 1
          supers%first_row(s) = i
-         do j = supers%first(s), merge(last, 0, s <= n_inner)
-            do k = graph%first(order(j)), graph%first(order(j) + 1) - 1
-               call take(place(graph%neighbours(k)))
+         if (s <= n_inner) then
+            do j = supers%first(s), last
+               do k = graph%first(order(j)), graph%first(order(j) + 1) - 1
+                  call take(place(graph%neighbours(k)))
+               end do
             end do
-         end do
+         end if
          c = supers%child(s)
          do while (c /= 0)
             do k = supers%first_row(c), supers%first_row(c + 1) - 1

@@ -60,7 +60,7 @@ module equation_solver
       integer :: most_steps = 25                     !! with a new factor
       integer :: price = 0                           !! steps that cost as much as a factorisation; 0: never worth while
       logical :: serves = .false.                    !! whether a factor of the present bodies exists
-      real(wp) :: own = 0.0_wp                       !! steps per digit with the factor of the system's own symmetric part
+      real(wp) :: symmetric_steps = 0.0_wp           !! steps per digit with the factor of the system's own symmetric part
       integer :: extra = 0                           !! steps beyond these in the last system
       integer :: spent = 0, solved = 0               !! cost in steps since and with the last factorisation; systems solved
       type(solver_direction), allocatable :: kept(:) !! directions of the last systems since the factorisation

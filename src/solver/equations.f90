@@ -116,12 +116,12 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: f(:, :) !! of all nodes [force]
       real(wp), intent(out)              :: g(:, :) !! of retained nodes; zero on held components
-      real(wp), allocatable :: felt(:)
+      real(wp), allocatable :: condensed(:)
       integer :: k
 
-      allocate (felt(system%n))
-      call system%condense([(f(system%direction(k), system%node(k)), k = 1, system%n)], felt)
-      call system%put(felt, g)
+      allocate (condensed(system%n))
+      call system%condense([(f(system%direction(k), system%node(k)), k = 1, system%n)], condensed)
+      call system%put(condensed, g)
    end subroutine condense_load
 
    !> Form [k_s] = [k_b] + sum of [k_int], Eq. (8), ready to solve; ONE_SOLUTION: to be solved only once. A direction without
@@ -165,11 +165,13 @@ contains
       moves = .false.
       if (present(moved)) moves = any(abs(moved) > 0.0_wp)
       allocate (less, source=f)
-      do i = 1, merge(size(system%interface), 0, moves)
-         associate (element => system%interface(i))
-            call add_global_force(element, -matmul(system%k_int(:, :, i), relative_movement(element, moved)), less)
-         end associate
-      end do
+      if (moves) then
+         do i = 1, size(system%interface)
+            associate (element => system%interface(i))
+               call add_global_force(element, -matmul(system%k_int(:, :, i), relative_movement(element, moved)), less)
+            end associate
+         end do
+      end if
       allocate (x(system%n))
       call system%gather(less, x)
       system%options%digits = exact_digits
@@ -235,7 +237,7 @@ contains
       real(wp), intent(inout)               :: u(:, :)        !! (dimension, retained) [force] on entry, [length] on return
       type(failure_type), intent(inout)     :: failure
       real(wp) :: digits_wanted, load(size(u, 1), size(u, 2))
-      integer  :: i, own, steps
+      integer  :: i, symmetric_steps, steps
 
       if (.not. allocated(system%coupled%change)) allocate (system%coupled%change, mold=rest)
       associate (tally => system%coupled)
@@ -245,13 +247,13 @@ contains
             do i = 1, size(rest, 3)
                tally%change(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i) + rest(:, :, i)) - system%k_int(:, :, i)
             end do
-            own = nint(tally%own*digits_wanted)
-            call iterate_coupled(model, tolerance, own + tally%price, system, u, steps, failure)
+            symmetric_steps = nint(tally%symmetric_steps*digits_wanted)
+            call iterate_coupled(model, tolerance, symmetric_steps + tally%price, system, u, steps, failure)
             if (failure%raised) return
-            tally%extra = max(0, steps - own)
+            tally%extra = max(0, steps - symmetric_steps)
             tally%spent = tally%spent + tally%extra
             tally%solved = tally%solved + 1
-            if (steps <= own + tally%price) return
+            if (steps <= symmetric_steps + tally%price) return
          end if
          if (allocated(tally%kept)) deallocate (tally%kept)
          call form_structure_stiffness(model, k_int, where, system, failure)
@@ -260,7 +262,7 @@ contains
          end do
          u = load
          call iterate_coupled(model, tolerance, tally%most_steps, system, u, steps, failure)
-         tally%own = steps/digits_wanted
+         tally%symmetric_steps = steps/digits_wanted
          tally%extra = 0
          tally%spent = tally%price
          tally%solved = 1

@@ -52,16 +52,16 @@ contains
       type(front_type), intent(in)    :: child
       type(front_type), intent(inout) :: front
       integer, intent(in)             :: from, until
-      integer :: column, first, i, j, k, last, row, this
+      integer :: column, first, i, j, k, last, row, run_at
 
-      this = 1                                       ! the run that contains column J
+      run_at = 1                                     ! the run that contains column J
       do j = from, until
-         do while (j >= child%run(this + 1))
-            this = this + 1
+         do while (j >= child%run(run_at + 1))
+            run_at = run_at + 1
          end do
          column = child%in_parent(j)
          front%diagonal(column) = front%diagonal(column) + child%diagonal(child%p + j)
-         do k = this, size(child%run) - 1
+         do k = run_at, size(child%run) - 1
             first = max(j, child%run(k))
             last = child%run(k + 1) - 1
             row = child%in_parent(first)

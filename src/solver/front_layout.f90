@@ -210,7 +210,7 @@ contains
       real(wp), intent(in)                :: panel(:), update(:), kept
       real(wp) :: left(layout%n)           ! update entries that the children leave to a front
       real(wp) :: of_large(layout%n)       ! of these, entries of large matrices, whose memory the front takes over
-      real(wp) :: now, own
+      real(wp) :: now, need
       integer  :: f, pass
 
       most = 0.0_wp
@@ -222,9 +222,9 @@ contains
          most = max(most, now)
          do f = 1, layout%n
             if (layout%is_refactored(f) .neqv. pass == 2) cycle
-            own = update(f) + merge(panel(f), 0.0_wp, pass == 1)
-            now = now + own
-            most = max(most, now - min(own, of_large(f)))
+            need = update(f) + merge(panel(f), 0.0_wp, pass == 1)
+            now = now + need
+            most = max(most, now - min(need, of_large(f)))
             now = now - left(f)
             associate (parent => layout%parent(f))
                if (parent == 0) then

@@ -7,7 +7,7 @@ module memory_need
    use kinds, only: long, wp
    use machine, only: address_space_left, for_threads, memory_for
    use omp_lib, only: omp_get_max_threads
-   use text_tools, only: integer_text, plural
+   use text_tools, only: integer_text, one_of, plural
    implicit none
    private
 
@@ -28,7 +28,7 @@ contains
          call failure%raise('OpenBLAS needs at least '//integer_text(int(needed/1048576))//' MiB of address space for '// &
                             plural(omp_get_max_threads(), 'thread')//', and '//integer_text(int(left/1048576))// &
                             ' MiB are left: raise the limit (ulimit -v)'// &
-                            trim(merge(', or take --threads 1', '                     ', omp_get_max_threads() > 1)))
+                            one_of(omp_get_max_threads() > 1, ', or take --threads 1', ''))
       end if
    end subroutine check_buffers
 

@@ -41,14 +41,16 @@ contains
          do node = 1, graph%n
             graph%first(node) = n + 1
             mark(node) = node
-            do i = model%first_at(node), merge(0, model%first_at(node + 1) - 1, is_face_node(model, node)) ! a face has no unknowns
-               e = model%elements_at(i)
-               do k = 1, size(model%element_nodes, 1)
-                  call visit(model%element_nodes(k, e))
+            if (.not. is_face_node(model, node)) then ! a face has no unknowns
+               do i = model%first_at(node), model%first_at(node + 1) - 1
+                  e = model%elements_at(i)
+                  do k = 1, size(model%element_nodes, 1)
+                     call visit(model%element_nodes(k, e))
+                  end do
+                  call visit(section_node(model, e))
+                  call visit_rotations(e)
                end do
-               call visit(section_node(model, e))
-               call visit_rotations(e)
-            end do
+            end if
             do i = first_list(node), first_list(node + 1) - 1
                do k = 1, size(joined, 1)
                   call visit(joined(k, lists_at(i)))
@@ -102,13 +104,16 @@ contains
       do i = 1, n_bars(model)
          call join(unknown_nodes(model, bar_nodes(model%bars(i))))
       end do
-      do i = 1, merge(n_masses(model), 0, with_masses)
-         call join(unknown_nodes(model, mass_nodes(model, model%masses(i))))
-      end do
+      if (with_masses) then
+         do i = 1, n_masses(model)
+            call join(unknown_nodes(model, mass_nodes(model, model%masses(i))))
+         end do
+      end if
       if (.not. (with_bodies .and. allocated(model%coupling%of_node))) return
       do e = 1, model%n_elements
-         associate (felt => participating_nodes(model, e), unknown => coupled_nodes(model, e)) ! some of which it does not touch?
-            if (any([(all(felt /= unknown(i)), i = 1, size(unknown))])) call join(unknown)
+         ! an unknown of the element may belong to a node that does not participate
+         associate (participating => participating_nodes(model, e), unknown => coupled_nodes(model, e))
+            if (any([(all(participating /= unknown(i)), i = 1, size(unknown))])) call join(unknown)
          end associate
       end do
       joined = joined(:, :n)

@@ -255,13 +255,13 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: f(:, :) !! (dimension, n_nodes) [force]
       real(wp) :: x(system%n)
-      real(wp), allocatable :: felt(:, :)
+      real(wp), allocatable :: on_unknowns(:, :)
       integer :: i
 
-      allocate (felt, source=forces_on_unknowns(model, f))
+      allocate (on_unknowns, source=forces_on_unknowns(model, f))
       !$omp parallel do default(shared) if(system%n > worth_threads)
       do i = 1, system%n
-         x(i) = felt(system%direction(i), system%node(i))
+         x(i) = on_unknowns(system%direction(i), system%node(i))
       end do
       !$omp end parallel do
       x(system%locked) = 0.0_wp

@@ -67,7 +67,7 @@ contains
       real(wp), intent(in)               :: phi(:, :) !! generalised mass 1
       type(modal_load_type), intent(out) :: modal
       type(failure_type), intent(inout)  :: failure
-      real(wp), allocatable :: inside(:, :), felt(:, :)
+      real(wp), allocatable :: inside(:, :), on_unknowns(:, :)
       real(wp) :: work(size(model%interface))
       integer :: e
 
@@ -87,10 +87,10 @@ contains
       allocate (modal%condensed, mold=analysis%u)
       call mass_times(model, modal%mass, modal%phi, modal%force)
       call hold_load(model, modal%system, modal%rest)
-      felt = forces_on_unknowns(model, modal%force)
-      call condense_load(modal%system, felt, modal%condensed)
-      call recover_displacements(modal%system, felt, 0.0_wp*modal%condensed, inside)
-      modal%inside = sum(felt*inside)
+      on_unknowns = forces_on_unknowns(model, modal%force)
+      call condense_load(modal%system, on_unknowns, modal%condensed)
+      call recover_displacements(modal%system, on_unknowns, 0.0_wp*modal%condensed, inside)
+      modal%inside = sum(on_unknowns*inside)
       allocate (modal%rest_forces(3, size(model%interface)), source=0.0_wp)
       modal%rest%increment_fraction = 0.0_wp
       call load_increment(model, modal, [0.0_wp, 0.0_wp], modal%rest, work, failure)

@@ -18,7 +18,7 @@ module mode_values
    use analysis_state, only: analysis_type
    use body_elements, only: element_stiffness
    use eigenpairs, only: all_displacements, on_equations
-   use element_kinds, only: max_felt_dofs
+   use element_kinds, only: max_section_dofs
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system
    use interface_operator, only: add_force, joint_movement
@@ -32,7 +32,7 @@ module mode_values
    use normal_stiffness, only: branch_open
    use shear_loops, only: loss_of_element
    use stage_plan, only: vibration_plan_type
-   use structural_elements, only: add_pull, bar_elongation
+   use structural_elements, only: add_axial_force, bar_elongation, add_pull
    use tolerances, only: equal_eigenvalues, undamped, weak_participation
    implicit none
    private
@@ -235,16 +235,16 @@ contains
       class(equation_system), intent(in)    :: system
       real(wp), intent(in)                  :: f(:, :), of_mass(:, :)
       type(mode_type), intent(inout)        :: mode
-      real(wp) :: felt(system%n), inertia(system%n), factor, share
+      real(wp) :: force(system%n), inertia(system%n), factor, share
 
       mode%omega = sqrt(max(0.0_wp, mode%lambda))
       mode%frequency = mode%omega/two_pi
-      felt = on_equations(model, system, f)
+      force = on_equations(model, system, f)
       inertia = on_equations(model, system, of_mass)
       if (mode%is_rigid) then
-         mode%residual = norm2(felt)/norm2(system%shift*inertia)
+         mode%residual = norm2(force)/norm2(system%shift*inertia)
       else
-         mode%residual = norm2(felt - mode%lambda*inertia)/norm2(felt)
+         mode%residual = norm2(force - mode%lambda*inertia)/norm2(force)
       end if
       mode%mass = sum(mode%u*of_mass)
       mode%effective = mode%participation**2/mode%mass
@@ -319,7 +319,8 @@ contains
       real(wp), intent(in)               :: u(:, :, :)  !! (dimension, n_nodes, modes) [length]
       type(energy_type), intent(out)     :: energies(:) !! (modes)
       real(wp), intent(out)              :: f(:, :, :)  !! as U [force]
-      real(wp) :: k(max_felt_dofs, max_felt_dofs), q(max_felt_dofs, size(energies)), p(max_felt_dofs, size(energies)), own
+      real(wp) :: k(max_section_dofs, max_section_dofs), q(max_section_dofs, size(energies))
+      real(wp) :: p(max_section_dofs, size(energies)), energy
       real(wp) :: movement(3), tension
       integer  :: body(model%n_elements), d, e, i, j, m, n, n_bodies
 
@@ -339,9 +340,9 @@ contains
             f(:, nodes, :) = f(:, nodes, :) + reshape(p(:n, :), [d, size(nodes), size(energies)])
          end associate
          do m = 1, size(energies)
-            own = 0.5_wp*dot_product(q(:n, m), p(:n, m))
-            energies(m)%body(body(e)) = energies(m)%body(body(e)) + own
-            energies(m)%damped = energies(m)%damped + model%properties(model%element_property(e))%damping*own
+            energy = 0.5_wp*dot_product(q(:n, m), p(:n, m))
+            energies(m)%body(body(e)) = energies(m)%body(body(e)) + energy
+            energies(m)%damped = energies(m)%damped + model%properties(model%element_property(e))%damping*energy
          end do
       end do
       do m = 1, size(energies)
@@ -351,7 +352,7 @@ contains
                tension = bar%stiffness*bar_elongation(bar, u(:, bar_nodes(bar), m))
                energies(m)%bar(i) = 0.5_wp*tension**2/bar%stiffness
                energies(m)%damped = energies(m)%damped + bar%damping*energies(m)%bar(i)
-               call add_pull(model, i, -tension, f(:, :, m))
+               call add_axial_force(model, i, -tension, f(:, :, m))
             end associate
          end do
          do i = 1, size(model%interface)

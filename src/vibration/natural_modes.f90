@@ -279,17 +279,17 @@ contains
       real(wp), intent(inout)            :: shift
       class(equation_system), allocatable, intent(out) :: system
       type(failure_type), intent(inout)  :: failure
-      type(failure_type) :: own
+      type(failure_type) :: found
       integer :: trial
 
       if (failure%raised) return
       do trial = 1, most_trials
-         own = failure
-         call factorise_at(model, structure, shift, system, own)
-         if (.not. own%raised) return
+         found = failure
+         call factorise_at(model, structure, shift, system, found)
+         if (.not. found%raised) return
          shift = shift*(1.0_wp - off_the_pole*10.0_wp**trial)
       end do
-      failure = own
+      failure = found
    end subroutine factorise_beside
 
    !> N modes from below all of them: without a shift, or for a structure without sufficient supports from a negative shift. Its

@@ -79,7 +79,7 @@ limited 300 "$work/q4_4000x4000.bdf"
 check 'a plate of 4000 x 4000' 3 0 'nodes of the model need at least 7633 MiB'
 
 # ------------------------------------------------------------------ nothing is told, an allocation fails while the model is built
-limited 200 --check "$work/hex8_250x250x250.bdf"
+limited 300 --check "$work/hex8_250x250x250.bdf"
 check '250 x 250 x 250, --check, which leaves older results alone' 3 5 \
    'the memory of the machine, or the permitted part of it, does not suffice; no results'
 

@@ -28,7 +28,7 @@ contains
       type(model_type), intent(in) :: model
       real(wp), allocatable :: k(:, :)
       real(wp), allocatable :: k_e(:, :)
-      real(wp) :: pull(2*model%dimension)
+      real(wp) :: end_directions(2*model%dimension)
       integer  :: e, i
 
       allocate (k(model%dimension*model%n_nodes, model%dimension*model%n_nodes), source=0.0_wp)
@@ -39,9 +39,9 @@ contains
       do i = 1, n_bars(model)
          if (model%bars(i)%bolt > 0) cycle
          associate (d => model%dimension, bar => model%bars(i))
-            pull(:d) = bar%direction(:d, 1)
-            pull(d + 1:) = -bar%direction(:d, 2)
-            call add(rows_of(model, bar%nodes), bar%stiffness*matmul(reshape(pull, [2*d, 1]), reshape(pull, [1, 2*d])))
+            end_directions(:d) = bar%direction(:d, 1)
+            end_directions(d + 1:) = -bar%direction(:d, 2)
+            call add(rows_of(model, bar%nodes), bar%stiffness*matmul(reshape(end_directions, [2*d, 1]), reshape(end_directions, [1, 2*d])))
          end associate
       end do
 

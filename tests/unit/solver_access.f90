@@ -70,13 +70,13 @@ contains
       real(wp), intent(in)                  :: f(:, :)        !! (dimension, n_nodes) [force]
       real(wp), allocatable, intent(out)    :: u(:, :)        !! likewise [length]
       type(failure_type), intent(inout)     :: failure
-      real(wp) :: felt(model%dimension, size(system%retained)), of_retained(model%dimension, size(system%retained))
+      real(wp) :: on_retained(model%dimension, size(system%retained)), of_retained(model%dimension, size(system%retained))
 
       allocate (u, source=99.0_wp + 0.0_wp*f)
       of_retained = 99.0_wp
-      call condense_load(system, f, felt)
+      call condense_load(system, f, on_retained)
       call form_structure_stiffness(model, k_int, 'here', system, failure)
-      call solve_equations(model, system, felt, of_retained, failure)
+      call solve_equations(model, system, on_retained, of_retained, failure)
       call recover_displacements(system, f, of_retained, u)
    end subroutine solve_all
 
