@@ -32,7 +32,7 @@ module mode_values
    use normal_stiffness, only: branch_open
    use shear_loops, only: loss_of_element
    use stage_plan, only: vibration_plan_type
-   use structural_elements, only: add_axial_force, bar_elongation, add_pull
+   use structural_elements, only: add_axial_force, bar_elongation
    use tolerances, only: equal_eigenvalues, undamped, weak_participation
    implicit none
    private
