@@ -17,13 +17,13 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(out)         :: body(:) !! (n_elements)
       integer, intent(out)         :: n_bodies
-      integer :: parent(model%n_nodes), number(model%n_nodes), e, k, root
+      integer :: parent(model%mesh%n_nodes), number(model%mesh%n_nodes), e, k, root
 
-      parent = [(k, k = 1, model%n_nodes)]
+      parent = [(k, k = 1, model%mesh%n_nodes)]
       call join_elements(model, .true., parent)
       number = 0
       n_bodies = 0
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          root = root_of(parent, uncut(model, e, 1))
          if (number(root) == 0) then
             n_bodies = n_bodies + 1
@@ -41,8 +41,8 @@ contains
       integer :: n_parts
 
       call number_parts(model, with_bolts, part, n_parts)
-      call move_alloc(part, model%part)
-      model%n_parts = n_parts
+      call move_alloc(part, model%freedoms%part)
+      model%freedoms%n_parts = n_parts
    end subroutine find_parts
 
    !> The connected PART of each node. A node without a body is a part of its own; a dependent node belongs to the part of its
@@ -55,16 +55,17 @@ contains
       integer, allocatable :: parent(:)
       integer :: k, node, root
 
-      allocate (parent, source=[(node, node = 1, model%n_nodes)])
+      allocate (parent, source=[(node, node = 1, model%mesh%n_nodes)])
       call join_elements(model, with_bolts, parent)
       do k = 1, n_bars(model)
-         if (model%bars(k)%nodes(2) == 0) cycle ! the ground
-         if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
+         if (model%mesh%bars(k)%nodes(2) == 0) cycle ! the ground
+         if (with_bolts .or. model%mesh%bars(k)%bolt == 0) call join(parent, model%mesh%bars(k)%nodes(1), &
+            model%mesh%bars(k)%nodes(2))
       end do
       call join_coupled(model, parent)
-      allocate (part(model%n_nodes), source=0)
+      allocate (part(model%mesh%n_nodes), source=0)
       n_parts = 0
-      do node = 1, model%n_nodes
+      do node = 1, model%mesh%n_nodes
          root = root_of(parent, node)
          if (part(root) == 0) then
             n_parts = n_parts + 1
@@ -80,15 +81,15 @@ contains
       integer, intent(inout)       :: parent(:) !! (n_nodes)
       integer :: k, node
 
-      do node = 1, model%n_nodes
+      do node = 1, model%mesh%n_nodes
          associate (parts => coupling_parts(model, node))
             do k = parts(1), parts(2)
-               call join(parent, node, model%coupling%node(k))
+               call join(parent, node, model%freedoms%coupling%node(k))
             end do
          end associate
       end do
       do k = 1, n_rotations(model)
-         call join(parent, model%rotations(k)%point, model%rotations(k)%node)
+         call join(parent, model%mesh%rotations(k)%point, model%mesh%rotations(k)%node)
       end do
    end subroutine join_coupled
 
@@ -100,15 +101,15 @@ contains
       integer, intent(inout)       :: parent(:)
       integer :: e, first, k
 
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          first = uncut(model, e, 1)
-         do k = 2, size(model%element_nodes, 1)
+         do k = 2, size(model%mesh%element_nodes, 1)
             call join(parent, first, uncut(model, e, k))
          end do
       end do
       if (with_bolts) then
          do k = 1, n_sections(model)
-            call join(parent, model%sections(k)%node, model%sections(k)%point)
+            call join(parent, model%mesh%sections(k)%node, model%mesh%sections(k)%point)
          end do
       end if
    end subroutine join_elements
@@ -118,9 +119,9 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e, i
 
-      corner = model%element_nodes(i, e)
+      corner = model%mesh%element_nodes(i, e)
       if (corner == 0 .or. section_node(model, e) == 0) return
-      if (model%node_section(corner) == model%element_section(e)) corner = section_node(model, e)
+      if (model%mesh%node_section(corner) == model%mesh%element_section(e)) corner = section_node(model, e)
    end function uncut
 
 end module connected_bodies

@@ -96,7 +96,7 @@ contains
       logical, allocatable :: is_named(:)
       integer :: i, k, other
 
-      allocate (of(model%dimension, model%n_nodes), source=0)
+      allocate (of(model%mesh%dimension, model%mesh%n_nodes), source=0)
       allocate (is_named(list%n), source=.false.)
       do i = 1, list%n
          associate (item => list%item(i))
@@ -105,7 +105,8 @@ contains
                words = ' is already dependent by '//name_of(deck, list%item(of(item%d, item%node))%line)
             else
                of(item%d, item%node) = i
-               if (model%held(item%d, item%node)) words = ' is supported by '//support_name(deck, model, item%node, item%d)// &
+               if (model%freedoms%held(item%d, item%node)) words = ' is supported by '//support_name(deck, model, item%node, &
+                  item%d)// &
                                                           ' too; a component is either dependent or supported'
             end if
             if (words /= '') call name_once(i, component_text(model, item%node, item%d)//words)
@@ -167,10 +168,10 @@ contains
       integer :: group
 
       group = 0
-      if (node <= size(model%support_of, 2)) group = model%support_of(d, node)
+      if (node <= size(model%freedoms%support_of, 2)) group = model%freedoms%support_of(d, node)
       name = 'a support'
       if (group == 0) return
-      associate (source => model%support_groups(group))
+      associate (source => model%freedoms%support_groups(group))
          name = trim(source%kind)
          if (source%kind == 'GRID') name = 'PS of GRID'
          if (source%kind == 'SPCM') name = name//' of surface '//integer_text(source%id)
@@ -187,8 +188,8 @@ contains
       integer :: digit
 
       digit = d
-      if (node_kind(model, node) == a_rotation) digit = merge(d + 3, 6, model%dimension == 3)
-      words = 'component '//integer_text(digit)//' of node '//integer_text(model%node_id(point_of(model, node)))
+      if (node_kind(model, node) == a_rotation) digit = merge(d + 3, 6, model%mesh%dimension == 3)
+      words = 'component '//integer_text(digit)//' of node '//integer_text(model%mesh%node_id(point_of(model, node)))
    end function component_text
 
    !> Couple the nodes of LIST, whose cards have no errors: their dependent components lose their unknowns and follow the equations,
@@ -204,19 +205,19 @@ contains
       logical  :: expands(3)
       integer  :: d, i, k, n, node
 
-      d = model%dimension
-      allocate (model%left_out(d, model%n_nodes), is_used(d, model%n_nodes), source=.false.)
-      allocate (masters(model%n_nodes), column(model%n_nodes), source=0)
+      d = model%mesh%dimension
+      allocate (model%freedoms%left_out(d, model%mesh%n_nodes), is_used(d, model%mesh%n_nodes), source=.false.)
+      allocate (masters(model%mesh%n_nodes), column(model%mesh%n_nodes), source=0)
       do i = 1, list%n
          associate (item => list%item(i))
-            model%left_out(item%d, item%node) = .true.
+            model%freedoms%left_out(item%d, item%node) = .true.
             do k = 1, item%n
                is_used(item%on(k)%d, item%on(k)%node) = .true.
             end do
          end associate
       end do
-      do node = 1, model%n_nodes
-         if (.not. any(model%left_out(:, node))) cycle
+      do node = 1, model%mesh%n_nodes
+         if (.not. any(model%freedoms%left_out(:, node))) cycle
          axes = node_axes(model, point_of(model, node))
          if (node_kind(model, node) == a_rotation .and. d == 2) axes = identity ! z in the first column
          n = 0
@@ -224,7 +225,7 @@ contains
          do i = 1, list%n
             if (list%item(i)%node == node) expands(list%item(i)%d) = list%item(i)%expands
          end do
-         if (any(expands(:d) .or. .not. model%left_out(:, node))) call add_master(node)
+         if (any(expands(:d) .or. .not. model%freedoms%left_out(:, node))) call add_master(node)
          do i = 1, list%n
             if (list%item(i)%node /= node) cycle
             do k = 1, list%item(i)%n
@@ -233,7 +234,7 @@ contains
          end do
          allocate (t(d, d, n), source=0.0_wp)
          do k = 1, d
-            if (expands(k) .or. .not. model%left_out(k, node)) t(:, k, 1) = axes(:d, k)
+            if (expands(k) .or. .not. model%freedoms%left_out(k, node)) t(:, k, 1) = axes(:d, k)
          end do
          do i = 1, list%n
             if (list%item(i)%node /= node) cycle
@@ -243,15 +244,15 @@ contains
                end associate
             end do
          end do
-         call couple_node(model%coupling, model%n_nodes, node, masters(:n), t)
+         call couple_node(model%freedoms%coupling, model%mesh%n_nodes, node, masters(:n), t)
          column(masters(:n)) = 0
          deallocate (t)
       end do
-      do node = 1, model%n_nodes
-         if (list%without(node)) model%left_out(:, node) = model%left_out(:, node) .or. &
-                                                           (.not. is_used(:, node) .and. .not. model%held(:, node))
+      do node = 1, model%mesh%n_nodes
+         if (list%without(node)) model%freedoms%left_out(:, node) = model%freedoms%left_out(:, node) .or. &
+                                                           (.not. is_used(:, node) .and. .not. model%freedoms%held(:, node))
       end do
-      model%held = model%held .or. model%left_out
+      model%freedoms%held = model%freedoms%held .or. model%freedoms%left_out
 
    contains
 

@@ -40,9 +40,9 @@ contains
       allocate (tilt(4, surface%n), source=0.0_wp)
       if (any(surface%n_nodes(:surface%n) /= surface%corners(:surface%n))) return
       do s = 1, surface%n
-         call make_frame(model%dimension, model%x(:, surface%nodes(:surface%corners(s), s)), frames(s))
+         call make_frame(model%mesh%dimension, model%mesh%x(:, surface%nodes(:surface%corners(s), s)), frames(s))
       end do
-      call list_owners(model%n_nodes, surface%nodes(:, :surface%n), first, owners)
+      call list_owners(model%mesh%n_nodes, surface%nodes(:, :surface%n), first, owners)
       do s = 1, surface%n
          n = surface%corners(s)
          do k = 1, merge(1, n, n == 2)
@@ -73,14 +73,15 @@ contains
          normal = 0.0_wp
          goes_on = .false.
          associate (face_normal => frames(s)%axes(:, 3))
-            along = model%x(:, to) - model%x(:, at)
+            along = model%mesh%x(:, to) - model%mesh%x(:, at)
             along = along - dot_product(along, face_normal)*face_normal
             along = along/max(norm2(along), tiny(1.0_wp))
             do i = first(at), first(at + 1) - 1
                associate (other => frames(owners(i)))
                   if (dot_product(other%axes(:, 3), face_normal) < smooth) cycle
                   normal = normal + weight_at(model, surface, owners(i), at)*other%axes(:, 3)
-                  if (dot_product(other%centre - model%x(:, at), along) < -level_tangent*norm2(other%centre - model%x(:, at))) &
+                  if (dot_product(other%centre - model%mesh%x(:, at), along) < -level_tangent*norm2(other%centre - &
+                     model%mesh%x(:, at))) &
                      goes_on = .true.
                end associate
             end do
@@ -101,8 +102,8 @@ contains
       n = surface%corners(s)
       associate (nodes => surface%nodes(:n, s))
          k = findloc(nodes, node, dim=1)
-         a = model%x(:, nodes(modulo(k, n) + 1)) - model%x(:, node)
-         b = model%x(:, nodes(modulo(k - 2, n) + 1)) - model%x(:, node)
+         a = model%mesh%x(:, nodes(modulo(k, n) + 1)) - model%mesh%x(:, node)
+         b = model%mesh%x(:, nodes(modulo(k - 2, n) + 1)) - model%mesh%x(:, node)
       end associate
       weight = 1.0_wp/norm2(a)
       if (n > 2) weight = norm2(cross(a, b))/max(sum(a**2)*sum(b**2), tiny(1.0_wp))

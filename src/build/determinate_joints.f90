@@ -29,51 +29,52 @@ contains
       logical, allocatable :: grounded(:), on_side(:, :), held(:, :)
       integer :: base, i, j, k, node, side
 
-      base = model%n_parts + 1
+      base = model%freedoms%n_parts + 1
       allocate (group(base), grounded(base), on_side(base, 2))
       call list_pairs(model, pair)
       ! the components of parts that supports and grounded springs hold
-      allocate (held(model%dimension, model%n_parts), source=.false.)
+      allocate (held(model%mesh%dimension, model%freedoms%n_parts), source=.false.)
       do node = 1, n_points(model)
          if (is_coupled(model, [node])) cycle ! its unknowns have other directions: see below
-         held(:, model%part(node)) = held(:, model%part(node)) .or. supported(model, node)
+         held(:, model%freedoms%part(node)) = held(:, model%freedoms%part(node)) .or. supported(model, node)
       end do
       do i = 1, n_bars(model)
-         associate (spring => model%bars(i))
+         associate (spring => model%mesh%bars(i))
             if (spring%nodes(2) > 0) cycle ! else to the ground
-            associate (part => model%part(spring%nodes(1)))
-               held(:, part) = held(:, part) .or. abs(spring%direction(:model%dimension, 1)) > zero_cosine
+            associate (part => model%freedoms%part(spring%nodes(1)))
+               held(:, part) = held(:, part) .or. abs(spring%direction(:model%mesh%dimension, 1)) > zero_cosine
             end associate
          end associate
       end do
-      do j = 1, size(model%joints)
-         associate (joint => model%joints(j))
-            joint%carries = spread(.false., 1, model%n_parts)
+      do j = 1, size(model%joints%list)
+         associate (joint => model%joints%list(j))
+            joint%carries = spread(.false., 1, model%freedoms%n_parts)
             joint%determinate = .false.
             if (norm2(joint%normal) <= 0.0_wp) cycle
-            if (model%axisymmetric .and. abs(joint%normal(1)) > zero_cosine) cycle ! hoop stresses carry the rest
+            if (model%mesh%axisymmetric .and. abs(joint%normal(1)) > zero_cosine) cycle ! hoop stresses carry the rest
             ! cut the joint: groups of parts that all other joints connect, and groups that are held along the normal
             group = [(k, k = 1, base)]
             do i = 1, size(pair, 2)
                if (pair(3, i) /= j) call join(group, pair(1, i), pair(2, i))
             end do
             do i = 1, n_sections(model) ! bolts that are being tightened hold normal to their axis
-               associate (section => model%sections(i))
+               associate (section => model%mesh%sections(i))
                   if (abs(dot_product(section%direction, joint%normal)) < 1.0_wp - same_direction) &
-                     call join(group, model%part(section%node), model%part(section%point))
+                     call join(group, model%freedoms%part(section%node), model%freedoms%part(section%point))
                end associate
             end do
             grounded = .false.
             grounded(root_of(group, base)) = .true.
-            do k = 1, model%n_parts
-               if (any(held(:, k) .and. abs(joint%normal(:model%dimension)) > zero_cosine)) grounded(root_of(group, k)) = .true.
+            do k = 1, model%freedoms%n_parts
+               if (any(held(:, k) .and. abs(joint%normal(:model%mesh%dimension)) > zero_cosine)) grounded(root_of(group, k)) = &
+                  .true.
             end do
             do i = 1, n_points(model) ! coupled nodes: held in a direction that is not perpendicular to the normal
                associate (parts => coupling_parts(model, i))
                   do k = parts(1), parts(2)
-                     if (any(model%held(:, model%coupling%node(k)) .and. &
-                             abs(matmul(joint%normal(:model%dimension), model%coupling%t(:, :, k))) > zero_cosine)) &
-                        grounded(root_of(group, model%part(i))) = .true.
+                     if (any(model%freedoms%held(:, model%freedoms%coupling%node(k)) .and. &
+                             abs(matmul(joint%normal(:model%mesh%dimension), model%freedoms%coupling%t(:, :, k))) > zero_cosine)) &
+                        grounded(root_of(group, model%freedoms%part(i))) = .true.
                   end do
                end associate
             end do
@@ -87,7 +88,7 @@ contains
                if (any(on_side(:, side) .and. grounded)) cycle
                joint%determinate = .true.
                joint%direction = merge(1.0_wp, -1.0_wp, side == 1)
-               joint%carries = [(on_side(root_of(group, k), side), k = 1, model%n_parts)]
+               joint%carries = [(on_side(root_of(group, k), side), k = 1, model%freedoms%n_parts)]
                exit
             end do
          end associate
@@ -102,13 +103,13 @@ contains
       integer, allocatable, intent(out) :: pair(:, :) !! (4, pairs)
       integer :: i, k, n, side, candidate(4)
 
-      allocate (pair(4, 2*size(model%interface)), source=0)
+      allocate (pair(4, 2*size(model%joints%element)), source=0)
       n = 0
       do side = 1, 2
-         do i = 1, size(model%interface)
+         do i = 1, size(model%joints%element)
             associate (first => parts_at(model, i, 1), parts => parts_at(model, i, side))
                do k = 1, size(parts)
-                  candidate = [first(1), parts(k), model%interface(i)%joint, side]
+                  candidate = [first(1), parts(k), model%joints%element(i)%joint, side]
                   if (n > 0) then
                      if (all(candidate == pair(:, n))) cycle
                   end if
@@ -128,13 +129,13 @@ contains
       integer, intent(in)          :: i, side
       integer, allocatable :: parts(:)
 
-      associate (nodes => nodes_of_end(model%interface(i), side))
+      associate (nodes => nodes_of_end(model%joints%element(i), side))
          if (size(nodes) == 0) then
-            parts = [model%n_parts + 1]
-         else if (all(model%part(nodes) == model%part(nodes(1)))) then
-            parts = [model%part(nodes(1))]
+            parts = [model%freedoms%n_parts + 1]
+         else if (all(model%freedoms%part(nodes) == model%freedoms%part(nodes(1)))) then
+            parts = [model%freedoms%part(nodes(1))]
          else
-            call distinct(model%part(nodes), parts)
+            call distinct(model%freedoms%part(nodes), parts)
          end if
       end associate
    end function parts_at
@@ -150,12 +151,13 @@ contains
       do i = 1, loads%n
          node = loads%node(i)
          if (node_kind(model, node) == an_overlap) then ! the pair of forces of a pretension section
-            associate (section => model%sections(place_in_kind(model, node)))
-               if (joint%carries(model%part(node))) resultant = resultant + normal_part(loads%force(1, i)*section%direction)
-               if (joint%carries(model%part(section%point))) &
+            associate (section => model%mesh%sections(place_in_kind(model, node)))
+               if (joint%carries(model%freedoms%part(node))) resultant = resultant + normal_part(loads%force(1, &
+                  i)*section%direction)
+               if (joint%carries(model%freedoms%part(section%point))) &
                   resultant = resultant - normal_part(loads%force(1, i)*section%direction)
             end associate
-         else if (node_kind(model, node) == a_point .and. joint%carries(model%part(node))) then ! other nodes have moments
+         else if (node_kind(model, node) == a_point .and. joint%carries(model%freedoms%part(node))) then ! other nodes have moments
             resultant = resultant + normal_part(loads%force(:, i))
          end if
       end do
@@ -182,23 +184,23 @@ contains
       real(wp) :: area, first, last, resultant, total
       integer  :: i, j
 
-      loads = model%stage_loads(1)
+      loads = model%history%stages(1)
       do i = 1, n_bars(model)
-         associate (bar => model%bars(i))
+         associate (bar => model%mesh%bars(i))
             if (bar%stage /= 1) cycle
             call add_force(bar%nodes(1), bar%preload*bar%direction(:, 1), loads)
             call add_force(bar%nodes(2), -bar%preload*bar%direction(:, 2), loads)
          end associate
       end do
       do i = 1, n_sections(model)
-         associate (section => model%sections(i))
+         associate (section => model%mesh%sections(i))
             if (section%stage == 1) call add_force(section%node, [section%preload, 0.0_wp, 0.0_wp], loads)
          end associate
       end do
       total = sum(norm2(loads%force(:, :loads%n), dim=1))
-      do j = 1, size(model%joints)
-         if (model%joints(j)%determinate) call orient_by_load(model, loads, j)
-         associate (joint => model%joints(j))
+      do j = 1, size(model%joints%list)
+         if (model%joints%list(j)%determinate) call orient_by_load(model, loads, j)
+         associate (joint => model%joints%list(j))
             resultant = 0.0_wp
             if (joint%determinate) resultant = first_share*carried_resultant(model, joint, loads)
             if (joint%p0 > 0.0_wp) then
@@ -212,7 +214,7 @@ contains
                call errors%add(joint%line, 'the first increment does not press joint '//integer_text(joint%id)// &
                   ' (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')
             else ! over A_int; with gaps, over the area that is closed at first; where none is, over the area that closes first
-               associate (elements => model%interface(joint%first:joint%last))
+               associate (elements => model%joints%element(joint%first:joint%last))
                   area = joint%area
                   first = minval(elements%gap)
                   last = maxval(elements%gap)
@@ -234,21 +236,21 @@ contains
       real(wp) :: resultant
       integer  :: i, s
 
-      associate (joint => model%joints(j))
+      associate (joint => model%joints%list(j))
          resultant = carried_resultant(model, joint, first_loads)
-         do s = 2, size(model%stage_loads)
+         do s = 2, size(model%history%stages)
             if (abs(resultant) > 0.0_wp) exit
-            resultant = carried_resultant(model, joint, model%stage_loads(s))
+            resultant = carried_resultant(model, joint, model%history%stages(s))
          end do
          if (.not. resultant < 0.0_wp) return
          do i = joint%first, joint%last
-            associate (nodes => model%interface(i)%node)
-               if (any(model%first_at(nodes + 1) > model%first_at(nodes))) return
+            associate (nodes => model%joints%element(i)%node)
+               if (any(model%mesh%first_at(nodes + 1) > model%mesh%first_at(nodes))) return
             end associate
          end do
          joint%normal = -joint%normal
          do i = joint%first, joint%last
-            associate (element => model%interface(i))
+            associate (element => model%joints%element(i))
                element%axes(:, 2:3) = -element%axes(:, 2:3)
                if (joint%gap_kind == 'TRUE') element%gap = -element%gap ! a distance along the normal
             end associate
@@ -266,18 +268,18 @@ contains
       integer  :: s
 
       force = 0.0_wp
-      if (n_bars(model) > 0) force = force + sum(abs(model%bars%preload))
-      if (n_sections(model) > 0) force = force + sum(abs(model%sections%preload))
-      moved = max(0.0_wp, -minval(model%interface(joint%first:joint%last)%gap))
-      do s = 1, size(model%stage_loads)
-         associate (loads => model%stage_loads(s))
+      if (n_bars(model) > 0) force = force + sum(abs(model%mesh%bars%preload))
+      if (n_sections(model) > 0) force = force + sum(abs(model%mesh%sections%preload))
+      moved = max(0.0_wp, -minval(model%joints%element(joint%first:joint%last)%gap))
+      do s = 1, size(model%history%stages)
+         associate (loads => model%history%stages(s))
             force = max(force, sum(norm2(loads%force(:, :loads%n), dim=1)))
             if (allocated(loads%moved)) moved = max(moved, maxval(abs(loads%moved)))
          end associate
       end do
       p = force/joint%area
       if (p <= 0.0_wp) p = loading_pressure(joint%law%normal, moved)
-      if (p <= 0.0_wp) p = pressure_of_no_load*maxval(model%properties%e)
+      if (p <= 0.0_wp) p = pressure_of_no_load*maxval(model%mesh%properties%e)
       if (p <= 0.0_wp) p = 1.0_wp ! nothing indicates the units
    end function guessed_pressure
 

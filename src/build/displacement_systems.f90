@@ -161,11 +161,11 @@ contains
       logical  :: ok
 
       do i = 1, size(deck%bulk%grid)
-         associate (grid => deck%bulk%grid(i), d => model%dimension)
+         associate (grid => deck%bulk%grid(i), d => model%mesh%dimension)
             if (grid%cd <= 0) cycle
-            node = model%node_table%find(grid%id)
+            node = model%mesh%node_table%find(grid%id)
             if (node == 0) cycle
-            call find_directions(deck, model%systems, grid%line, grid%cd, model%x(:, node), directions, ok, &
+            call find_directions(deck, model%mesh%systems, grid%line, grid%cd, model%mesh%x(:, node), directions, ok, &
                                  ['CD      ', 'the node'])
             if (.not. ok) cycle
             if (d == 2 .and. any(abs(directions(3, :2)) > zero_component_along)) then
@@ -173,17 +173,18 @@ contains
                                      'model, x-y')
                cycle
             end if
-            if (.not. allocated(model%node_system)) allocate (model%node_system(model%n_nodes), source=0)
+            if (.not. allocated(model%mesh%node_system)) allocate (model%mesh%node_system(model%mesh%n_nodes), source=0)
             do while (node > 0)
-               if (model%node_system(node) > 0) exit ! a number given twice has one node
-               model%node_system(node) = findloc(model%systems%id, grid%cd, dim=1)
-               call couple_node(model%coupling, model%n_nodes, node, [node], reshape(directions(:d, :d), [d, d, 1]))
+               if (model%mesh%node_system(node) > 0) exit ! a number given twice has one node
+               model%mesh%node_system(node) = findloc(model%mesh%systems%id, grid%cd, dim=1)
+               call couple_node(model%freedoms%coupling, model%mesh%n_nodes, node, [node], reshape(directions(:d, :d), [d, d, 1]))
                rotation = rotation_at(model, node)
                if (d == 3 .and. rotation > 0) then
-                  rotation = model%rotations(rotation)%node
-                  call couple_node(model%coupling, model%n_nodes, rotation, [rotation], reshape(directions, [3, 3, 1]))
+                  rotation = model%mesh%rotations(rotation)%node
+                  call couple_node(model%freedoms%coupling, model%mesh%n_nodes, rotation, [rotation], reshape(directions, [3, 3, &
+                     1]))
                end if
-               node = model%duplicate(node)
+               node = model%mesh%duplicate(node)
             end do
          end associate
       end do

@@ -36,8 +36,8 @@ contains
       type(model_type), intent(in)   :: model
       type(element_card), intent(in) :: card
 
-      is_face = model%dimension == 3 .and. element_table(card%kind)%dimension == 2
-      if (is_face) is_face = .not. any(model%properties%id == card%property .and. model%properties%state == shell)
+      is_face = model%mesh%dimension == 3 .and. element_table(card%kind)%dimension == 2
+      if (is_face) is_face = .not. any(model%mesh%properties%id == card%property .and. model%mesh%properties%state == shell)
    end function is_face
 
    !> Every PSHELL, PAXIS and PSOLID with its material, followed by the sections of beams. In space a PSHELL with a bending material
@@ -53,11 +53,11 @@ contains
       allocate (cards, source=[deck%bulk%pshell, deck%bulk%paxis, deck%bulk%psolid, (property_card( &
          line=deck%bulk%beam_property(i)%line, id=deck%bulk%beam_property(i)%id, material=deck%bulk%beam_property(i)%material, &
          state=beam), i = 1, size(deck%bulk%beam_property))])
-      allocate (model%properties(size(cards)))
+      allocate (model%mesh%properties(size(cards)))
       do i = 1, size(cards)
-         associate (card => cards(i), property => model%properties(i))
+         associate (card => cards(i), property => model%mesh%properties(i))
             property = property_type(id=card%id, state=card%state, thickness=card%thickness, incompatible=card%incompatible)
-            if (model%dimension == 3 .and. i <= size(deck%bulk%pshell) .and. card%bending > 0) then
+            if (model%mesh%dimension == 3 .and. i <= size(deck%bulk%pshell) .and. card%bending > 0) then
                property%state = shell
                property%fibre = card%fibre
                property%extra_mass = deck%bulk%parameters%mass_factor*card%extra_mass
@@ -95,14 +95,14 @@ contains
       bodies = pack([(i, i = 1, size(cards))], .not. is_face(model, cards))
       associate (edges => deck%bulk%edge)
          beams = pack([(i, i = 1, size(edges))], [(is_beam_edge(deck, edges(i)), i = 1, size(edges))])
-         model%element_id = [cards(bodies)%id, edges(beams)%id]
-         model%element_line = [cards(bodies)%line, edges(beams)%line]
-         model%element_kind = [cards(bodies)%kind, spread(kind_edge2, 1, size(beams))]
+         model%mesh%element_id = [cards(bodies)%id, edges(beams)%id]
+         model%mesh%element_line = [cards(bodies)%line, edges(beams)%line]
+         model%mesh%element_kind = [cards(bodies)%kind, spread(kind_edge2, 1, size(beams))]
       end associate
-      model%n_elements = size(model%element_id)
-      allocate (property(model%n_elements), source=0)
-      allocate (nodes(maxval([4, element_table(model%element_kind)%n_nodes]), model%n_elements), source=0)
-      call properties%build(model%properties%id)
+      model%mesh%n_elements = size(model%mesh%element_id)
+      allocate (property(model%mesh%n_elements), source=0)
+      allocate (nodes(maxval([4, element_table(model%mesh%element_kind)%n_nodes]), model%mesh%n_elements), source=0)
+      call properties%build(model%mesh%properties%id)
       do e = 1, size(bodies)
          associate (card => cards(bodies(e)))
             k = element_table(card%kind)%n_nodes
@@ -117,15 +117,16 @@ contains
          e = size(bodies) + i
          associate (edge => deck%bulk%edge(beams(i)))
             call find_nodes(deck, edge%line, edge%nodes(:2), model, nodes(:2, e))
-            property(e) = findloc(model%properties%id == edge%property .and. model%properties%state == beam, .true., dim=1)
+            property(e) = findloc(model%mesh%properties%id == edge%property .and. model%mesh%properties%state == beam, .true., &
+               dim=1)
          end associate
       end do
-      call sorted_order(model%element_id, order)
-      model%element_id = model%element_id(order)
-      model%element_line = model%element_line(order)
-      model%element_kind = model%element_kind(order)
-      model%element_nodes = nodes(:, order)
-      model%element_property = property(order)
+      call sorted_order(model%mesh%element_id, order)
+      model%mesh%element_id = model%mesh%element_id(order)
+      model%mesh%element_line = model%mesh%element_line(order)
+      model%mesh%element_kind = model%mesh%element_kind(order)
+      model%mesh%element_nodes = nodes(:, order)
+      model%mesh%element_property = property(order)
    end subroutine collect_elements
 
    !> The property of the element CARD must be one for its kind; PROPERTY is its position, 0 for a missing property or one for
@@ -139,7 +140,7 @@ contains
 
       associate (kind => element_table(card%kind))
          state = 0
-         if (property > 0) state = model%properties(property)%state
+         if (property > 0) state = model%mesh%properties(property)%state
          if (state > 0 .and. state /= beam .and. (state /= shell .or. kind%linear == card%kind) .and. &
              (state == solid .eqv. kind%dimension == 3)) return
          property = 0
@@ -165,13 +166,13 @@ contains
       integer :: i, n, total
 
       total = size(deck%bulk%edge) + size(of_blocks)
-      if (model%dimension == 3) total = total + size(deck%bulk%element)
+      if (model%mesh%dimension == 3) total = total + size(deck%bulk%element)
       allocate (sides(total))
       n = 0
       do i = 1, size(deck%bulk%edge)
          associate (edge => deck%bulk%edge(i))
             if (is_bar(deck, edge) .or. is_beam_edge(deck, edge)) cycle
-            if (model%dimension == 3 .and. all(model%properties%state /= shell)) then
+            if (model%mesh%dimension == 3 .and. all(model%mesh%properties%state /= shell)) then
                call deck%errors%add(edge%line, 'a CBAR, or a CROD without a PROD, marks an edge of a plane body; surfaces of '// &
                                'solids are marked with CTRIA3 and CQUAD4 faces; the PID of a beam is that of a PBAR, PBARL, '// &
                                'PBEAM or PBEAML')
@@ -216,24 +217,24 @@ contains
       logical, allocatable :: doubtful(:), sound(:) ! doubtful: the position of a node is not known, which has been reported
       integer :: e, i, last_line, node
 
-      allocate (doubtful(0:model%n_nodes), source=.false.)
+      allocate (doubtful(0:model%mesh%n_nodes), source=.false.)
       do i = 1, size(nodes)
-         node = model%node_table%find(nodes(i)%id)
+         node = model%mesh%node_table%find(nodes(i)%id)
          doubtful(node) = doubtful(node) .or. nodes(i)%doubtful
          if (i > size(deck%bulk%grid)) & ! of a block: a number that another node has too
-            doubtful(node) = doubtful(node) .or. any(abs(nodes(i)%x - model%x(:, node)) > 0.0_wp)
+            doubtful(node) = doubtful(node) .or. any(abs(nodes(i)%x - model%mesh%x(:, node)) > 0.0_wp)
       end do
-      allocate (sound(model%n_elements))
-      !$omp parallel do schedule(dynamic, 512) default(shared) if(model%n_elements > few)
-      do e = 1, model%n_elements
+      allocate (sound(model%mesh%n_elements))
+      !$omp parallel do schedule(dynamic, 512) default(shared) if(model%mesh%n_elements > few)
+      do e = 1, model%mesh%n_elements
          sound(e) = is_sound(e)
       end do
       !$omp end parallel do
       last_line = 0
-      do e = 1, model%n_elements
-         if (sound(e) .or. model%element_line(e) == last_line) cycle ! one error per card
-         last_line = model%element_line(e)
-         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//shape_fault(model, e))
+      do e = 1, model%mesh%n_elements
+         if (sound(e) .or. model%mesh%element_line(e) == last_line) cycle ! one error per card
+         last_line = model%mesh%element_line(e)
+         call deck%errors%add(model%mesh%element_line(e), 'element '//integer_text(model%mesh%element_id(e))//shape_fault(model, e))
       end do
 
    contains
@@ -246,12 +247,12 @@ contains
          associate (nodes => corners_of(model, e))
             if (any(nodes == 0)) return
             if (any(doubtful(nodes))) return
-            if (model%element_kind(e) == kind_edge2) return ! a beam: its length is checked with its offsets
-            if (model%dimension == 3 .and. element_table(model%element_kind(e))%dimension == 2) then
+            if (model%mesh%element_kind(e) == kind_edge2) return ! a beam: its length is checked with its offsets
+            if (model%mesh%dimension == 3 .and. element_table(model%mesh%element_kind(e))%dimension == 2) then
                if (size(nodes) > 4) return ! second order: reported already
-               is_sound = smallest_jacobian(model%element_kind(e), flat_coordinates(model%x(:, nodes))) > 0.0_wp
+               is_sound = smallest_jacobian(model%mesh%element_kind(e), flat_coordinates(model%mesh%x(:, nodes))) > 0.0_wp
             else
-               is_sound = smallest_jacobian(model%element_kind(e), model%x(:model%dimension, nodes)) > 0.0_wp
+               is_sound = smallest_jacobian(model%mesh%element_kind(e), model%mesh%x(:model%mesh%dimension, nodes)) > 0.0_wp
             end if
          end associate
       end function is_sound
@@ -282,15 +283,15 @@ contains
       integer  :: i, k, places, worst
 
       allocate (nodes, source=corners_of(model, e))
-      associate (kind => element_table(model%element_kind(e)))
+      associate (kind => element_table(model%mesh%element_kind(e)))
          allocate (corners, source=nodes(:kind%n_corners))
          words = ' has no positive '//one_of(kind%dimension == 3, 'volume', 'area')//' at some integration point'
-         if (kind%dimension == 2 .and. kind%linear == model%element_kind(e)) words = ' has no positive area at some corner'
+         if (kind%dimension == 2 .and. kind%linear == model%mesh%element_kind(e)) words = ' has no positive area at some corner'
          twins = ''
          places = size(corners)
          do k = 2, size(corners)
             do i = 1, k - 1
-               if (norm2(model%x(:, corners(k)) - model%x(:, corners(i))) < same_corner*longest_edge(model, e)) exit
+               if (norm2(model%mesh%x(:, corners(k)) - model%mesh%x(:, corners(i))) < same_corner*longest_edge(model, e)) exit
             end do
             if (i == k) cycle
             places = places - 1
@@ -301,24 +302,24 @@ contains
             return
          end if
          if (size(nodes) > size(corners)) then
-            if (smallest_jacobian(kind%linear, model%x(:kind%dimension, corners)) > 0.0_wp) then
+            if (smallest_jacobian(kind%linear, model%mesh%x(:kind%dimension, corners)) > 0.0_wp) then
                largest = -1.0_wp
                worst = size(corners) + 1
                do k = 1, kind%n_edges
-                  associate (p => model%x(:, corners(kind%edges(1, k))), q => model%x(:, corners(kind%edges(2, k))))
-                     off = norm2(model%x(:, nodes(size(corners) + k)) - 0.5_wp*(p + q))/norm2(q - p)
+                  associate (p => model%mesh%x(:, corners(kind%edges(1, k))), q => model%mesh%x(:, corners(kind%edges(2, k))))
+                     off = norm2(model%mesh%x(:, nodes(size(corners) + k)) - 0.5_wp*(p + q))/norm2(q - p)
                   end associate
                   if (off > largest) worst = size(corners) + k
                   largest = max(largest, off)
                end do
                words = words//', but would have with straight edges: mid-side nodes are at fault, most of all G'// &
-                       integer_text(worst)//', node '//integer_text(model%node_id(nodes(worst)))//', which stands '// &
+                       integer_text(worst)//', node '//integer_text(model%mesh%node_id(nodes(worst)))//', which stands '// &
                        integer_text(nint(100.0_wp*largest))//' % of its edge off the middle'
                if (largest < misplaced) words = words//'; expected smaller elements, or straight edges'
                if (largest < misplaced) return
             end if
          end if
-         select case (model%element_kind(e))
+         select case (model%mesh%element_kind(e))
          case (kind_quad4)
             words = words//'; expected four nodes counter-clockwise round a convex quadrilateral'
          case (kind_tria3)
@@ -340,9 +341,9 @@ contains
       integer :: k
 
       longest = 0.0_wp
-      associate (kind => element_table(model%element_kind(e)), nodes => model%element_nodes(:, e))
+      associate (kind => element_table(model%mesh%element_kind(e)), nodes => model%mesh%element_nodes(:, e))
          do k = 1, kind%n_edges
-            longest = max(longest, norm2(model%x(:, nodes(kind%edges(2, k))) - model%x(:, nodes(kind%edges(1, k)))))
+            longest = max(longest, norm2(model%mesh%x(:, nodes(kind%edges(2, k))) - model%mesh%x(:, nodes(kind%edges(1, k)))))
          end do
       end associate
    end function longest_edge

@@ -56,22 +56,22 @@ contains
       type(model_type), intent(in)   :: model
       integer, intent(out)           :: body(:) !! (n_elements)
       type(body_type), allocatable, intent(out) :: bodies(:)
-      integer :: seen(model%n_nodes), e, i, n
+      integer :: seen(model%mesh%n_nodes), e, i, n
 
       call find_bodies(model, body, n)
       allocate (bodies(n))
       seen = 0
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          associate (record => bodies(body(e)), nodes => corners_of(model, e))
-            record%first = min(record%first, model%element_id(e))
-            record%last = max(record%last, model%element_id(e))
+            record%first = min(record%first, model%mesh%element_id(e))
+            record%last = max(record%last, model%mesh%element_id(e))
             record%n_elements = record%n_elements + 1
             do i = 1, size(nodes)
                if (seen(nodes(i)) == body(e)) cycle
                seen(nodes(i)) = body(e)
                record%n_nodes = record%n_nodes + 1
-               record%low = min(record%low, model%x(:, nodes(i)))
-               record%high = max(record%high, model%x(:, nodes(i)))
+               record%low = min(record%low, model%mesh%x(:, nodes(i)))
+               record%high = max(record%high, model%mesh%x(:, nodes(i)))
             end do
          end associate
       end do
@@ -104,11 +104,11 @@ contains
       logical, allocatable :: is_outer(:)
       integer :: e, i, j, n, s
 
-      n = sum([(merge(2, element_table(model%element_kind(e))%n_sides, is_shell(model, e)), e = 1, model%n_elements)])
+      n = sum([(merge(2, element_table(model%mesh%element_kind(e))%n_sides, is_shell(model, e)), e = 1, model%mesh%n_elements)])
       allocate (sides(n), is_outer(n), least(1, n))
       i = 0
-      do e = 1, model%n_elements
-         do s = 1, merge(2, element_table(model%element_kind(e))%n_sides, is_shell(model, e))
+      do e = 1, model%mesh%n_elements
+         do s = 1, merge(2, element_table(model%mesh%element_kind(e))%n_sides, is_shell(model, e))
             i = i + 1
             sides(i)%element = e
             sides(i)%side = merge(1 - s, s, is_shell(model, e))
@@ -121,7 +121,7 @@ contains
             end associate
          end do
       end do
-      call list_owners(model%n_nodes, least, first, owners)
+      call list_owners(model%mesh%n_nodes, least, first, owners)
       is_outer = .true.
       do i = 1, n
          if (sides(i)%side <= 0) cycle
@@ -145,7 +145,7 @@ contains
       type(outer_side), intent(inout) :: side
       real(wp) :: vector(3)
 
-      associate (x => model%x(:, side%corners(:side%n)))
+      associate (x => model%mesh%x(:, side%corners(:side%n)))
          side%centre = sum(x, dim=2)/side%n
          side%size = maxval(edge_lengths(x))
          select case (side%n)
@@ -160,16 +160,16 @@ contains
       side%area = norm2(vector)
       side%normal = vector/max(side%area, tiny(1.0_wp))
       if (side%side <= 0) then
-         associate (law => model%structural%shells(model%structural%place(side%element)))
+         associate (law => model%mesh%structural%shells(model%mesh%structural%place(side%element)))
             side%centre = side%centre + side%normal* &
                           (0.5_wp*sum(law%thickness(:side%n))/side%n + merge(1, -1, side%side == 0)*law%offset)
          end associate
       end if
       if (side%n > 2) return
-      if (model%axisymmetric) then
+      if (model%mesh%axisymmetric) then
          side%area = side%area*two_pi*side%centre(1)
       else
-         side%area = side%area*model%properties(model%element_property(side%element))%thickness
+         side%area = side%area*model%mesh%properties(model%mesh%element_property(side%element))%thickness
       end if
    end subroutine measure
 
@@ -187,7 +187,7 @@ contains
 
       allocate (boxes(3, 2, size(sides)), sees(size(sides)), pairs(0))
       do i = 1, size(sides)
-         associate (x => model%x(:, sides(i)%corners(:sides(i)%n)))
+         associate (x => model%mesh%x(:, sides(i)%corners(:sides(i)%n)))
             boxes(:, 1, i) = min(minval(x, dim=2), sides(i)%centre) ! the centre of a shell face lies off its nodes
             boxes(:, 2, i) = max(maxval(x, dim=2), sides(i)%centre)
          end associate
@@ -250,15 +250,15 @@ contains
       distance = abs(distance)
       lies_over = distance <= reach*side%size
       if (other%n == 2) then
-         a = model%x(:, other%corners(1))
-         b = model%x(:, other%corners(2))
+         a = model%mesh%x(:, other%corners(1))
+         b = model%mesh%x(:, other%corners(2))
          associate (share => dot_product(point - a, b - a)/dot_product(b - a, b - a))
             lies_over = lies_over .and. share >= -on_rim .and. share <= 1.0_wp + on_rim
          end associate
       else
          do k = 1, other%n
-            a = model%x(:, other%corners(k))
-            b = model%x(:, other%corners(1 + modulo(k, other%n)))
+            a = model%mesh%x(:, other%corners(k))
+            b = model%mesh%x(:, other%corners(1 + modulo(k, other%n)))
             along = cross(b - a, point - a)
             lies_over = lies_over .and. dot_product(along, other%normal) >= -on_rim*other%size**2
          end do
@@ -272,32 +272,32 @@ contains
       type(model_type), intent(in) :: model
       character(:), allocatable    :: words
       type(body_type), allocatable :: bodies(:)
-      integer :: body(model%n_elements), parent(model%n_parts + 1), e, ground, i, k, said
+      integer :: body(model%mesh%n_elements), parent(model%freedoms%n_parts + 1), e, ground, i, k, said
       integer, allocatable :: part(:) ! of each body; of connected parts the first, 0: connected to the ground
 
       words = ''
-      if (model%n_elements == 0) return
+      if (model%mesh%n_elements == 0) return
       call list_bodies(model, body, bodies)
       allocate (part(size(bodies)))
       ! join the parts that joints connect, and those that a support, a grounded spring or a rigid base holds to the ground
-      ground = model%n_parts + 1
+      ground = model%freedoms%n_parts + 1
       parent = [(i, i = 1, ground)]
       do i = 1, n_points(model)
-         if (any(supported(model, i))) call join(parent, model%part(i), ground)
+         if (any(supported(model, i))) call join(parent, model%freedoms%part(i), ground)
       end do
       do i = 1, n_bars(model)
-         if (model%bars(i)%nodes(2) == 0) call join(parent, model%part(model%bars(i)%nodes(1)), ground)
+         if (model%mesh%bars(i)%nodes(2) == 0) call join(parent, model%freedoms%part(model%mesh%bars(i)%nodes(1)), ground)
       end do
-      do i = 1, size(model%interface)
-         associate (parts => model%part(model%interface(i)%node))
+      do i = 1, size(model%joints%element)
+         associate (parts => model%freedoms%part(model%joints%element(i)%node))
             do k = 2, size(parts)
                call join(parent, parts(1), parts(k))
             end do
-            if (named_node(model%interface(i), 2) == 0) call join(parent, parts(1), ground)
+            if (named_node(model%joints%element(i), 2) == 0) call join(parent, parts(1), ground)
          end associate
       end do
-      do e = model%n_elements, 1, -1
-         part(body(e)) = root_of(parent, model%part(model%element_nodes(1, e)))
+      do e = model%mesh%n_elements, 1, -1
+         part(body(e)) = root_of(parent, model%freedoms%part(model%mesh%element_nodes(1, e)))
       end do
       where (part == root_of(parent, ground)) part = 0
 
@@ -347,11 +347,11 @@ contains
       if (words /= '' .or. all(sides%body == i)) return
       of_body = pack([(k, k = 1, size(sides))], sides%body == i)
       others = pack([(k, k = 1, size(sides))], sides%body /= i)
-      call search%build(model%x(:, sides(others)%corners(1)))
+      call search%build(model%mesh%x(:, sides(others)%corners(1)))
       p = others(1)
       nearest = huge(1.0_wp)
       do k = 1, size(of_body)
-         call search%nearest(model%x(:, sides(of_body(k))%corners(1)), huge(1.0_wp), point, distance)
+         call search%nearest(model%mesh%x(:, sides(of_body(k))%corners(1)), huge(1.0_wp), point, distance)
          if (distance >= nearest) cycle
          nearest = distance
          p = others(point)

@@ -23,63 +23,63 @@ contains
    subroutine hold_free_structure(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
-      integer  :: body(model%n_elements), body_of(model%n_nodes), a, b, c, e, i, k, n
+      integer  :: body(model%mesh%n_elements), body_of(model%mesh%n_nodes), a, b, c, e, i, k, n
       integer, allocatable :: dependent(:)
-      logical  :: may_be(model%n_nodes)
-      real(wp) :: along(3), off(model%n_nodes), turn(3)
+      logical  :: may_be(model%mesh%n_nodes)
+      real(wp) :: along(3), off(model%mesh%n_nodes), turn(3)
 
-      if (.not. any(deck%control%stages%vibration%free) .or. any(model%held)) return
+      if (.not. any(deck%control%stages%vibration%free) .or. any(model%freedoms%held)) return
       if (any(deck%control%stages%vibration%modes%id > 0 .and. .not. deck%control%stages%vibration%free)) return
       if (any(deck%bulk%spring%nodes(1) == 0 .or. deck%bulk%spring%nodes(2) == 0)) return ! a grounded spring
-      do i = 1, size(model%interface)
-         if (named_node(model%interface(i), 2) == 0) return                               ! a rigid base
+      do i = 1, size(model%joints%element)
+         if (named_node(model%joints%element(i), 2) == 0) return                               ! a rigid base
       end do
-      if (model%n_elements == 0) return
+      if (model%mesh%n_elements == 0) return
       ! the nodes of the largest body that may be held
       call find_bodies(model, body, n)
       body_of = 0
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          body_of(corners_of(model, e)) = body(e)
       end do
       may_be = body_of == maxloc([(count(body_of == i), i = 1, n)], dim=1)
-      if (allocated(model%node_system)) may_be = may_be .and. model%node_system(:size(may_be)) == 0
+      if (allocated(model%mesh%node_system)) may_be = may_be .and. model%mesh%node_system(:size(may_be)) == 0
       dependent = [([deck%rigid(i)%nodes, deck%rigid(i)%node], i = 1, size(deck%rigid)), &
                    (deck%bulk%equation(i)%node, i = 1, size(deck%bulk%equation))]
       do i = 1, size(dependent) ! these nodes depend on each other
-         k = model%node_table%find(dependent(i))
+         k = model%mesh%node_table%find(dependent(i))
          if (k > 0) may_be(k) = .false.
       end do
       do i = 1, size(may_be)
-         may_be(i) = may_be(i) .and. .not. is_face_node(model, i) .and. model%duplicate(i) == 0
+         may_be(i) = may_be(i) .and. .not. is_face_node(model, i) .and. model%mesh%duplicate(i) == 0
       end do
       a = findloc(may_be, .true., dim=1)
       if (a == 0) return
-      model%floats = .true.
-      model%support_groups = [support_group('FREE')]
+      model%freedoms%floats = .true.
+      model%freedoms%support_groups = [support_group('FREE')]
       if (rotation_at(model, a) > 0) then
-         if (model%rotations(rotation_at(model, a))%of_element) then
-            call hold(model, a, merge(123456, 126, model%dimension == 3))
+         if (model%mesh%rotations(rotation_at(model, a))%of_element) then
+            call hold(model, a, merge(123456, 126, model%mesh%dimension == 3))
             return
          end if
       end if
-      if (model%axisymmetric) then
+      if (model%mesh%axisymmetric) then
          call hold(model, a, 2)
          return
       end if
       ! the node b farthest from a, and in space the node c farthest from the line through both
-      call hold(model, a, merge(123, 12, model%dimension == 3))
-      off = [(norm2(model%x(:, i) - model%x(:, a)), i = 1, size(off))]
+      call hold(model, a, merge(123, 12, model%mesh%dimension == 3))
+      off = [(norm2(model%mesh%x(:, i) - model%mesh%x(:, a)), i = 1, size(off))]
       b = first_largest(off, may_be)
-      along = (model%x(:, b) - model%x(:, a))/max(off(b), tiny(1.0_wp))
+      along = (model%mesh%x(:, b) - model%mesh%x(:, a))/max(off(b), tiny(1.0_wp))
       k = first_largest(abs(along))
-      if (model%dimension == 2) then ! the structure turns about a: the component with the largest movement
+      if (model%mesh%dimension == 2) then ! the structure turns about a: the component with the largest movement
          call hold(model, b, merge(2, 1, k == 1))
          return
       end if
       call hold(model, b, merge(23, merge(13, 12, k == 2), k == 1))
-      off = [(norm2(cross(along, model%x(:, i) - model%x(:, a))), i = 1, size(off))]
+      off = [(norm2(cross(along, model%mesh%x(:, i) - model%mesh%x(:, a))), i = 1, size(off))]
       c = first_largest(off, may_be)
-      turn = cross(along, model%x(:, c) - model%x(:, a))
+      turn = cross(along, model%mesh%x(:, c) - model%mesh%x(:, a))
       call hold(model, c, first_largest(abs(turn)))
    end subroutine hold_free_structure
 
@@ -90,30 +90,30 @@ contains
       real(wp) :: force(3), moment(3), of_forces, of_moments, arm ! sums of amounts: the scales of rounding
       integer  :: i, s
 
-      if (.not. model%floats) return
-      arm = maxval(maxval(model%x, dim=2) - minval(model%x, dim=2))
-      do s = 1, size(model%stage_loads)
+      if (.not. model%freedoms%floats) return
+      arm = maxval(maxval(model%mesh%x, dim=2) - minval(model%mesh%x, dim=2))
+      do s = 1, size(model%history%stages)
          force = 0.0_wp
          moment = 0.0_wp
          of_forces = 0.0_wp
          of_moments = 0.0_wp
-         associate (loads => model%stage_loads(s))
+         associate (loads => model%history%stages(s))
             do i = 1, loads%n
                if (node_kind(model, loads%node(i)) == a_point) then
                   of_forces = of_forces + norm2(loads%force(:, i))
                   force = force + loads%force(:, i)
-                  moment = moment + cross(model%x(:, loads%node(i)), loads%force(:, i))
+                  moment = moment + cross(model%mesh%x(:, loads%node(i)), loads%force(:, i))
                else if (node_kind(model, loads%node(i)) == a_rotation) then
-                  associate (rotation => model%rotations(place_in_kind(model, loads%node(i))))
+                  associate (rotation => model%mesh%rotations(place_in_kind(model, loads%node(i))))
                      of_moments = of_moments + rotation%arm*norm2(loads%force(:, i))
-                     if (model%dimension == 3) moment = moment + rotation%arm*loads%force(:, i)
-                     if (model%dimension == 2) moment(3) = moment(3) + rotation%arm*loads%force(1, i)
+                     if (model%mesh%dimension == 3) moment = moment + rotation%arm*loads%force(:, i)
+                     if (model%mesh%dimension == 2) moment(3) = moment(3) + rotation%arm*loads%force(1, i)
                   end associate
                end if
             end do
          end associate
-         if (model%axisymmetric) force(1) = 0.0_wp
-         if (model%axisymmetric) moment = 0.0_wp
+         if (model%mesh%axisymmetric) force(1) = 0.0_wp
+         if (model%mesh%axisymmetric) moment = 0.0_wp
          if (norm2(force) > balanced*of_forces .or. norm2(moment) > balanced*(of_forces*arm + of_moments)) call deck%errors%add( &
             deck%control%stages(s)%load%line, 'LOAD: nothing supports the structure, and this load does not balance itself; '// &
             'expected a support')

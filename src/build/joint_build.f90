@@ -103,17 +103,17 @@ contains
       is_there = .false.
       total = 0.0_wp
       do i = joint%first, joint%last
-         nodes = nodes_of_end(model%interface(i), end)
-         share = weights_of_end(model%interface(i), end)
+         nodes = nodes_of_end(model%joints%element(i), end)
+         share = weights_of_end(model%joints%element(i), end)
          share = share/sum(share)
          do k = 1, size(nodes)
-            associate (elements => model%elements_at(model%first_at(nodes(k)):model%first_at(nodes(k) + 1) - 1))
+            associate (elements => model%mesh%elements_at(model%mesh%first_at(nodes(k)):model%mesh%first_at(nodes(k) + 1) - 1))
                do j = 1, size(elements)
                   is_there = .true.
-                  if (model%element_property(elements(j)) == 0) cycle      ! reported elsewhere
-                  weight = model%interface(i)%area*share(k)/size(elements)
+                  if (model%mesh%element_property(elements(j)) == 0) cycle      ! reported elsewhere
+                  weight = model%joints%element(i)%area*share(k)/size(elements)
                   total = total + weight
-                  e = e + (model%properties(model%element_property(elements(j)))%e - e)*(weight/max(total, tiny(1.0_wp)))
+                  e = e + (model%mesh%properties(model%mesh%element_property(elements(j)))%e - e)*(weight/max(total, tiny(1.0_wp)))
                end do
             end associate
          end do
@@ -132,20 +132,20 @@ contains
       associate (joints => deck%bulk%joint, cjoints => deck%bulk%cjoint)
          call tables%joint%build(joints%id)
          call tables%side%build([(joints(j)%sides, j = 1, size(joints))])
-         call tables%surface%build(model%surfaces%id)
+         call tables%surface%build(model%mesh%surfaces%id)
          call tables%group%build(cjoints%law)
          call tables%pjoint%build(deck%bulk%pjoint%id)
          call tables%jnorm%build(deck%bulk%jnorm%id)
          call tables%jshear%build(deck%bulk%jshear%id)
          leader = [(tables%group%find(cjoints(i)%law), i = 1, size(cjoints))] ! the first card of the group
-         allocate (model%joints(size(joints) + count(leader == [(i, i = 1, size(cjoints))])), model%interface(0))
+         allocate (model%joints%list(size(joints) + count(leader == [(i, i = 1, size(cjoints))])), model%joints%element(0))
          highest = max(0, maxval(cjoints%id))
          n = 0
          do j = 1, size(joints)
             call joint_elements(deck, tables, j, model, highest, elements)
             call add_elements(model, n, j, joints(j)%id, joints(j)%line, elements)
-            model%joints(j)%side_1 = tables%surface%find(joints(j)%sides(1))
-            call resolve_laws(deck, tables, joints(j)%law, model%joints(j))
+            model%joints%list(j)%side_1 = tables%surface%find(joints(j)%sides(1))
+            call resolve_laws(deck, tables, joints(j)%law, model%joints%list(j))
          end do
          call list_owners(size(cjoints), reshape(leader, [1, size(cjoints)]), first, members)
          j = size(joints)
@@ -154,12 +154,13 @@ contains
             j = j + 1
             call cjoint_elements(deck, cjoints(members(first(i):first(i + 1) - 1)), model, elements)
             call add_elements(model, n, j, group_number(deck, tables%joint, cjoints(i)%law), cjoints(i)%line, elements)
-            call resolve_laws(deck, tables, cjoints(i)%law, model%joints(j))
+            call resolve_laws(deck, tables, cjoints(i)%law, model%joints%list(j))
          end do
       end associate
-      model%interface = model%interface(:n)
-      do j = 1, size(model%joints)
-         associate (joint => model%joints(j), elements => model%interface(model%joints(j)%first:model%joints(j)%last))
+      model%joints%element = model%joints%element(:n)
+      do j = 1, size(model%joints%list)
+         associate (joint => model%joints%list(j), &
+            elements => model%joints%element(model%joints%list(j)%first:model%joints%list(j)%last))
             joint%area = 0.0_wp
             joint%normal = 0.0_wp
             do i = 1, size(elements)
@@ -184,18 +185,18 @@ contains
       type(interface_element), intent(inout) :: elements(:)
       type(interface_element), allocatable   :: longer(:)
 
-      model%joints(j)%id = id
-      model%joints(j)%line = line
-      model%joints(j)%first = n + 1
-      model%joints(j)%last = n + size(elements)
+      model%joints%list(j)%id = id
+      model%joints%list(j)%line = line
+      model%joints%list(j)%first = n + 1
+      model%joints%list(j)%last = n + size(elements)
       elements%joint = j
-      if (model%joints(j)%last > size(model%interface)) then
-         allocate (longer(2*model%joints(j)%last))
-         longer(:n) = model%interface(:n)
-         call move_alloc(longer, model%interface)
+      if (model%joints%list(j)%last > size(model%joints%element)) then
+         allocate (longer(2*model%joints%list(j)%last))
+         longer(:n) = model%joints%element(:n)
+         call move_alloc(longer, model%joints%element)
       end if
-      model%interface(n + 1:model%joints(j)%last) = elements
-      n = model%joints(j)%last
+      model%joints%element(n + 1:model%joints%list(j)%last) = elements
+      n = model%joints%list(j)%last
    end subroutine add_elements
 
    !> Interface elements of JOINT card J, numbered from HIGHEST + 1; none in case of an error.
@@ -224,9 +225,10 @@ contains
                'own, divide the face into a PMARK for each body')
          end do
          if (surface(1) == 0 .or. (surface(2) == 0 .and. card%sides(2) /= 0)) return
-         if (any(model%surfaces(pack(surface, surface > 0))%n == 0)) return
+         if (any(model%mesh%surfaces(pack(surface, surface > 0))%n == 0)) return
          shared = .false. ! whether bodies lie on both sides of any part of a surface
-         if (surface(2) > 0) shared = [(any(model%surfaces(surface(k))%other(:model%surfaces(surface(k))%n) > 0), k = 1, 2)]
+         if (surface(2) > 0) shared = [(any(model%mesh%surfaces(surface(k))%other(:model%mesh%surfaces(surface(k))%n) > 0), k = &
+            1, 2)]
          if (shared(2)) then
             call deck%field_error(card%line, 'SIDE2', 'bodies lie on both sides of surface '//integer_text(card%sides(2)))
          else if (shared(1)) then
@@ -261,7 +263,7 @@ contains
             element%area = card%area
             call find_nodes(deck, card%line, card%nodes, model, nodes)
             call connect_nodes(element, nodes(1), nodes(2))
-            if (model%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) &
+            if (model%mesh%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) &
                call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y'//space_hint(model))
             if (norm2(card%normal) > 0.0_wp) &
                element%axes = joint_axes(model, outward(model, nodes, card%normal/norm2(card%normal)))

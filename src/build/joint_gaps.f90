@@ -17,7 +17,7 @@ module joint_gaps
    use joint_sides, only: joint_axes, joint_centroid
    use kinds, only: wp
    use model_data, only: joint_type, model_type
-   use text_tools, only: append, integer_text, real_text
+   use text_tools, only: integer_text, real_text
    use tolerances, only: flat_height, off_square, same_gap_point, touching_faces
    implicit none
    private
@@ -218,21 +218,21 @@ contains
       do i = 1, size(deck%bulk%jgap)
          associate (card => deck%bulk%jgap(i))
             if (card%joint == 0) cycle ! a field that could not be read
-            j = findloc(model%joints%id, card%joint, dim=1)
+            j = findloc(model%joints%list%id, card%joint, dim=1)
             if (j == 0) then
                call deck%field_error(card%line, 'JID', 'there is no joint '//integer_text(card%joint))
                cycle
             end if
-            model%joints(j)%gap_kind = card%kind
+            model%joints%list(j)%gap_kind = card%kind
             select case (card%kind)
             case ('CONST')
-               model%interface(model%joints(j)%first:model%joints(j)%last)%gap = card%g0
+               model%joints%element(model%joints%list(j)%first:model%joints%list(j)%last)%gap = card%g0
             case ('PLANE', 'TABLE')
-               call gaps_by_place(deck, card, model%joints(j), model)
+               call gaps_by_place(deck, card, model%joints%list(j), model)
             case ('NODES')
-               call gaps_by_node(deck, card, model%joints(j), model)
+               call gaps_by_node(deck, card, model%joints%list(j), model)
             case ('TRUE')
-               call true_gaps(deck, card, model%joints(j), model)
+               call true_gaps(deck, card, model%joints%list(j), model)
             end select
          end associate
       end do
@@ -258,11 +258,11 @@ contains
       end if
       axes = joint_axes(model, joint%normal)
       centroid = joint_centroid(model, joint)
-      if (model%axisymmetric) centroid(1) = 0.0_wp ! the centroid of a ring lies on the axis
+      if (model%mesh%axisymmetric) centroid(1) = 0.0_wp ! the centroid of a ring lies on the axis
       if (card%kind == 'TABLE') then
          if (size(card%gap) == 0) return ! reported where the card is read
          x = matmul(transpose(axes(:, :2)), card%x - spread(centroid, 2, size(card%gap)))
-         if (model%dimension == 2) x(2, :) = 0.0_wp
+         if (model%mesh%dimension == 2) x(2, :) = 0.0_wp
          call table%build(x, card%gap, twice)
          if (twice(1) > 0) then
             call deck%field_error(card%line, card%at(twice(2)), 'point '//integer_text(twice(2))// &
@@ -270,13 +270,13 @@ contains
             return
          end if
       end if
-      if (card%kind == 'PLANE' .and. model%dimension == 2) then
+      if (card%kind == 'PLANE' .and. model%mesh%dimension == 2) then
          if (abs(card%slope(2)) > 0.0_wp) call deck%field_error(card%line, 'SY', no_y)
          if (abs(card%crown(2)) > 0.0_wp) call deck%field_error(card%line, 'CY', no_y)
       end if
       do i = joint%first, joint%last
-         associate (element => model%interface(i))
-            place = matmul(at_first_end(element, model%x) - centroid, axes(:, :2))
+         associate (element => model%joints%element(i))
+            place = matmul(at_first_end(element, model%mesh%x) - centroid, axes(:, :2))
             if (card%kind == 'TABLE') then
                element%gap = table%value_at(place)
             else
@@ -284,7 +284,7 @@ contains
             end if
          end associate
       end do
-      associate (gaps => model%interface(joint%first:joint%last)%gap)
+      associate (gaps => model%joints%element(joint%first:joint%last)%gap)
          where (abs(gaps) <= touching_faces*maxval(abs(gaps))) gaps = 0.0_wp
       end associate
    end subroutine gaps_by_place
@@ -303,28 +303,28 @@ contains
       integer :: i, node
       character(:), allocatable :: words
 
-      allocate (gap(1, model%n_nodes), source=0.0_wp)
-      allocate (given_at(model%n_nodes), source=0)
-      allocate (on_side(model%n_nodes), source=[(i, i = 1, model%n_nodes)])
+      allocate (gap(1, model%mesh%n_nodes), source=0.0_wp)
+      allocate (given_at(model%mesh%n_nodes), source=0)
+      allocate (on_side(model%mesh%n_nodes), source=[(i, i = 1, model%mesh%n_nodes)])
       do i = joint%first, joint%last
-         given_at(nodes_of_end(model%interface(i), 1)) = -1
+         given_at(nodes_of_end(model%joints%element(i), 1)) = -1
       end do
       if (joint%side_1 > 0) then
-         associate (side => model%surfaces(joint%side_1))
+         associate (side => model%mesh%surfaces(joint%side_1))
             do i = 1, side%n
                given_at(side%nodes(:side%n_nodes(i), i)) = -1
             end do
          end associate
       end if
-      if (allocated(model%faces)) then
-         do i = 1, size(model%faces)
-            if (given_at(model%faces(i)%node) == -1) on_side(model%faces(i)%point) = model%faces(i)%node
+      if (allocated(model%mesh%faces)) then
+         do i = 1, size(model%mesh%faces)
+            if (given_at(model%mesh%faces(i)%node) == -1) on_side(model%mesh%faces(i)%point) = model%mesh%faces(i)%node
          end do
       end if
       do i = 1, size(card%node)
          if (card%node(i) == 0) cycle
          words = ''
-         node = model%node_table%find(card%node(i))
+         node = model%mesh%node_table%find(card%node(i))
          if (node > 0) node = on_side(node)
          if (node == 0) then
             words = 'there is no GRID '//integer_text(card%node(i))
@@ -339,7 +339,7 @@ contains
          if (words /= '' .and. joint%last >= joint%first) call deck%field_error(card%line, card%at(i), words, called='G')
       end do
       do i = joint%first, joint%last
-         model%interface(i)%gap = sum(at_first_end(model%interface(i), gap))
+         model%joints%element(i)%gap = sum(at_first_end(model%joints%element(i), gap))
       end do
    end subroutine gaps_by_node
 
@@ -354,21 +354,21 @@ contains
       integer  :: i
 
       do i = joint%first, joint%last
-         associate (element => model%interface(i))
+         associate (element => model%joints%element(i))
             if (size(nodes_of_end(element, 2)) == 0) then
                call deck%field_error(card%line, 'KIND', 'TRUE, but joint '//integer_text(joint%id)// &
                                      ' lies on a rigid base, which has no position: expected CONST, PLANE, TABLE or NODES')
                return
             end if
-            closing = joint_movement(element, model%x)
+            closing = joint_movement(element, model%mesh%x)
             closing(3) = closing(3) - dot_product(element%bulge, element%axes(:, 3))
             element%gap = 0.0_wp
-            if (abs(closing(3)) > touching_faces*maxval(abs(model%x(:, element%node)))) element%gap = -closing(3)
+            if (abs(closing(3)) > touching_faces*maxval(abs(model%mesh%x(:, element%node)))) element%gap = -closing(3)
          end associate
       end do
-      associate (gaps => model%interface(joint%first:joint%last)%gap, sagitta => joint%cover%sagitta)
-         if (size(gaps) == 0 .or. maxval(sagitta) <= max(maxval(abs(gaps)), touching_faces*maxval(abs(model%x)))) return
-         call append(model%warnings, 'joint '//integer_text(joint%id)//': JGAP TRUE finds gaps of '//real_text(minval(gaps))// &
+      associate (gaps => model%joints%element(joint%first:joint%last)%gap, sagitta => joint%cover%sagitta)
+         if (size(gaps) == 0 .or. maxval(sagitta) <= max(maxval(abs(gaps)), touching_faces*maxval(abs(model%mesh%x)))) return
+         call deck%errors%warn('joint '//integer_text(joint%id)//': JGAP TRUE finds gaps of '//real_text(minval(gaps))// &
             ' to '//real_text(maxval(gaps))//' between arcs through the nodes, whose chords lie up to '//real_text(sagitta(1))// &
             ' (SIDE1) and '//real_text(sagitta(2))//' (SIDE2) beside them; a finer mesh, or JGAP CONST, is surer')
       end associate

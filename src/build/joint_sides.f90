@@ -13,7 +13,7 @@ module joint_sides
    use node_pairing, only: aside_type, pair_nodes, fit_side
    use numbers, only: cross
    use surface_build, only: side_influence, surface_node_list, surface_nodes
-   use text_tools, only: append, integer_text, one_of, plural, real_text
+   use text_tools, only: integer_text, one_of, plural, real_text
    use tolerances, only: no_inertia, zero_cosine
    implicit none
    private
@@ -40,28 +40,28 @@ contains
       logical :: in_tolerance
       integer :: k
 
-      call surface_nodes(model, model%surfaces(surface(1)), side1)
+      call surface_nodes(model, model%mesh%surfaces(surface(1)), side1)
       associate (card => deck%bulk%joint(j))
          fault = 'a fit is asked for'
          in_tolerance = .false.
          allocate (partner(side1%n), partly(side1%n))
          if (surface(2) == 0) then
             fault = ''
-            if (any(model%duplicate(side1%node) > 0)) then ! without the nodes of the edge of a split surface inside a body
-               kept = pack([(k, k = 1, side1%n)], model%duplicate(side1%node) > 0)
+            if (any(model%mesh%duplicate(side1%node) > 0)) then ! without the nodes of the edge of a split surface inside a body
+               kept = pack([(k, k = 1, side1%n)], model%mesh%duplicate(side1%node) > 0)
                side1 = surface_node_list(size(kept), side1%node(kept), side1%area(kept), side1%normal(:, kept))
             end if
-            partner = model%duplicate(side1%node)
+            partner = model%mesh%duplicate(side1%node)
          else if (card%fit /= fit_yes) then
-            call surface_nodes(model, model%surfaces(surface(2)), side2)
+            call surface_nodes(model, model%mesh%surfaces(surface(2)), side2)
             call pair_nodes(model, surface, side1, side2, card%tolerance, partner, fault, in_tolerance, aside)
-            if (aside%n > 0 .and. card%fit == fit_no) call append(model%warnings, 'joint '//integer_text(card%id)//': '// &
+            if (aside%n > 0 .and. card%fit == fit_no) call deck%errors%warn('joint '//integer_text(card%id)//': '// &
                aside_words(model, aside)//'; FIT = NO pairs them, and nothing balances the moments of their forces')
             if (aside%n > 0 .and. card%fit /= fit_no) fault = aside_words(model, aside)
          end if
          lack = ''
          if (fault == '') then
-            call pair_elements(model, model%surfaces(surface(1)), side1, partner, elements, lack)
+            call pair_elements(model, model%mesh%surfaces(surface(1)), side1, partner, elements, lack)
          else if (card%fit == fit_no) then
             fault = fault//'; FIT = AUTO joins faces that do not match'
             if (in_tolerance) then
@@ -75,7 +75,7 @@ contains
                if (aside%n > 0) fault = fault//'; the nodes pair by FIT = NO, but '//aside_words(model, aside)
                call deck%field_error(card%line, 'SIDE2', fault)
             else
-               model%joints(j)%cover = cover
+               model%joints%list(j)%cover = cover
                call summed_elements(model, side1, sums, partly, elements, lack)
             end if
          end if
@@ -90,8 +90,8 @@ contains
       character(:), allocatable    :: words
 
       words = plural(aside%n, 'node')//' of SIDE1 and their partners do not face each other along the normal; node '// &
-              integer_text(model%node_id(aside%nodes(1)))//' stands '//real_text(aside%distance)//' beside node '// &
-              integer_text(model%node_id(aside%nodes(2)))
+              integer_text(model%mesh%node_id(aside%nodes(1)))//' stands '//real_text(aside%distance)//' beside node '// &
+              integer_text(model%mesh%node_id(aside%nodes(2)))
    end function aside_words
 
    !> Elements between the nodes of SIDE and their partners, 0: a rigid base. Faces with mid-side nodes have elements at these nodes
@@ -111,11 +111,11 @@ contains
 
       if (any(surface%corners(:surface%n) < surface%n_nodes(:surface%n))) then
          call place%build(side%node)
-         call sums%start(side%n, model%n_nodes)
+         call sums%start(side%n, model%mesh%n_nodes)
          do s = 1, surface%n
             n = surface%n_nodes(s)
             call side_influence(model, surface, s, area, normal)
-            share = whole_shares(model%dimension, n)
+            share = whole_shares(model%mesh%dimension, n)
             part%n = n
             do k = 1, n
                part%same_side(:, k) = share(:, k)*area(k)
@@ -132,8 +132,8 @@ contains
          call summed_elements(model, side, sums, spread(.false., 1, side%n), elements, lack)
          return
       end if
-      if (model%axisymmetric .and. any(side%area <= 0.0_wp)) then
-         lack = integer_text(model%node_id(side%node(minloc(side%area, dim=1))))//': it lies on the axis'
+      if (model%mesh%axisymmetric .and. any(side%area <= 0.0_wp)) then
+         lack = integer_text(model%mesh%node_id(side%node(minloc(side%area, dim=1))))//': it lies on the axis'
          return
       end if
       deallocate (elements)
@@ -158,9 +158,9 @@ contains
       real(wp) :: normal(3)
 
       at = pack([(k, k = 1, side%n)], sums%around > 0.0_wp)
-      k = findloc(sums%has_area(at) .or. (sums%has_none(at) .and. (may_lack(at) .or. model%axisymmetric)), .false., dim=1)
+      k = findloc(sums%has_area(at) .or. (sums%has_none(at) .and. (may_lack(at) .or. model%mesh%axisymmetric)), .false., dim=1)
       if (k > 0) then
-         lack = integer_text(model%node_id(side%node(at(k))))// &
+         lack = integer_text(model%mesh%node_id(side%node(at(k))))// &
                 ', or a negative one: move the mid-side nodes back to the middle of the edges'
          return
       end if
@@ -183,7 +183,7 @@ contains
       real(wp), intent(in)         :: z(3)
       real(wp) :: axes(3, 3), x(3)
 
-      if (model%dimension == 3) then
+      if (model%mesh%dimension == 3) then
          x = [1.0_wp, 0.0_wp, 0.0_wp]
          if (abs(z(1)) > 0.9_wp) x = [0.0_wp, 1.0_wp, 0.0_wp]
          x = x - dot_product(x, z)*z
@@ -217,10 +217,10 @@ contains
       do side = 1, 2
          if (nodes(side) == 0) cycle
          to_body = 0.0_wp ! from the node to the centres of its elements
-         do i = model%first_at(nodes(side)), model%first_at(nodes(side) + 1) - 1
-            associate (corners => corners_of(model, model%elements_at(i)))
+         do i = model%mesh%first_at(nodes(side)), model%mesh%first_at(nodes(side) + 1) - 1
+            associate (corners => corners_of(model, model%mesh%elements_at(i)))
                if (any(corners == 0)) cycle
-               to_body = to_body + sum(model%x(:, corners), dim=2)/size(corners) - model%x(:, nodes(side))
+               to_body = to_body + sum(model%mesh%x(:, corners), dim=2)/size(corners) - model%mesh%x(:, nodes(side))
             end associate
          end do
          along = dot_product(to_body, normal)
@@ -239,7 +239,7 @@ contains
 
       centroid = 0.0_wp
       do i = joint%first, joint%last
-         centroid = centroid + model%interface(i)%area*at_first_end(model%interface(i), model%x)/joint%area
+         centroid = centroid + model%joints%element(i)%area*at_first_end(model%joints%element(i), model%mesh%x)/joint%area
       end do
    end function joint_centroid
 
@@ -255,27 +255,27 @@ contains
 
       normal = 0.0_wp ! area-weighted mean, of length 1 for a plane joint
       do i = joint%first, joint%last
-         normal = normal + model%interface(i)%area*model%interface(i)%axes(:, 3)/joint%area
+         normal = normal + model%joints%element(i)%area*model%joints%element(i)%axes(:, 3)/joint%area
       end do
       frame%faces_all_ways = norm2(normal) < closed_below
-      if (model%axisymmetric) normal(1) = 0.0_wp ! over the whole ring only the axial part remains
+      if (model%mesh%axisymmetric) normal(1) = 0.0_wp ! over the whole ring only the axial part remains
       frame%closed = norm2(normal) < closed_below
       if (frame%closed) then
          normal = 0.0_wp
-         normal(model%dimension) = 1.0_wp
+         normal(model%mesh%dimension) = 1.0_wp
       end if
       frame%axes = joint_axes(model, normal/norm2(normal))
       frame%centroid = joint_centroid(model, joint)
       inertia = 0.0_wp
       do i = joint%first, joint%last
-         arm = at_first_end(model%interface(i), model%x) - frame%centroid
+         arm = at_first_end(model%joints%element(i), model%mesh%x) - frame%centroid
          arm = matmul(arm, frame%axes)
          frame%extent = max(frame%extent, norm2(arm))
-         inertia = inertia + model%interface(i)%area*(dot_product(arm, arm) - arm**2)
+         inertia = inertia + model%joints%element(i)%area*(dot_product(arm, arm) - arm**2)
       end do
       frame%exists = .true.
-      if (model%dimension == 2) frame%exists = [.true., .false., .true., .false., .true., .false.]
-      if (model%axisymmetric) frame%exists = [.false., .false., .true., .false., .false., .false.]
+      if (model%mesh%dimension == 2) frame%exists = [.true., .false., .true., .false., .true., .false.]
+      if (model%mesh%axisymmetric) frame%exists = [.false., .false., .true., .false., .false., .false.]
       if (frame%extent <= no_inertia*norm2(frame%centroid)) frame%exists(4:) = .false. ! all elements at one place, to rounding
       frame%exists(4:) = frame%exists(4:) .and. inertia > no_inertia*maxval(inertia)
    end function find_frame

@@ -55,12 +55,12 @@ contains
       allocate (force(3, size(deck%bulk%force)), source=0.0_wp)
       do i = 1, size(deck%bulk%force)
          associate (card => deck%bulk%force(i))
-            node(i) = model%node_table%find(card%node)
+            node(i) = model%mesh%node_table%find(card%node)
             force(:, i) = card%force
             if (card%ends(1) > 0) then
                call along_lines(deck, model, card, force(:, i))
             else if (node(i) > 0) then
-               call find_directions(deck, model%systems, card%line, card%system, model%x(:, node(i)), axes, ok)
+               call find_directions(deck, model%mesh%systems, card%line, card%system, model%mesh%x(:, node(i)), axes, ok)
                if (ok .and. card%system > 0) force(:, i) = matmul(axes, force(:, i))
             end if
             if (card%is_moment) then
@@ -68,7 +68,7 @@ contains
                cycle
             end if
             if (node(i) > 0) then
-               if (.not. model%used(node(i))) call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)// &
+               if (.not. model%freedoms%used(node(i))) call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)// &
                                                                     ' belongs to no element')
                call check_movable(deck, model, card, node(i), node_axes(model, node(i)), force(:, i))
             end if
@@ -96,9 +96,9 @@ contains
          return
       end if
       axes = node_axes(model, node)
-      node = model%rotations(rotation)%node
-      force = force/model%rotations(rotation)%arm
-      if (model%dimension == 2) then
+      node = model%mesh%rotations(rotation)%node
+      force = force/model%mesh%rotations(rotation)%arm
+      if (model%mesh%dimension == 2) then
          if (any(abs(force(:2)) > zero_component*norm2(force))) call deck%field_error(card%line, 'N1', &
             'not zero, but in a plane model moments act about z: expected N3 alone'//space_hint(model))
          force = [force(3), 0.0_wp, 0.0_wp]
@@ -117,11 +117,13 @@ contains
       real(wp), intent(in)           :: axes(3, 3), force(3)
       integer :: d, digit, k, parts(2)
 
-      if (.not. allocated(model%left_out)) return
+      if (.not. allocated(model%freedoms%left_out)) return
       parts = coupling_parts(model, node)
-      do d = 1, model%dimension
-         if (.not. model%left_out(d, node) .or. abs(dot_product(axes(:, d), force)) <= zero_component_along*norm2(force)) cycle
-         if (any([(abs(matmul(axes(:model%dimension, d), model%coupling%t(:, :, k))) > 0.0_wp, k = parts(1), parts(2))])) cycle
+      do d = 1, model%mesh%dimension
+         if (.not. model%freedoms%left_out(d, node) .or. abs(dot_product(axes(:, d), force)) <= &
+            zero_component_along*norm2(force)) cycle
+         if (any([(abs(matmul(axes(:model%mesh%dimension, d), model%freedoms%coupling%t(:, :, k))) > 0.0_wp, k = parts(1), &
+            parts(2))])) cycle
          digit = d
          if (card%is_moment) digit = findloc([(rotation_component(model, digit), digit = 1, 6)], d, dim=1)
          call deck%field_error(card%line, 'G', 'component '//integer_text(digit)//' of node '//integer_text(card%node)// &
@@ -140,10 +142,10 @@ contains
       integer  :: k, nodes(4)
 
       force = 0.0_wp
-      nodes = [(model%node_table%find(card%ends(k)), k = 1, 4)]
+      nodes = [(model%mesh%node_table%find(card%ends(k)), k = 1, 4)]
       if (any(nodes == 0 .and. (card%ends > 0 .or. card%ends(3) > 0)) .or. any(nodes(:2) == 0)) return
       do k = 1, merge(2, 1, nodes(3) > 0)
-         line(:, k) = model%x(:, nodes(2*k)) - model%x(:, nodes(2*k - 1))
+         line(:, k) = model%mesh%x(:, nodes(2*k)) - model%mesh%x(:, nodes(2*k - 1))
       end do
       direction = line(:, 1)
       if (nodes(3) > 0) direction = cross(line(:, 1), line(:, 2))
@@ -164,7 +166,7 @@ contains
       type(model_type), intent(in)   :: model
       character(:), allocatable :: words
       character(len(others))    :: kinds ! of cards
-      logical :: held(model%dimension)
+      logical :: held(model%mesh%dimension)
       integer :: d, i, k, node, s
 
       ! PLOADM and FORCEM
@@ -173,11 +175,11 @@ contains
             if (card%surface == 0) cycle
             call find_surface(deck, card%line, 'PID', card%surface, model, s)
             if (s == 0) cycle
-            associate (surface => model%surfaces(s))
+            associate (surface => model%mesh%surfaces(s))
                if (card%is_pressure .and. (any(surface%other(:surface%n) > 0) .or. surface%was_split)) &
                   call deck%field_error(card%line, 'PID', 'bodies lie on both sides of surface '//integer_text(card%surface)// &
                                         ': the loaded body is ambiguous')
-               if (model%axisymmetric .and. surface%n > 0 .and. all(abs(model%x(1, nodes_of(surface))) <= 0.0_wp)) &
+               if (model%mesh%axisymmetric .and. surface%n > 0 .and. all(abs(model%mesh%x(1, nodes_of(surface))) <= 0.0_wp)) &
                   call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%surface)// &
                                         ' lies on the axis and has no area')
             end associate
@@ -188,14 +190,14 @@ contains
       ! SPCD
       do i = 1, size(deck%bulk%displacement)
          associate (card => deck%bulk%displacement(i))
-            node = model%node_table%find(card%node)
+            node = model%mesh%node_table%find(card%node)
             if (node == 0) cycle
             do d = 1, 6
                if (.not. has_component(card%components, d)) cycle
                words = ''
                associate (place => place_of_component(model, node, d))
                   if (place%node == 0) then
-                     words = ', expected 1 to '//integer_text(model%dimension)
+                     words = ', expected 1 to '//integer_text(model%mesh%dimension)
                   else
                      held = supported(model, place%node)
                      if (.not. held(place%d)) words = ' of node '//integer_text(card%node)// &
@@ -253,9 +255,9 @@ contains
       call find_beam_loads(deck, model, cards%beam, cards%end_force)
       call check_kept(deck, model)
       call find_pressed_sides(deck, model, cards%pressed)
-      allocate (model%stage_loads(size(deck%control%stages)), oscillating(size(deck%control%stages)))
+      allocate (model%history%stages(size(deck%control%stages)), oscillating(size(deck%control%stages)))
       do s = 1, size(deck%control%stages)
-         associate (loads => model%stage_loads(s), stage => deck%control%stages(s))
+         associate (loads => model%history%stages(s), stage => deck%control%stages(s))
             allocate (loads%node(size(deck%bulk%force)), loads%force(3, size(deck%bulk%force)))
             call keep_moved(deck, model, stage%load%id, loads)
             call add_case(stage%load, 'LOAD', loads)
@@ -313,14 +315,14 @@ contains
          if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set) .and. &
              all(bulk%beam_load%set /= set)) return
          if (deck%errors%any()) return ! elements in error may have no area or volume
-         allocate (spread_out(3, model%n_nodes), source=0.0_wp)
+         allocate (spread_out(3, model%mesh%n_nodes), source=0.0_wp)
          do i = 1, size(cards%pressed)
             if (bulk%pressure(cards%pressed(i)%card)%set == set) call add_pressure(model, cards%pressed(i), factor, spread_out)
          end do
          do i = 1, size(bulk%surface_load)
             if (bulk%surface_load(i)%set /= set) cycle
-            s = findloc(model%surfaces%id, bulk%surface_load(i)%surface, dim=1)
-            if (s > 0) call add_surface_load(model, model%surfaces(s), bulk%surface_load(i), factor, spread_out)
+            s = findloc(model%mesh%surfaces%id, bulk%surface_load(i)%surface, dim=1)
+            if (s > 0) call add_surface_load(model, model%mesh%surfaces(s), bulk%surface_load(i), factor, spread_out)
          end do
          call add_gravity(model, cards%fields, set, factor, loads, spread_out)
          do i = 1, size(bulk%beam_load)
@@ -328,7 +330,7 @@ contains
                call add_to_beam(model, cards%beam(i), factor*cards%end_force(:, i), loads, spread_out)
          end do
       end associate
-      do node = 1, model%n_nodes
+      do node = 1, model%mesh%n_nodes
          if (any(abs(spread_out(:, node)) > 0.0_wp)) call add_force(node, spread_out(:, node), loads)
       end do
    end subroutine add_set

@@ -34,12 +34,12 @@ contains
       integer, allocatable :: states(:)
       integer :: b, other, ring
 
-      call build_systems(deck, model%systems)
+      call build_systems(deck, model%mesh%systems)
       call collect_cards(deck, cards)
       call build_nodes(deck, cards%grid, model)
       call find_kind(deck, model)
       do b = 1, size(deck%bulk%block)
-         if (deck%bulk%block(b)%dimension < model%dimension) call deck%errors%add(deck%bulk%block(b)%line, &
+         if (deck%bulk%block(b)%dimension < model%mesh%dimension) call deck%errors%add(deck%bulk%block(b)%line, &
             'BLOCK2: plane bodies cannot stand in a model of space')
       end do
       if (any(deck%rigid%surface > 0) .or. size(deck%bulk%place) > 0) call place_nodes(deck, cards%side, model)
@@ -56,15 +56,16 @@ contains
             n_cards=size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + size(bulk%rigid) + &
                     size(bulk%spring) + size(bulk%mass))
       end associate
-      call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
+      call list_owners(model%mesh%n_nodes, model%mesh%element_nodes, model%mesh%first_at, model%mesh%elements_at)
       ! plane and axisymmetric bodies must not be mixed: forces are those of the thickness, or those of the whole ring
-      allocate (states(0:size(model%properties)), source=0) ! 0: a property in error
-      states(1:) = model%properties%state
-      ring = findloc(states(model%element_property), axisymmetric, dim=1)
-      other = findloc(states(model%element_property) > 0 .and. states(model%element_property) /= axisymmetric, .true., dim=1)
-      model%axisymmetric = ring > 0
-      if (min(ring, other) > 0) call deck%errors%add(model%element_line(max(ring, other)), 'element '// &
-         integer_text(model%element_id(max(ring, other)))//': PAXIS and PSHELL cannot be mixed in one model')
+      allocate (states(0:size(model%mesh%properties)), source=0) ! 0: a property in error
+      states(1:) = model%mesh%properties%state
+      ring = findloc(states(model%mesh%element_property), axisymmetric, dim=1)
+      other = findloc(states(model%mesh%element_property) > 0 .and. states(model%mesh%element_property) /= axisymmetric, .true., &
+         dim=1)
+      model%mesh%axisymmetric = ring > 0
+      if (min(ring, other) > 0) call deck%errors%add(model%mesh%element_line(max(ring, other)), 'element '// &
+         integer_text(model%mesh%element_id(max(ring, other)))//': PAXIS and PSHELL cannot be mixed in one model')
       call check_nodes(deck, model)
       call check_elements(deck, cards%grid, model)
       call collect_sides(deck, cards%side, model, sides)
@@ -83,9 +84,9 @@ contains
       real(wp) :: rounding
       integer  :: highest, i, k, n, n_given ! n_given: before the new reference nodes
 
-      n_given = model%n_nodes
-      allocate (model%placed(size(deck%bulk%place)))
-      model%placed%id = deck%bulk%place%id ! reference nodes get higher numbers
+      n_given = model%mesh%n_nodes
+      allocate (model%mesh%placed(size(deck%bulk%place)))
+      model%mesh%placed%id = deck%bulk%place%id ! reference nodes get higher numbers
       ! the new reference nodes
       allocate (x(3, merge(count(deck%rigid%surface > 0 .and. deck%rigid%node == 0), 0, n_given > 0)))
       if (size(x, 2) > 0) then
@@ -106,48 +107,49 @@ contains
             call append_nodes(model, x)
          end if
       end if
-      model%placed = [placed_node ::] ! the reference nodes, then the nodes of NODEAT
+      model%mesh%placed = [placed_node ::] ! the reference nodes, then the nodes of NODEAT
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
-            if (card%surface > 0) model%placed = [model%placed, placed_node(element=card%id, surface=card%surface, &
-                                                                            node=model%node_table%find(card%node))]
+            if (card%surface > 0) model%mesh%placed = [model%mesh%placed, placed_node(element=card%id, surface=card%surface, &
+                                                                            node=model%mesh%node_table%find(card%node))]
          end associate
       end do
       ! the nodes nearest to the positions of NODEAT, on their surfaces if they name one
-      if (size(deck%bulk%place) == 0 .or. model%n_nodes == 0) return
-      rounding = equal_distance*maxval(maxval(model%x, dim=2) - minval(model%x, dim=2))
+      if (size(deck%bulk%place) == 0 .or. model%mesh%n_nodes == 0) return
+      rounding = equal_distance*maxval(maxval(model%mesh%x, dim=2) - minval(model%mesh%x, dim=2))
       do i = 1, size(deck%bulk%place)
          associate (card => deck%bulk%place(i))
             if (card%id == 0) cycle
-            if (any(model%node_id == card%id)) then
+            if (any(model%mesh%node_id == card%id)) then
                call deck%field_error(card%line, 'ID', 'there is a node '//integer_text(card%id)// &
                                      ' already; expected another number')
                cycle
             end if
-            is_meant = spread(card%surface == 0, 1, model%n_nodes)
+            is_meant = spread(card%surface == 0, 1, model%mesh%n_nodes)
             marking = side_cards(deck, sides, card%surface)
             if (card%surface > 0) then
                do k = 1, size(marking)
                   is_meant(nodes_on(model, marking(k), merge(3, 8, marking(k)%kind <= 0))) = .true.
                end do
             end if
-            do k = 1, size(model%placed)
-               if (model%placed(k)%surface == card%surface .and. model%placed(k)%node > 0) is_meant(model%placed(k)%node) = .true.
+            do k = 1, size(model%mesh%placed)
+               if (model%mesh%placed(k)%surface == card%surface &
+                  .and. model%mesh%placed(k)%node > 0) is_meant(model%mesh%placed(k)%node) = .true.
             end do
             if (.not. any(is_meant)) then
                call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%surface)//' has no nodes; '// &
                                      'expected a PMARK with faces or edges, or blank')
                cycle
             end if
-            distance = norm2(model%x - spread(card%x, 2, model%n_nodes), dim=1)
+            distance = norm2(model%mesh%x - spread(card%x, 2, model%mesh%n_nodes), dim=1)
             is_meant = is_meant .and. distance <= minval(distance, mask=is_meant) + rounding
             if (any(is_meant(n_given + 1:))) is_meant(:n_given) = .false.
-            model%placed = [model%placed, placed_node(id=card%id, surface=card%surface, x=card%x, &
+            model%mesh%placed = [model%mesh%placed, placed_node(id=card%id, surface=card%surface, x=card%x, &
                                                       node=findloc(is_meant, .true., dim=1))]
          end associate
       end do
-      associate (named => model%placed%id > 0)
-         call model%node_table%add(pack(model%placed%id, named), pack(model%placed%node, named))
+      associate (named => model%mesh%placed%id > 0)
+         call model%mesh%node_table%add(pack(model%mesh%placed%id, named), pack(model%mesh%placed%node, named))
       end associate
    end subroutine place_nodes
 
@@ -172,7 +174,7 @@ contains
       integer, allocatable :: nodes(:)
       integer :: k
 
-      nodes = [(model%node_table%find(card%nodes(k)), k = 1, n)]
+      nodes = [(model%mesh%node_table%find(card%nodes(k)), k = 1, n)]
       nodes = pack(nodes, nodes > 0)
    end function nodes_on
 
@@ -190,7 +192,7 @@ contains
       do s = 1, size(cards)
          n = merge(2, element_table(max(1, cards(s)%kind))%n_corners, cards(s)%kind <= 0) ! corners
          nodes = nodes_on(model, cards(s), n)
-         associate (p => model%x(:, nodes))
+         associate (p => model%mesh%x(:, nodes))
             n = size(p, 2)
             if (n == 2) then
                extent = norm2(p(:, 2) - p(:, 1))
@@ -214,22 +216,22 @@ contains
       real(wp) :: x(3)
       integer  :: b, i, node
 
-      if (model%dimension == 3) return
+      if (model%mesh%dimension == 3) return
       do i = 1, size(deck%bulk%grid)
-         node = model%node_table%find(deck%bulk%grid(i)%id)
+         node = model%mesh%node_table%find(deck%bulk%grid(i)%id)
          if (node == 0) cycle
-         x = model%x(:, node)
+         x = model%mesh%x(:, node)
          associate (grid => deck%bulk%grid(i))
             if (grid%cp <= 0) x = grid%x ! a number given twice has one node
             if (abs(x(3)) > 0.0_wp) call deck%field_error(grid%line, one_of(grid%cp > 0, 'CP', 'X3'), &
                one_of(grid%cp > 0, 'puts the node out of the plane', 'not zero')// &
                ', but a plane model lies in x-y'//space_hint(model))
-            if (model%axisymmetric .and. x(1) < 0.0_wp) call deck%field_error(grid%line, one_of(grid%cp > 0, 'CP', 'X1'), &
+            if (model%mesh%axisymmetric .and. x(1) < 0.0_wp) call deck%field_error(grid%line, one_of(grid%cp > 0, 'CP', 'X1'), &
                one_of(grid%cp > 0, 'puts the node at a negative x', 'negative')// &
                ', but an axisymmetric model lies in x >= 0')
          end associate
       end do
-      if (.not. model%axisymmetric) return
+      if (.not. model%mesh%axisymmetric) return
       do b = 1, size(deck%bulk%block)
          if (any(deck%bulk%block(b)%corner(1, :) < 0.0_wp)) call deck%errors%add(deck%bulk%block(b)%line, &
             'BLOCK2: a corner has x < 0, but an axisymmetric model lies in x >= 0')
@@ -278,7 +280,7 @@ contains
          character(*), intent(in), optional :: called
 
          if (id <= 0) return
-         if (model%node_table%find(id) == 0) call deck%field_error(line, k, 'there is no GRID '//integer_text(id), called)
+         if (model%mesh%node_table%find(id) == 0) call deck%field_error(line, k, 'there is no GRID '//integer_text(id), called)
       end subroutine require
 
    end subroutine check_named_nodes

@@ -28,15 +28,15 @@ contains
       integer, allocatable :: lowest(:, :), first(:), owners(:)
       integer :: e, i, n
 
-      allocate (lowest(1, model%n_elements + n_bars(model)), source=0)
-      do e = 1, model%n_elements
+      allocate (lowest(1, model%mesh%n_elements + n_bars(model)), source=0)
+      do e = 1, model%mesh%n_elements
          lowest(1, e) = minval(corners_of(model, e))
       end do
       do i = 1, n_bars(model)
-         if (model%bars(i)%kind == a_bar .and. model%bars(i)%bolt == 0) &
-            lowest(1, model%n_elements + i) = minval(bar_nodes(model%bars(i)))
+         if (model%mesh%bars(i)%kind == a_bar .and. model%mesh%bars(i)%bolt == 0) &
+            lowest(1, model%mesh%n_elements + i) = minval(bar_nodes(model%mesh%bars(i)))
       end do
-      call list_owners(model%n_nodes, lowest, first, owners)
+      call list_owners(model%mesh%n_nodes, lowest, first, owners)
       n = 0
       named = ''
       do e = 1, size(lowest, 2)
@@ -72,17 +72,17 @@ contains
       integer :: k, n
 
       same_place = .false.
-      if ((a > model%n_elements) .neqv. (b > model%n_elements)) return
-      if (a > model%n_elements) then
-         associate (one => model%bars(a - model%n_elements), other => model%bars(b - model%n_elements))
+      if ((a > model%mesh%n_elements) .neqv. (b > model%mesh%n_elements)) return
+      if (a > model%mesh%n_elements) then
+         associate (one => model%mesh%bars(a - model%mesh%n_elements), other => model%mesh%bars(b - model%mesh%n_elements))
             same_place = (all(one%nodes == other%nodes) .or. all(one%nodes == other%nodes(2:1:-1))) .and. &
                          .not. abs(one%stiffness - other%stiffness) > 0.0_wp
          end associate
          return
       end if
-      n = element_table(model%element_kind(a))%n_corners
-      if (n /= element_table(model%element_kind(b))%n_corners) return
-      associate (own => model%element_nodes(:n, a), other => model%element_nodes(:n, b))
+      n = element_table(model%mesh%element_kind(a))%n_corners
+      if (n /= element_table(model%mesh%element_kind(b))%n_corners) return
+      associate (own => model%mesh%element_nodes(:n, a), other => model%mesh%element_nodes(:n, b))
          same_place = all([(any(own(k) == other), k = 1, n)]) .and. all([(any(other(k) == own), k = 1, n)])
       end associate
    end function same_place
@@ -93,8 +93,8 @@ contains
       integer, intent(in)          :: e
       character(:), allocatable    :: name
 
-      if (e <= model%n_elements) name = integer_text(model%element_id(e))
-      if (e > model%n_elements) name = integer_text(model%bars(e - model%n_elements)%id)
+      if (e <= model%mesh%n_elements) name = integer_text(model%mesh%element_id(e))
+      if (e > model%mesh%n_elements) name = integer_text(model%mesh%bars(e - model%mesh%n_elements)%id)
    end function name_of
 
    !> A warning about coincident nodes of elements that no joint, constraint equation, bar or spring connects; '' where there are
@@ -110,12 +110,12 @@ contains
 
       nodes = pack([(i, i = 1, n_points(model))], [(may_part(model, i), i = 1, n_points(model))])
       call find_reach(model, reach)
-      call search%build(model%x(:, nodes))
+      call search%build(model%mesh%x(:, nodes))
       allocate (found(16), parent(0))
       n = 0
       named = ''
       do i = 1, size(nodes)
-         associate (x => model%x(:, nodes(i)), r => reach(nodes(i)))
+         associate (x => model%mesh%x(:, nodes(i)), r => reach(nodes(i)))
             call search%list_meeting(x - r, x + r, found, n_found)
          end associate
          if (n_found < 2) cycle
@@ -130,7 +130,7 @@ contains
          end do
          if (k > n_found) cycle
          n = n + 1
-         call name_pair(n, integer_text(model%node_id(nodes(i)))//' at '//integer_text(model%node_id(found(k))), named)
+         call name_pair(n, integer_text(model%mesh%node_id(nodes(i)))//' at '//integer_text(model%mesh%node_id(found(k))), named)
       end do
       words = ''
       if (n > 0) words = plural(n, 'node')//one_of(n == 1, ' lies', ' lie')//' at the place of another one, and no '// &
@@ -143,7 +143,7 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
 
-      may_part = model%first_at(node + 1) > model%first_at(node)
+      may_part = model%mesh%first_at(node + 1) > model%mesh%first_at(node)
       if (may_part) may_part = .not. (is_face_node(model, node) .or. all(supported(model, node)))
    end function may_part
 
@@ -154,13 +154,13 @@ contains
       real(wp) :: shortest
       integer  :: e, k
 
-      allocate (reach(model%n_nodes), source=huge(1.0_wp))
-      do e = 1, model%n_elements
-         associate (kind => element_table(model%element_kind(e)), nodes => model%element_nodes(:, e))
+      allocate (reach(model%mesh%n_nodes), source=huge(1.0_wp))
+      do e = 1, model%mesh%n_elements
+         associate (kind => element_table(model%mesh%element_kind(e)), nodes => model%mesh%element_nodes(:, e))
             shortest = huge(1.0_wp)
-            if (kind%n_edges == 0) shortest = norm2(model%x(:, nodes(2)) - model%x(:, nodes(1))) ! a beam
+            if (kind%n_edges == 0) shortest = norm2(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1))) ! a beam
             do k = 1, kind%n_edges
-               shortest = min(shortest, norm2(model%x(:, nodes(kind%edges(1, k))) - model%x(:, nodes(kind%edges(2, k)))))
+               shortest = min(shortest, norm2(model%mesh%x(:, nodes(kind%edges(1, k))) - model%mesh%x(:, nodes(kind%edges(2, k)))))
             end do
             reach(nodes(:kind%n_nodes)) = min(reach(nodes(:kind%n_nodes)), same_node*shortest)
          end associate
@@ -180,11 +180,11 @@ contains
       integer, allocatable, intent(out) :: parent(:) !! (n_nodes)
       integer :: i
 
-      parent = [(i, i = 1, model%n_nodes)]
+      parent = [(i, i = 1, model%mesh%n_nodes)]
       call join_ends(model, parent)
       do i = 1, n_bars(model)
-         if (model%bars(i)%nodes(2) == 0) cycle ! the ground
-         call join(parent, model%bars(i)%nodes(1), model%bars(i)%nodes(2))
+         if (model%mesh%bars(i)%nodes(2) == 0) cycle ! the ground
+         call join(parent, model%mesh%bars(i)%nodes(1), model%mesh%bars(i)%nodes(2))
       end do
       call join_coupled(model, parent)
    end subroutine find_connections
@@ -195,17 +195,17 @@ contains
       integer, allocatable, intent(out) :: body(:), assembly(:) !! (n_nodes)
       integer :: e, i, k
 
-      body = [(i, i = 1, model%n_nodes)]
-      do e = 1, model%n_elements
-         associate (nodes => model%element_nodes(:, e))
+      body = [(i, i = 1, model%mesh%n_nodes)]
+      do e = 1, model%mesh%n_elements
+         associate (nodes => model%mesh%element_nodes(:, e))
             do k = 2, size(nodes)
                call join(body, nodes(1), nodes(k))
             end do
          end associate
       end do
-      if (allocated(model%faces)) then
-         do k = 1, size(model%faces)
-            call join(body, model%faces(k)%point, model%faces(k)%node)
+      if (allocated(model%mesh%faces)) then
+         do k = 1, size(model%mesh%faces)
+            call join(body, model%mesh%faces(k)%point, model%mesh%faces(k)%node)
          end do
       end if
       assembly = body
@@ -218,8 +218,8 @@ contains
       integer, intent(inout)       :: parent(:)
       integer :: i, k
 
-      do i = 1, size(model%interface)
-         associate (nodes => model%interface(i)%node)
+      do i = 1, size(model%joints%element)
+         associate (nodes => model%joints%element(i)%node)
             do k = 2, size(nodes)
                call join(parent, nodes(1), nodes(k))
             end do

@@ -93,22 +93,22 @@ contains
       call build_temperatures(checked, expansions, model)
       call find_shown_nodes(checked, model, plan)
       call plan_vibrations(checked, model, oscillating, plan)
-      if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
+      if (.not. any(model%freedoms%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
       if (errors%any()) return
       ! checks and results that need the whole model
       call find_parts(model, .false.)          ! bolts that are being tightened do not connect parts yet
       call find_determinate_joints(model)
       call find_first_pressures(plan%stages(1)%fractions(1), deck%control%method /= method_step, model, errors)
-      if (any(model%bars%bolt > 0) .or. n_sections(model) > 0) then
+      if (any(model%mesh%bars%bolt > 0) .or. n_sections(model) > 0) then
          call find_parts(model, .true.)
          call find_determinate_joints(model)
       end if
-      do j = 1, size(model%joints)            ! the normals are final now
-         model%joints(j)%frame = find_frame(model, model%joints(j))
+      do j = 1, size(model%joints%list)            ! the normals are final now
+         model%joints%list(j)%frame = find_frame(model, model%joints%list(j))
       end do
       call check_mass(checked, model)
-      call append(model%warnings, repeated_words(model))
-      call append(model%warnings, crack_words(model))
+      call errors%warn(repeated_words(model))
+      call errors%warn(crack_words(model))
       call watch_units(deck, model)
    end subroutine build_model
 

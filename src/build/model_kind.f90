@@ -36,29 +36,29 @@ contains
          has_solids = any(bulk%block%dimension == 3) .or. any(element_table(bulk%element%kind)%dimension == 3)
          reason = ''
          if (.not. (has_solids .or. has_rings .or. any(bulk%block%dimension == 2))) reason = reason_for_space(deck, model)
-         model%dimension = merge(3, 2, has_solids .or. reason /= '')
+         model%mesh%dimension = merge(3, 2, has_solids .or. reason /= '')
          select case (control%model)
          case (model_space)
             if (has_rings) call deck%errors%add(control%model_line, 'MODEL = SPACE, but the deck has a PAXIS; expected '// &
                                                 'AXISYMMETRIC, or no PAXIS')
-            if (.not. has_rings) model%dimension = 3
+            if (.not. has_rings) model%mesh%dimension = 3
          case (model_plane, model_axisymmetric)
             if (has_solids) call deck%errors%add(control%model_line, 'MODEL: the deck has solids; expected SPACE')
-            if (.not. has_solids) model%dimension = 2
+            if (.not. has_solids) model%mesh%dimension = 2
             if (has_rings .eqv. control%model == model_plane) call deck%errors%add(control%model_line, &
                one_of(control%model == model_plane, 'MODEL = PLANE, but the deck has a PAXIS', &
                       'MODEL = AXISYMMETRIC, but the deck has no PAXIS'))
          case default
             if (has_solids .or. has_rings .or. any(bulk%block%dimension == 2)) return
-            if (any(abs(model%x(3, :)) > 0.0_wp)) return
-            if (model%dimension == 3) then
-               model%kind_words = 'a model of space, because '//reason//'; MODEL = PLANE makes it plane'
+            if (any(abs(model%mesh%x(3, :)) > 0.0_wp)) return
+            if (model%mesh%dimension == 3) then
+               model%mesh%kind_words = 'a model of space, because '//reason//'; MODEL = PLANE makes it plane'
             else if (size(bulk%joint) + size(bulk%cjoint) > 0) then ! joints on edges: plane by intent
                return
             else if (has_membranes(deck)) then
-               model%kind_words = 'a plane model, because its PSHELL have no bending material; MID2 makes it a model of space'
+               model%mesh%kind_words = 'a plane model, because its PSHELL have no bending material; MID2 makes it a model of space'
             else
-               model%kind_words = 'a plane model, nothing in it leaves x-y; MODEL = SPACE makes it a model of space'
+               model%mesh%kind_words = 'a plane model, nothing in it leaves x-y; MODEL = SPACE makes it a model of space'
             end if
          end select
       end associate
@@ -70,11 +70,11 @@ contains
       character(:), allocatable :: words
 
       words = ' (MODEL = SPACE makes it a model of space)'
-      if (allocated(model%properties)) then
-         if (any(model%properties%state < axisymmetric)) &
+      if (allocated(model%mesh%properties)) then
+         if (any(model%mesh%properties%state < axisymmetric)) &
             words = ' (MODEL = SPACE, and MID2 on PSHELL, make it a model of space)'
       end if
-      if (model%axisymmetric) words = ''
+      if (model%mesh%axisymmetric) words = ''
    end function space_hint
 
    !> The first entry that only space has, in words; empty: there is none, or the bodies are plane.
@@ -97,8 +97,8 @@ contains
             end associate
          end do
          if (has_membranes(deck)) return
-         k = findloc(abs(model%x(3, :)) > 0.0_wp, .true., dim=1)
-         if (k > 0) words = 'node '//integer_text(model%node_id(k))//' lies out of x-y'
+         k = findloc(abs(model%mesh%x(3, :)) > 0.0_wp, .true., dim=1)
+         if (k > 0) words = 'node '//integer_text(model%mesh%node_id(k))//' lies out of x-y'
          do i = 1, size(bulk%edge)
             if (words /= '') return
             if (is_beam_edge(deck, bulk%edge(i))) words = one_of(bulk%edge(i)%kind == edge_cbeam, 'CBEAM', 'CBAR')//' '// &
@@ -178,10 +178,10 @@ contains
          global = vector
          k = 0
          if (cid > 0) k = findloc(deck%bulk%system%id, cid, dim=1)
-         if (k > 0 .and. k <= size(model%systems)) then
+         if (k > 0 .and. k <= size(model%mesh%systems)) then
             x = 0.0_wp
-            if (model%node_table%find(node) > 0) x = model%x(:, model%node_table%find(node))
-            call directions_at(model%systems(k), x, directions, ok)
+            if (model%mesh%node_table%find(node) > 0) x = model%mesh%x(:, model%mesh%node_table%find(node))
+            call directions_at(model%mesh%systems(k), x, directions, ok)
             if (ok) global = matmul(directions, vector)
          end if
          leaves = any(abs(global(components)) > zero_component*norm2(global))

@@ -43,22 +43,22 @@ contains
 
       do i = 1, size(cards)
          if (cards(i)%cp <= 0) cycle
-         call find_system(deck, cards(i)%line, 'CP', cards(i)%cp, model%systems, system)
+         call find_system(deck, cards(i)%line, 'CP', cards(i)%cp, model%mesh%systems, system)
          if (system == 0) cycle
          associate (x => cards(i)%x)
-            x = position_in(model%systems(system), x)
-            where (abs(x) <= zero_coordinate*(norm2(x) + norm2(model%systems(system)%origin))) x = 0.0_wp
+            x = position_in(model%mesh%systems(system), x)
+            where (abs(x) <= zero_coordinate*(norm2(x) + norm2(model%mesh%systems(system)%origin))) x = 0.0_wp
          end associate
       end do
       call deck%report_repeated('node', cards%id, cards%line, n_cards=size(deck%bulk%grid))
       call sorted_order(cards%id, order)
-      model%n_nodes = size(cards)
-      model%node_id = cards(order)%id
-      allocate (model%x(3, model%n_nodes))
-      do i = 1, model%n_nodes
-         model%x(:, i) = cards(order(i))%x
+      model%mesh%n_nodes = size(cards)
+      model%mesh%node_id = cards(order)%id
+      allocate (model%mesh%x(3, model%mesh%n_nodes))
+      do i = 1, model%mesh%n_nodes
+         model%mesh%x(:, i) = cards(order(i))%x
       end do
-      call model%node_table%build(model%node_id)
+      call model%mesh%node_table%build(model%mesh%node_id)
    end subroutine build_nodes
 
    !> Append nodes at X to MODEL, numbered from the highest number on, and enter them in the table of numbers. Numbers stop at the
@@ -69,14 +69,14 @@ contains
       integer :: highest, k
 
       highest = highest_number(model)
-      model%node_id = [model%node_id, (highest + min(k, huge(1) - highest), k = 1, size(x, 2))]
-      model%n_nodes = size(model%node_id)
-      model%x = reshape([model%x, x], [3, model%n_nodes])
-      if (allocated(model%duplicate)) model%duplicate = [model%duplicate, spread(0, 1, size(x, 2))]
-      call model%node_table%build(model%node_id)
-      if (.not. allocated(model%placed)) return
-      associate (named => model%placed%id > 0 .and. model%placed%node > 0)
-         call model%node_table%add(pack(model%placed%id, named), pack(model%placed%node, named))
+      model%mesh%node_id = [model%mesh%node_id, (highest + min(k, huge(1) - highest), k = 1, size(x, 2))]
+      model%mesh%n_nodes = size(model%mesh%node_id)
+      model%mesh%x = reshape([model%mesh%x, x], [3, model%mesh%n_nodes])
+      if (allocated(model%mesh%duplicate)) model%mesh%duplicate = [model%mesh%duplicate, spread(0, 1, size(x, 2))]
+      call model%mesh%node_table%build(model%mesh%node_id)
+      if (.not. allocated(model%mesh%placed)) return
+      associate (named => model%mesh%placed%id > 0 .and. model%mesh%placed%node > 0)
+         call model%mesh%node_table%add(pack(model%mesh%placed%id, named), pack(model%mesh%placed%node, named))
       end associate
    end subroutine append_nodes
 
@@ -84,8 +84,8 @@ contains
    pure integer function highest_number(model)
       type(model_type), intent(in) :: model
 
-      highest_number = model%node_id(model%n_nodes)
-      if (allocated(model%placed)) highest_number = max(highest_number, maxval([0, model%placed%id]))
+      highest_number = model%mesh%node_id(model%mesh%n_nodes)
+      if (allocated(model%mesh%placed)) highest_number = max(highest_number, maxval([0, model%mesh%placed%id]))
    end function highest_number
 
    !> The NODES with the numbers ID, which an element, edge or interface element card names from data field FIRST on; 0, and an
@@ -104,7 +104,7 @@ contains
       if (present(first)) behind = first - 1
       do k = 1, size(id)
          if (id(k) == 0) cycle
-         nodes(k) = model%node_table%find(id(k))
+         nodes(k) = model%mesh%node_table%find(id(k))
          if (nodes(k) == 0) call deck%field_error(line, k + behind, 'there is no GRID '//integer_text(id(k)), noun='node')
       end do
    end subroutine find_nodes
@@ -119,34 +119,34 @@ contains
       real(wp), allocatable :: x(:, :)
       integer :: i, n, n_new, node
 
-      if (.not. any(is_second_order(model%element_kind))) return
+      if (.not. any(is_second_order(model%mesh%element_kind))) return
       call match_edges(model, edges)
       call check_orders(deck, model, edges)
-      n = model%n_nodes
+      n = model%mesh%n_nodes
       n_new = 0
       do i = 1, edges%n
          if (node_at(model, edges, i) /= blank_node) cycle
-         associate (mid_node => model%element_nodes(edges%place(i), edges%element(i)))
+         associate (mid_node => model%mesh%element_nodes(edges%place(i), edges%element(i)))
             mid_node = node_at(model, edges, edges%namer(edges%first(i)))
             if (mid_node /= blank_node) cycle
             n_new = n_new + 1
             mid_node = n + n_new
          end associate
       end do
-      model%n_filled = n_new
-      model%first_filled = n + 1
-      where (model%element_nodes == blank_node) model%element_nodes = 0 ! of edges with missing corners
+      model%mesh%n_filled = n_new
+      model%mesh%first_filled = n + 1
+      where (model%mesh%element_nodes == blank_node) model%mesh%element_nodes = 0 ! of edges with missing corners
       if (n_new == 0) return
       if (highest_number(model) > huge(1) - n_new) then
          call deck%errors%add(0, 'the blank mid-side nodes get numbers above node '// &
                               integer_text(highest_number(model))//', and their numbers would exceed 2147483647')
-         where (model%element_nodes > n) model%element_nodes = 0
+         where (model%mesh%element_nodes > n) model%mesh%element_nodes = 0
          return
       end if
       allocate (x(3, n_new))
       do i = 1, edges%n
          node = node_at(model, edges, i)
-         if (node > n) x(:, node - n) = 0.5_wp*(model%x(:, edges%ends(1, i)) + model%x(:, edges%ends(2, i)))
+         if (node > n) x(:, node - n) = 0.5_wp*(model%mesh%x(:, edges%ends(1, i)) + model%mesh%x(:, edges%ends(2, i)))
       end do
       call append_nodes(model, x)
    end subroutine fill_mid_sides
@@ -159,12 +159,12 @@ contains
       integer, allocatable :: start(:), at(:)
       integer :: c, e, ends(2), i, k, node, total
 
-      total = sum(element_table(model%element_kind)%n_edges)
+      total = sum(element_table(model%mesh%element_kind)%n_edges)
       allocate (edges%ends(2, total), edges%element(total), edges%place(total))
-      do e = 1, model%n_elements
-         associate (kind => element_table(model%element_kind(e)))
+      do e = 1, model%mesh%n_elements
+         associate (kind => element_table(model%mesh%element_kind(e)))
             do k = 1, kind%n_edges
-               ends = model%element_nodes(kind%edges(:, k), e)
+               ends = model%mesh%element_nodes(kind%edges(:, k), e)
                if (any(ends == 0)) cycle ! reported already
                edges%n = edges%n + 1
                edges%ends(:, edges%n) = [minval(ends), maxval(ends)]
@@ -173,9 +173,9 @@ contains
             end do
          end associate
       end do
-      call list_owners(model%n_nodes, reshape(edges%ends(1, :edges%n), [1, edges%n]), start, at)
+      call list_owners(model%mesh%n_nodes, reshape(edges%ends(1, :edges%n), [1, edges%n]), start, at)
       allocate (edges%first(edges%n), edges%namer(edges%n))
-      do node = 1, model%n_nodes
+      do node = 1, model%mesh%n_nodes
          do i = start(node), start(node + 1) - 1
             c = at(i)
             edges%first(c) = c
@@ -210,7 +210,7 @@ contains
       integer, intent(in)          :: i
 
       node = 0
-      if (edges%place(i) > 0) node = model%element_nodes(edges%place(i), edges%element(i))
+      if (edges%place(i) > 0) node = model%mesh%element_nodes(edges%place(i), edges%element(i))
    end function node_at
 
    !> Error: elements at an edge with different mid-side nodes, or with and without one; each element is reported once.
@@ -231,18 +231,19 @@ contains
          if (edges%place(i) == 0 .and. edges%place(other) == 0) cycle
          if (edges%place(i) > 0 .and. (node <= 0 .or. node == node_at(model, edges, other))) cycle
          last = edges%element(i)
-         element = 'element '//integer_text(model%element_id(last))
-         associate (a => model%node_id(edges%ends(1, i)), b => model%node_id(edges%ends(2, i)))
+         element = 'element '//integer_text(model%mesh%element_id(last))
+         associate (a => model%mesh%node_id(edges%ends(1, i)), b => model%mesh%node_id(edges%ends(2, i)))
             edge = 'the edge between nodes '//integer_text(a)//' and '//integer_text(b)//' with element '// &
-                   integer_text(model%element_id(edges%element(other)))
+                   integer_text(model%mesh%element_id(edges%element(other)))
          end associate
          if (edges%place(i) == 0) then
-            call deck%errors%add(model%element_line(last), element//' is linear, and shares '//edge// &
+            call deck%errors%add(model%mesh%element_line(last), element//' is linear, and shares '//edge// &
                ', which is of second order; expected both of one order, or '// &
                'bodies that do not share their nodes and a JOINT between them')
          else
-            call deck%errors%add(model%element_line(last), element//' has node '//integer_text(model%node_id(node))// &
-               ' at the middle of '//edge//', which has node '//integer_text(model%node_id(node_at(model, edges, other)))//' there')
+            call deck%errors%add(model%mesh%element_line(last), element//' has node '//integer_text(model%mesh%node_id(node))// &
+               ' at the middle of '//edge//', which has node '//integer_text(model%mesh%node_id(node_at(model, edges, other)))// &
+                  ' there')
          end if
       end do
    end subroutine check_orders
@@ -256,23 +257,24 @@ contains
       integer, allocatable :: none(:)
       integer :: k, n
 
-      n = model%n_nodes
+      n = model%mesh%n_nodes
       none = spread(0, 1, size(points))
-      model%n_nodes = n + size(points)
-      model%node_id = [model%node_id, none]
-      model%duplicate = [model%duplicate, none]
-      model%x = reshape([model%x, model%x(:, points)], [3, model%n_nodes])
-      model%elements_at = [model%elements_at, elements]
-      model%first_at = [model%first_at, none]
-      do k = n + 1, model%n_nodes
-         model%first_at(k + 1) = model%first_at(k) + n_elements(k - n)
+      model%mesh%n_nodes = n + size(points)
+      model%mesh%node_id = [model%mesh%node_id, none]
+      model%mesh%duplicate = [model%mesh%duplicate, none]
+      model%mesh%x = reshape([model%mesh%x, model%mesh%x(:, points)], [3, model%mesh%n_nodes])
+      model%mesh%elements_at = [model%mesh%elements_at, elements]
+      model%mesh%first_at = [model%mesh%first_at, none]
+      do k = n + 1, model%mesh%n_nodes
+         model%mesh%first_at(k + 1) = model%mesh%first_at(k) + n_elements(k - n)
       end do
-      if (allocated(model%rotation_of)) model%rotation_of = [model%rotation_of, none]
-      if (allocated(model%node_section)) model%node_section = [model%node_section, none]
-      if (allocated(model%used)) model%used = [model%used, none == 0]
+      if (allocated(model%mesh%rotation_of)) model%mesh%rotation_of = [model%mesh%rotation_of, none]
+      if (allocated(model%mesh%node_section)) model%mesh%node_section = [model%mesh%node_section, none]
+      if (allocated(model%freedoms%used)) model%freedoms%used = [model%freedoms%used, none == 0]
       associate (d => size(held), added => spread(held, 2, size(points)))
-         if (allocated(model%held)) model%held = reshape([model%held, added], [d, model%n_nodes])
-         if (allocated(model%left_out)) model%left_out = reshape([model%left_out, added], [d, model%n_nodes])
+         if (allocated(model%freedoms%held)) model%freedoms%held = reshape([model%freedoms%held, added], [d, model%mesh%n_nodes])
+         if (allocated(model%freedoms%left_out)) model%freedoms%left_out = reshape([model%freedoms%left_out, added], [d, &
+            model%mesh%n_nodes])
       end associate
    end subroutine append_unknowns
 

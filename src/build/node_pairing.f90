@@ -65,30 +65,30 @@ contains
       in_tolerance = .false.
       tolerance = tol
       if (tol <= 0.0_wp) then
-         associate (side => model%surfaces(surface(1)))
-            tolerance = pairing_reach*minval([(minval(edge_lengths(model%x(:, side%nodes(:side%corners(k), k)))), &
+         associate (side => model%mesh%surfaces(surface(1)))
+            tolerance = pairing_reach*minval([(minval(edge_lengths(model%mesh%x(:, side%nodes(:side%corners(k), k)))), &
                                                    k = 1, side%n)])
          end associate
       end if
-      call search%build(model%x(:, side2%node))
+      call search%build(model%mesh%x(:, side2%node))
       do k = 1, side1%n
-         call search%nearest(model%x(:, side1%node(k)), tolerance, found(k), distance)
+         call search%nearest(model%mesh%x(:, side1%node(k)), tolerance, found(k), distance)
       end do
       if (any(found == 0)) then
          worst = 0.0_wp
          worst_node = 0
          do k = 1, side1%n
             if (found(k) > 0) cycle
-            call search%nearest(model%x(:, side1%node(k)), huge(1.0_wp), nearest, distance)
+            call search%nearest(model%mesh%x(:, side1%node(k)), huge(1.0_wp), nearest, distance)
             if (distance <= worst) cycle
             worst = distance
             worst_node = side1%node(k)
          end do
          fault = 'the sides do not face each other node by node: '//plural(count(found == 0), 'node')//' of '// &
             integer_text(side1%n)//' of SIDE1 found no partner within '//real_text(tolerance)//'; the farthest is node '// &
-            integer_text(model%node_id(worst_node))//' at '
-         do k = 1, model%dimension
-            fault = fault//real_text(model%x(k, worst_node))//', '
+            integer_text(model%mesh%node_id(worst_node))//' at '
+         do k = 1, model%mesh%dimension
+            fault = fault//real_text(model%mesh%x(k, worst_node))//', '
          end do
          fault = fault//real_text(worst)//' away'
          return
@@ -107,7 +107,7 @@ contains
       else if (.not. same_order(model, surface, side1, partner)) then
          fault = 'mid-side nodes face corner nodes: one side is of second order, the other is not'
       else
-         call find_aside(model, model%surfaces(surface(1)), side1, partner, aside)
+         call find_aside(model, model%mesh%surfaces(surface(1)), side1, partner, aside)
       end if
    end subroutine pair_nodes
 
@@ -129,10 +129,10 @@ contains
          do k = 1, n
             at(k) = place%find(surface%nodes(k, s))
          end do
-         shortest(at(:n)) = min(shortest(at(:n)), minval(edge_lengths(model%x(:, surface%nodes(:surface%corners(s), s)))))
+         shortest(at(:n)) = min(shortest(at(:n)), minval(edge_lengths(model%mesh%x(:, surface%nodes(:surface%corners(s), s)))))
       end do
       do k = 1, side%n
-         offset = model%x(:, partner(k)) - model%x(:, side%node(k))
+         offset = model%mesh%x(:, partner(k)) - model%mesh%x(:, side%node(k))
          offset = offset - dot_product(offset, side%normal(:, k))*side%normal(:, k)
          distance = norm2(offset)
          if (distance <= most_aside*shortest(k)) cycle
@@ -153,7 +153,7 @@ contains
       integer :: k, s
 
       do k = 1, 2
-         associate (side => model%surfaces(surface(k)))
+         associate (side => model%mesh%surfaces(surface(k)))
             call between(k)%build([(side%nodes(side%corners(s) + 1:side%n_nodes(s), s), s = 1, side%n)])
          end associate
       end do
@@ -183,13 +183,13 @@ contains
       partly = .false.
       fault = ''
       call place%build(nodes%node)
-      call sums%start(nodes%n, model%n_nodes)
+      call sums%start(nodes%n, model%mesh%n_nodes)
       all_area = 0.0_wp
       own_parts = 0
       double = 0
       highest = twice
       farthest_reach = 0.0_wp
-      associate (side1 => model%surfaces(surface(1)), side2 => model%surfaces(surface(2)))
+      associate (side1 => model%mesh%surfaces(surface(1)), side2 => model%mesh%surfaces(surface(2)))
          call list_opposite(model, side2, opposite)
          call find_tilts(model, side1, opposite%own_tilt)
          do s = 1, side1%n
@@ -202,9 +202,9 @@ contains
             share = integrals%seen/max(seen_area(face%seen), tiny(1.0_wp))
             if (share > highest) double = s
             highest = max(highest, share)
-            own_parts = own_parts + n - model%dimension + 1
+            own_parts = own_parts + n - model%mesh%dimension + 1
             cover%spacing(1) = cover%spacing(1) + seen_area(face%seen)
-            call fit_face(model%dimension, n, share >= whole_share, integrals, part)
+            call fit_face(model%mesh%dimension, n, share >= whole_share, integrals, part)
             do k = 1, n
                elements(k) = place%find(side1%nodes(k, s))
                if (share < whole_share) partly(elements(k)) = .true.
@@ -212,19 +212,19 @@ contains
             call sums%add_face(elements(:n), side1%nodes(:n, s), integrals%node, part)
             cover%share = cover%share + merge(1.0_wp, share, share >= whole_share)*sum(area)
             cover%farthest = max(cover%farthest, integrals%farthest)
-            cover%sagitta(1) = max(cover%sagitta(1), largest_sagitta(model%x(:, side1%nodes(:side1%corners(s), s)), &
+            cover%sagitta(1) = max(cover%sagitta(1), largest_sagitta(model%mesh%x(:, side1%nodes(:side1%corners(s), s)), &
                                                                      opposite%own_tilt(:, s)))
          end do
          do s = 1, side2%n
             if (opposite%covers(s)) cover%sagitta(2) = max(cover%sagitta(2), largest_sagitta( &
-               model%x(:, side2%nodes(:side2%corners(s), s)), opposite%tilt(:, s)))
+               model%mesh%x(:, side2%nodes(:side2%corners(s), s)), opposite%tilt(:, s)))
          end do
          ! coverage and mean sizes of the faces; faults
          call sums%finish()
          cover%share = cover%share/max(all_area, tiny(1.0_wp))
          cover%spacing(1) = cover%spacing(1)/max(1, own_parts)
          cover%spacing(2) = sum(opposite%area, mask=opposite%covers) &
-                            /max(1, sum(side2%n_nodes(:side2%n) - model%dimension + 1, mask=opposite%covers))
+                            /max(1, sum(side2%n_nodes(:side2%n) - model%mesh%dimension + 1, mask=opposite%covers))
          if (own_parts == 0) then
             fault = 'surface '//integer_text(side2%id)//' does not cover SIDE1: none of its faces is opposite to a face of '// &
                     'SIDE1 within '//real_text(farthest_reach)//' along the normal; the nearest nodes are '// &
@@ -247,9 +247,9 @@ contains
       integer  :: found, k
 
       shortest = huge(1.0_wp)
-      call search%build(model%x(:, others))
+      call search%build(model%mesh%x(:, others))
       do k = 1, size(nodes)
-         call search%nearest(model%x(:, nodes(k)), shortest, found, distance)
+         call search%nearest(model%mesh%x(:, nodes(k)), shortest, found, distance)
          shortest = min(shortest, distance)
       end do
    end function shortest_distance
@@ -267,11 +267,11 @@ contains
       allocate (opposite%covers(side2%n), source=.false.)
       allocate (opposite%near(0))
       do s = 1, side2%n
-         associate (x => model%x(:, side2%nodes(:side2%n_nodes(s), s)))
+         associate (x => model%mesh%x(:, side2%nodes(:side2%n_nodes(s), s)))
             box(:, 1, s) = minval(x, dim=2)
             box(:, 2, s) = maxval(x, dim=2)
-            call make_frame(model%dimension, x, frame)
-            opposite%area(s) = seen_area(in_frame(model%dimension, x, frame))
+            call make_frame(model%mesh%dimension, x, frame)
+            opposite%area(s) = seen_area(in_frame(model%mesh%dimension, x, frame))
          end associate
          opposite%normal(:, s) = frame%axes(:, 3)
       end do
@@ -292,14 +292,14 @@ contains
       real(wp) :: low(3), high(3), before
       integer  :: d, i, n
 
-      associate (x => model%x(:, side1%nodes(:side1%n_nodes(s), s)))
-         call make_frame(model%dimension, x, face%frame)
-         face%seen = in_frame(model%dimension, x, face%frame)
+      associate (x => model%mesh%x(:, side1%nodes(:side1%n_nodes(s), s)))
+         call make_frame(model%mesh%dimension, x, face%frame)
+         face%seen = in_frame(model%mesh%dimension, x, face%frame)
          call bend(face%seen, opposite%own_tilt(:, s), [0.0_wp, 0.0_wp, 1.0_wp])
          face%reach = merge(reach, default_reach*maxval(edge_lengths(x(:, :side1%corners(s)))), reach > 0.0_wp)
       end associate
-      face%on_ring = model%axisymmetric
-      if (model%dimension == 2) face%thickness = model%properties(model%element_property(side1%element(s)))%thickness
+      face%on_ring = model%mesh%axisymmetric
+      if (model%mesh%dimension == 2) face%thickness = model%mesh%properties(model%mesh%element_property(side1%element(s)))%thickness
       do d = 1, 3
          associate (x => face%frame%centre(d) + matmul(face%frame%axes(d, :), face%seen%x(:, :face%seen%n)))
             low(d) = minval(x) - face%reach
@@ -312,7 +312,7 @@ contains
             if (dot_product(opposite%normal(:, f), face%frame%axes(:, 3)) > facing) cycle
             before = integrals%seen
             associate (nodes => side2%nodes(:side2%n_nodes(f), f))
-               other = in_frame(model%dimension, model%x(:, nodes), face%frame)
+               other = in_frame(model%mesh%dimension, model%mesh%x(:, nodes), face%frame)
                call bend(other, opposite%tilt(:, f), matmul(opposite%normal(:, f), face%frame%axes))
                call add_overlap(face, other, nodes, opposite%points, integrals)
             end associate

@@ -52,11 +52,11 @@ contains
 
       found = 0
       problem = ''
-      node = model%node_table%find(id(1))
+      node = model%mesh%node_table%find(id(1))
       do while (node > 0)
-         do i = model%first_at(node), model%first_at(node + 1) - 1
-            associate (e => model%elements_at(i))
-               do s = merge(0, 1, is_shell(model, e)), element_table(model%element_kind(e))%n_sides
+         do i = model%mesh%first_at(node), model%mesh%first_at(node + 1) - 1
+            associate (e => model%mesh%elements_at(i))
+               do s = merge(0, 1, is_shell(model, e)), element_table(model%mesh%element_kind(e))%n_sides
                   call compare_corners(model, e, s, id, tried)
                   if (tried%element == 0) cycle
                   found = found + 1
@@ -64,7 +64,7 @@ contains
                end do
             end associate
          end do
-         node = model%duplicate(node)
+         node = model%mesh%duplicate(node)
       end do
       if (found == 1) return
       face = named_face()
@@ -100,8 +100,8 @@ contains
       integer, intent(in)          :: id, corners(:)
 
       place = 0
-      associate (node => model%node_table%find(id))
-         if (node > 0) place = findloc(corners == node .or. corners == model%duplicate(node), .true., dim=1)
+      associate (node => model%mesh%node_table%find(id))
+         if (node > 0) place = findloc(corners == node .or. corners == model%mesh%duplicate(node), .true., dim=1)
       end associate
    end function place_of
 
@@ -120,11 +120,12 @@ contains
       logical  :: names_shell
 
       allocate (list%side(size(deck%bulk%pressure)))
-      call elements%build(model%element_id)
+      call elements%build(model%mesh%element_id)
       call faces%build(pack(deck%bulk%element%id, is_face(model, deck%bulk%element)))
       do i = 1, size(deck%bulk%pressure)
          associate (card => deck%bulk%pressure(i))
-            call rectangular_axes(deck, model%systems, card%line, card%system, 'the pressure on a face has one direction', axes)
+            call rectangular_axes(deck, model%mesh%systems, card%line, card%system, 'the pressure on a face has one direction', &
+               axes)
             new = pressed_side(card=i, direction=matmul(axes, card%direction/max(norm2(card%direction), tiny(1.0_wp))))
             if (card%kind == of_nodes) then
                if (any(card%corners(:3) == 0)) cycle ! reported already
@@ -147,9 +148,9 @@ contains
                call press_on_marked(deck, model, new, 2, [card%first, card%last], list)
             else if (e == 0) then
                call deck%field_error(card%line, 'EID', 'there is no body element '//integer_text(card%first))
-            else if (element_table(model%element_kind(e))%dimension /= merge(3, 2, card%kind == of_face)) then
+            else if (element_table(model%mesh%element_kind(e))%dimension /= merge(3, 2, card%kind == of_face)) then
                call deck%field_error(card%line, 'EID', 'element '//integer_text(card%first)//' is a '// &
-                  trim(element_table(model%element_kind(e))%card)// &
+                  trim(element_table(model%mesh%element_kind(e))%card)// &
                   one_of(card%kind == of_face, ': PLOAD4 is for faces of solids', ': PLOADE is for plane edges'))
             else if (any(corners_of(model, e) == 0)) then
                cycle ! reported already
@@ -192,9 +193,9 @@ contains
       is_normal = norm2(side%direction) <= 0.0_wp
       any_face = .false.
       associate (card => deck%bulk%pressure(new%card))
-         if (allocated(model%structural%place)) then
-            do e = 1, model%n_elements
-               if (model%element_id(e) < range(1) .or. model%element_id(e) > range(2) .or. .not. is_shell(model, e)) cycle
+         if (allocated(model%mesh%structural%place)) then
+            do e = 1, model%mesh%n_elements
+               if (model%mesh%element_id(e) < range(1) .or. model%mesh%element_id(e) > range(2) .or. .not. is_shell(model, e)) cycle
                any_face = .true.
                side%element = e
                side%p = merge(-card%pressure, card%pressure, is_normal)
@@ -259,11 +260,11 @@ contains
       logical :: fits
 
       new%element = e
-      associate (card => deck%bulk%pressure(new%card), kind => element_table(model%element_kind(e)))
+      associate (card => deck%bulk%pressure(new%card), kind => element_table(model%mesh%element_kind(e)))
          corner = 0
          do k = 1, 2
             if (card%corners(k) == 0) cycle
-            corner(k) = place_of(model, card%corners(k), model%element_nodes(:kind%n_corners, e))
+            corner(k) = place_of(model, card%corners(k), model%mesh%element_nodes(:kind%n_corners, e))
             if (corner(k) > 0) cycle
             call deck%field_error(card%line, one_of(k == 1, 'G1', one_of(card%kind == of_face, 'G34', 'G2')), 'node '// &
                integer_text(card%corners(k))//' is no corner of element '//integer_text(card%first))
@@ -318,27 +319,27 @@ contains
       type(pressed_side), intent(in) :: pressed
       real(wp), intent(in)           :: factor
       real(wp), intent(inout)        :: force(:, :)       !! (3, n_nodes) [force]
-      real(wp) :: f(model%dimension, max_side_nodes), p(max_side_nodes)
+      real(wp) :: f(model%mesh%dimension, max_side_nodes), p(max_side_nodes)
       integer  :: c, n, nodes(max_side_nodes)
 
-      associate (e => pressed%element, s => pressed%side, d => model%dimension, &
-                 kind => element_table(model%element_kind(pressed%element)), &
-                 property => model%properties(max(1, model%element_property(pressed%element))))
+      associate (e => pressed%element, s => pressed%side, d => model%mesh%dimension, &
+                 kind => element_table(model%mesh%element_kind(pressed%element)), &
+                 property => model%mesh%properties(max(1, model%mesh%element_property(pressed%element))))
          if (s == 0) then
             n = kind%n_nodes
             nodes(:n) = corners_of(model, e)
             p(:n) = factor*pressed%p(:n)
          else
             n = kind%side_size(s)
-            nodes(:n) = model%element_nodes(kind%side_nodes(:n, s), e)
+            nodes(:n) = model%mesh%element_nodes(kind%side_nodes(:n, s), e)
             c = kind%side_corners(s)
             p(:c) = factor*pressed%p(:c)
             p(c + 1:2*c) = 0.5_wp*(p(:c) + cshift(p(:c), 1))
          end if
          if (norm2(pressed%direction) > 0.0_wp) then
-            call side_forces(property%state, property%thickness, model%x(:d, nodes(:n)), p(:n), f, pressed%direction(:d))
+            call side_forces(property%state, property%thickness, model%mesh%x(:d, nodes(:n)), p(:n), f, pressed%direction(:d))
          else
-            call side_forces(property%state, property%thickness, model%x(:d, nodes(:n)), p(:n), f)
+            call side_forces(property%state, property%thickness, model%mesh%x(:d, nodes(:n)), p(:n), f)
          end if
          force(:d, nodes(:n)) = force(:d, nodes(:n)) + f(:, :n)
          call add_section_share(model, e, nodes(:n), f, force)

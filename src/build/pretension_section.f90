@@ -27,20 +27,20 @@ contains
 
       n = count(deck%bulk%bolt%surface > 0)
       if (n == 0) return
-      allocate (model%sections(n))
-      allocate (model%node_section(model%n_nodes), model%element_section(model%n_elements), source=0)
+      allocate (model%mesh%sections(n))
+      allocate (model%mesh%node_section(model%mesh%n_nodes), model%mesh%element_section(model%mesh%n_elements), source=0)
       k = 0
       do i = 1, size(deck%bulk%bolt)
          if (deck%bulk%bolt(i)%surface <= 0) cycle
          k = k + 1
          call build_section(deck, deck%bulk%bolt(i), k, model)
       end do
-      if (any(model%sections%point == 0)) return ! there are errors
+      if (any(model%mesh%sections%point == 0)) return ! there are errors
       do k = 1, n ! the section nodes follow all others, with the elements behind the section
-         behind = pack([(e, e = 1, model%n_elements)], model%element_section == k)
-         call append_unknowns(model, [model%sections(k)%point], [size(behind)], behind, &
-                              [.false., spread(.true., 1, model%dimension - 1)])
-         model%sections(k)%node = model%n_nodes
+         behind = pack([(e, e = 1, model%mesh%n_elements)], model%mesh%element_section == k)
+         call append_unknowns(model, [model%mesh%sections(k)%point], [size(behind)], behind, &
+                              [.false., spread(.true., 1, model%mesh%dimension - 1)])
+         model%mesh%sections(k)%node = model%mesh%n_nodes
       end do
    end subroutine build_sections
 
@@ -56,32 +56,34 @@ contains
       real(wp) :: extent
       integer  :: i, s
 
-      model%sections(k)%bolt = card%id
-      model%sections(k)%surface = card%surface
-      model%sections(k)%preload = card%preload
-      call find_stage(deck, card, model%sections(k)%stage)
+      model%mesh%sections(k)%bolt = card%id
+      model%mesh%sections(k)%surface = card%surface
+      model%mesh%sections(k)%preload = card%preload
+      call find_stage(deck, card, model%mesh%sections(k)%stage)
       call find_surface(deck, card%line, 'PMARK', card%surface, model, s)
       if (s == 0) return
-      if (model%surfaces(s)%n == 0) return ! reported already
+      if (model%mesh%surfaces(s)%n == 0) return ! reported already
       fault = ''
-      if (model%surfaces(s)%was_split) then
+      if (model%mesh%surfaces(s)%was_split) then
          fault = 'is split by a JOINT: a bolt is cut at a surface inside its body'
-      else if (any(model%surfaces(s)%other(:model%surfaces(s)%n) == 0)) then
+      else if (any(model%mesh%surfaces(s)%other(:model%mesh%surfaces(s)%n) == 0)) then
          fault = 'lies on the outside of a body: expected elements on both sides of it'
       else
-         call orient_as_first_side(model, s, model%sections(k))
-         if (model%sections(k)%area <= 0.0_wp) return ! a body without property: reported already
-         model%sections(k)%strength = model%properties(model%element_property(model%surfaces(s)%element(1)))%strength
-         call surface_nodes(model, model%surfaces(s), list)
-         allocate (centroid, source=matmul(model%x(:, list%node), list%area)/sum(list%area))
+         call orient_as_first_side(model, s, model%mesh%sections(k))
+         if (model%mesh%sections(k)%area <= 0.0_wp) return ! a body without property: reported already
+         model%mesh%sections(k)%strength = &
+            model%mesh%properties(model%mesh%element_property(model%mesh%surfaces(s)%element(1)))%strength
+         call surface_nodes(model, model%mesh%surfaces(s), list)
+         allocate (centroid, source=matmul(model%mesh%x(:, list%node), list%area)/sum(list%area))
          ! the surface must be plane, and in an axisymmetric model across the axis
-         if (model%axisymmetric .and. abs(model%sections(k)%direction(1)) > parallel_in_mesh) then
+         if (model%mesh%axisymmetric .and. abs(model%mesh%sections(k)%direction(1)) > parallel_in_mesh) then
             fault = 'is not across the axis: in an axisymmetric model a bolt is cut at a plane y = constant'
          else
-            extent = maxval([(norm2(model%x(:, list%node(i)) - centroid), i = 1, list%n)])
-            i = findloc([(abs(dot_product(model%x(:, list%node(i)) - centroid, model%sections(k)%direction)) > in_section*extent, &
+            extent = maxval([(norm2(model%mesh%x(:, list%node(i)) - centroid), i = 1, list%n)])
+            i = findloc([(abs(dot_product(model%mesh%x(:, list%node(i)) - centroid, &
+               model%mesh%sections(k)%direction)) > in_section*extent, &
                           i = 1, list%n)], .true., dim=1)
-            if (i > 0) fault = 'is not plane: node '//integer_text(model%node_id(list%node(i)))//' lies out of its mean plane'
+            if (i > 0) fault = 'is not plane: node '//integer_text(model%mesh%node_id(list%node(i)))//' lies out of its mean plane'
          end if
       end if
       if (fault == '') call find_elements_behind(model, s, k, fault)
@@ -98,11 +100,11 @@ contains
 
       section%area = 0.0_wp
       total = 0.0_wp
-      do i = 1, model%surfaces(s)%n
-         call side_influence(model, model%surfaces(s), i, area, normal)
+      do i = 1, model%mesh%surfaces(s)%n
+         call side_influence(model, model%mesh%surfaces(s), i, area, normal)
          of_side = sum(normal, dim=2)
          if (dot_product(of_side, total) < 0.0_wp) then
-            call reverse_side(model%surfaces(s), i)
+            call reverse_side(model%mesh%surfaces(s), i)
             of_side = -of_side
          end if
          total = total + of_side
@@ -122,25 +124,25 @@ contains
       integer :: i
 
       fault = ''
-      call list_sides(model%surfaces(s), at)
+      call list_sides(model%mesh%surfaces(s), at)
       do i = 1, at%n
          associate (node => at%node(i))
             call elements_behind(model, s, at, i, behind)
             if (size(behind) == 0) then
-               fault = 'ends inside the body at node '//integer_text(model%node_id(node))// &
+               fault = 'ends inside the body at node '//integer_text(model%mesh%node_id(node))// &
                        ': expected a section that cuts the whole body'
-            else if (model%node_section(node) > 0) then
-               fault = 'meets the section of BOLT '//integer_text(model%sections(model%node_section(node))%bolt)// &
-                       ' at node '//integer_text(model%node_id(node))
-            else if (any(model%element_section(behind) > 0 .and. model%element_section(behind) /= k)) then
-               fault = 'is within one element of the section of another BOLT, at node '//integer_text(model%node_id(node))
+            else if (model%mesh%node_section(node) > 0) then
+               fault = 'meets the section of BOLT '//integer_text(model%mesh%sections(model%mesh%node_section(node))%bolt)// &
+                       ' at node '//integer_text(model%mesh%node_id(node))
+            else if (any(model%mesh%element_section(behind) > 0 .and. model%mesh%element_section(behind) /= k)) then
+               fault = 'is within one element of the section of another BOLT, at node '//integer_text(model%mesh%node_id(node))
             end if
             if (fault /= '') return
-            model%node_section(node) = k
-            model%element_section(behind) = k
+            model%mesh%node_section(node) = k
+            model%mesh%element_section(behind) = k
          end associate
       end do
-      model%sections(k)%point = at%node(1)
+      model%mesh%sections(k)%point = at%node(1)
    end subroutine find_elements_behind
 
 end module pretension_section

@@ -43,7 +43,7 @@ contains
       call check_sums(deck, 'MPCADD', deck%bulk%equation_sum, deck%bulk%equation%set, 'MPC')
       allocate (active, source=summed_sets(deck%bulk%equation_sum, set))
       if (size(deck%rigid) + size(deck%bulk%equation) + size(ties) == 0) return
-      allocate (list%without(model%n_nodes), source=.false.)
+      allocate (list%without(model%mesh%n_nodes), source=.false.)
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
             if (card%is_mean .and. abs(card%alpha) > 0.0_wp .and. any(deck%control%stages%temperature%id > 0)) &
@@ -57,13 +57,13 @@ contains
       do i = 1, size(deck%bulk%equation)
          call add_equation(deck, deck%bulk%equation(i), any(active == deck%bulk%equation(i)%set), model, list)
       end do
-      model%used = model%used .or. list%without
+      model%freedoms%used = model%freedoms%used .or. list%without
       if (allocated(list%expansions)) call move_alloc(list%expansions, expansions)
       if (deck%errors%any() .or. list%n == 0) return
       call check_dependences(deck, model, list)
       do i = 1, n_rotations(model)
-         model%used(model%rotations(i)%node) = .true.
-         if (.not. model%rotations(i)%of_element) list%without(model%rotations(i)%node) = .true.
+         model%freedoms%used(model%mesh%rotations(i)%node) = .true.
+         if (.not. model%mesh%rotations(i)%of_element) list%without(model%mesh%rotations(i)%node) = .true.
       end do
       if (.not. deck%errors%any()) call eliminate(list, model)
    end subroutine build_dependents
@@ -82,13 +82,13 @@ contains
             if (card%surface == 0) cycle
             call find_surface(deck, card%line, 'PID', card%surface, model, surface)
             if (surface == 0) cycle
-            call surface_nodes(model, model%surfaces(surface), list)
+            call surface_nodes(model, model%mesh%surfaces(surface), list)
             if (card%is_mean) then ! on second-order triangles only mid-side nodes have an area
                counts = abs(list%area) > zero_area*maxval(abs(list%area))
             else
-               counts = model%node_id(list%node) /= card%node
+               counts = model%mesh%node_id(list%node) /= card%node
             end if
-            card%nodes = pack(model%node_id(list%node), counts)
+            card%nodes = pack(model%mesh%node_id(list%node), counts)
             card%weight = pack(list%area, counts)
             card%at = spread(card%at(1), 1, size(card%nodes))
             card%directions = spread(card%directions(1), 1, size(card%nodes))
@@ -110,10 +110,10 @@ contains
 
       call find_node(deck, card%line, card%node_at, card%node, model, list, point)
       turns_others = any([(has_component(card%components, c), c = 4, 6)]) .and. &
-                     any([(rotation_at(model, max(1, model%node_table%find(card%nodes(k)))) > 0, k = 1, size(card%nodes))])
+                     any([(rotation_at(model, max(1, model%mesh%node_table%find(card%nodes(k)))) > 0, k = 1, size(card%nodes))])
       if (no_displacement(model, card%components) .and. .not. turns_others) call deck%field_error(card%line, &
          card%components_at, 'contains no displacement of the nodes of this model; expected some of 1 to '// &
-         integer_text(model%dimension), called='CM')
+         integer_text(model%mesh%dimension), called='CM')
       do k = 1, size(card%nodes)
          call find_node(deck, card%line, card%at(k), card%nodes(k), model, list, node)
          if (node == 0 .and. card%surface > 0) return ! one error for all nodes of the surface
@@ -126,7 +126,7 @@ contains
          axes = node_axes(model, node)
          do digit = 1, 6
             direction = direction_of(model, point, digit)
-            motion(:3, digit) = direction(:3) + matmul(by_rotation(model%x(:, node) - model%x(:, point)), direction(4:))
+            motion(:3, digit) = direction(:3) + matmul(by_rotation(model%mesh%x(:, node) - model%mesh%x(:, point)), direction(4:))
             motion(4:, digit) = direction(4:)
          end do
          do c = 1, 6
@@ -140,7 +140,7 @@ contains
                                                  own_place%scale/place%scale)
             end do
             if (c <= 3) call add_expansion(list, [point, node], card%alpha* &
-               dot_product(axes(:, c), model%x(:, node) - model%x(:, point)), card%reference)
+               dot_product(axes(:, c), model%mesh%x(:, node) - model%mesh%x(:, point)), card%reference)
          end do
       end do
    end subroutine add_rigid
@@ -154,7 +154,7 @@ contains
       type(dependence_list), intent(inout) :: list
       type(component_place) :: place(size(card%node))
       integer :: k, node
-      logical :: without(model%n_nodes)
+      logical :: without(model%mesh%n_nodes)
 
       without = list%without
       do k = 1, size(card%node)
@@ -181,7 +181,7 @@ contains
       integer, intent(in)          :: components
       integer :: d
 
-      no_displacement = components > 0 .and. .not. any([(has_component(components, d), d = 1, model%dimension)])
+      no_displacement = components > 0 .and. .not. any([(has_component(components, d), d = 1, model%mesh%dimension)])
    end function no_displacement
 
    !> The NODE with the number ID in data field FIELD of the card on LINE; 0, and an error, for a missing node, or one that a joint
@@ -195,15 +195,15 @@ contains
 
       node = 0
       if (id == 0) return
-      node = model%node_table%find(id)
+      node = model%mesh%node_table%find(id)
       if (node == 0) then
          call deck%field_error(line, field, 'there is no GRID '//integer_text(id), called='G')
-      else if (model%duplicate(node) > 0) then
+      else if (model%mesh%duplicate(node) > 0) then
          call deck%field_error(line, field, 'node '//integer_text(id)//' is split into two nodes by a JOINT, so that it is '// &
             'ambiguous; expected other nodes, or bodies meshed apart', called='G')
          node = 0
       else
-         list%without(node) = list%without(node) .or. .not. model%used(node)
+         list%without(node) = list%without(node) .or. .not. model%freedoms%used(node)
       end if
    end subroutine find_node
 
@@ -228,11 +228,11 @@ contains
       call check_directions(deck, card, model)
       if (point == 0 .or. any(nodes == 0) .or. deck%errors%any()) return
       do i = 1, size(nodes)
-         r(:, i) = model%x(:, nodes(i)) - model%x(:, point)
+         r(:, i) = model%mesh%x(:, nodes(i)) - model%mesh%x(:, point)
          axes(:, :, i) = node_axes(model, nodes(i))
-         used(:, i) = [(c <= model%dimension .and. has_component(card%directions(i), c), c = 1, 3)]
+         used(:, i) = [(c <= model%mesh%dimension .and. has_component(card%directions(i), c), c = 1, 3)]
       end do
-      if (model%axisymmetric) then ! from axial displacements only
+      if (model%mesh%axisymmetric) then ! from axial displacements only
          r = 0.0_wp
          axes([1, 3], :, :) = 0.0_wp
       end if
@@ -250,7 +250,7 @@ contains
             end if
             call add_dependence(list, place, card%line, card%node_at)
             do i = 1, size(nodes)
-               do c = 1, model%dimension
+               do c = 1, model%mesh%dimension
                   call add_term(list, component_place(nodes(i), c), place%scale*dot_product(direction, t(:, c, i)))
                end do
             end do
@@ -281,7 +281,7 @@ contains
          do digit = 1, 6
             if (.not. has_component(card%um_components(k), digit)) cycle
             n = n + 1
-            places(n) = place_of_component(model, model%node_table%find(card%um_nodes(k)), digit)
+            places(n) = place_of_component(model, model%mesh%node_table%find(card%um_nodes(k)), digit)
             at(n) = card%um_at(k)
             if (places(n)%node == 0) n = n - 1 ! out-of-plane components of a plane model
          end do
@@ -302,11 +302,11 @@ contains
       real(wp) :: direction(6), axes(3, 3)
 
       axes = node_axes(model, point)
-      if (model%dimension == 2) axes(:, 3) = third_axis(model, point)
+      if (model%mesh%dimension == 2) axes(:, 3) = third_axis(model, point)
       direction = 0.0_wp
       if (digit <= 3) direction(:3) = axes(:, digit)
       if (digit > 3) direction(4:) = axes(:, digit - 3)
-      if (model%axisymmetric) direction([1, 3, 4, 5, 6]) = 0.0_wp
+      if (model%mesh%axisymmetric) direction([1, 3, 4, 5, 6]) = 0.0_wp
    end function direction_of
 
    !> Error: C without a displacement, because the mean is one of displacements. Rotations in C are ignored, as nodes of bodies have
@@ -321,7 +321,7 @@ contains
 
       do i = 1, size(card%nodes)
          if (card%directions(i) == 0) cycle ! reported already
-         node = model%node_table%find(card%nodes(i))
+         node = model%mesh%node_table%find(card%nodes(i))
          has_rotation = .false.
          do digit = 4, 6
             if (node == 0 .or. .not. has_component(card%directions(i), digit)) cycle

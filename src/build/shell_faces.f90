@@ -35,15 +35,15 @@ contains
       allocate (faces(0))
       do k = 1, size(deck%bulk%mass) ! the centre of mass of a CONM2 with an offset has a rigid lever from its node, as faces have
          associate (card => deck%bulk%mass(k))
-            n = model%node_table%find(card%node)
+            n = model%mesh%node_table%find(card%node)
             if (n == 0 .or. all(abs(card%offset) <= 0.0_wp)) cycle
-            call find_directions(deck, model%systems, card%line, card%system, model%x(:, n), axes, ok)
+            call find_directions(deck, model%mesh%systems, card%line, card%system, model%mesh%x(:, n), axes, ok)
             faces = [faces, face_node_type(point=n, lever=matmul(axes, card%offset))]
          end associate
       end do
-      if (allocated(model%structural%place)) then
-         do k = 1, size(model%surfaces)
-            associate (surface => model%surfaces(k))
+      if (allocated(model%mesh%structural%place)) then
+         do k = 1, size(model%mesh%surfaces)
+            associate (surface => model%mesh%surfaces(k))
                if (.not. any([(is_shell(model, surface%element(n)), n = 1, surface%n)])) cycle
                do n = 1, surface%n
                   if (surface%other(n) == 0) cycle
@@ -57,19 +57,20 @@ contains
       end if
       if (size(faces) == 0) return
       ! the nodes of the faces follow those of the deck, with the elements of the shell nodes, which give their material
-      n = model%n_nodes
+      n = model%mesh%n_nodes
       faces%node = [(n + k, k = 1, size(faces))]
-      model%elements_at = [model%elements_at, ((model%elements_at(i), i = model%first_at(faces(k)%point), &
-                                                model%first_at(faces(k)%point + 1) - 1), k = 1, size(faces))]
-      model%first_at = [model%first_at, spread(0, 1, size(faces))]
+      model%mesh%elements_at = [model%mesh%elements_at, ((model%mesh%elements_at(i), i = model%mesh%first_at(faces(k)%point), &
+                                                model%mesh%first_at(faces(k)%point + 1) - 1), k = 1, size(faces))]
+      model%mesh%first_at = [model%mesh%first_at, spread(0, 1, size(faces))]
       do k = 1, size(faces)
          associate (point => faces(k)%point)
-            model%first_at(n + k + 1) = model%first_at(n + k) + model%first_at(point + 1) - model%first_at(point)
+            model%mesh%first_at(n + k + 1) = model%mesh%first_at(n + k) + model%mesh%first_at(point + 1) - &
+               model%mesh%first_at(point)
          end associate
       end do
-      call append_nodes(model, model%x(:, faces%point) + reshape([(faces(k)%lever, k = 1, size(faces))], [3, size(faces)]))
-      model%face_of = [spread(0, 1, n), [(k, k = 1, size(faces))]]
-      call move_alloc(faces, model%faces)
+      call append_nodes(model, model%mesh%x(:, faces%point) + reshape([(faces(k)%lever, k = 1, size(faces))], [3, size(faces)]))
+      model%mesh%face_of = [spread(0, 1, n), [(k, k = 1, size(faces))]]
+      call move_alloc(faces, model%mesh%faces)
    end subroutine build_shell_faces
 
    !> Give the sides of SURFACE that belong to shells nodes among FACES; a shared node has the mean lever of its sides. The lines of the
@@ -81,11 +82,11 @@ contains
       type(face_node_type), allocatable :: added(:)
       integer, allocatable :: n_of(:), of_node(:, :)
       integer  :: c, i, line, n, nodes(4), row, s
-      real(wp) :: side, up(3, model%n_nodes)
+      real(wp) :: side, up(3, model%mesh%n_nodes)
       type(shell_frame) :: frame
 
       call cut_edges(surface)
-      allocate (added(4*surface%n), of_node(0:strips, model%n_nodes))
+      allocate (added(4*surface%n), of_node(0:strips, model%mesh%n_nodes))
       allocate (n_of(4*surface%n), source=0)
       of_node = 0
       up = 0.0_wp
@@ -96,10 +97,10 @@ contains
          row = merge(-surface%nodes(3, s), 0, c == 2)
          nodes(:c) = surface%nodes(:c, s)
          associate (corners => corners_of(model, surface%element(s)), &
-                    law => model%structural%shells(model%structural%place(surface%element(s))))
-            frame = shell_frame_of(model%x(:, corners), law%offset)
-            side = sign(0.5_wp, dot_product(frame%axes(:, 3), cross(model%x(:, nodes(2)) - model%x(:, nodes(1)), &
-                                                                     model%x(:, nodes(c)) - model%x(:, nodes(1)))))
+                    law => model%mesh%structural%shells(model%mesh%structural%place(surface%element(s))))
+            frame = shell_frame_of(model%mesh%x(:, corners), law%offset)
+            side = sign(0.5_wp, dot_product(frame%axes(:, 3), cross(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1)), &
+                                                                     model%mesh%x(:, nodes(c)) - model%mesh%x(:, nodes(1)))))
             do i = 1, c
                associate (t => law%thickness(findloc(corners, nodes(i), dim=1)))
                   if (c > 2) then
@@ -139,7 +140,7 @@ contains
          associate (face => of_node(line, node))
             added(face)%lever = added(face)%lever + lever
             n_of(face) = n_of(face) + 1
-            at = model%n_nodes + size(faces) + face
+            at = model%mesh%n_nodes + size(faces) + face
          end associate
       end subroutine take
 
@@ -173,15 +174,17 @@ contains
    subroutine couple_shell_faces(model)
       type(model_type), intent(inout) :: model
       real(wp), allocatable :: t(:, :, :)
-      real(wp) :: w(model%dimension, model%dimension)
+      real(wp) :: w(model%mesh%dimension, model%mesh%dimension)
       integer  :: d, j, k
 
-      if (.not. allocated(model%faces)) return
-      d = model%dimension
-      if (.not. allocated(model%left_out)) allocate (model%left_out(model%dimension, model%n_nodes), source=.false.)
-      do k = 1, size(model%faces)
-         associate (face => model%faces(k), rotation => model%rotations(model%rotation_of(model%faces(k)%point)), &
-                    lever => model%faces(k)%lever)
+      if (.not. allocated(model%mesh%faces)) return
+      d = model%mesh%dimension
+      if (.not. allocated(model%freedoms%left_out)) allocate (model%freedoms%left_out(model%mesh%dimension, model%mesh%n_nodes), &
+         source=.false.)
+      do k = 1, size(model%mesh%faces)
+         associate (face => model%mesh%faces(k), &
+            rotation => model%mesh%rotations(model%mesh%rotation_of(model%mesh%faces(k)%point)), &
+                    lever => model%mesh%faces(k)%lever)
             if (d == 3) w = by_rotation(lever)/rotation%arm
             if (d == 2) w = sum(third_axis(model, face%point))/rotation%arm*reshape([-lever(2), lever(1), 0.0_wp, 0.0_wp], [2, 2])
             associate (masters => unknown_nodes(model, [face%point, rotation%node]), &
@@ -192,11 +195,11 @@ contains
                      t(:, :, j) = of_master(:d, :) + matmul(w, of_master(d + 1:, :))
                   end associate
                end do
-               call couple_node(model%coupling, model%n_nodes, face%node, masters, t)
+               call couple_node(model%freedoms%coupling, model%mesh%n_nodes, face%node, masters, t)
                deallocate (t)
             end associate
-            model%left_out(:, face%node) = .true.
-            model%held(:, face%node) = .true.
+            model%freedoms%left_out(:, face%node) = .true.
+            model%freedoms%held(:, face%node) = .true.
          end associate
       end do
    end subroutine couple_shell_faces

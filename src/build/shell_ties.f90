@@ -50,7 +50,7 @@ contains
             call find_surface(deck, card%line, 'PID1', card%surfaces(1), model, edge)
             call find_surface(deck, card%line, 'PID2', card%surfaces(2), model, face)
             if (edge == 0 .or. face == 0) cycle
-            associate (side => model%surfaces(edge), base => model%surfaces(face))
+            associate (side => model%mesh%surfaces(edge), base => model%mesh%surfaces(face))
                if (any([(side%corners(s) /= 2 .or. .not. is_shell(model, side%element(s)), s = 1, side%n)])) then
                   call deck%field_error(card%line, 'PID1', 'surface '//integer_text(side%id)//' is no edge of shells; '// &
                                         'expected CBAR or CROD on free edges of shells')
@@ -76,21 +76,21 @@ contains
       type(face_frame)  :: frames(base%n)
       type(shell_frame) :: frame
       real(wp) :: along(3), arms(3, 3), farthest, miss, t
-      integer  :: k, n, node, of_node(model%n_nodes), p, s
+      integer  :: k, n, node, of_node(model%mesh%n_nodes), p, s
 
       do s = 1, base%n
-         call make_frame(3, model%x(:, base%nodes(:base%n_nodes(s), s)), frames(s))
+         call make_frame(3, model%mesh%x(:, base%nodes(:base%n_nodes(s), s)), frames(s))
       end do
       allocate (added(2*side%n))
       of_node = 0
       n = 0
       do s = 1, side%n
          associate (corners => corners_of(model, side%element(s)), &
-                    law => model%structural%shells(model%structural%place(side%element(s))))
-            frame = shell_frame_of(model%x(:, corners), law%offset)
+                    law => model%mesh%structural%shells(model%mesh%structural%place(side%element(s))))
+            frame = shell_frame_of(model%mesh%x(:, corners), law%offset)
             do k = 1, 2
                node = side%nodes(k, s)
-               along = model%x(:, side%nodes(3 - k, s)) - model%x(:, node)
+               along = model%mesh%x(:, side%nodes(3 - k, s)) - model%mesh%x(:, node)
                t = law%thickness(findloc(corners, node, dim=1))
                arms = spread(law%offset*frame%axes(:, 3), 2, 3)
                arms(:, 1:2) = arms(:, 1:2) + 0.5_wp*t*reshape([frame%axes(:, 3), -frame%axes(:, 3)], [3, 2])
@@ -106,7 +106,7 @@ contains
                   farthest = max(farthest, miss)
                end do
                if (farthest <= t) cycle
-               call deck%field_error(line, 'PID1', 'node '//integer_text(model%node_id(node))//' of the edge lies '// &
+               call deck%field_error(line, 'PID1', 'node '//integer_text(model%mesh%node_id(node))//' of the edge lies '// &
                   real_text(farthest)//' from surface '//integer_text(base%id)//'; expected no more than the thickness of '// &
                   'the shell')
                return
@@ -135,10 +135,10 @@ contains
       tie%arm(:, tie%n) = arm
       do s = 1, base%n
          associate (nodes => base%nodes(:base%n_nodes(s), s))
-            size_of = norm2(model%x(:, nodes(1)) - frames(s)%centre)
-            place = matmul(model%x(:, tie%node) + arm - frames(s)%centre, frames(s)%axes)
+            size_of = norm2(model%mesh%x(:, nodes(1)) - frames(s)%centre)
+            place = matmul(model%mesh%x(:, tie%node) + arm - frames(s)%centre, frames(s)%axes)
             if (norm2(place) - 2.0_wp*size_of >= miss) cycle
-            face = in_frame(3, model%x(:, nodes), frames(s))
+            face = in_frame(3, model%mesh%x(:, nodes), frames(s))
             call find_point(face, place(:2), point, is_found)
             if (.not. is_found) cycle
             call map_point(face, point, share, there)

@@ -38,7 +38,7 @@ contains
       integer :: i, k, n, stage
       logical :: is_cut_beam
 
-      allocate (model%bars(size(deck%bulk%edge) + size(deck%bulk%conrod)))
+      allocate (model%mesh%bars(size(deck%bulk%edge) + size(deck%bulk%conrod)))
       n = 0
       do i = 1, size(deck%bulk%edge)
          associate (edge => deck%bulk%edge(i))
@@ -54,38 +54,39 @@ contains
                cycle
             end if
             n = n + 1
-            model%bars(n)%id = edge%id
-            call find_nodes(deck, edge%line, edge%nodes(:2), model, model%bars(n)%nodes)
-            call build_bar(deck, edge%line, prod, model, model%bars(n))
-            if (is_cut_beam) model%bars(n)%mass = 0.0_wp
+            model%mesh%bars(n)%id = edge%id
+            call find_nodes(deck, edge%line, edge%nodes(:2), model, model%mesh%bars(n)%nodes)
+            call build_bar(deck, edge%line, prod, model, model%mesh%bars(n))
+            if (is_cut_beam) model%mesh%bars(n)%mass = 0.0_wp
          end associate
       end do
       do i = 1, size(deck%bulk%conrod)
          associate (rod => deck%bulk%conrod(i))
             n = n + 1
-            model%bars(n)%id = rod%id
-            call find_nodes(deck, rod%line, rod%nodes, model, model%bars(n)%nodes, first=2)
-            call build_bar(deck, rod%line, rod%prod_card, model, model%bars(n))
+            model%mesh%bars(n)%id = rod%id
+            call find_nodes(deck, rod%line, rod%nodes, model, model%mesh%bars(n)%nodes, first=2)
+            call build_bar(deck, rod%line, rod%prod_card, model, model%mesh%bars(n))
          end associate
       end do
-      model%bars = model%bars(:n)
+      model%mesh%bars = model%mesh%bars(:n)
       do i = 1, size(deck%bulk%bolt)
          associate (card => deck%bulk%bolt(i))
             if (card%element == 0) cycle ! a solid bolt
-            k = findloc(model%bars%id, card%element, dim=1)
+            k = findloc(model%mesh%bars%id, card%element, dim=1)
             call find_stage(deck, card, stage)
             if (k == 0) call deck%field_error(card%line, 'EID', 'there is no CROD '//integer_text(card%element)// &
                                               ' with a PROD, nor a CONROD, CBAR or CBEAM')
             if (k == 0 .or. stage == 0) cycle
-            if (model%bars(k)%bolt > 0) then
+            if (model%mesh%bars(k)%bolt > 0) then
                call deck%field_error(card%line, 'EID', name_of_bar(deck, card%element)//' is BOLT '// &
-                  integer_text(model%bars(k)%bolt)//' already, and a bolt is tightened in one stage only; expected one BOLT '// &
+                  integer_text(model%mesh%bars(k)%bolt)// &
+                     ' already, and a bolt is tightened in one stage only; expected one BOLT '// &
                   'for each element, with the stage that tightens it last')
                cycle
             end if
-            model%bars(k)%bolt = card%id
-            model%bars(k)%preload = card%preload
-            model%bars(k)%stage = stage
+            model%mesh%bars(k)%bolt = card%id
+            model%mesh%bars(k)%preload = card%preload
+            model%mesh%bars(k)%stage = stage
          end associate
       end do
    end subroutine build_bars
@@ -121,7 +122,7 @@ contains
          return
       end if
       if (any(bar%nodes == 0)) return
-      along = model%x(:, bar%nodes(2)) - model%x(:, bar%nodes(1))
+      along = model%mesh%x(:, bar%nodes(2)) - model%mesh%x(:, bar%nodes(1))
       length = norm2(along)
       if (length <= 0.0_wp) then
          call deck%errors%add(line, 'bar '//integer_text(bar%id)//' has no length')
@@ -137,7 +138,7 @@ contains
       bar%expansion = deck%bulk%mat1(material)%alpha*length
       bar%reference = deck%bulk%mat1(material)%reference
       bar%damping = deck%bulk%mat1(material)%damping
-      if (model%axisymmetric .and. abs(bar%direction(1, 1)) > zero_cosine) call deck%errors%add(line, 'bar '// &
+      if (model%mesh%axisymmetric .and. abs(bar%direction(1, 1)) > zero_cosine) call deck%errors%add(line, 'bar '// &
          integer_text(bar%id)//': in an axisymmetric model bars stand along y; their area is that of all round the ring')
    end subroutine build_bar
 
@@ -164,9 +165,9 @@ contains
          call deck%report_repeated('PELAS', pack(laws%id, .not. laws%is_bush), pack(laws%line, .not. laws%is_bush))
          call deck%report_repeated('PBUSH', pack(laws%id, laws%is_bush), pack(laws%line, laws%is_bush))
          if (size(cards) == 0) return
-         n = size(model%bars)
+         n = size(model%mesh%bars)
          allocate (bars(n + 6*size(cards)))
-         bars(:n) = model%bars
+         bars(:n) = model%mesh%bars
          do i = 1, size(cards)
             stiffness = [cards(i)%stiffness, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp] ! of a CELAS2
             damping = cards(i)%damping
@@ -181,7 +182,7 @@ contains
             call build_spring(deck, cards(i), stiffness, damping, model, bars, n)
          end do
       end associate
-      model%bars = bars(:n)
+      model%mesh%bars = bars(:n)
    end subroutine build_springs
 
    !> Append the springs of one CARD to BARS(:N).
@@ -210,9 +211,9 @@ contains
          call find_nodes(deck, card%line, card%nodes(k:k), model, nodes(k:k), first=2*k + 1)
          directions(:, k) = 0.0_wp
          if (nodes(k) == 0) cycle
-         if (card%components(k) == 3 .and. model%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
+         if (card%components(k) == 3 .and. model%mesh%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
             'a plane model has no component 3'//space_hint(model))
-         if (all(card%components(k) /= [1, 2, model%dimension, 4, 5, 6])) return ! reported
+         if (all(card%components(k) /= [1, 2, model%mesh%dimension, 4, 5, 6])) return ! reported
          axes = node_axes(model, nodes(k))
          directions(:, k) = axes(:, modulo(card%components(k) - 1, 3) + 1)
       end do
@@ -237,21 +238,21 @@ contains
          ends = nodes
          along = axes
          if (component > 3) then
-            if (model%dimension == 2 .and. component /= 6) return ! no rotation in the plane
+            if (model%mesh%dimension == 2 .and. component /= 6) return ! no rotation in the plane
             along = 0.0_wp
             do end = 1, 2
                if (nodes(end) == 0) cycle
                if (rotation_at(model, nodes(end)) == 0) then
                   call deck%errors%add(card%line, 'spring '//integer_text(card%id)//': node '// &
-                     integer_text(model%node_id(nodes(end)))// &
+                     integer_text(model%mesh%node_id(nodes(end)))// &
                      ' has no rotations; expected a node of shells or beams, or the reference node of an RBE2, RBAR, or RBE3 '// &
                      'with rotations in REFC')
                   return
                end if
-               associate (rotation => model%rotations(rotation_at(model, nodes(end))))
+               associate (rotation => model%mesh%rotations(rotation_at(model, nodes(end))))
                   ends(end) = rotation%node
                   along(:, end) = axes(:, end)/rotation%arm
-                  if (model%dimension == 2) along(:, end) = [axes(3, end), 0.0_wp, 0.0_wp]/rotation%arm
+                  if (model%mesh%dimension == 2) along(:, end) = [axes(3, end), 0.0_wp, 0.0_wp]/rotation%arm
                end associate
             end do
             if (ends(2) == 0) along(:, 2) = along(:, 1)
@@ -259,7 +260,7 @@ contains
          n = n + 1
          bars(n) = bar_type(id=card%id, nodes=ends, kind=a_spring, axis=axis_names(component), stiffness=k_axis, damping=damping, &
                             direction=along)
-         model%used(pack(ends, ends > 0)) = .true.
+         model%freedoms%used(pack(ends, ends > 0)) = .true.
       end subroutine add
 
    end subroutine build_spring
@@ -282,9 +283,10 @@ contains
       ok = nodes(1) > 0 .and. (nodes(2) > 0 .or. card%nodes(2) == 0)
       if (.not. ok) return
       if (card%system > 0) then
-         call find_directions(deck, model%systems, card%line, card%system, model%x(:, nodes(1)), directions, ok, ['CID', 'GA '])
+         call find_directions(deck, model%mesh%systems, card%line, card%system, model%mesh%x(:, nodes(1)), directions, ok, &
+            ['CID', 'GA '])
       else if (card%system < 0 .and. nodes(2) > 0) then
-         along = model%x(:, nodes(2)) - model%x(:, nodes(1))
+         along = model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1))
          if (norm2(along) <= 0.0_wp) return
          ok = all(stiffness([2, 3, 5, 6]) <= 0.0_wp)
          if (ok) directions(:, 1) = along/norm2(along)
@@ -293,15 +295,15 @@ contains
       end if
       if (.not. ok .or. nodes(2) == 0) return
       lever = 0.0_wp
-      do axis = 1, model%dimension
-         if (stiffness(axis) > 0.0_wp) lever = max(lever, norm2(cross(model%x(:, nodes(2)) - model%x(:, nodes(1)), &
+      do axis = 1, model%mesh%dimension
+         if (stiffness(axis) > 0.0_wp) lever = max(lever, norm2(cross(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1)), &
                                                                        directions(:, axis))))
       end do
       do end = 1, 2
          if (rotation_at(model, nodes(end)) == 0) cycle
-         if (lever <= no_lever*model%rotations(rotation_at(model, nodes(end)))%arm) cycle
+         if (lever <= no_lever*model%mesh%rotations(rotation_at(model, nodes(end)))%arm) cycle
          call deck%field_error(card%line, 'GB', 'a spring across the line from GA to GB gives node '// &
-            integer_text(model%node_id(nodes(end)))//' a moment, since the nodes are apart; expected nodes in one place, '// &
+            integer_text(model%mesh%node_id(nodes(end)))//' a moment, since the nodes are apart; expected nodes in one place, '// &
             'one of them tied to GA or GB by an RBAR')
          return
       end do

@@ -29,20 +29,20 @@ contains
       integer, allocatable :: sets(:)
       integer :: i, set
 
-      allocate (model%held(model%dimension, model%n_nodes), source=.false.)
-      allocate (model%support_of(model%dimension, model%n_nodes), source=0)
-      allocate (model%support_groups(0))
-      model%used = model%first_at(2:) > model%first_at(:model%n_nodes)
-      do i = 1, size(model%interface)
-         model%used(model%interface(i)%node) = .true.
+      allocate (model%freedoms%held(model%mesh%dimension, model%mesh%n_nodes), source=.false.)
+      allocate (model%freedoms%support_of(model%mesh%dimension, model%mesh%n_nodes), source=0)
+      allocate (model%freedoms%support_groups(0))
+      model%freedoms%used = model%mesh%first_at(2:) > model%mesh%first_at(:model%mesh%n_nodes)
+      do i = 1, size(model%joints%element)
+         model%freedoms%used(model%joints%element(i)%node) = .true.
       end do
       do i = 1, n_bars(model)
-         model%used(pack(model%bars(i)%nodes, model%bars(i)%nodes > 0)) = .true.
+         model%freedoms%used(pack(model%mesh%bars(i)%nodes, model%mesh%bars(i)%nodes > 0)) = .true.
       end do
       do i = 1, size(deck%bulk%grid)
          if (deck%bulk%grid(i)%ps == 0) cycle
          call open_group(support_group('GRID', 0, deck%bulk%grid(i)%line), model)
-         call hold(model, model%node_table%find(deck%bulk%grid(i)%id), deck%bulk%grid(i)%ps)
+         call hold(model, model%mesh%node_table%find(deck%bulk%grid(i)%id), deck%bulk%grid(i)%ps)
       end do
       set = 0
       if (size(deck%control%stages) > 0) set = deck%control%stages(1)%supports%id
@@ -84,23 +84,24 @@ contains
       if (support%surface > 0) then
          call find_surface(deck, support%line, 'PID', support%surface, model, surface)
          if (surface == 0 .or. .not. active) return
-         nodes = nodes_of(model%surfaces(surface))
+         nodes = nodes_of(model%mesh%surfaces(surface))
          do k = 1, size(nodes)
-            if (is_face_node(model, nodes(k))) nodes(k) = model%faces(model%face_of(nodes(k)))%point
+            if (is_face_node(model, nodes(k))) nodes(k) = model%mesh%faces(model%mesh%face_of(nodes(k)))%point
             call hold(model, nodes(k), support%components)
          end do
          return
       end if
       do k = 1, size(support%first)
          if (support%first(k) == support%last(k)) then
-            node = model%node_table%find(support%first(k))
+            node = model%mesh%node_table%find(support%first(k))
             if (node > 0 .and. active) call hold(model, node, support%components)
             cycle
          end if
          ! G1 THRU G2 means the nodes that exist, as in NASTRAN; at least one must exist
          any_node = support%last(k) < support%first(k) ! reported already
-         do node = first_not_below(model%node_id(:n_points(model)), support%first(k)), n_points(model)
-            if (model%node_id(node) < support%first(k) .or. model%node_id(node) > support%last(k)) exit ! lower: the last node
+         do node = first_not_below(model%mesh%node_id(:n_points(model)), support%first(k)), n_points(model)
+            ! lower: the last node
+            if (model%mesh%node_id(node) < support%first(k) .or. model%mesh%node_id(node) > support%last(k)) exit
             any_node = .true.
             if (active) call hold(model, node, support%components)
          end do
@@ -118,9 +119,9 @@ contains
 
       places = places_of(model, node, components)
       do k = 1, count(places%node > 0)
-         model%held(places(k)%d, places(k)%node) = .true.
-         associate (group => model%support_of(places(k)%d, places(k)%node))
-            if (group == 0) group = size(model%support_groups)
+         model%freedoms%held(places(k)%d, places(k)%node) = .true.
+         associate (group => model%freedoms%support_of(places(k)%d, places(k)%node))
+            if (group == 0) group = size(model%freedoms%support_groups)
          end associate
       end do
    end subroutine hold
@@ -130,12 +131,12 @@ contains
       type(support_group), intent(in) :: group
       type(model_type), intent(inout) :: model
 
-      associate (groups => model%support_groups)
+      associate (groups => model%freedoms%support_groups)
          if (size(groups) > 0 .and. any(group%kind == ['GRID', 'SPC '])) then
             if (groups(size(groups))%kind == group%kind .and. groups(size(groups))%id == group%id) return
          end if
       end associate
-      model%support_groups = [model%support_groups, group]
+      model%freedoms%support_groups = [model%freedoms%support_groups, group]
    end subroutine open_group
 
    !> Set the displacement of COMPONENTS of node ID in LOADS to SHARE of its former value plus VALUE.
@@ -147,8 +148,8 @@ contains
       type(component_place) :: places(most_places)
       integer :: k
 
-      if (.not. allocated(loads%moved)) allocate (loads%moved(model%dimension, model%n_nodes), source=0.0_wp)
-      places = places_of(model, model%node_table%find(id), components)
+      if (.not. allocated(loads%moved)) allocate (loads%moved(model%mesh%dimension, model%mesh%n_nodes), source=0.0_wp)
+      places = places_of(model, model%mesh%node_table%find(id), components)
       do k = 1, count(places%node > 0)
          associate (moved => loads%moved(places(k)%d, places(k)%node))
             moved = share*moved + value*places(k)%scale
@@ -196,12 +197,12 @@ contains
 
       if (all(abs(deck%bulk%support%value) <= 0.0_wp)) return
       allocate (holding, source=support_sets(deck))
-      allocate (by(model%dimension, model%n_nodes), source=0)
+      allocate (by(model%mesh%dimension, model%mesh%n_nodes), source=0)
       words = ''
       do i = 1, size(deck%bulk%support)
          associate (card => deck%bulk%support(i))
             if (abs(card%value) <= 0.0_wp) cycle
-            node = model%node_table%find(card%first(1))
+            node = model%mesh%node_table%find(card%first(1))
             if (node == 0) cycle ! reported already
             do d = 1, 6
                if (.not. has_component(card%components, d)) cycle
@@ -209,7 +210,7 @@ contains
                words = 'component '//integer_text(d)//' of node '//integer_text(card%first(1))
                if (places(1)%node == 0) then
                   call deck%field_error(card%line, card%at(1) + 1, words// &
-                     ' does not exist, so that D cannot move it; expected 1 to '//integer_text(model%dimension), called='C')
+                     ' does not exist, so that D cannot move it; expected 1 to '//integer_text(model%mesh%dimension), called='C')
                else if (any(holding == card%set)) then
                   other = by(places(1)%d, places(1)%node) ! a duplicate has the same components
                   by(places(1)%d, places(1)%node) = i
@@ -239,7 +240,7 @@ contains
          if (place%node == 0) cycle
          n = n + 1
          places(n) = place
-         place%node = model%duplicate(place%node)
+         place%node = model%mesh%duplicate(place%node)
          if (place%node == 0) cycle
          n = n + 1
          places(n) = place

@@ -35,10 +35,10 @@ contains
       integer :: i, k, most_nodes
 
       words = ''
-      most_nodes = 2*(model%dimension - 1)                     ! of a side
-      if (any(is_second_order(model%element_kind))) most_nodes = merge(3, max_side_nodes, model%dimension == 2)
+      most_nodes = 2*(model%mesh%dimension - 1)                     ! of a side
+      if (any(is_second_order(model%mesh%element_kind))) most_nodes = merge(3, max_side_nodes, model%mesh%dimension == 2)
       call marks%build(deck%bulk%pmark%id)
-      allocate (model%surfaces(size(deck%bulk%pmark)), surface(size(sides)), said(0))
+      allocate (model%mesh%surfaces(size(deck%bulk%pmark)), surface(size(sides)), said(0))
       do i = 1, size(sides)
          surface(i) = marks%find(sides(i)%property)
          if (surface(i) > 0 .or. sides(i)%property <= 0 .or. any(said == sides(i)%property)) cycle
@@ -54,9 +54,9 @@ contains
          end if
          said = [said, sides(i)%property]
       end do
-      call list_owners(size(model%surfaces), reshape(surface, [1, size(sides)]), first, members)
-      do k = 1, size(model%surfaces)
-         associate (marked => model%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
+      call list_owners(size(model%mesh%surfaces), reshape(surface, [1, size(sides)]), first, members)
+      do k = 1, size(model%mesh%surfaces)
+         associate (marked => model%mesh%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
             marked%id = card%id
             allocate (marked%nodes(most_nodes, n), source=0)
             allocate (marked%element(n), marked%other(n), marked%line(n), marked%corners(n), marked%n_nodes(n))
@@ -68,7 +68,7 @@ contains
             call check_repeated(deck, model, marked)
             if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! a number given twice is reported elsewhere
             words = 'surface '//integer_text(card%id)//' has no '// &
-                    one_of(model%dimension == 3, 'face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD')// &
+                    one_of(model%mesh%dimension == 3, 'face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD')// &
                     ' or side of a block with this PID'
             if (any([(index(deck%text%files(i)%bytes(:min(200, len(deck%text%files(i)%bytes))), 'Created by Gmsh') > 0, &
                       i = 1, deck%text%n_files)])) words = words// &
@@ -86,7 +86,7 @@ contains
       type(model_type), intent(in)   :: model
       integer, intent(out)           :: surface
 
-      surface = findloc(model%surfaces%id, id, dim=1)
+      surface = findloc(model%mesh%surfaces%id, id, dim=1)
       if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id))
    end subroutine find_surface
 
@@ -106,8 +106,8 @@ contains
       own_side = 0
       owner_same = .false.
       associate (nodes => side%nodes(:side%corners))
-         do j = model%first_at(nodes(1)), model%first_at(nodes(1) + 1) - 1
-            e = model%elements_at(j)
+         do j = model%mesh%first_at(nodes(1)), model%mesh%first_at(nodes(1) + 1) - 1
+            e = model%mesh%elements_at(j)
             if (e == owner) cycle ! a corner that is repeated on the card
             call side_of_element(model, e, nodes, at, same_sense)
             if (at < 0) cycle
@@ -127,8 +127,8 @@ contains
          side_nodes = nodes ! of the face of a shell on the marked side
       end associate
       if (own_side > 0) then
-         associate (kind => element_table(model%element_kind(owner)))
-            side_nodes = model%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner)
+         associate (kind => element_table(model%mesh%element_kind(owner)))
+            side_nodes = model%mesh%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner)
          end associate
          if (any(side_nodes == 0)) return ! reported already
          call check_mark(deck, side, model, owner, side_nodes)
@@ -152,7 +152,7 @@ contains
       character(:), allocatable :: element
       integer :: a, b, k, m, mid, place
 
-      element = 'element '//integer_text(model%element_id(e))//', a '//trim(element_table(model%element_kind(e))%card)
+      element = 'element '//integer_text(model%mesh%element_id(e))//', a '//trim(element_table(model%mesh%element_kind(e))%card)
       m = side%corners
       if (size(side_nodes) == m .and. side%n_nodes > m) then
          if (m == 2) then
@@ -172,8 +172,8 @@ contains
          if (m == 2) place = 1
          mid = side_nodes(m + place)
          if (mid == side%nodes(m + k)) cycle
-         call deck%field_error(side%line, 2 + m + k, integer_text(model%node_id(side%nodes(m + k)))//', but '// &
-                               element//', has node '//integer_text(model%node_id(mid))//' at the middle of this edge')
+         call deck%field_error(side%line, 2 + m + k, integer_text(model%mesh%node_id(side%nodes(m + k)))//', but '// &
+                               element//', has node '//integer_text(model%mesh%node_id(mid))//' at the middle of this edge')
          return
       end do
    end subroutine check_mark
@@ -188,7 +188,7 @@ contains
       words = one_of(size(nodes) == 2, 'edge between nodes', 'face of nodes')
       do k = 1, size(nodes)
          if (k == size(nodes)) words = words//' and'
-         words = words//' '//integer_text(model%node_id(nodes(k)))
+         words = words//' '//integer_text(model%mesh%node_id(nodes(k)))
          if (k < size(nodes) - 1) words = words//','
       end do
    end function side_name
@@ -202,7 +202,7 @@ contains
       logical, intent(out)         :: same_sense
       integer :: at, k
 
-      do side = merge(0, 1, is_shell(model, e)), element_table(model%element_kind(e))%n_sides
+      do side = merge(0, 1, is_shell(model, e)), element_table(model%mesh%element_kind(e))%n_sides
          associate (corners => side_corners(model, e, side), n => size(nodes))
             if (size(corners) /= n) cycle
             if (any([(all(corners /= nodes(k)) .or. all(nodes /= corners(k)), k = 1, n)])) cycle
@@ -250,19 +250,19 @@ contains
       integer, intent(in)            :: s
       real(wp), intent(out)          :: area(max_side_nodes)        !! 0 behind the last node
       real(wp), intent(out)          :: normal(3, max_side_nodes)   !! integral of N_i times the outward normal [length^2]
-      real(wp) :: force(model%dimension, max_side_nodes)
+      real(wp) :: force(model%mesh%dimension, max_side_nodes)
       integer  :: n
 
       area = 0.0_wp
       normal = 0.0_wp
       n = surface%n_nodes(s)
-      if (model%element_property(surface%element(s)) == 0) return ! reported already
-      associate (property => model%properties(model%element_property(surface%element(s))), &
-                 x => model%x(:model%dimension, surface%nodes(:n, s)))
+      if (model%mesh%element_property(surface%element(s)) == 0) return ! reported already
+      associate (property => model%mesh%properties(model%mesh%element_property(surface%element(s))), &
+                 x => model%mesh%x(:model%mesh%dimension, surface%nodes(:n, s)))
          call side_areas(property%state, property%thickness, x, area)
          call side_forces(property%state, property%thickness, x, spread(-1.0_wp, 1, n), force)
       end associate
-      normal(:model%dimension, :n) = force(:, :n)
+      normal(:model%mesh%dimension, :n) = force(:, :n)
    end subroutine side_influence
 
    !> The nodes of SURFACE with their tributary areas, summed over the sides at a node, and their normals, the mean of the sides
@@ -282,7 +282,7 @@ contains
       allocate (list%normal(3, list%n), source=0.0_wp)
       do s = 1, surface%n
          call side_influence(model, surface, s, area, normal)
-         if (model%dimension == 3 .and. surface%n_nodes(s) > surface%corners(s)) & ! that of a corner may be zero or reversed
+         if (model%mesh%dimension == 3 .and. surface%n_nodes(s) > surface%corners(s)) & ! that of a corner may be zero or reversed
             normal = spread(sum(normal, dim=2), 2, max_side_nodes)
          do k = 1, surface%n_nodes(s)
             node = place%find(surface%nodes(k, s))

@@ -29,9 +29,9 @@ contains
       integer, intent(in)          :: e, s
       integer, allocatable :: nodes(:)
 
-      associate (kind => element_table(model%element_kind(e)))
-         if (s == 0) nodes = model%element_nodes(:kind%n_nodes, e)
-         if (s > 0) nodes = model%element_nodes(kind%side_nodes(:kind%side_corners(s), s), e)
+      associate (kind => element_table(model%mesh%element_kind(e)))
+         if (s == 0) nodes = model%mesh%element_nodes(:kind%n_nodes, e)
+         if (s > 0) nodes = model%mesh%element_nodes(kind%side_nodes(:kind%side_corners(s), s), e)
       end associate
    end function side_corners
 
@@ -149,7 +149,7 @@ contains
       logical, allocatable :: in_front(:), at_back(:) ! sets of connected elements
       integer :: i, j
 
-      allocate (around, source=model%elements_at(model%first_at(at%node(k)):model%first_at(at%node(k) + 1) - 1))
+      allocate (around, source=model%mesh%elements_at(model%mesh%first_at(at%node(k)):model%mesh%first_at(at%node(k) + 1) - 1))
       allocate (in_front(size(around)), at_back(size(around)), source=.false.)
       allocate (parent, source=[(i, i=1, size(around))])
       do i = 1, size(around)
@@ -158,8 +158,8 @@ contains
          end do
       end do
       do i = at%first(k), at%first(k + 1) - 1
-         in_front(root_of(parent, findloc(around, model%surfaces(s)%element(at%side(i)), dim=1))) = .true.
-         at_back(root_of(parent, findloc(around, model%surfaces(s)%other(at%side(i)), dim=1))) = .true.
+         in_front(root_of(parent, findloc(around, model%mesh%surfaces(s)%element(at%side(i)), dim=1))) = .true.
+         at_back(root_of(parent, findloc(around, model%mesh%surfaces(s)%other(at%side(i)), dim=1))) = .true.
       end do
       behind = [integer ::]
       if (.not. any(in_front .and. at_back)) behind = pack(around, [(at_back(root_of(parent, i)), i = 1, size(around))])
@@ -170,18 +170,18 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: s, place, a, b
       type(side_list), intent(in)  :: at
-      integer :: common(size(model%element_nodes, 1)), i, k, n
+      integer :: common(size(model%mesh%element_nodes, 1)), i, k, n
 
       n = 0
-      do k = 1, element_table(model%element_kind(a))%n_corners ! elements that share only an edge also share its mid-edge node
-         if (all(model%element_nodes(:, b) /= model%element_nodes(k, a))) cycle
+      do k = 1, element_table(model%mesh%element_kind(a))%n_corners ! elements that share only an edge also share its mid-edge node
+         if (all(model%mesh%element_nodes(:, b) /= model%mesh%element_nodes(k, a))) cycle
          n = n + 1
-         common(n) = model%element_nodes(k, a)
+         common(n) = model%mesh%element_nodes(k, a)
       end do
-      common_side = n >= model%dimension
+      common_side = n >= model%mesh%dimension
       do i = at%first(place), at%first(place + 1) - 1
          if (.not. common_side) return
-         associate (side => model%surfaces(s)%nodes(:model%surfaces(s)%corners(at%side(i)), at%side(i)))
+         associate (side => model%mesh%surfaces(s)%nodes(:model%mesh%surfaces(s)%corners(at%side(i)), at%side(i)))
             common_side = any([(all(side /= common(k)), k = 1, n)])
          end associate
       end do
@@ -198,59 +198,60 @@ contains
       integer, allocatable :: split(:) ! nodes with a duplicate
       integer :: j, k, n_duplicates, node, s
 
-      allocate (model%duplicate(model%n_nodes), source=0)
-      call surfaces%build(model%surfaces%id)
+      allocate (model%mesh%duplicate(model%mesh%n_nodes), source=0)
+      call surfaces%build(model%mesh%surfaces%id)
       n_duplicates = 0
       do j = 1, size(deck%bulk%joint)
          if (deck%bulk%joint(j)%sides(2) /= 0) cycle
          s = surfaces%find(deck%bulk%joint(j)%sides(1))
          if (s == 0) cycle
-         associate (surface => model%surfaces(s), line => deck%bulk%joint(j)%line, nodes => nodes_of(model%surfaces(s)))
+         associate (surface => model%mesh%surfaces(s), line => deck%bulk%joint(j)%line, nodes => nodes_of(model%mesh%surfaces(s)))
             if (.not. any(surface%other(:surface%n) > 0)) cycle
             if (any(surface%other(:surface%n) == 0)) then
                call deck%field_error(line, 'SIDE1', 'bodies lie on both sides of some '//merge('edges', 'faces', &
-                  model%dimension == 2)//' of surface '//integer_text(surface%id)//' and on one side of others')
+                  model%mesh%dimension == 2)//' of surface '//integer_text(surface%id)//' and on one side of others')
                cycle
             end if
-            if (any(model%duplicate(nodes) > 0)) then
-               node = nodes(findloc(model%duplicate(nodes) > 0, .true., dim=1))
+            if (any(model%mesh%duplicate(nodes) > 0)) then
+               node = nodes(findloc(model%mesh%duplicate(nodes) > 0, .true., dim=1))
                call deck%field_error(line, 'SIDE1', 'surface '//integer_text(surface%id)//' meets another surface that is '// &
-                  'split, at node '//integer_text(model%node_id(node))//': mesh the bodies apart there and give both '// &
+                  'split, at node '//integer_text(model%mesh%node_id(node))//': mesh the bodies apart there and give both '// &
                   'faces, SIDE1 and SIDE2')
                cycle
             end if
          end associate
          ! the elements behind the surface get duplicates of its nodes; the model keeps its nodes until all these elements are known
-         call list_sides(model%surfaces(s), at)
-         call orient_sides(model%surfaces(s), at)
-         allocate (element_nodes, source=model%element_nodes)
+         call list_sides(model%mesh%surfaces(s), at)
+         call orient_sides(model%mesh%surfaces(s), at)
+         allocate (element_nodes, source=model%mesh%element_nodes)
          do k = 1, at%n
             call elements_behind(model, s, at, k, behind)
             if (size(behind) == 0) cycle ! the edge of the surface inside a body is not split
             n_duplicates = n_duplicates + 1
-            model%duplicate(at%node(k)) = model%n_nodes + n_duplicates
-            where (element_nodes(:, behind) == at%node(k)) element_nodes(:, behind) = model%n_nodes + n_duplicates
+            model%mesh%duplicate(at%node(k)) = model%mesh%n_nodes + n_duplicates
+            where (element_nodes(:, behind) == at%node(k)) element_nodes(:, behind) = model%mesh%n_nodes + n_duplicates
          end do
-         call move_alloc(element_nodes, model%element_nodes)
-         model%surfaces(s)%other = 0
-         model%surfaces(s)%was_split = .true.
+         call move_alloc(element_nodes, model%mesh%element_nodes)
+         model%mesh%surfaces(s)%other = 0
+         model%mesh%surfaces(s)%was_split = .true.
       end do
       if (n_duplicates == 0) return
-      if (model%node_id(model%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, 'the doubled nodes of split surfaces '// &
-         'get numbers above node '//integer_text(model%node_id(model%n_nodes))// &
+      if (model%mesh%node_id(model%mesh%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, &
+         'the doubled nodes of split surfaces '// &
+         'get numbers above node '//integer_text(model%mesh%node_id(model%mesh%n_nodes))// &
          ', and their numbers would exceed 2147483647')
-      split = pack([(k, k = 1, model%n_nodes)], model%duplicate > 0)
-      split(model%duplicate(split) - model%n_nodes) = split ! in the order of the duplicates
-      call append_nodes(model, model%x(:, split))
-      call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
-      do s = 1, size(model%surfaces) ! the sides of surfaces that were not split follow their elements
-         associate (surface => model%surfaces(s))
+      split = pack([(k, k = 1, model%mesh%n_nodes)], model%mesh%duplicate > 0)
+      split(model%mesh%duplicate(split) - model%mesh%n_nodes) = split ! in the order of the duplicates
+      call append_nodes(model, model%mesh%x(:, split))
+      call list_owners(model%mesh%n_nodes, model%mesh%element_nodes, model%mesh%first_at, model%mesh%elements_at)
+      do s = 1, size(model%mesh%surfaces) ! the sides of surfaces that were not split follow their elements
+         associate (surface => model%mesh%surfaces(s))
             if (.not. surface%was_split) then
                do j = 1, surface%n
                   do k = 1, surface%n_nodes(j)
-                     node = model%duplicate(surface%nodes(k, j))
+                     node = model%mesh%duplicate(surface%nodes(k, j))
                      if (node == 0) cycle
-                     if (any(model%element_nodes(:, surface%element(j)) == node)) surface%nodes(k, j) = node
+                     if (any(model%mesh%element_nodes(:, surface%element(j)) == node)) surface%nodes(k, j) = node
                   end do
                end do
             end if

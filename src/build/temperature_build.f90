@@ -9,7 +9,7 @@ module temperature_build
    use lists, only: first_not_below
    use model_data, only: a_bar, corners_of, is_shell, model_type, n_bars, n_points, stage_load_type, &
                          temperature_type
-   use text_tools, only: append, integer_text, one_of, real_text
+   use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: least_misfit
    use unknowns, only: node_axes
    implicit none
@@ -26,7 +26,7 @@ contains
       type(expansion_type), intent(in) :: expansions(:)
       type(model_type), intent(inout) :: model
       logical, allocatable :: given(:)
-      logical :: needs_one(model%n_nodes) ! nodes of bodies and bars
+      logical :: needs_one(model%mesh%n_nodes) ! nodes of bodies and bars
       integer :: before, i, k, s
 
       call check_cards(deck, model)
@@ -35,7 +35,7 @@ contains
             if (reference%id == 0) cycle
             before = findloc(stages(:s - 1)%temperature%id, reference%id, dim=1)
             if (before > 0) then
-               model%stage_loads(s)%temperature = model%stage_loads(before)%temperature
+               model%history%stages(s)%temperature = model%history%stages(before)%temperature
                cycle
             end if
             if (all(deck%bulk%temperature%set /= reference%id) .and. all(deck%bulk%plate_temperature%set /= reference%id)) then
@@ -43,36 +43,36 @@ contains
                                     integer_text(reference%id))
                cycle
             end if
-            if (all(abs(model%properties%alpha) <= 0.0_wp) .and. all(abs(model%bars%expansion) <= 0.0_wp) .and. &
+            if (all(abs(model%mesh%properties%alpha) <= 0.0_wp) .and. all(abs(model%mesh%bars%expansion) <= 0.0_wp) .and. &
                 size(expansions) == 0) then
                call deck%errors%add(reference%line, 'TEMPERATURE: nothing expands; give A on a MAT1')
                cycle
             end if
-            associate (temperature => model%stage_loads(s)%temperature)
-               allocate (temperature%at(model%n_nodes), source=0.0_wp)
+            associate (temperature => model%history%stages(s)%temperature)
+               allocate (temperature%at(model%mesh%n_nodes), source=0.0_wp)
                temperature%reference_share = 1.0_wp
                call fill_in(deck, model, reference%id, temperature%at, given)
                call set_plate_temperatures(deck, model, reference%id, temperature, given)
             end associate
             if (deck%errors%any()) cycle
-            needs_one = model%first_at(2:) > model%first_at(:model%n_nodes)
+            needs_one = model%mesh%first_at(2:) > model%mesh%first_at(:model%mesh%n_nodes)
             do i = 1, n_bars(model)
-               if (model%bars(i)%kind == a_bar) needs_one(model%bars(i)%nodes) = .true.
+               if (model%mesh%bars(i)%kind == a_bar) needs_one(model%mesh%bars(i)%nodes) = .true.
             end do
             do k = 1, size(expansions)
                needs_one(expansions(k)%points) = .true.
             end do
             i = findloc(needs_one(:n_points(model)) .and. .not. given(:n_points(model)), .true., dim=1)
-            if (i > 0) call deck%errors%add(reference%line, 'TEMPERATURE: node '//integer_text(model%node_id(i))// &
+            if (i > 0) call deck%errors%add(reference%line, 'TEMPERATURE: node '//integer_text(model%mesh%node_id(i))// &
                ' has no temperature in set '//integer_text(reference%id)//'; expected a TEMP of it, or a TEMPD')
          end associate
       end do
       if (deck%errors%any()) return
-      do s = 1, size(model%stage_loads)
-         call expand(expansions, model%stage_loads(s), model)
+      do s = 1, size(model%history%stages)
+         call expand(expansions, model%history%stages(s), model)
       end do
-      call append(model%warnings, reference_words(deck, model))
-      call append(model%warnings, squeeze_words(deck, model))
+      call deck%errors%warn(reference_words(deck, model))
+      call deck%errors%warn(squeeze_words(deck, model))
    end subroutine build_temperatures
 
    !> A warning for the RBE2 that squeezes its nodes most, because the body at them expands otherwise than the element; '' where none
@@ -82,7 +82,7 @@ contains
       type(model_type), intent(in)   :: model
       character(:), allocatable      :: words
       real(wp) :: rise, strain, worst
-      integer  :: e, i, k, n, node, s
+      integer  :: at, e, i, k, n, node, s
 
       words = ''
       worst = least_misfit
@@ -93,16 +93,17 @@ contains
             strain = 0.0_wp
             e = 0
             do k = 1, size(card%nodes)
-               node = model%node_table%find(card%nodes(k))
-               if (model%first_at(node) == model%first_at(node + 1)) cycle
-               associate (property => model%properties(model%element_property(model%elements_at(model%first_at(node)))))
-                  do s = 1, size(model%stage_loads)
-                     if (.not. allocated(model%stage_loads(s)%temperature%at)) cycle
-                     rise = model%stage_loads(s)%temperature%at(node)
+               node = model%mesh%node_table%find(card%nodes(k))
+               if (model%mesh%first_at(node) == model%mesh%first_at(node + 1)) cycle
+               at = model%mesh%elements_at(model%mesh%first_at(node))
+               associate (property => model%mesh%properties(model%mesh%element_property(at)))
+                  do s = 1, size(model%history%stages)
+                     if (.not. allocated(model%history%stages(s)%temperature%at)) cycle
+                     rise = model%history%stages(s)%temperature%at(node)
                      rise = property%alpha*(rise - property%reference) - card%alpha*(rise - card%reference)
                      if (abs(rise) <= abs(strain)) cycle
                      strain = rise
-                     e = model%elements_at(model%first_at(node))
+                     e = at
                   end do
                end associate
             end do
@@ -111,7 +112,7 @@ contains
             if (abs(strain) > least_misfit) n = n + 1
             if (abs(strain) <= worst) cycle
             worst = abs(strain)
-            associate (property => model%properties(model%element_property(e)), expands => abs(card%alpha) > 0.0_wp)
+            associate (property => model%mesh%properties(model%mesh%element_property(e)), expands => abs(card%alpha) > 0.0_wp)
                words = 'RBE2 '//integer_text(card%id)//' holds nodes up to '//real_text(held_extent(model, card))// &
                        ' apart, where the warm body beside them would expand by '// &
                        real_text(merge(abs(strain), strain, expands)*held_extent(model, card))// &
@@ -133,12 +134,12 @@ contains
       real(wp) :: axes(3, 3)
       integer  :: nodes(size(card%nodes)), c, k
 
-      nodes = [(model%node_table%find(card%nodes(k)), k = 1, size(nodes))]
+      nodes = [(model%mesh%node_table%find(card%nodes(k)), k = 1, size(nodes))]
       axes = node_axes(model, nodes(1))
       extent = 0.0_wp
-      do c = 1, model%dimension
+      do c = 1, model%mesh%dimension
          if (.not. has_component(card%components, c)) cycle
-         associate (along => matmul(axes(:, c), model%x(:, nodes)))
+         associate (along => matmul(axes(:, c), model%mesh%x(:, nodes)))
             extent = max(extent, maxval(along) - minval(along))
          end associate
       end do
@@ -152,7 +153,7 @@ contains
       integer :: k
 
       if (size(expansions) == 0 .or. .not. allocated(loads%temperature%at)) return
-      if (.not. allocated(loads%moved)) allocate (loads%moved(model%dimension, model%n_nodes), source=0.0_wp)
+      if (.not. allocated(loads%moved)) allocate (loads%moved(model%mesh%dimension, model%mesh%n_nodes), source=0.0_wp)
       do k = 1, size(expansions)
          associate (part => expansions(k))
             loads%moved(part%d, part%node) = part%growth*(0.5_wp*sum(loads%temperature%at(part%points)) - part%reference)
@@ -171,9 +172,9 @@ contains
       words = ''
       highest = -huge(1.0_wp)
       lowest = huge(1.0_wp)
-      do s = 1, size(model%stage_loads)
-         if (.not. allocated(model%stage_loads(s)%temperature%at)) cycle
-         associate (at => pack(model%stage_loads(s)%temperature%at(:n_points(model)), model%used(:n_points(model))))
+      do s = 1, size(model%history%stages)
+         if (.not. allocated(model%history%stages(s)%temperature%at)) cycle
+         associate (at => pack(model%history%stages(s)%temperature%at(:n_points(model)), model%freedoms%used(:n_points(model))))
             highest = max(highest, maxval(at))
             lowest = min(lowest, minval(at))
          end associate
@@ -193,7 +194,7 @@ contains
       integer, allocatable :: last(:)   ! (nodes) last card that named the node
       integer, allocatable :: set_of(:) ! (elements) set of the last TEMPP1 that named the element
 
-      allocate (last(model%n_nodes), source=0)
+      allocate (last(model%mesh%n_nodes), source=0)
       do i = 1, size(deck%bulk%temperature)
          associate (card => deck%bulk%temperature(i))
             if (card%is_default) then
@@ -204,7 +205,7 @@ contains
                cycle
             end if
             if (card%node == 0) cycle
-            node = model%node_table%find(card%node)
+            node = model%mesh%node_table%find(card%node)
             if (node == 0) then
                call deck%field_error(card%line, card%field, 'there is no GRID '//integer_text(card%node))
                cycle
@@ -218,7 +219,7 @@ contains
          end associate
       end do
 
-      allocate (set_of(model%n_elements), source=0)
+      allocate (set_of(model%mesh%n_elements), source=0)
       do i = 1, size(deck%bulk%plate_temperature)
          associate (card => deck%bulk%plate_temperature(i))
             do k = 1, size(card%ranges%first)
@@ -230,7 +231,7 @@ contains
                                            'CQUAD4 or CTRIA3 with a PSHELL in a model of space', called='EID')
                   else if (twice > 0) then
                      call deck%field_error(card%line, card%ranges%at(k), 'element '// &
-                                           integer_text(model%element_id(named(twice)))//' has a TEMPP1 in set '// &
+                                           integer_text(model%mesh%element_id(named(twice)))//' has a TEMPP1 in set '// &
                                            integer_text(card%set)//' already', called='EID')
                   end if
                   set_of(named) = card%set
@@ -248,24 +249,24 @@ contains
       integer, intent(in)               :: set
       real(wp), intent(inout)           :: at(:)
       logical, allocatable, intent(out) :: given(:)
-      logical :: is_filled(model%n_nodes)
+      logical :: is_filled(model%mesh%n_nodes)
       integer :: corners(2), e, i, k, node
 
-      allocate (given(model%n_nodes), source=.false.)
+      allocate (given(model%mesh%n_nodes), source=.false.)
       do i = 1, size(deck%bulk%temperature)
          associate (card => deck%bulk%temperature(i))
             if (card%is_default .or. card%set /= set) cycle
-            node = model%node_table%find(card%node)
+            node = model%mesh%node_table%find(card%node)
             if (node == 0) cycle
             at(node) = card%value
             given(node) = .true.
          end associate
       end do
       is_filled = .false.
-      is_filled(model%first_filled:model%first_filled + model%n_filled - 1) = .true.
+      is_filled(model%mesh%first_filled:model%mesh%first_filled + model%mesh%n_filled - 1) = .true.
       do i = 1, n_points(model)
-         if (model%duplicate(i) == 0) cycle
-         associate (duplicate => model%duplicate(i))
+         if (model%mesh%duplicate(i) == 0) cycle
+         associate (duplicate => model%mesh%duplicate(i))
             if (given(i) .and. .not. given(duplicate)) at(duplicate) = at(i)
             given(duplicate) = given(duplicate) .or. given(i)
             is_filled(duplicate) = is_filled(i)
@@ -276,8 +277,8 @@ contains
          where (.not. (given .or. is_filled)) at = deck%bulk%temperature(i)%value
          given = given .or. .not. is_filled
       end if
-      do e = 1, model%n_elements
-         associate (kind => element_table(model%element_kind(e)), nodes => corners_of(model, e))
+      do e = 1, model%mesh%n_elements
+         associate (kind => element_table(model%mesh%element_kind(e)), nodes => corners_of(model, e))
             do k = kind%n_corners + 1, kind%n_nodes
                if (any(nodes == 0)) exit
                corners = nodes(kind%edges(:, k - kind%n_corners))
@@ -287,9 +288,9 @@ contains
             end do
          end associate
       end do
-      if (.not. allocated(model%faces)) return
-      do k = 1, size(model%faces)
-         associate (face => model%faces(k))
+      if (.not. allocated(model%mesh%faces)) return
+      do k = 1, size(model%mesh%faces)
+         associate (face => model%mesh%faces(k))
             at(face%node) = at(face%point)
             given(face%node) = given(face%point)
          end associate
@@ -303,7 +304,7 @@ contains
       integer, allocatable :: named(:)
       integer :: e
 
-      associate (id => model%element_id, low => first_not_below(model%element_id, first), most => max(first, last))
+      associate (id => model%mesh%element_id, low => first_not_below(model%mesh%element_id, first), most => max(first, last))
          named = [(e, e = low, min(first_not_below(id, most), size(id)))]
          named = pack(named, id(named) >= first .and. id(named) <= most)
       end associate
@@ -318,7 +319,7 @@ contains
       integer, intent(in)                   :: set
       type(temperature_type), intent(inout) :: temperature
       logical, intent(inout)                :: given(:)
-      integer :: card_of(model%n_elements), e, i, k, node
+      integer :: card_of(model%mesh%n_elements), e, i, k, node
 
       if (all(deck%bulk%plate_temperature%set /= set)) return
       card_of = 0
@@ -332,17 +333,17 @@ contains
          end associate
       end do
       do node = 1, n_points(model)
-         associate (around => model%elements_at(model%first_at(node):model%first_at(node + 1) - 1))
+         associate (around => model%mesh%elements_at(model%mesh%first_at(node):model%mesh%first_at(node + 1) - 1))
             if (given(node) .or. size(around) == 0 .or. any(card_of(around) == 0)) cycle
             temperature%at(node) = sum(deck%bulk%plate_temperature(card_of(around))%mean)/size(around)
             given(node) = .true.
          end associate
       end do
-      allocate (temperature%plate(5, size(model%structural%shells)), source=0.0_wp)
-      do e = 1, model%n_elements
+      allocate (temperature%plate(5, size(model%mesh%structural%shells)), source=0.0_wp)
+      do e = 1, model%mesh%n_elements
          if (card_of(e) == 0) cycle
          associate (card => deck%bulk%plate_temperature(card_of(e)), nodes => corners_of(model, e), &
-                    place => model%structural%place(e))
+                    place => model%mesh%structural%place(e))
             temperature%plate(:size(nodes), place) = card%mean - temperature%at(nodes)
             temperature%plate(5, place) = card%slope
          end associate

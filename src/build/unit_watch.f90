@@ -3,11 +3,12 @@
 !! beryllium 12400), less in rubber and foam; gravity is 9.81 m/s2; the faces of a joint approach by micrometres; no solid bears a
 !! stress of E/50. UNITS of the deck gives the units of length and force where it is there; else any usual system may be meant.
 module unit_watch
+   use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use kinds, only: wp
    use model_data, only: model_type
    use normal_curve, only: loading_deflection
-   use text_tools, only: append, integer_text, one_of, upper
+   use text_tools, only: integer_text, one_of, upper
    use tolerances, only: exactly_one, whole_power_of_ten
    implicit none
    private
@@ -46,9 +47,10 @@ contains
 
    !> Add to the warnings of MODEL what contradicts UNITS of DECK, or all usual systems: the first MAT1 whose wave speed, or whose E
    !! where it has no RHO, is not that of a solid; the first JNORM whose faces approach too far; the first GRAV that is not gravity.
-   subroutine watch_units(deck, model)
-      type(deck_type), intent(in)     :: deck
-      type(model_type), intent(inout) :: model
+   subroutine watch_units(deck, model, errors)
+      type(deck_type), intent(in)          :: deck
+      type(model_type), intent(in)         :: model
+      type(deck_error_list), intent(inout) :: errors !! gets the warnings
       logical  :: meant(4) ! systems that UNITS and the wave speeds allow
       real(wp) :: metre, newton, pascals
       integer  :: i
@@ -64,9 +66,9 @@ contains
       end associate
       pascals = 0.0_wp
       if (metre > 0.0_wp) pascals = newton/metre**2
-      call append(model%warnings, material_words(deck, meant, pascals))
-      call append(model%warnings, approach_words(deck, model, metre, newton))
-      call append(model%warnings, gravity_words(deck, meant))
+      call errors%warn(material_words(deck, meant, pascals))
+      call errors%warn(approach_words(deck, model, metre, newton))
+      call errors%warn(gravity_words(deck, meant))
    end subroutine watch_units
 
    !> The first MAT1 that is no solid in any system MEANT, or '' and the systems in which all may be.
@@ -168,8 +170,8 @@ contains
       integer  :: j
 
       words = ''
-      do j = 1, size(model%joints)
-         associate (joint => model%joints(j), law => model%joints(j)%law%normal)
+      do j = 1, size(model%joints%list)
+         associate (joint => model%joints%list(j), law => model%joints%list(j)%law%normal)
             if (.not. law%c > 0.0_wp) cycle
             words = 'joint '//integer_text(joint%id)//': c p^m of its JNORM is'
             if (metre > 0.0_wp .and. newton > 0.0_wp) then

@@ -38,7 +38,7 @@ contains
             vibration%amplitude = asked%amplitude
             vibration%damping = deck%bulk%parameters%damping
             vibration%has_losses = vibration%amplitude > 0.0_wp .or. vibration%damping > 0.0_wp .or. &
-                                   any(model%properties%damping > 0.0_wp) .or. any(model%bars%damping > 0.0_wp)
+                                   any(model%mesh%properties%damping > 0.0_wp) .or. any(model%mesh%bars%damping > 0.0_wp)
             k = findloc(deck%bulk%eigrl%id, asked%modes%id, dim=1)
             if (k == 0) then
                call deck%errors%add(asked%modes%line, 'MODES: there is no EIGRL '//integer_text(asked%modes%id))
@@ -87,7 +87,7 @@ contains
             call deck%errors%add(card%line, 'JAMPL: mode '//integer_text(card%mode)//' is not among the '// &
                                  integer_text(vibration%most)//' lowest that EIGRL '//integer_text(vibration%id)//' asks for')
          if (card%node > 0) then
-            backbone%node = findloc(model%node_id == card%node .and. model%used, .true., dim=1)
+            backbone%node = findloc(model%mesh%node_id == card%node .and. model%freedoms%used, .true., dim=1)
             if (backbone%node == 0 .and. .not. deck%errors%any()) call deck%errors%add(card%line, &
                'JAMPL: GID '//integer_text(card%node)//' is not a node of an element')
          end if
@@ -122,7 +122,7 @@ contains
       if (size(response%frequencies) + size(response%spreads) == 0) call deck%errors%add(asked%frequency%line, &
          'FREQUENCY: there is no FREQ1, FREQ2 or FREQ4 with set '//integer_text(asked%frequency%id))
       response%is_structural = deck%bulk%parameters%is_structural
-      allocate (response%force(3, model%n_nodes), source=0.0_wp)
+      allocate (response%force(3, model%mesh%n_nodes), source=0.0_wp)
       do k = 1, load%n
          response%force(:, load%node(k)) = response%force(:, load%node(k)) + load%force(:, k)
       end do
@@ -135,8 +135,8 @@ contains
       end if
       if (.not. allocated(asked%response)) return
       call find_limited_nodes(deck, model, 'RESPONSE', asked%response, are_named)
-      are_named = are_named .and. model%used .and. model%node_id > 0
-      response%nodes = pack([(k, k = 1, model%n_nodes)], are_named)
+      are_named = are_named .and. model%freedoms%used .and. model%mesh%node_id > 0
+      response%nodes = pack([(k, k = 1, model%mesh%n_nodes)], are_named)
       if (size(response%nodes) == 0 .and. .not. deck%errors%any()) call deck%errors%add(asked%response(1)%line, &
          'RESPONSE: names no node of an element')
    end subroutine plan_response
@@ -154,7 +154,8 @@ contains
             if (allocated(given%watch)) then
                plan%has_watched_nodes = .true.
                call find_limited_nodes(deck, model, 'WATCH', given%watch, are_named)
-               stage%watched = pack([(i, i = 1, model%n_nodes)], are_named .and. model%used .and. model%node_id > 0)
+               stage%watched = pack([(i, i = 1, model%mesh%n_nodes)], are_named .and. model%freedoms%used &
+                  .and. model%mesh%node_id > 0)
                if (size(stage%watched) == 0) call deck%errors%add(given%watch(1)%line, 'WATCH: names no node of an element')
             end if
             if (.not. allocated(given%only)) cycle
@@ -178,12 +179,12 @@ contains
       logical, allocatable, intent(out) :: are_named(:) !! (n_nodes)
       integer :: at, i
 
-      allocate (are_named(model%n_nodes), source=.false.)
+      allocate (are_named(model%mesh%n_nodes), source=.false.)
       do i = 1, size(limits)
          associate (only => limits(i))
             if (only%is_mark) then
-               at = findloc(model%surfaces%id, only%id, dim=1)
-               if (at > 0) are_named(nodes_of(model%surfaces(at))) = .true.
+               at = findloc(model%mesh%surfaces%id, only%id, dim=1)
+               if (at > 0) are_named(nodes_of(model%mesh%surfaces(at))) = .true.
             else
                at = findloc(deck%control%sets%id, only%id, dim=1, back=.true.)
                if (at > 0) call add_set(deck%control%sets(at))
@@ -202,17 +203,17 @@ contains
          logical, allocatable :: are_in(:)
          integer :: at, i
 
-         allocate (numbers, source=model%node_id)
-         if (allocated(model%placed)) numbers = [numbers, model%placed%id]
+         allocate (numbers, source=model%mesh%node_id)
+         if (allocated(model%mesh%placed)) numbers = [numbers, model%mesh%placed%id]
          allocate (are_in(size(numbers)))
          call numbers_in_set(set, numbers, are_in, marks, deck%errors)
-         are_named = are_named .or. are_in(:model%n_nodes)
-         do i = model%n_nodes + 1, size(numbers)
-            if (are_in(i) .and. numbers(i) > 0) are_named(model%placed(i - model%n_nodes)%node) = .true.
+         are_named = are_named .or. are_in(:model%mesh%n_nodes)
+         do i = model%mesh%n_nodes + 1, size(numbers)
+            if (are_in(i) .and. numbers(i) > 0) are_named(model%mesh%placed(i - model%mesh%n_nodes)%node) = .true.
          end do
          do i = 1, size(marks)
-            at = findloc(model%surfaces%id, marks(i), dim=1)
-            if (at > 0) are_named(nodes_of(model%surfaces(at))) = .true.
+            at = findloc(model%mesh%surfaces%id, marks(i), dim=1)
+            if (at > 0) are_named(nodes_of(model%mesh%surfaces(at))) = .true.
             if (at == 0) call deck%errors%add(set%line, 'SET '//integer_text(set%id)//': there is no PMARK '// &
                                               integer_text(marks(i)))
          end do

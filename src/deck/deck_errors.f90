@@ -1,5 +1,6 @@
-!> Collects the errors of a deck, so that a user sees all of them at once, and sorts them into kinds for print.
+!> Collects the errors of a deck, so that a user sees all of them at once, sorts them into kinds for print, and collects the warnings.
 module deck_errors
+   use text_tools, only: append, text_item
    implicit none
    private
 
@@ -18,8 +19,10 @@ module deck_errors
    type, public :: deck_error_list
       integer :: n = 0
       type(deck_error), allocatable :: items(:)
+      type(text_item), allocatable  :: warnings(:) !! about the model
    contains
       procedure :: add
+      procedure :: warn
       procedure :: any => any_error
    end type deck_error_list
 
@@ -60,6 +63,14 @@ contains
       self%n = self%n + 1
       self%items(self%n) = item
    end subroutine add
+
+   !> Add WORDS to the warnings, if there are any.
+   pure subroutine warn(self, words)
+      class(deck_error_list), intent(inout) :: self
+      character(*), intent(in)              :: words
+
+      call append(self%warnings, words)
+   end subroutine warn
 
    pure logical function any_error(self)
       class(deck_error_list), intent(in) :: self

@@ -134,11 +134,11 @@ contains
       analysis%eq10 = control%pressure == pressure_eq10
       analysis%average = control%average
       analysis%load_tolerance = control%tolerance
-      allocate (analysis%all_u(model%dimension, model%n_nodes), source=0.0_wp)
+      allocate (analysis%all_u(model%mesh%dimension, model%mesh%n_nodes), source=0.0_wp)
       allocate (analysis%all_unbalanced, analysis%now%load, analysis%now%moved, source=analysis%all_u)
       allocate (analysis%retained_index, source=system%retained_index)
       allocate (analysis%held, source=system%held_now())
-      allocate (analysis%u(model%dimension, size(system%retained)), source=0.0_wp)
+      allocate (analysis%u(model%mesh%dimension, size(system%retained)), source=0.0_wp)
       allocate (analysis%du, analysis%body, analysis%unbalanced, analysis%change, analysis%move, analysis%now%condensed_load, &
                 source=analysis%u)
       analysis%before = analysis%now
@@ -146,13 +146,14 @@ contains
       allocate (analysis%rest_tension(n_bars(model)), source=0.0_wp)
       allocate (analysis%is_locked(n_sections(model)), source=.false.)
       allocate (analysis%is_elastic(n_bars(model)), source=.true.)
-      if (n_bars(model) > 0) analysis%is_elastic = model%bars%bolt == 0
-      allocate (analysis%states(size(model%interface)), analysis%energy(size(model%joints)))
+      if (n_bars(model) > 0) analysis%is_elastic = model%mesh%bars%bolt == 0
+      allocate (analysis%states(size(model%joints%element)), analysis%energy(size(model%joints%list)))
       allocate (analysis%record%iterations(16), analysis%record%slips(0))
-      allocate (analysis%k(3, size(model%interface)), analysis%movement(3, size(model%interface)), source=0.0_wp)
-      allocate (analysis%turns(2, size(model%interface)))
-      allocate (analysis%record%kind(size(model%interface)), analysis%next_kind(size(model%interface)), source=no_stiffness)
-      analysis%states%normal = at_rest(model%joints(model%interface%joint)%p_av, model%interface%gap)
+      allocate (analysis%k(3, size(model%joints%element)), analysis%movement(3, size(model%joints%element)), source=0.0_wp)
+      allocate (analysis%turns(2, size(model%joints%element)))
+      allocate (analysis%record%kind(size(model%joints%element)), analysis%next_kind(size(model%joints%element)), &
+         source=no_stiffness)
+      analysis%states%normal = at_rest(model%joints%list(model%joints%element%joint)%p_av, model%joints%element%gap)
       if (control%method == method_step) allocate (analysis%exact, source=analysis%states)
    end subroutine start_analysis
 
@@ -160,12 +161,12 @@ contains
    pure function all_held(model, analysis) result(held)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      logical :: held(model%dimension, model%n_nodes)
+      logical :: held(model%mesh%dimension, model%mesh%n_nodes)
       integer :: i
 
-      held = model%held
+      held = model%freedoms%held
       do i = 1, n_sections(model)
-         if (analysis%is_locked(i)) held(1, model%sections(i)%node) = .true.
+         if (analysis%is_locked(i)) held(1, model%mesh%sections(i)%node) = .true.
       end do
    end function all_held
 
@@ -181,8 +182,8 @@ contains
 
       if (failure%raised) return
       analysis%record%n_removed = 0
-      do i = 1, size(model%interface)
-         associate (area => model%interface(i)%area, law => model%joints(model%interface(i)%joint)%law, &
+      do i = 1, size(model%joints%element)
+         associate (area => model%joints%element(i)%area, law => model%joints%list(model%joints%element(i)%joint)%law, &
                     state => analysis%states(i), k => analysis%k(:, i))
             was_open = state%normal%branch == branch_open
             call norm_and_shear(law, area, analysis%eq10, analysis%movement(:, i), state, k)

@@ -44,18 +44,18 @@ contains
       type(analysis_type), intent(inout)   :: analysis
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      real(wp), dimension(3, size(model%interface)) :: k, taken, deflection ! secants, their deflections, those that result
-      real(wp), dimension(size(model%interface)) :: change, left ! of the stresses of the laws between both [pressure]
+      real(wp), dimension(3, size(model%joints%element)) :: k, taken, deflection ! secants, their deflections, those that result
+      real(wp), dimension(size(model%joints%element)) :: change, left ! of the stresses of the laws between both [pressure]
       real(wp), allocatable :: load(:, :)
       real(wp) :: k_then(3), largest_p, p(2)
       integer  :: i, iteration, worst
 
       taken = 0.0_wp
-      taken(3, :) = loading_deflection(model%joints(model%interface%joint)%law%normal, analysis%states%normal%p_av)
+      taken(3, :) = loading_deflection(model%joints%list(model%joints%element%joint)%law%normal, analysis%states%normal%p_av)
       do iteration = 1, merge(most_averages, most_shown, analysis%average)
          load = analysis%now%condensed_load
          do i = 1, size(change)
-            associate (element => system%interface(i), law => model%joints(model%interface(i)%joint)%law)
+            associate (element => system%interface(i), law => model%joints%list(model%joints%element(i)%joint)%law)
                k(:, i) = back_stiffness(law, element%area, analysis%states(i)%normal%p_av, taken(:, i))
                ! the secant starts where the gap g is closed: k_n (closing - g)
                if (abs(element%gap) > 0.0_wp) call add_force(element, [0.0_wp, 0.0_wp, k(3, i)*element%gap], load)
@@ -70,7 +70,7 @@ contains
 
          largest_p = 0.0_wp
          do i = 1, size(change)
-            associate (element => system%interface(i), law => model%joints(model%interface(i)%joint)%law)
+            associate (element => system%interface(i), law => model%joints%list(model%joints%element(i)%joint)%law)
                deflection(:, i) = joint_movement(element, analysis%u) - [0.0_wp, 0.0_wp, element%gap]
                p = loading_pressure(law%normal, max(0.0_wp, [taken(3, i), deflection(3, i)]))
                k_then = back_stiffness(law, element%area, analysis%states(i)%normal%p_av, deflection(:, i))
@@ -80,13 +80,13 @@ contains
          end do
          associate (p => max(largest_p, pressure_floor*maxval(analysis%states%normal%p_av)))
             do i = 1, size(change)
-               associate (law => model%joints(model%interface(i)%joint)%law%normal)
+               associate (law => model%joints%list(model%joints%element(i)%joint)%law%normal)
                   left(i) = max(analysis%load_tolerance*p, rounding_of_deflections*loading_deflection(law, p)* &
                                 normal_tangent(law, 1.0_wp, p, analysis%states(i)%normal%p_av))
                end associate
             end do
          end associate
-         left = max(left, 0.1_wp*force_noise(system, analysis%u)/model%interface%area)
+         left = max(left, 0.1_wp*force_noise(system, analysis%u)/model%joints%element%area)
          call record_iteration(analysis, iteration_record(before=largest_p, after=maxval(change), &
                                                 step=maxval(deflection(3, :)), part=-1))
          analysis%record%is_settled = all(change <= left)
@@ -115,9 +115,9 @@ contains
       integer  :: i
 
       largest = maxval(abs(deflections(3, :)))
-      do i = 1, size(model%interface)
-         associate (state => analysis%states(i), element => model%interface(i), deflection => deflections(:, i), &
-                    law => model%joints(model%interface(i)%joint)%law)
+      do i = 1, size(model%joints%element)
+         associate (state => analysis%states(i), element => model%joints%element(i), deflection => deflections(:, i), &
+                    law => model%joints%list(model%joints%element(i)%joint)%law)
             state%normal%branch = merge(branch_load, branch_open, has_come_to(0.0_wp, deflection(3), largest))
             state%normal%lambda = deflection(3)
             state%normal%k_n = k(3, i)

@@ -25,7 +25,7 @@ contains
       integer :: i
 
       do i = 1, n_bars(model)
-         associate (bar => model%bars(i))
+         associate (bar => model%mesh%bars(i))
             if (bar%bolt == 0 .or. bar%stage /= analysis%stage) cycle
             analysis%is_elastic(i) = .true.
             analysis%rest_tension(i) = bar%preload - bar%stiffness*elongation_now(model, analysis, i)
@@ -36,7 +36,7 @@ contains
          end associate
       end do
       do i = 1, n_sections(model)
-         associate (section => model%sections(i))
+         associate (section => model%mesh%sections(i))
             if (section%stage /= analysis%stage) cycle
             analysis%is_locked(i) = .true.
             analysis%held(1, analysis%retained_index(section%node)) = .true.
@@ -56,12 +56,12 @@ contains
 
       do stage = 1, analysis%stage
          do i = 1, n_bars(model)
-            if (model%bars(i)%bolt == 0 .or. model%bars(i)%stage /= stage) cycle
+            if (model%mesh%bars(i)%bolt == 0 .or. model%mesh%bars(i)%stage /= stage) cycle
             if (analysis%is_elastic(i)) call add_bar(model, i, system)
          end do
          do i = 1, n_sections(model)
-            if (model%sections(i)%stage /= stage) cycle
-            if (analysis%is_locked(i)) call lock_unknown(model%sections(i)%node, 1, system)
+            if (model%mesh%sections(i)%stage /= stage) cycle
+            if (analysis%is_locked(i)) call lock_unknown(model%mesh%sections(i)%node, 1, system)
          end do
       end do
    end subroutine lock_again
@@ -72,7 +72,8 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: i
 
-      elongation = bar_elongation(model%bars(i), displacements_at(model, bar_nodes(model%bars(i)), analysis%retained_index, &
+      elongation = bar_elongation(model%mesh%bars(i), displacements_at(model, bar_nodes(model%mesh%bars(i)), &
+         analysis%retained_index, &
                                                                  analysis%u))
    end function elongation_now
 
@@ -82,7 +83,7 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: i
 
-      overlap = analysis%u(1, analysis%retained_index(model%sections(i)%node))
+      overlap = analysis%u(1, analysis%retained_index(model%mesh%sections(i)%node))
    end function overlap_now
 
    !> Present tension of bar I [force].
@@ -92,7 +93,7 @@ contains
       integer, intent(in)             :: i
 
       tension = 0.0_wp
-      associate (bar => model%bars(i))
+      associate (bar => model%mesh%bars(i))
          if (analysis%is_elastic(i)) then
             tension = analysis%rest_tension(i) + bar%stiffness*elongation_now(model, analysis, i) + &
                       thermal_tension(bar, analysis%now%temperature)
@@ -108,7 +109,7 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: i
 
-      associate (section => model%sections(i))
+      associate (section => model%mesh%sections(i))
          tension = -analysis%unbalanced(1, analysis%retained_index(section%node))
          if (section%stage == analysis%stage) tension = tension + analysis%fraction*section%preload
       end associate

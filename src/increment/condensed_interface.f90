@@ -89,10 +89,10 @@ contains
       is_open(system%equations) = .true.
       is_open(system%locked) = .false.
       allocate (joints(0))
-      do j = 1, size(model%joints)
+      do j = 1, size(model%joints%list)
          do end = 1, 2
-            do i = model%joints(j)%first, model%joints(j)%last
-               equations = [system%number(:, unknown_nodes(model, nodes_of_end(model%interface(i), end)))]
+            do i = model%joints%list(j)%first, model%joints%list(j)%last
+               equations = [system%number(:, unknown_nodes(model, nodes_of_end(model%joints%element(i), end)))]
                equations = pack(equations, equations > 0)
                do k = 1, size(equations)
                   if (is_open(equations(k))) joints = [joints, equations(k)]

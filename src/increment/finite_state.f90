@@ -39,34 +39,35 @@ contains
       integer  :: at, i
 
       place = where_in_plan(plan, analysis%stage, analysis%increment)//': '
-      call check_nodes('the load', analysis%now%load, [(i, i = 1, model%n_nodes)])
+      call check_nodes('the load', analysis%now%load, [(i, i = 1, model%mesh%n_nodes)])
       call check_nodes('the displacement', analysis%u, system%retained)
-      do i = 1, size(model%interface)
+      do i = 1, size(model%joints%element)
          associate (normal => analysis%states(i)%normal, shear => analysis%states(i)%shear, k => analysis%k(:, i))
             values = [normal%lambda, normal%lambda_a, normal%lambda_b, normal%pressure, normal%p_a, normal%sumf, shear%delta, &
                       shear%tau, normal%k_n, shear%k_s, k]
             at = findloc(is_measure(values), .false., dim=1)
             if (at > 0) call check('the '//trim(nouns(count(at > last_of) + 1))//' of interface element '// &
-                                   integer_text(model%interface(i)%id)//' at node '//integer_text(joint_node_id(model, i, 1)), &
+                                   integer_text(model%joints%element(i)%id)//' at node '//integer_text(joint_node_id(model, i, &
+                                      1)), &
                                    values(at:at))
          end associate
       end do
-      do i = 1, size(model%joints)
-         call check('the work done on joint '//integer_text(model%joints(i)%id), [analysis%energy(i)%put_in, &
+      do i = 1, size(model%joints%list)
+         call check('the work done on joint '//integer_text(model%joints%list(i)%id), [analysis%energy(i)%put_in, &
                                                                 analysis%energy(i)%given_back, analysis%energy(i)%lost])
       end do
       do i = 1, n_bars(model)
-         call check('the tension of element '//integer_text(model%bars(i)%id), [analysis%rest_tension(i)])
+         call check('the tension of element '//integer_text(model%mesh%bars(i)%id), [analysis%rest_tension(i)])
       end do
       call check_nodes('the force out of balance', analysis%unbalanced, system%retained)
-      call check_nodes('the displacement', analysis%all_u, [(i, i = 1, model%n_nodes)])
-      call check_nodes('the force out of balance or of support', analysis%all_unbalanced, [(i, i = 1, model%n_nodes)])
+      call check_nodes('the displacement', analysis%all_u, [(i, i = 1, model%mesh%n_nodes)])
+      call check_nodes('the force out of balance or of support', analysis%all_unbalanced, [(i, i = 1, model%mesh%n_nodes)])
 
-      if (size(model%interface) == 0) return
+      if (size(model%joints%element) == 0) return
       noise = force_noise(system, analysis%u)
       if (noise <= most_rounding_of_forces*analysis%largest_load) return
       if (analysis%is_loose .and. analysis%largest_load <= 10.0_wp*idle*analysis%loose_force) return
-      if (noise >= analysis%largest_load .and. (analysis%is_moved .or. any(model%interface%gap < 0.0_wp))) return
+      if (noise >= analysis%largest_load .and. (analysis%is_moved .or. any(model%joints%element%gap < 0.0_wp))) return
       call failure%raise(place//no_balance//', '//real_text(noise)//' of force where '//real_text(analysis%largest_load)// &
                          ' act: see CONDITION OF THE STIFFNESS in the manual')
 

@@ -34,8 +34,9 @@ contains
       integer  :: i
 
       if (.not. allocated(analysis%exact)) return
-      do i = 1, size(model%interface)
-         call follow_element(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, analysis%exact(i), &
+      do i = 1, size(model%joints%element)
+         call follow_element(model%joints%list(model%joints%element(i)%joint)%law, model%joints%element(i)%area, &
+            analysis%exact(i), &
                              analysis%movement(:, i), after, tangent)
          call rest_when_open(after, analysis%movement(:, i))
          analysis%exact(i) = after
@@ -48,10 +49,10 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: j
-      real(wp) :: by_law(model%joints(j)%first:model%joints(j)%last), p
+      real(wp) :: by_law(model%joints%list(j)%first:model%joints%list(j)%last), p
       integer  :: i
 
-      associate (joint => model%joints(j), lambda => analysis%states%normal%lambda)
+      associate (joint => model%joints%list(j), lambda => analysis%states%normal%lambda)
          do i = joint%first, joint%last
             p = analysis%states(i)%normal%pressure
             if (p <= least_scale*analysis%largest_p) p = 0.0_wp
@@ -72,9 +73,9 @@ contains
       type(distance_type) :: found
       integer :: k
 
-      associate (first => model%joints(j)%first, last => model%joints(j)%last)
+      associate (first => model%joints%list(j)%first, last => model%joints%list(j)%last)
          do k = 1, 2
-            if (.not. model%joints(j)%law%shear(k)%given) cycle
+            if (.not. model%joints%list(j)%law%shear(k)%given) cycle
             found = distance_of(analysis%states(first:last)%shear(k)%tau, analysis%exact(first:last)%shear(k)%tau, &
                                 maxval(abs(analysis%states(first:last)%shear(k)%tau)), least_scale*analysis%largest_p)
             if (.not. found%is_there .or. (farthest%is_there .and. found%relative <= farthest%relative)) cycle
@@ -111,17 +112,17 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: method !! of case control
-      real(wp) :: k(3, size(model%interface))
+      real(wp) :: k(3, size(model%joints%element))
       type(element_state) :: state
       integer :: i
 
-      do i = 1, size(model%interface)
+      do i = 1, size(model%joints%element)
          state = analysis%states(i)
          select case (method)
          case (method_newton)
             k(:, i) = [state%shear%k_s, state%normal%k_n]
          case (method_back)
-            call norm_and_shear(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, .false., &
+            call norm_and_shear(model%joints%list(model%joints%element(i)%joint)%law, model%joints%element(i)%area, .false., &
                                 analysis%movement(:, i), state, k(:, i))
          case default
             k(:, i) = analysis%k(:, i)

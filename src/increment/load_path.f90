@@ -39,32 +39,32 @@ contains
       analysis%before = analysis%now
       analysis%after%load = 0.0_wp
       analysis%after%moved = 0.0_wp
-      analysis%after%temperature = model%stage_loads(stage)%temperature
-      associate (loads => model%stage_loads(stage))
+      analysis%after%temperature = model%history%stages(stage)%temperature
+      associate (loads => model%history%stages(stage))
          if (allocated(loads%moved)) analysis%after%moved = loads%moved
          do i = 1, loads%n
-            analysis%after%load(:, loads%node(i)) = analysis%after%load(:, loads%node(i)) + loads%force(:model%dimension, i)
+            analysis%after%load(:, loads%node(i)) = analysis%after%load(:, loads%node(i)) + loads%force(:model%mesh%dimension, i)
          end do
       end associate
       do i = 1, n_bars(model)
-         if (model%bars(i)%stage == stage) analysis%rest_tension(i) = model%bars(i)%preload
+         if (model%mesh%bars(i)%stage == stage) analysis%rest_tension(i) = model%mesh%bars(i)%preload
          call add_axial_force(model, i, analysis%rest_tension(i), analysis%after%load)
       end do
       if (allocated(analysis%after%temperature%at)) then
          call add_thermal_forces(model, analysis%after%temperature, analysis%after%load)
          do i = 1, n_bars(model)
             if (analysis%is_elastic(i)) &
-               call add_axial_force(model, i, thermal_tension(model%bars(i), analysis%after%temperature), analysis%after%load)
+               call add_axial_force(model, i, thermal_tension(model%mesh%bars(i), analysis%after%temperature), analysis%after%load)
          end do
       end if
       do i = 1, n_sections(model)
-         associate (section => model%sections(i))
+         associate (section => model%mesh%sections(i))
             if (section%stage == stage) &
                analysis%after%load(1, section%node) = analysis%after%load(1, section%node) + section%preload
             if (analysis%is_locked(i)) analysis%after%moved(1, section%node) = analysis%before%moved(1, section%node)
          end associate
       end do
-      analysis%loaded = pack([(i, i = 1, model%n_nodes)], &
+      analysis%loaded = pack([(i, i = 1, model%mesh%n_nodes)], &
                              any(abs(analysis%before%load) > 0.0_wp .or. abs(analysis%after%load) > 0.0_wp, dim=1))
       analysis%is_moved = any(abs(analysis%before%moved) > 0.0_wp .or. abs(analysis%after%moved) > 0.0_wp)
       if (stage > 1) call condense(model, system, analysis%is_elastic, analysis%before)
@@ -83,7 +83,7 @@ contains
       call lock_bolts(model, system, analysis)
       analysis%carry = .false.
       analysis%is_moved = .false.
-      analysis%loaded = [(i, i = 1, model%n_nodes)]
+      analysis%loaded = [(i, i = 1, model%mesh%n_nodes)]
       call condense(model, system, analysis%is_elastic, analysis%now)
       analysis%before = analysis%now
       analysis%after = analysis%now
@@ -222,7 +222,7 @@ contains
       call internal_forces(model, all_u, unbalanced)
       call add_bar_forces(model, analysis%is_elastic, all_u, unbalanced)
       unbalanced = at%load - unbalanced
-      call subtract_joint_forces(model%interface, analysis%states, unbalanced)
+      call subtract_joint_forces(model%joints%element, analysis%states, unbalanced)
    end subroutine recover
 
    !> Support forces under the displacements U of retained nodes, with LEFT of the increment still to do [force].

@@ -97,7 +97,7 @@ contains
       attempt%slides = attempt%loose > 0 .and. any(now%states%slips)
       attempt%worst = 0
       at = first_largest(pack(abs(now%residual), .true.), pack(.not. analysis%held, .true.))
-      if (at > 0) attempt%worst = [system%retained((at - 1)/model%dimension + 1), modulo(at - 1, model%dimension) + 1]
+      if (at > 0) attempt%worst = [system%retained((at - 1)/model%mesh%dimension + 1), modulo(at - 1, model%mesh%dimension) + 1]
       if (attempt%seats) analysis%tolerance = analysis%load_tolerance*attempt%load_size
       if (.not. attempt%converged) return
 

@@ -67,18 +67,18 @@ contains
       ! bodies that moved supports have lifted off, by opening joints entirely, must be held without these joints: the small
       ! stiffness of open elements in find_direction hides a loose body
       lifted = .false.
-      do j = 1, size(model%joints)
-         associate (was => before(model%joints(j)%first:model%joints(j)%last), &
-                    now => analysis%states(model%joints(j)%first:model%joints(j)%last)%normal%branch)
+      do j = 1, size(model%joints%list)
+         associate (was => before(model%joints%list(j)%first:model%joints%list(j)%last), &
+                    now => analysis%states(model%joints%list(j)%first:model%joints%list(j)%last)%normal%branch)
             if (any(was /= branch_open) .and. all(now == branch_open)) lifted = .true.
          end associate
       end do
       if (.not. lifted) return
       k = 0.0_wp
       do i = 1, size(before)
-         associate (element => model%interface(i), state => analysis%states(i)%normal)
+         associate (element => model%joints%element(i), state => analysis%states(i)%normal)
             if (state%branch /= branch_open) &
-               k(:, i) = stiffness_at_rest(model%joints(element%joint)%law, element%area, state%p_av)
+               k(:, i) = stiffness_at_rest(model%joints%list(element%joint)%law, element%area, state%p_av)
          end associate
       end do
       call form_structure_stiffness(model, stiffness_matrices(k), attempt%where, system, failure, one_solution=.true.)
@@ -118,10 +118,10 @@ contains
       type(analysis_type), allocatable :: rest
       integer :: j
 
-      if (failure%raised .or. .not. any(model%interface%gap < 0.0_wp)) return
+      if (failure%raised .or. .not. any(model%joints%element%gap < 0.0_wp)) return
       allocate (rest, source=analysis)
       call press_apart(model, analysis, system, failure)
-      if (analysis%is_loose .and. all([(is_idle(model, analysis, j), j = 1, size(model%joints))])) then
+      if (analysis%is_loose .and. all([(is_idle(model, analysis, j), j = 1, size(model%joints%list))])) then
          rest%is_loose = .true.
          rest%loose_force = analysis%loose_force
          analysis = rest
@@ -139,7 +139,7 @@ contains
 
       analysis%tolerance = tiny(1.0_wp)
       attempt%seats = .true.
-      attempt%seat_force = norm2(pack(analysis%states%normal%p_av*model%interface%area, model%interface%gap < 0.0_wp))
+      attempt%seat_force = norm2(pack(analysis%states%normal%p_av*model%joints%element%area, model%joints%element%gap < 0.0_wp))
       attempt%where = 'interference (JGAP), before the first load'
       call find_equilibrium(model, analysis, system, attempt, failure)
       call free_idle_joints(model, analysis)
@@ -153,11 +153,11 @@ contains
 
       analysis%is_loose = .false.
       analysis%loose_force = 0.0_wp
-      do j = 1, size(model%joints)
+      do j = 1, size(model%joints%list)
          if (.not. is_idle(model, analysis, j)) cycle
-         associate (elements => model%interface(model%joints(j)%first:model%joints(j)%last), &
-                    states => analysis%states(model%joints(j)%first:model%joints(j)%last)%normal)
-            do i = model%joints(j)%first, model%joints(j)%last ! their sliding under almost no pressure is arbitrary
+         associate (elements => model%joints%element(model%joints%list(j)%first:model%joints%list(j)%last), &
+                    states => analysis%states(model%joints%list(j)%first:model%joints%list(j)%last)%normal)
+            do i = model%joints%list(j)%first, model%joints%list(j)%last ! their sliding under almost no pressure is arbitrary
                analysis%states(i)%shear = shear_state()
                analysis%states(i)%origin = analysis%movement(:2, i)
             end do
@@ -176,8 +176,8 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: joint
 
-      associate (area => model%interface(model%joints(joint)%first:model%joints(joint)%last)%area, &
-                 states => analysis%states(model%joints(joint)%first:model%joints(joint)%last)%normal)
+      associate (area => model%joints%element(model%joints%list(joint)%first:model%joints%list(joint)%last)%area, &
+                 states => analysis%states(model%joints%list(joint)%first:model%joints%list(joint)%last)%normal)
          is_idle = norm2(max(states%pressure, states%p_a)*area) <= 10.0_wp*idle*norm2(states%p_av*area)
       end associate
    end function is_idle
@@ -251,8 +251,8 @@ contains
 
       attempt%left = left
       attempt%load = analysis%now%condensed_load - left*analysis%change
-      if (attempt%seats) analysis%states%normal%gap = merge((1.0_wp - left)*model%interface%gap, model%interface%gap, &
-                                                            model%interface%gap < 0.0_wp)
+      if (attempt%seats) analysis%states%normal%gap = merge((1.0_wp - left)*model%joints%element%gap, model%joints%element%gap, &
+                                                            model%joints%element%gap < 0.0_wp)
       do i = merge(0, 1, attempt%growth > 0.0_wp), 3
          if (i > 0) attempt%growth = 0.0_wp
          attempt%moves = analysis%moves
@@ -285,7 +285,7 @@ contains
 
       words = attempt%where//': no equilibrium'
       if (attempt%loose > 0) then
-         associate (joint => model%joints(attempt%loose))
+         associate (joint => model%joints%list(attempt%loose))
             words = words//': joint '//integer_text(joint%id)//' slips or is open at all its nodes, from node '// &
                     integer_text(joint_node_id(model, joint%first, 1))// &
                     ' on, and does not hold the load in the direction of its movement'
@@ -303,8 +303,8 @@ contains
             ' changes its branch back and forth ('//integer_text(attempt%flips(worst))//' times, committed: '// &
             branch_name(analysis%states(worst)%normal%branch)//')'
       end if
-      if (any((model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given) .and. &
-              .not. model%joints%law%has_friction)) words = words// &
+      if (any((model%joints%list%law%shear(1)%given .or. model%joints%list%law%shear(2)%given) .and. &
+              .not. model%joints%list%law%has_friction)) words = words// &
          '; an element with shear and without friction drops its shear at once when it opens: give MU on PJOINT'
       call failure%raise(words)
    end subroutine give_up

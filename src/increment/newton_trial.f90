@@ -92,7 +92,7 @@ contains
 
       do i = 1, size(system%interface)
          associate (element => system%interface(i))
-            call follow_element(model%joints(element%joint)%law, element%area, analysis%states(i), &
+            call follow_element(model%joints%list(element%joint)%law, element%area, analysis%states(i), &
                                 joint_movement(element, trial%u), trial%states(i), trial%tangent(:, :, i))
          end associate
       end do
@@ -210,9 +210,9 @@ contains
       analysis%body = trial%body
       call find_movements(system, analysis)
       analysis%unbalanced = trial%residual
-      do i = 1, size(model%interface)
-         associate (state => analysis%states(i), element => model%interface(i), movement => analysis%movement(:, i))
-            call analysis%energy(element%joint)%add(work_along(model%joints(element%joint)%law, element%area, state, movement))
+      do i = 1, size(model%joints%element)
+         associate (state => analysis%states(i), element => model%joints%element(i), movement => analysis%movement(:, i))
+            call analysis%energy(element%joint)%add(work_along(model%joints%list(element%joint)%law, element%area, state, movement))
             state = trial%states(i)
             state%shear%k_s = [trial%tangent(1, 1, i), trial%tangent(2, 2, i)]
             call rest_when_open(state, movement)

@@ -36,7 +36,7 @@ contains
       if (failure%raised) return
       call form_structure_stiffness(model, stiffness_matrices(analysis%k), where_in_plan(plan, analysis%stage, &
                                     analysis%increment), system, failure, &
-                                    one_solution=.not. any(model%joints%law%has_friction))
+                                    one_solution=.not. any(model%joints%list%law%has_friction))
    end subroutine structure_stiffness
 
    !> {du} from [k_s] {du} = {dF}.
@@ -60,7 +60,7 @@ contains
 
       if (failure%raised) return
       analysis%record%kind = analysis%next_kind
-      do i = 1, size(model%interface)
+      do i = 1, size(model%joints%element)
          associate (state => analysis%states(i))
             state%normal%k_n = analysis%k(3, i)
             state%normal%lambda_before = state%normal%lambda
@@ -86,9 +86,9 @@ contains
 
       analysis%u = analysis%u + analysis%du
       analysis%body = analysis%body + f
-      do i = 1, size(model%interface)
+      do i = 1, size(model%joints%element)
          movement = joint_movement(system%interface(i), analysis%du)
-         associate (state => analysis%states(i), area => model%interface(i)%area)
+         associate (state => analysis%states(i), area => model%joints%element(i)%area)
             state%shear%delta = state%shear%delta + movement(:2)
             state%shear%tau = state%shear%tau + analysis%k(:2, i)*movement(:2)/area
             state%normal%lambda = state%normal%lambda + movement(3)
@@ -111,10 +111,10 @@ contains
       integer :: i
 
       if (failure%raised) return
-      if (any(model%joints%law%has_friction)) call relieve(model, plan, system, analysis, failure)
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i))
-            call analysis%energy(element%joint)%add(work_of_tangents(model%joints(element%joint)%law, element%area, &
+      if (any(model%joints%list%law%has_friction)) call relieve(model, plan, system, analysis, failure)
+      do i = 1, size(model%joints%element)
+         associate (element => model%joints%element(i))
+            call analysis%energy(element%joint)%add(work_of_tangents(model%joints%list(element%joint)%law, element%area, &
                                                                      analysis%states(i)))
          end associate
       end do
@@ -130,13 +130,13 @@ contains
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: excess(:, :), relief(:, :)
       real(wp) :: slid(2), total, total_after
-      integer  :: i, passes(size(model%interface)), reanalysis, worst
-      logical  :: is_listed, relieved(size(model%interface))
+      integer  :: i, passes(size(model%joints%element)), reanalysis, worst
+      logical  :: is_listed, relieved(size(model%joints%element))
       type(slip_record) :: record
 
-      allocate (excess(2, size(model%interface)))
+      allocate (excess(2, size(model%joints%element)))
       allocate (relief, mold=analysis%u)
-      passes = model%joints(model%interface%joint)%n_reanalyses
+      passes = model%joints%list(model%joints%element%joint)%n_reanalyses
       is_listed = plan%stages(analysis%stage)%output%level >= output_joint
       call find_excess(model, analysis, excess, total)
       do reanalysis = 1, most_reanalyses
@@ -154,7 +154,7 @@ contains
                analysis%record%slips = [analysis%record%slips, record]
             end if
             ! the element slides by the excess over its stiffness
-            associate (shear => analysis%states(i)%shear, area => model%interface(i)%area)
+            associate (shear => analysis%states(i)%shear, area => model%joints%element(i)%area)
                slid = 0.0_wp
                where (analysis%k(:2, i) > 0.0_wp) slid = excess(:, i)/analysis%k(:2, i)
                shear%tau = shear%tau - excess(:, i)/area
@@ -176,7 +176,7 @@ contains
       end do
       worst = first_largest(maxval(abs(excess), dim=1), passes < 0)
       call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': after '//integer_text(most_reanalyses)// &
-         ' re-analyses the friction of joint '//integer_text(model%joints(model%interface(worst)%joint)%id)// &
+         ' re-analyses the friction of joint '//integer_text(model%joints%list(model%joints%element(worst)%joint)%id)// &
          ' is still exceeded, by '//real_text(total)//' in all, most at node '// &
          integer_text(joint_node_id(model, worst, 1))//' in its tangential direction: the joint slips as a whole')
    end subroutine relieve
@@ -189,9 +189,9 @@ contains
       integer :: i
 
       total = 0.0_wp
-      do i = 1, size(model%interface)
-         associate (law => model%joints(model%interface(i)%joint)%law, state => analysis%states(i))
-            excess(:, i) = friction_excess(law, model%interface(i)%area, state)
+      do i = 1, size(model%joints%element)
+         associate (law => model%joints%list(model%joints%element(i)%joint)%law, state => analysis%states(i))
+            excess(:, i) = friction_excess(law, model%joints%element(i)%area, state)
             total = total + norm2(excess(:, i))
             if (exceeds_limit(law, state, flag_margin)) state%slips = .true.
          end associate
@@ -208,7 +208,8 @@ contains
       associate (state => states(record%element))
          record%delta(:, when) = state%shear%delta
          record%tau(:, when) = state%shear%tau
-         record%limit(when) = friction_limit(model%joints(model%interface(record%element)%joint)%law, state%normal%pressure)
+         record%limit(when) = friction_limit(model%joints%list(model%joints%element(record%element)%joint)%law, &
+            state%normal%pressure)
       end associate
    end subroutine note_slip
 

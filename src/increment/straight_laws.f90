@@ -57,12 +57,12 @@ contains
 
       allocate (laws(size(now%states)))
       do i = 1, size(laws)
-         associate (element => model%interface(i), state => now%states(i))
+         associate (element => model%joints%element(i), state => now%states(i))
             laws(i)%point = joint_movement(system%interface(i), now%u)
             laws(i)%force = force_of(element%area, state)
             laws(i)%tangent = now%tangent(:, :, i)
             laws(i)%state = state
-            laws(i)%elastic = stiffness_at_rest(model%joints(element%joint)%law, element%area, state%normal%p_av)
+            laws(i)%elastic = stiffness_at_rest(model%joints%list(element%joint)%law, element%area, state%normal%p_av)
          end associate
       end do
    end subroutine laws_at
@@ -79,8 +79,8 @@ contains
       integer :: d, i
       logical :: is_first, closes, unloads
 
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i), joint => model%joints(model%interface(i)%joint), &
+      do i = 1, size(model%joints%element)
+         associate (element => model%joints%element(i), joint => model%joints%list(model%joints%element(i)%joint), &
                     state => now%states(i)%normal, tangent => laws(i)%tangent, k => laws(i)%elastic)
             is_first = abs(state%lambda_a) <= 0.0_wp .and. abs(element%gap) <= 0.0_wp
             closes = is_apart(now%states(i))
@@ -126,7 +126,8 @@ contains
       softer = 1.0_wp
       if (attempt%n_slow > 0) softer = merge(10.0_wp, 0.1_wp, modulo(attempt%n_slow, 2) == 1)
       do i = 1, size(laws)
-         associate (straight => laws(i), area => model%interface(i)%area, law => model%joints(model%interface(i)%joint)%law)
+         associate (straight => laws(i), area => model%joints%element(i)%area, &
+            law => model%joints%list(model%joints%element(i)%joint)%law)
             movement = joint_movement(system%interface(i), now%u)
             force = straight%force + matmul(straight%tangent, movement - straight%point)
             true_force = force_of(area, now%states(i))
@@ -160,10 +161,10 @@ contains
       integer  :: i
 
       do i = 1, size(laws)
-         associate (normal => laws(i)%state%normal, tangent => laws(i)%tangent, element => model%interface(i))
+         associate (normal => laws(i)%state%normal, tangent => laws(i)%tangent, element => model%joints%element(i))
             if (normal%branch /= branch_load .or. .not. tangent(3, 3) > 0.0_wp) cycle
             if (abs(normal%lambda - normal%lambda_before) > rounding_of_deflections*abs(normal%lambda)) cycle
-            k = model%joints(element%joint)%law%normal%e_u*element%area
+            k = model%joints%list(element%joint)%law%normal%e_u*element%area
             if (k > tangent(3, 3)) tangent(:, 3) = tangent(:, 3)*(k/tangent(3, 3)) ! column 3 is proportional to dp/dlambda
          end associate
       end do
@@ -251,8 +252,8 @@ contains
       type(model_type), intent(in)    :: model
       type(element_state), intent(in) :: states(:)
 
-      do joint = 1, size(model%joints)
-         associate (of_joint => states(model%joints(joint)%first:model%joints(joint)%last))
+      do joint = 1, size(model%joints%list)
+         associate (of_joint => states(model%joints%list(joint)%first:model%joints%list(joint)%last))
             if (size(of_joint) > 0 .and. all(of_joint%slips .or. of_joint%normal%branch == branch_open)) return
          end associate
       end do

@@ -34,7 +34,7 @@ contains
 
       if (.not. allocated(k)) allocate (k(max_section_dofs, max_section_dofs))
       call element_stiffness(model, e, k)
-      if (allocated(model%coupling%of_node)) call onto_unknowns(model, participating_nodes(model, e), k)
+      if (allocated(model%freedoms%coupling%of_node)) call onto_unknowns(model, participating_nodes(model, e), k)
    end subroutine coupled_stiffness
 
    !> [k] between the displacements of the participating_nodes of element E, components of node 1 first [force/length].
@@ -45,13 +45,15 @@ contains
       real(wp) :: full(3*most_own, 3*most_own) ! between the nodal values of a shell or beam
 
       if (is_beam(model, e)) then
-         full(:12, :12) = beam_stiffness(model%structural%beams(model%structural%place(e)), model%x(:, corners_of(model, e)))
+         full(:12, :12) = beam_stiffness(model%mesh%structural%beams(model%mesh%structural%place(e)), model%mesh%x(:, &
+            corners_of(model, e)))
          call between_own(model, e, full, k)
       else if (is_shell(model, e)) then
-         call shell_stiffness(model%structural%shells(model%structural%place(e)), model%x(:, corners_of(model, e)), full)
+         call shell_stiffness(model%mesh%structural%shells(model%mesh%structural%place(e)), model%mesh%x(:, corners_of(model, &
+            e)), full)
          call between_own(model, e, full, k)
       else
-         call stiffness(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), k)
+         call stiffness(law_of(model, e), model%mesh%x(:model%mesh%dimension, corners_of(model, e)), k)
          call extend_stiffness(model, e, k)
       end if
    end subroutine element_stiffness
@@ -60,14 +62,14 @@ contains
    pure function element_centre(model, e) result(x)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      real(wp) :: x(model%dimension), n(max_nodes)
+      real(wp) :: x(model%mesh%dimension), n(max_nodes)
 
-      associate (nodes => corners_of(model, e), kind => element_table(model%element_kind(e)))
+      associate (nodes => corners_of(model, e), kind => element_table(model%mesh%element_kind(e)))
          if (kind%n_nodes == kind%n_corners) then
-            x = sum(model%x(:model%dimension, nodes), dim=2)/size(nodes)
+            x = sum(model%mesh%x(:model%mesh%dimension, nodes), dim=2)/size(nodes)
          else
-            call shape_values(model%element_kind(e), centre_point(:, model%element_kind(e)), n)
-            x = matmul(model%x(:model%dimension, nodes), n(:size(nodes)))
+            call shape_values(model%mesh%element_kind(e), centre_point(:, model%mesh%element_kind(e)), n)
+            x = matmul(model%mesh%x(:model%mesh%dimension, nodes), n(:size(nodes)))
          end if
       end associate
    end function element_centre
@@ -79,18 +81,19 @@ contains
       integer, intent(in)                :: e
       real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
       type(temperature_type), intent(in) :: temperature
-      real(wp) :: stress(n_stresses(model%properties(model%element_property(e))%state))
+      real(wp) :: stress(n_stresses(model%mesh%properties(model%mesh%element_property(e))%state))
       real(wp) :: at_corners(max_stresses, 5, 1) ! of a shell in its mean plane, and at its centre
 
       if (is_beam(model, e)) then
          stress = 0.0_wp
       else if (is_shell(model, e)) then
-         associate (n => element_table(model%element_kind(e))%n_nodes)
+         associate (n => element_table(model%mesh%element_kind(e))%n_nodes)
             call structural_stress(model, e, u(:, own_nodes(model, e)), temperature, [0.0_wp], at_corners(:, :n + 1, :))
             stress = at_corners(:, n + 1, 1)
          end associate
       else
-         call centre_stress(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), corner_displacements(model, e, u), &
+         call centre_stress(law_of(model, e), model%mesh%x(:model%mesh%dimension, corners_of(model, e)), &
+            corner_displacements(model, e, u), &
                             stress, element_rise(model, e, temperature))
       end if
    end function element_stress
@@ -103,7 +106,8 @@ contains
       type(temperature_type), intent(in) :: temperature
       real(wp), intent(inout)            :: stress(:, :) !! (components, nodes) [pressure], set here
 
-      call nodal_stress(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), corner_displacements(model, e, u), &
+      call nodal_stress(law_of(model, e), model%mesh%x(:model%mesh%dimension, corners_of(model, e)), corner_displacements(model, &
+         e, u), &
                         stress, element_rise(model, e, temperature))
    end subroutine element_nodal_stress
 
@@ -118,13 +122,13 @@ contains
       integer :: e, first, i, last
 
       at_node = 0.0_wp
-      allocate (n_at(size(at_node, 2)), source=model%first_at(2:size(at_node, 2) + 1) - model%first_at(:size(at_node, 2)))
-      do e = 1, model%n_elements ! shells and beams have separate tables
+      allocate (n_at(size(at_node, 2)), source=model%mesh%first_at(2:size(at_node, 2) + 1) - model%mesh%first_at(:size(at_node, 2)))
+      do e = 1, model%mesh%n_elements ! shells and beams have separate tables
          if (is_shell(model, e) .or. is_beam(model, e)) n_at(corners_of(model, e)) = n_at(corners_of(model, e)) - 1
       end do
-      allocate (shares(max_stresses, size(model%element_nodes, 1), min(block, model%n_elements)))
-      do first = 1, model%n_elements, block
-         last = min(model%n_elements, first + block - 1)
+      allocate (shares(max_stresses, size(model%mesh%element_nodes, 1), min(block, model%mesh%n_elements)))
+      do first = 1, model%mesh%n_elements, block
+         last = min(model%mesh%n_elements, first + block - 1)
          !$omp parallel do schedule(dynamic, 128) default(shared) if(last - first > few)
          do e = first, last
             if (.not. (is_shell(model, e) .or. is_beam(model, e))) call find_shares(e, shares(:, :, e - first + 1))
@@ -132,8 +136,8 @@ contains
          !$omp end parallel do
          do e = first, last
             if (is_shell(model, e) .or. is_beam(model, e)) cycle
-            do i = 1, element_table(model%element_kind(e))%n_nodes
-               associate (node => model%element_nodes(i, e))
+            do i = 1, element_table(model%mesh%element_kind(e))%n_nodes
+               associate (node => model%mesh%element_nodes(i, e))
                   at_node(:, node) = at_node(:, node) + shares(:, i, e - first + 1)
                end associate
             end do
@@ -150,7 +154,7 @@ contains
          integer  :: c, i
 
          associate (nodes => corners_of(model, e))
-            c = n_stresses(model%properties(model%element_property(e))%state)
+            c = n_stresses(model%mesh%properties(model%mesh%element_property(e))%state)
             rise(:size(nodes)) = element_rise(model, e, temperature)
             call element_nodal_stress(model, e, u, temperature, nodal(:c, :size(nodes)))
             do i = 1, size(nodes)
@@ -169,7 +173,7 @@ contains
       type(temperature_type), intent(in) :: temperature
       real(wp) :: whole(max_stresses), n(max_nodes)
 
-      call shape_values(model%element_kind(e), centre_point(:, model%element_kind(e)), n)
+      call shape_values(model%mesh%element_kind(e), centre_point(:, model%mesh%element_kind(e)), n)
       associate (rise => element_rise(model, e, temperature))
          whole = full_stress(model, e, element_stress(model, e, u, temperature), dot_product(n(:size(rise)), rise))
       end associate
@@ -184,7 +188,7 @@ contains
       real(wp) :: full(max_stresses)
 
       full = 0.0_wp
-      associate (property => model%properties(model%element_property(e)))
+      associate (property => model%mesh%properties(model%mesh%element_property(e)))
          if (size(stress) == max_stresses) then ! solids, shells, beams
             full = stress
          else
@@ -205,9 +209,10 @@ contains
       integer :: e, first, i, last
 
       f = 0.0_wp
-      allocate (p(model%dimension, max(8, size(model%element_nodes, 1)) + 1, min(block, model%n_elements))) ! 8: with rotations
-      do first = 1, model%n_elements, block
-         last = min(model%n_elements, first + block - 1)
+      ! 8: with rotations
+      allocate (p(model%mesh%dimension, max(8, size(model%mesh%element_nodes, 1)) + 1, min(block, model%mesh%n_elements)))
+      do first = 1, model%mesh%n_elements, block
+         last = min(model%mesh%n_elements, first + block - 1)
          !$omp parallel do schedule(dynamic, 128) default(shared) if(last - first > few)
          do e = first, last
             call element_forces(model, e, u, p(:, :, e - first + 1))
@@ -234,9 +239,9 @@ contains
 
       call element_stiffness(model, e, k)
       associate (nodes => participating_nodes(model, e))
-         n = model%dimension*size(nodes)
+         n = model%mesh%dimension*size(nodes)
          q(:n) = reshape(u(:, nodes), [n])
-         p(:, :size(nodes)) = reshape(matmul(k(:n, :n), q(:n)), [model%dimension, size(nodes)])
+         p(:, :size(nodes)) = reshape(matmul(k(:n, :n), q(:n)), [model%mesh%dimension, size(nodes)])
       end associate
    end subroutine element_forces
 
@@ -248,18 +253,18 @@ contains
       real(wp), intent(inout)            :: f(:, :) !! (dimension, nodes) [force], set here
       real(wp) :: nodal(3, most_own)                ! on the nodal values of a shell or beam
 
-      associate (rise => element_rise(model, e, temperature), x => model%x(:, corners_of(model, e)))
+      associate (rise => element_rise(model, e, temperature), x => model%mesh%x(:, corners_of(model, e)))
          if (is_beam(model, e)) then
-            associate (law => model%structural%beams(model%structural%place(e)))
+            associate (law => model%mesh%structural%beams(model%mesh%structural%place(e)))
                nodal(:, :4) = beam_nodal_forces(law, x, beam_thermal_load(law, sum(rise)/2))
             end associate
             call onto_own(model, e, nodal, f)
          else if (is_shell(model, e)) then
-            call shell_thermal_forces(model%structural%shells(model%structural%place(e)), x, rise, &
+            call shell_thermal_forces(model%mesh%structural%shells(model%mesh%structural%place(e)), x, rise, &
                                       element_slope(model, e, temperature), nodal)
             call onto_own(model, e, nodal, f)
          else
-            call nodal_thermal_forces(law_of(model, e), x(:model%dimension, :), rise, f)
+            call nodal_thermal_forces(law_of(model, e), x(:model%mesh%dimension, :), rise, f)
          end if
       end associate
    end subroutine element_thermal_forces
@@ -269,10 +274,10 @@ contains
       type(model_type), intent(in)       :: model
       type(temperature_type), intent(in) :: temperature
       real(wp), intent(inout)            :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp) :: nodal(model%dimension, max_nodes)
+      real(wp) :: nodal(model%mesh%dimension, max_nodes)
       integer  :: e
 
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          associate (nodes => own_nodes(model, e))
             call element_thermal_forces(model, e, temperature, nodal)
             f(:, nodes) = f(:, nodes) + nodal(:, :size(nodes))
@@ -286,8 +291,8 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
 
-      associate (property => model%properties(model%element_property(e)))
-         law_of = make_element_law(model%element_kind(e), property%state, property%e, property%nu, property%thickness, &
+      associate (property => model%mesh%properties(model%mesh%element_property(e)))
+         law_of = make_element_law(model%mesh%element_kind(e), property%state, property%e, property%nu, property%thickness, &
                                    property%incompatible, property%alpha)
       end associate
    end function law_of

@@ -33,7 +33,7 @@ contains
       integer :: e
 
       shown%n_points = n_points(model)
-      allocate (shown%elements, source=[(e, e = 1, model%n_elements)])
+      allocate (shown%elements, source=[(e, e = 1, model%mesh%n_elements)])
       shown%is_warm = has_temperatures(model)
    end function all_shown
 
@@ -46,19 +46,19 @@ contains
       integer, allocatable :: place(:)
       integer :: e, i
 
-      allocate (place(0:model%n_nodes), source=0)
+      allocate (place(0:model%mesh%n_nodes), source=0)
       place(nodes) = [(i, i = 1, size(nodes))]
-      part%dimension = model%dimension
-      part%properties = model%properties
-      part%n_elements = size(elements)
-      part%element_kind = model%element_kind(elements)
-      part%element_property = model%element_property(elements)
-      part%element_nodes = model%element_nodes(:, elements)
-      do e = 1, part%n_elements
-         part%element_nodes(:, e) = place(part%element_nodes(:, e)) ! 0 stays 0
+      part%mesh%dimension = model%mesh%dimension
+      part%mesh%properties = model%mesh%properties
+      part%mesh%n_elements = size(elements)
+      part%mesh%element_kind = model%mesh%element_kind(elements)
+      part%mesh%element_property = model%mesh%element_property(elements)
+      part%mesh%element_nodes = model%mesh%element_nodes(:, elements)
+      do e = 1, part%mesh%n_elements
+         part%mesh%element_nodes(:, e) = place(part%mesh%element_nodes(:, e)) ! 0 stays 0
       end do
-      part%n_nodes = size(nodes)
-      part%x = model%x(:, nodes)
+      part%mesh%n_nodes = size(nodes)
+      part%mesh%x = model%mesh%x(:, nodes)
    end subroutine extract
 
    !> The nodes of these ELEMENTS, ascending.
@@ -66,14 +66,14 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: elements(:)
       integer, allocatable :: nodes(:)
-      logical :: has(model%n_nodes)
+      logical :: has(model%mesh%n_nodes)
       integer :: i, k
 
       has = .false.
       do k = 1, size(elements)
          has(corners_of(model, elements(k))) = .true.
       end do
-      nodes = pack([(i, i = 1, model%n_nodes)], has)
+      nodes = pack([(i, i = 1, model%mesh%n_nodes)], has)
    end function nodes_of_elements
 
    !> The PIECE number R: the elements whose first node belongs to part R, and the points of this part without elements. NODES are
@@ -88,35 +88,36 @@ contains
       integer, allocatable :: elements(:)
       integer :: e, i
 
-      allocate (is_own(model%n_elements), is_part(model%n_elements))
-      allocate (is_shown(model%n_nodes), is_needed(model%n_nodes), source=.false.)
-      do e = 1, model%n_elements
-         is_own(e) = max(owner(model%element_nodes(1, e)), 0) == r
+      allocate (is_own(model%mesh%n_elements), is_part(model%mesh%n_elements))
+      allocate (is_shown(model%mesh%n_nodes), is_needed(model%mesh%n_nodes), source=.false.)
+      do e = 1, model%mesh%n_elements
+         is_own(e) = max(owner(model%mesh%element_nodes(1, e)), 0) == r
          if (is_own(e)) is_shown(corners_of(model, e)) = .true.
       end do
       do i = 1, n_points(model)
-         if (model%first_at(i + 1) == model%first_at(i)) is_shown(i) = max(owner(i), 0) == r
+         if (model%mesh%first_at(i + 1) == model%mesh%first_at(i)) is_shown(i) = max(owner(i), 0) == r
       end do
       is_part = is_own
-      do i = 1, model%n_nodes
-         if (is_shown(i)) is_part(model%elements_at(model%first_at(i):model%first_at(i + 1) - 1)) = .true.
+      do i = 1, model%mesh%n_nodes
+         if (is_shown(i)) is_part(model%mesh%elements_at(model%mesh%first_at(i):model%mesh%first_at(i + 1) - 1)) = .true.
       end do
-      elements = pack([(e, e = 1, model%n_elements)], is_part)
+      elements = pack([(e, e = 1, model%mesh%n_elements)], is_part)
       do e = 1, size(elements)
          is_needed(participating_nodes(model, elements(e))) = .true.
       end do
-      nodes = [pack([(i, i = 1, model%n_nodes)], is_shown), pack([(i, i = 1, model%n_nodes)], is_needed .and. .not. is_shown)]
+      nodes = [pack([(i, i = 1, model%mesh%n_nodes)], is_shown), pack([(i, i = 1, model%mesh%n_nodes)], is_needed &
+         .and. .not. is_shown)]
       call extract(model, elements, nodes, piece%model)
       associate (part => piece%model)
-         part%node_id = model%node_id(nodes)
-         part%element_id = model%element_id(elements)
-         call list_owners(part%n_nodes, part%element_nodes, part%first_at, part%elements_at)
+         part%mesh%node_id = model%mesh%node_id(nodes)
+         part%mesh%element_id = model%mesh%element_id(elements)
+         call list_owners(part%mesh%n_nodes, part%mesh%element_nodes, part%mesh%first_at, part%mesh%elements_at)
          if (n_sections(model) > 0) then
-            part%element_section = model%element_section(elements)
-            part%node_section = model%node_section(nodes)
-            part%sections = model%sections
-            do i = 1, size(part%sections) ! a section without elements in PART has no node in PART
-               part%sections(i)%node = findloc(nodes, model%sections(i)%node, dim=1)
+            part%mesh%element_section = model%mesh%element_section(elements)
+            part%mesh%node_section = model%mesh%node_section(nodes)
+            part%mesh%sections = model%mesh%sections
+            do i = 1, size(part%mesh%sections) ! a section without elements in PART has no node in PART
+               part%mesh%sections(i)%node = findloc(nodes, model%mesh%sections(i)%node, dim=1)
             end do
          end if
       end associate

@@ -29,7 +29,7 @@ module mass_matrix
       integer, allocatable  :: column(:)
       real(wp), allocatable :: value(:)      !! [force time^2/length]
       integer, allocatable  :: whole(:)      !! elements with matrices of their own: beams, and elements behind sections
-      integer, allocatable  :: turning(:)    !! masses at nodes with rotations, and CMASS2: positions in model%masses
+      integer, allocatable  :: turning(:)    !! masses at nodes with rotations, and CMASS2: positions in model%mesh%masses
    end type mass_matrix_type
 
 contains
@@ -39,7 +39,7 @@ contains
       type(model_type), intent(in) :: model
 
       n_masses = 0
-      if (allocated(model%masses)) n_masses = size(model%masses)
+      if (allocated(model%mesh%masses)) n_masses = size(model%mesh%masses)
    end function n_masses
 
    !> Mass between the own_nodes of element E (no beam), the same for every component of their displacements [force time^2/length].
@@ -51,25 +51,25 @@ contains
       real(wp), intent(inout)      :: m(:, :) !! (nodes, nodes), set here
       integer :: i, n
 
-      n = element_table(model%element_kind(e))%n_nodes
-      associate (corners => corners_of(model, e), property => model%properties(model%element_property(e)))
+      n = element_table(model%mesh%element_kind(e))%n_nodes
+      associate (corners => corners_of(model, e), property => model%mesh%properties(model%mesh%element_property(e)))
          if (is_shell(model, e)) then
-            associate (x => model%x(:, corners), t => model%structural%shells(model%structural%place(e))%thickness)
+            associate (x => model%mesh%x(:, corners), t => model%mesh%structural%shells(model%mesh%structural%place(e))%thickness)
                m(:2*n, :2*n) = 0.0_wp
                call shell_products(x, property%rho*t(:n) + property%extra_mass, m(:n, :n))
-               if (.not. model%lumped) call shell_products(x, property%rho*t(:n)**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
+               if (.not. model%mesh%lumped) call shell_products(x, property%rho*t(:n)**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
             end associate
             do i = n + 1, 2*n
-               associate (arm => model%rotations(model%rotation_of(corners(i - n)))%arm)
+               associate (arm => model%mesh%rotations(model%mesh%rotation_of(corners(i - n)))%arm)
                   m(i, n + 1:2*n) = m(i, n + 1:2*n)/arm
                   m(n + 1:2*n, i) = m(n + 1:2*n, i)/arm
                end associate
             end do
          else
-            call shape_products(law_of(model, e), model%x(:model%dimension, corners), m)
+            call shape_products(law_of(model, e), model%mesh%x(:model%mesh%dimension, corners), m)
             m(:n, :n) = property%rho*m(:n, :n)
          end if
-         if (model%lumped) call lump(m(:n, :n))
+         if (model%mesh%lumped) call lump(m(:n, :n))
       end associate
    end subroutine scalar_mass
 
@@ -82,11 +82,11 @@ contains
       integer  :: c, d, n
 
       if (is_beam(model, e)) then
-         call between_own(model, e, beam_mass(model%structural%beams(model%structural%place(e)), &
-                                              model%x(:, corners_of(model, e)), model%lumped), m)
+         call between_own(model, e, beam_mass(model%mesh%structural%beams(model%mesh%structural%place(e)), &
+                                              model%mesh%x(:, corners_of(model, e)), model%mesh%lumped), m)
          return
       end if
-      d = model%dimension
+      d = model%mesh%dimension
       n = size(own_nodes(model, e))
       call scalar_mass(model, e, scalar)
       m(:d*n, :d*n) = 0.0_wp
@@ -109,8 +109,8 @@ contains
       if (.not. abs(shift) > 0.0_wp) return
       allocate (full(max_section_dofs, max_section_dofs))
       call whole_mass(model, e, full)
-      if (allocated(model%coupling%of_node)) call onto_unknowns(model, participating_nodes(model, e), full)
-      n = model%dimension*size(unknown_nodes(model, participating_nodes(model, e)))
+      if (allocated(model%freedoms%coupling%of_node)) call onto_unknowns(model, participating_nodes(model, e), full)
+      n = model%mesh%dimension*size(unknown_nodes(model, participating_nodes(model, e)))
       k(:n, :n) = k(:n, :n) - shift*full(:n, :n)
    end subroutine coupled_dynamic_stiffness
 
@@ -120,8 +120,8 @@ contains
       integer, intent(in)          :: i
       real(wp) :: m(2, 2)
 
-      m = model%bars(i)%mass/6.0_wp*reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])
-      if (model%lumped) call lump(m)
+      m = model%mesh%bars(i)%mass/6.0_wp*reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])
+      if (model%mesh%lumped) call lump(m)
    end function bar_mass
 
    !> [m] of bar I between the unknowns of the unknown_nodes of its nodes.
@@ -129,15 +129,15 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i
       real(wp), allocatable :: m(:, :)
-      real(wp) :: of_components(2*model%dimension, 2*model%dimension)
+      real(wp) :: of_components(2*model%mesh%dimension, 2*model%mesh%dimension)
       integer  :: c, d
 
-      d = model%dimension
+      d = model%mesh%dimension
       of_components = 0.0_wp
       do c = 1, d
          of_components(c::d, c::d) = bar_mass(model, i)
       end do
-      m = between_unknowns(model, bar_nodes(model%bars(i)), of_components)
+      m = between_unknowns(model, bar_nodes(model%mesh%bars(i)), of_components)
    end function coupled_bar_mass
 
    !> The nodes of MASS: its own, and the node of its rotations if there is one.
@@ -147,7 +147,7 @@ contains
       integer, allocatable :: nodes(:)
 
       nodes = [mass%node]
-      if (rotation_at(model, mass%node) > 0) nodes = [nodes, model%rotations(rotation_at(model, mass%node))%node]
+      if (rotation_at(model, mass%node) > 0) nodes = [nodes, model%mesh%rotations(rotation_at(model, mass%node))%node]
    end function mass_nodes
 
    !> The inertia of MASS with respect to the node of its rotations, whose components are rotations times an arm: in space about x,
@@ -155,10 +155,10 @@ contains
    pure function inertia_at_rotation(model, mass) result(m)
       type(model_type), intent(in)      :: model
       type(point_mass_type), intent(in) :: mass
-      real(wp) :: m(model%dimension, model%dimension)
+      real(wp) :: m(model%mesh%dimension, model%mesh%dimension)
 
-      associate (arm => model%rotations(rotation_at(model, mass%node))%arm)
-         if (model%dimension == 3) then
+      associate (arm => model%mesh%rotations(rotation_at(model, mass%node))%arm)
+         if (model%mesh%dimension == 3) then
             m = mass%inertia/arm**2
          else
             m = 0.0_wp
@@ -172,10 +172,10 @@ contains
       type(model_type), intent(in)      :: model
       type(point_mass_type), intent(in) :: mass
       real(wp), allocatable :: m(:, :)
-      real(wp) :: of_components(2*model%dimension, 2*model%dimension)
+      real(wp) :: of_components(2*model%mesh%dimension, 2*model%mesh%dimension)
       integer  :: d
 
-      d = model%dimension
+      d = model%mesh%dimension
       of_components = 0.0_wp
       of_components(:d, :d) = mass%directed(:d, :d) + mass%mass*identity(:d, :d)
       associate (nodes => mass_nodes(model, mass))
@@ -192,22 +192,22 @@ contains
       integer  :: e, i
 
       call lay_out(model, mass)
-      mass%whole = pack([(e, e = 1, model%n_elements)], [(has_own_matrix(model, e), e = 1, model%n_elements)])
-      do e = 1, model%n_elements
+      mass%whole = pack([(e, e = 1, model%mesh%n_elements)], [(has_own_matrix(model, e), e = 1, model%mesh%n_elements)])
+      do e = 1, model%mesh%n_elements
          if (has_own_matrix(model, e)) cycle
          call scalar_mass(model, e, m)
          call add(own_nodes(model, e), m)
       end do
       do i = 1, n_bars(model)
-         associate (bar => model%bars(i))
+         associate (bar => model%mesh%bars(i))
             if (bar%mass > 0.0_wp) call add(bar%nodes, bar_mass(model, i))
          end associate
       end do
       mass%turning = [integer ::]
       do i = 1, n_masses(model)
-         associate (node => model%masses(i)%node)
-            call add([node], reshape([model%masses(i)%mass], [1, 1]))
-            if (rotation_at(model, node) > 0 .or. any(model%masses(i)%directed > 0.0_wp)) mass%turning = [mass%turning, i]
+         associate (node => model%mesh%masses(i)%node)
+            call add([node], reshape([model%mesh%masses(i)%mass], [1, 1]))
+            if (rotation_at(model, node) > 0 .or. any(model%mesh%masses(i)%directed > 0.0_wp)) mass%turning = [mass%turning, i]
          end associate
       end do
 
@@ -247,18 +247,18 @@ contains
 
       allocate (ends(2, n_bars(model)), source=0)
       do i = 1, n_bars(model)
-         if (model%bars(i)%mass > 0.0_wp) ends(:, i) = model%bars(i)%nodes
+         if (model%mesh%bars(i)%mass > 0.0_wp) ends(:, i) = model%mesh%bars(i)%nodes
       end do
-      call list_owners(model%n_nodes, ends, first_bar, bars_at)
-      allocate (mass%first(model%n_nodes + 1), seen_by(model%n_nodes))
+      call list_owners(model%mesh%n_nodes, ends, first_bar, bars_at)
+      allocate (mass%first(model%mesh%n_nodes + 1), seen_by(model%mesh%n_nodes))
       do pass = 1, 2 ! count, then fill
          seen_by = 0
          n = 0
-         do node = 1, model%n_nodes
+         do node = 1, model%mesh%n_nodes
             mass%first(node) = n + 1
             call visit(node)
-            do i = model%first_at(node), model%first_at(node + 1) - 1
-               e = model%elements_at(i)
+            do i = model%mesh%first_at(node), model%mesh%first_at(node + 1) - 1
+               e = model%mesh%elements_at(i)
                if (has_own_matrix(model, e)) cycle
                associate (nodes => own_nodes(model, e))
                   do k = 1, size(nodes)
@@ -271,7 +271,7 @@ contains
                call visit(ends(2, bars_at(i)))
             end do
          end do
-         mass%first(model%n_nodes + 1) = n + 1
+         mass%first(model%mesh%n_nodes + 1) = n + 1
          if (pass == 1) allocate (mass%column(n))
       end do
       allocate (mass%value(n), source=0.0_wp)
@@ -298,8 +298,8 @@ contains
       real(wp) :: m(max_section_dofs, max_section_dofs), s(3)
       integer  :: i, k, n
 
-      !$omp parallel do default(shared) private(k, s) if(model%n_nodes > worth_threads)
-      do i = 1, model%n_nodes
+      !$omp parallel do default(shared) private(k, s) if(model%mesh%n_nodes > worth_threads)
+      do i = 1, model%mesh%n_nodes
          s = 0.0_wp
          do k = mass%first(i), mass%first(i + 1) - 1
             s(1) = s(1) + mass%value(k)*a(1, mass%column(k))
@@ -311,16 +311,16 @@ contains
       !$omp end parallel do
       do i = 1, size(mass%whole)
          associate (nodes => participating_nodes(model, mass%whole(i)))
-            n = model%dimension*size(nodes)
+            n = model%mesh%dimension*size(nodes)
             call whole_mass(model, mass%whole(i), m)
-            f(:, nodes) = f(:, nodes) + reshape(matmul(m(:n, :n), pack(a(:, nodes), .true.)), [model%dimension, size(nodes)])
+            f(:, nodes) = f(:, nodes) + reshape(matmul(m(:n, :n), pack(a(:, nodes), .true.)), [model%mesh%dimension, size(nodes)])
          end associate
       end do
       do i = 1, size(mass%turning)
-         associate (point => model%masses(mass%turning(i)))
+         associate (point => model%mesh%masses(mass%turning(i)))
             f(:, point%node) = f(:, point%node) + matmul(point%directed(:size(a, 1), :size(a, 1)), a(:, point%node))
             if (rotation_at(model, point%node) == 0) cycle
-            associate (node => model%rotations(rotation_at(model, point%node))%node)
+            associate (node => model%mesh%rotations(rotation_at(model, point%node))%node)
                f(:, node) = f(:, node) + matmul(inertia_at_rotation(model, point), a(:, node))
             end associate
          end associate
@@ -336,11 +336,12 @@ contains
       real(wp), intent(out)              :: total      !! [force time^2/length]
       real(wp), intent(out)              :: centre(3)  !! [length]
       real(wp), intent(out)              :: inertia(6) !! [force time^2 length]
-      real(wp) :: a(model%dimension, model%n_nodes), f(model%dimension, model%n_nodes), second(3, 3), x(3, model%n_nodes)
+      real(wp) :: a(model%mesh%dimension, model%mesh%n_nodes), f(model%mesh%dimension, model%mesh%n_nodes), second(3, 3), x(3, &
+         model%mesh%n_nodes)
       integer  :: c, i
 
       x = 0.0_wp
-      x(:, :n_points(model)) = model%x(:, :n_points(model))
+      x(:, :n_points(model)) = model%mesh%x(:, :n_points(model))
       a = 0.0_wp
       a(1, :n_points(model)) = 1.0_wp
       call mass_times(model, mass, a, f)
@@ -349,19 +350,19 @@ contains
       inertia = 0.0_wp
       if (.not. total > 0.0_wp) return
       centre = matmul(x, f(1, :))/total
-      if (model%axisymmetric) return
+      if (model%mesh%axisymmetric) return
       second = 0.0_wp
-      do c = 1, model%dimension
+      do c = 1, model%mesh%dimension
          a = 0.0_wp
          a(1, :n_points(model)) = x(c, :n_points(model)) - centre(c)
          call mass_times(model, mass, a, f)
          second(:, c) = matmul(x, f(1, :)) - centre*sum(f(1, :))
       end do
-      if (model%dimension == 2) second(3, :) = 0.0_wp
+      if (model%mesh%dimension == 2) second(3, :) = 0.0_wp
       inertia = [second(2, 2) + second(3, 3), second(3, 3) + second(1, 1), second(1, 1) + second(2, 2), &
                  second(1, 2), second(2, 3), second(3, 1)]
       do i = 1, n_masses(model)
-         associate (tensor => model%masses(i)%inertia)
+         associate (tensor => model%mesh%masses(i)%inertia)
             inertia = inertia + [tensor(1, 1), tensor(2, 2), tensor(3, 3), -tensor(1, 2), -tensor(2, 3), -tensor(3, 1)]
          end associate
       end do

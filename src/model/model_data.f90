@@ -206,7 +206,9 @@ module model_data
       real(wp), allocatable :: t(:, :, :)    !! (dimension, dimension, likewise) by this matrix [-]
    end type node_coupling_type
 
-   type, public :: model_type
+   !> The mesh: points with duplicates, mid-side and face nodes, the nodes of rotations and of pretension sections; elements, properties,
+   !! surfaces; bars, springs, masses.
+   type, public :: mesh_type
       integer :: dimension = 2               !! degrees of freedom per node
       character(:), allocatable :: kind_words !! how a model in x-y without MODEL is read; not allocated: no choice
       logical :: axisymmetric = .false.      !! about y; loads, areas and forces are those of the whole ring
@@ -216,14 +218,6 @@ module model_data
       integer, allocatable  :: node_id(:)    !! ascending; 0 for the nodes of rotations and of sections, which follow
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
       integer, allocatable  :: duplicate(:)  !! (n_nodes) the duplicate of a node on a split surface, 0: none
-      logical, allocatable  :: used(:)       !! (n_nodes) whether any element has the node
-      logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported unknowns
-      type(support_group), allocatable :: support_groups(:)
-      logical :: floats = .false.            !! the structure has no supports but those of FREE
-      integer, allocatable  :: support_of(:, :) !! (dimension, nodes at that time) the first of the groups that supports it, 0: none
-      logical, allocatable  :: left_out(:, :) !! (dimension, n_nodes) no unknown and no support: dependent components, or
-                                             !! components of reference nodes that move nothing; held too; if there are any
-      type(node_coupling_type) :: coupling   !! of displacements to unknowns
       integer, allocatable  :: node_system(:) !! (n_nodes) the system CD of a node, 0: global axes; allocated if any node has one
       type(placed_node), allocatable :: placed(:) !! nodes defined by position; not allocated: none
       type(id_table_type)   :: node_table
@@ -239,8 +233,6 @@ module model_data
       type(property_type), allocatable :: properties(:)
       type(structural_type) :: structural        !! set if there are shells or beams
       type(surface_type), allocatable  :: surfaces(:)
-      type(joint_type), allocatable    :: joints(:)
-      type(interface_element), allocatable :: interface(:)
       type(bar_type), allocatable          :: bars(:)
       type(point_mass_type), allocatable   :: masses(:)
       logical :: lumped = .false.            !! MASS = LUMPED: the masses of elements are lumped at their nodes
@@ -251,9 +243,39 @@ module model_data
       integer, allocatable  :: rotation_of(:)        !! (points) position of a node in rotations, 0: none; if there are any
       integer, allocatable  :: node_section(:)       !! (n_nodes) the section that contains a node, 0: none; if there are any
       integer, allocatable  :: element_section(:)    !! (n_elements) the section that an element touches from behind, 0: none
-      type(stage_load_type), allocatable   :: stage_loads(:)
+   end type mesh_type
+
+   !> The joints and their interface elements.
+   type, public :: joints_type
+      type(joint_type), allocatable :: list(:)
+      type(interface_element), allocatable :: element(:) !! those of joint j are first to last of it
+   end type joints_type
+
+   !> What the unknowns of the nodes are: supported, dependent, coupled; the connected parts.
+   type, public :: freedoms_type
+      logical, allocatable  :: used(:)       !! (n_nodes) whether any element has the node
+      logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported unknowns
+      type(support_group), allocatable :: support_groups(:)
+      logical :: floats = .false.            !! the structure has no supports but those of FREE
+      integer, allocatable  :: support_of(:, :) !! (dimension, nodes at that time) the first of the groups that supports it, 0: none
+      logical, allocatable  :: left_out(:, :) !! (dimension, n_nodes) no unknown and no support: dependent components, or
+                                             !! components of reference nodes that move nothing; held too; if there are any
+      type(node_coupling_type) :: coupling   !! of displacements to unknowns
       integer, allocatable  :: part(:)       !! (n_nodes) the connected body of a node
       integer :: n_parts = 0
+   end type freedoms_type
+
+   !> The load history: the loads at the end of every stage.
+   type, public :: history_type
+      type(stage_load_type), allocatable :: stages(:)
+   end type history_type
+
+   !> The model, in parts. Each is made by one routine of model_build from those before it.
+   type, public :: model_type
+      type(mesh_type)     :: mesh
+      type(joints_type)   :: joints
+      type(freedoms_type) :: freedoms
+      type(history_type)  :: history
       type(text_item), allocatable :: warnings(:) !! about the model, found while it was built
    end type model_type
 
@@ -264,7 +286,7 @@ contains
       type(model_type), intent(in) :: model
 
       n_bars = 0
-      if (allocated(model%bars)) n_bars = size(model%bars)
+      if (allocated(model%mesh%bars)) n_bars = size(model%mesh%bars)
    end function n_bars
 
    !> The nodes of BAR, without the ground.
@@ -280,14 +302,14 @@ contains
       type(model_type), intent(in) :: model
 
       n_sections = 0
-      if (allocated(model%sections)) n_sections = size(model%sections)
+      if (allocated(model%mesh%sections)) n_sections = size(model%mesh%sections)
    end function n_sections
 
    !> The number of points of the structure. The nodes of rotations and sections follow the points.
    pure integer function n_points(model)
       type(model_type), intent(in) :: model
 
-      n_points = model%n_nodes - n_sections(model) - n_rotations(model)
+      n_points = model%mesh%n_nodes - n_sections(model) - n_rotations(model)
    end function n_points
 
    !> The kind of the unknowns of NODE. The nodes of rotations follow the points, the nodes of sections follow those.
@@ -300,7 +322,7 @@ contains
       if (node > n_points(model) + n_rotations(model)) kind = an_overlap
    end function node_kind
 
-   !> The position of NODE in its kind: itself for a point, else in model%rotations or model%sections.
+   !> The position of NODE in its kind: itself for a point, else in model%mesh%rotations or model%mesh%sections.
    pure integer function place_in_kind(model, node) result(place)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
@@ -316,7 +338,7 @@ contains
       integer, intent(in)          :: node
 
       point = node
-      if (node_kind(model, node) == a_rotation) point = model%rotations(place_in_kind(model, node))%point
+      if (node_kind(model, node) == a_rotation) point = model%mesh%rotations(place_in_kind(model, node))%point
    end function point_of
 
    !> The number of nodes of rotations.
@@ -324,17 +346,17 @@ contains
       type(model_type), intent(in) :: model
 
       n_rotations = 0
-      if (allocated(model%rotations)) n_rotations = size(model%rotations)
+      if (allocated(model%mesh%rotations)) n_rotations = size(model%mesh%rotations)
    end function n_rotations
 
    !> The components of NODE that are supported.
    pure function supported(model, node) result(held)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
-      logical :: held(model%dimension)
+      logical :: held(model%mesh%dimension)
 
-      held = model%held(:, node)
-      if (allocated(model%left_out)) held = held .and. .not. model%left_out(:, node)
+      held = model%freedoms%held(:, node)
+      if (allocated(model%freedoms%left_out)) held = held .and. .not. model%freedoms%left_out(:, node)
    end function supported
 
    !> The number of the node that interface element I names for END 1 or 2: 0 for a rigid base, -1 where the end has several nodes.
@@ -342,17 +364,17 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i, end
 
-      id = named_node(model%interface(i), end)
-      if (id > 0) id = model%node_id(id)
+      id = named_node(model%joints%element(i), end)
+      if (id > 0) id = model%mesh%node_id(id)
    end function joint_node_id
 
    !> The nodes of element E, corners first.
    pure function corners_of(model, e) result(nodes)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      integer :: nodes(element_table(model%element_kind(e))%n_nodes)
+      integer :: nodes(element_table(model%mesh%element_kind(e))%n_nodes)
 
-      nodes = model%element_nodes(:size(nodes), e)
+      nodes = model%mesh%element_nodes(:size(nodes), e)
    end function corners_of
 
    !> Whether element E is a shell.
@@ -361,7 +383,8 @@ contains
       integer, intent(in)          :: e
 
       is_shell = .false.
-      if (allocated(model%structural%place)) is_shell = model%structural%place(e) > 0 .and. model%element_kind(e) /= kind_edge2
+      if (allocated(model%mesh%structural%place)) is_shell = model%mesh%structural%place(e) > 0 &
+         .and. model%mesh%element_kind(e) /= kind_edge2
    end function is_shell
 
    !> Whether NODE is a face node of shells.
@@ -370,8 +393,8 @@ contains
       integer, intent(in)          :: node
 
       is_face_node = .false.
-      if (.not. allocated(model%face_of)) return
-      if (node <= size(model%face_of)) is_face_node = model%face_of(node) > 0
+      if (.not. allocated(model%mesh%face_of)) return
+      if (node <= size(model%mesh%face_of)) is_face_node = model%mesh%face_of(node) > 0
    end function is_face_node
 
    !> Whether element E is a beam.
@@ -379,7 +402,7 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
 
-      is_beam = model%element_kind(e) == kind_edge2
+      is_beam = model%mesh%element_kind(e) == kind_edge2
    end function is_beam
 
    !> The nodes of element E; for a shell or beam the nodes of their rotations follow.
@@ -389,8 +412,8 @@ contains
       integer, allocatable :: nodes(:)
 
       nodes = corners_of(model, e)
-      if (.not. allocated(model%structural%place)) return
-      if (model%structural%place(e) > 0) nodes = [nodes, model%rotations(model%rotation_of(nodes))%node]
+      if (.not. allocated(model%mesh%structural%place)) return
+      if (model%mesh%structural%place(e) > 0) nodes = [nodes, model%mesh%rotations(model%mesh%rotation_of(nodes))%node]
    end function own_nodes
 
 end module model_data

@@ -31,9 +31,9 @@ contains
       integer :: parts(2)
 
       parts = [0, -1]
-      if (.not. allocated(model%coupling%of_node)) return
-      associate (c => model%coupling%of_node(node))
-         if (c > 0) parts = [model%coupling%first(c), model%coupling%first(c + 1) - 1]
+      if (.not. allocated(model%freedoms%coupling%of_node)) return
+      associate (c => model%freedoms%coupling%of_node(node))
+         if (c > 0) parts = [model%freedoms%coupling%first(c), model%freedoms%coupling%first(c + 1) - 1]
       end associate
    end function coupling_parts
 
@@ -43,7 +43,7 @@ contains
       integer, intent(in)          :: nodes(:)
 
       is_coupled = .false.
-      if (allocated(model%coupling%of_node)) is_coupled = any(model%coupling%of_node(pack(nodes, nodes > 0)) > 0)
+      if (allocated(model%freedoms%coupling%of_node)) is_coupled = any(model%freedoms%coupling%of_node(pack(nodes, nodes > 0)) > 0)
    end function is_coupled
 
    !> Couple NODE: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes. An earlier coupling is replaced.
@@ -88,7 +88,7 @@ contains
          associate (parts => coupling_parts(model, nodes(i)))
             if (parts(2) < 0 .and. all(unknown /= nodes(i))) unknown = [unknown, nodes(i)]
             do k = parts(1), parts(2)
-               if (all(unknown /= model%coupling%node(k))) unknown = [unknown, model%coupling%node(k)]
+               if (all(unknown /= model%freedoms%coupling%node(k))) unknown = [unknown, model%freedoms%coupling%node(k)]
             end do
          end associate
       end do
@@ -103,7 +103,7 @@ contains
       integer :: column, d, i, k
 
       allocate (unknown, source=unknown_nodes(model, nodes))
-      d = model%dimension
+      d = model%mesh%dimension
       allocate (t(d*size(nodes), d*size(unknown)), source=0.0_wp)
       do i = 1, size(nodes)
          associate (parts => coupling_parts(model, nodes(i)))
@@ -112,8 +112,8 @@ contains
                t(d*(i - 1) + 1:d*i, column + 1:column + d) = identity(:d, :d)
             end if
             do k = parts(1), parts(2)
-               column = d*(findloc(unknown, model%coupling%node(k), dim=1) - 1)
-               t(d*(i - 1) + 1:d*i, column + 1:column + d) = model%coupling%t(:, :, k)
+               column = d*(findloc(unknown, model%freedoms%coupling%node(k), dim=1) - 1)
+               t(d*(i - 1) + 1:d*i, column + 1:column + d) = model%freedoms%coupling%t(:, :, k)
             end do
          end associate
       end do
@@ -151,7 +151,7 @@ contains
 
       q = k
       call onto_unknowns(model, nodes, q)
-      n = model%dimension*size(unknown_nodes(model, nodes))
+      n = model%mesh%dimension*size(unknown_nodes(model, nodes))
       q = q(:n, :n)
    end function between_unknowns
 
@@ -163,9 +163,9 @@ contains
       integer :: i, k
 
       u = q
-      if (.not. allocated(model%coupling%of_node)) return
-      do i = 1, size(model%coupling%of_node)
-         associate (coupling => model%coupling, parts => coupling_parts(model, i))
+      if (.not. allocated(model%freedoms%coupling%of_node)) return
+      do i = 1, size(model%freedoms%coupling%of_node)
+         associate (coupling => model%freedoms%coupling, parts => coupling_parts(model, i))
             if (parts(2) >= 0) u(:, i) = 0.0_wp
             do k = parts(1), parts(2)
                u(:, i) = u(:, i) + matmul(coupling%t(:, :, k), q(:, coupling%node(k)))
@@ -197,8 +197,8 @@ contains
       integer :: i, k
 
       on_unknowns = f
-      if (.not. allocated(model%coupling%of_node)) return
-      associate (coupling => model%coupling)
+      if (.not. allocated(model%freedoms%coupling%of_node)) return
+      associate (coupling => model%freedoms%coupling)
          do i = 1, size(coupling%of_node)
             if (coupling%of_node(i) > 0) on_unknowns(:, i) = 0.0_wp
          end do
@@ -219,10 +219,10 @@ contains
       real(wp), allocatable :: held(:, :)
       integer :: i, k
 
-      held = merge(forces_on_unknowns(model, f), 0.0_wp, model%held)
-      if (.not. allocated(model%coupling%of_node)) return
-      do i = 1, size(model%coupling%of_node)
-         associate (coupling => model%coupling, parts => coupling_parts(model, i))
+      held = merge(forces_on_unknowns(model, f), 0.0_wp, model%freedoms%held)
+      if (.not. allocated(model%freedoms%coupling%of_node)) return
+      do i = 1, size(model%freedoms%coupling%of_node)
+         associate (coupling => model%freedoms%coupling, parts => coupling_parts(model, i))
             do k = parts(1), parts(2)
                if (coupling%node(k) == i) held(:, i) = matmul(coupling%t(:, :, k), held(:, i))
             end do
@@ -237,17 +237,17 @@ contains
       real(wp), allocatable :: t(:, :)
       integer :: a, b, d, i
 
-      elements = model%interface
-      d = model%dimension
+      elements = model%joints%element
+      d = model%mesh%dimension
       do i = 1, size(elements)
-         associate (nodes => model%interface(i)%node)
+         associate (nodes => model%joints%element(i)%node)
             if (.not. is_coupled(model, nodes)) cycle
             t = transformation(model, nodes)
             elements(i)%node = unknown_nodes(model, nodes)
             allocate (elements(i)%map(d, d, size(elements(i)%node)), source=0.0_wp)
             do b = 1, size(elements(i)%node)
                do a = 1, size(nodes)
-                  elements(i)%map(:, :, b) = elements(i)%map(:, :, b) + model%interface(i)%weight(a)* &
+                  elements(i)%map(:, :, b) = elements(i)%map(:, :, b) + model%joints%element(i)%weight(a)* &
                                              t(d*(a - 1) + 1:d*a, d*(b - 1) + 1:d*b)
                end do
             end do
@@ -262,7 +262,7 @@ contains
 
       node = 0
       if (n_sections(model) == 0) return
-      if (model%element_section(e) > 0) node = model%sections(model%element_section(e))%node
+      if (model%mesh%element_section(e) > 0) node = model%mesh%sections(model%mesh%element_section(e))%node
    end function section_node
 
    !> The nodes whose displacements enter element E: its own nodes, and the node of a section that it touches from behind.
@@ -289,16 +289,16 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
-      real(wp) :: moved(model%dimension, element_table(model%element_kind(e))%n_nodes)
+      real(wp) :: moved(model%mesh%dimension, element_table(model%mesh%element_kind(e))%n_nodes)
       integer  :: i
 
       associate (corners => corners_of(model, e))
          moved = u(:, corners)
          if (section_node(model, e) == 0) return
-         associate (section => model%sections(model%element_section(e)))
+         associate (section => model%mesh%sections(model%mesh%element_section(e)))
             do i = 1, size(corners)
-               if (model%node_section(corners(i)) == model%element_section(e)) &
-                  moved(:, i) = moved(:, i) + u(1, section%node)*section%direction(:model%dimension)
+               if (model%mesh%node_section(corners(i)) == model%mesh%element_section(e)) &
+                  moved(:, i) = moved(:, i) + u(1, section%node)*section%direction(:model%mesh%dimension)
             end do
          end associate
       end associate
@@ -314,21 +314,21 @@ contains
       integer  :: c, d, g, i, n
 
       if (section_node(model, e) == 0) return
-      d = model%dimension
-      associate (corners => corners_of(model, e), section => model%sections(model%element_section(e)))
+      d = model%mesh%dimension
+      associate (corners => corners_of(model, e), section => model%mesh%sections(model%mesh%element_section(e)))
          n = d*size(corners)
          g = n + 1
          k(g:n + d, :n + d) = 0.0_wp
          k(:n, g:n + d) = 0.0_wp
          row = 0.0_wp
          do i = 1, size(corners)
-            if (model%node_section(corners(i)) /= model%element_section(e)) cycle
+            if (model%mesh%node_section(corners(i)) /= model%mesh%element_section(e)) cycle
             do c = 1, d
                row(:n) = row(:n) + section%direction(c)*k(d*(i - 1) + c, :n)
             end do
          end do
          do i = 1, size(corners)
-            if (model%node_section(corners(i)) == model%element_section(e)) &
+            if (model%mesh%node_section(corners(i)) == model%mesh%element_section(e)) &
                row(g) = row(g) + dot_product(section%direction(:d), row(d*(i - 1) + 1:d*i))
          end do
          k(g, :g) = row(:g)
@@ -346,10 +346,10 @@ contains
       integer :: d, i
 
       if (section_node(model, e) == 0) return
-      d = model%dimension
-      associate (section => model%sections(model%element_section(e)))
+      d = model%mesh%dimension
+      associate (section => model%mesh%sections(model%mesh%element_section(e)))
          do i = 1, size(nodes)
-            if (model%node_section(nodes(i)) == model%element_section(e)) &
+            if (model%mesh%node_section(nodes(i)) == model%mesh%element_section(e)) &
                force(1, section%node) = force(1, section%node) + dot_product(section%direction(:d), f(:d, i))
          end do
       end associate

@@ -25,12 +25,12 @@ contains
       real(wp), allocatable :: t(:, :)            !! (6 corners, 2 dimension corners)
       integer :: c, d, i, m
 
-      d = model%dimension
+      d = model%mesh%dimension
       associate (nodes => corners_of(model, e))
          m = size(nodes)
          allocate (t(6*m, 2*d*m), source=0.0_wp)
          do i = 1, m
-            associate (arm => model%rotations(model%rotation_of(nodes(i)))%arm)
+            associate (arm => model%mesh%rotations(model%mesh%rotation_of(nodes(i)))%arm)
                do c = 1, d
                   t(3*(i - 1) + c, d*(i - 1) + c) = 1.0_wp
                   if (d == 3) t(3*(m + i - 1) + c, d*(m + i - 1) + c) = 1.0_wp/arm
@@ -60,7 +60,7 @@ contains
       real(wp), intent(in)         :: nodal(:, :) !! (3, 2 corners) [force], [force length]
       real(wp), intent(inout)      :: f(:, :)     !! (dimension, own nodes) [force], set here
 
-      associate (t => own_to_values(model, e), d => model%dimension)
+      associate (t => own_to_values(model, e), d => model%mesh%dimension)
          f(:d, :size(t, 2)/d) = reshape(matmul(reshape(nodal, [size(t, 1)]), t), [d, size(t, 2)/d])
       end associate
    end subroutine onto_own
@@ -87,7 +87,7 @@ contains
       real(wp), intent(in)         :: z(:)        !! [length]
       real(wp), intent(out)        :: stress(:, :, :) !! (6, corners + 1, heights) [pressure]
 
-      call shell_stresses(model%structural%shells(model%structural%place(e)), model%x(:, corners_of(model, e)), &
+      call shell_stresses(model%mesh%structural%shells(model%mesh%structural%place(e)), model%mesh%x(:, corners_of(model, e)), &
                           nodal_values(model, e, u), element_rise(model, e, temperature), &
                           element_slope(model, e, temperature), z, stress)
    end subroutine structural_stress
@@ -125,7 +125,7 @@ contains
       real(wp), intent(in)         :: n       !! [force]
       real(wp), intent(inout)      :: f(:, :) !! (dimension, n_nodes) [force]
 
-      associate (bar => model%bars(i), d => model%dimension)
+      associate (bar => model%mesh%bars(i), d => model%mesh%dimension)
          f(:, bar%nodes(1)) = f(:, bar%nodes(1)) + n*bar%direction(:d, 1)
          if (bar%nodes(2) > 0) f(:, bar%nodes(2)) = f(:, bar%nodes(2)) - n*bar%direction(:d, 2)
       end associate
@@ -140,7 +140,7 @@ contains
       integer :: i
 
       do i = 1, size(is_elastic)
-         associate (bar => model%bars(i))
+         associate (bar => model%mesh%bars(i))
             if (is_elastic(i)) call add_axial_force(model, i, -bar%stiffness*bar_elongation(bar, u(:, bar_nodes(bar))), f)
          end associate
       end do
@@ -150,9 +150,9 @@ contains
    pure function bar_stiffness(model, i) result(k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i
-      real(wp) :: k(2*model%dimension, 2*model%dimension), between(2*model%dimension)
+      real(wp) :: k(2*model%mesh%dimension, 2*model%mesh%dimension), between(2*model%mesh%dimension)
 
-      associate (bar => model%bars(i), d => model%dimension)
+      associate (bar => model%mesh%bars(i), d => model%mesh%dimension)
          between = [-bar%direction(:d, 1), bar%direction(:d, 2)]
          if (bar%nodes(2) == 0) between(d + 1:) = 0.0_wp
          k = spread(bar%stiffness*between, 2, 2*d)*spread(between, 1, 2*d)

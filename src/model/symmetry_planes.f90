@@ -47,7 +47,7 @@ contains
       logical, allocatable :: counts(:) ! nodes of elements
       integer :: i
 
-      allocate (counts, source=model%first_at(2:n_points(model) + 1) > model%first_at(:n_points(model)))
+      allocate (counts, source=model%mesh%first_at(2:n_points(model) + 1) > model%mesh%first_at(:n_points(model)))
       call find_candidates(model, counts, found)
       planes = pack(found%plane, found%spans)
       planes = pack(planes, [(is_held_plane(model, counts, planes(i)), i = 1, size(planes))])
@@ -61,7 +61,7 @@ contains
       type(candidate_type), allocatable, intent(out) :: found(:)
       real(wp) :: axes(3, 3), near, offset
       real(wp), allocatable :: beyond(:), outer(:, :)
-      logical  :: held(model%dimension)
+      logical  :: held(model%mesh%dimension)
       integer  :: d, k, node
 
       allocate (found(0))
@@ -73,9 +73,9 @@ contains
          held = supported(model, node)
          if (.not. any(held)) cycle
          axes = node_axes(model, node)
-         do d = 1, model%dimension
-            if (.not. held(d) .or. (model%axisymmetric .and. abs(axes(1, d)) > one_direction)) cycle
-            offset = dot_product(model%x(:, node), axes(:, d))
+         do d = 1, model%mesh%dimension
+            if (.not. held(d) .or. (model%mesh%axisymmetric .and. abs(axes(1, d)) > one_direction)) cycle
+            offset = dot_product(model%mesh%x(:, node), axes(:, d))
             beyond = matmul(axes(:, d), outer) - offset
             if (minval(beyond) < -near) then
                if (maxval(beyond) > near) cycle
@@ -87,8 +87,8 @@ contains
             do k = 1, size(found)
                if (is_along(found(k)%plane%normal, axes(:, d)) .and. abs(found(k)%plane%offset - offset) <= near) exit
             end do
-            if (k > size(found)) found = [found, candidate_type(symmetry_plane(axes(:, d), offset, near), model%x(:, node))]
-            call widen(model%dimension, model%x(:, node), found(k))
+            if (k > size(found)) found = [found, candidate_type(symmetry_plane(axes(:, d), offset, near), model%mesh%x(:, node))]
+            call widen(model%mesh%dimension, model%mesh%x(:, node), found(k))
          end do
       end do
    end subroutine find_candidates
@@ -122,9 +122,9 @@ contains
       n = 0
       do i = 14, 26 ! the digits of i to the base 3, less 1
          direction = real([i/9, mod(i/3, 3), mod(i, 3)] - 1, wp)
-         along = matmul(direction, model%x(:, :size(counts)))
-         x(:, n + 1) = model%x(:, maxloc(along, dim=1, mask=counts))
-         x(:, n + 2) = model%x(:, minloc(along, dim=1, mask=counts))
+         along = matmul(direction, model%mesh%x(:, :size(counts)))
+         x(:, n + 1) = model%mesh%x(:, maxloc(along, dim=1, mask=counts))
+         x(:, n + 2) = model%mesh%x(:, minloc(along, dim=1, mask=counts))
          n = n + 2
       end do
    end function outermost
@@ -150,24 +150,24 @@ contains
       logical, intent(in)              :: counts(:)
       type(symmetry_plane), intent(in) :: plane
       real(wp) :: axes(3, 3)
-      logical  :: held(model%dimension)
+      logical  :: held(model%mesh%dimension)
       integer  :: d, k, node, s
 
       is_one = .false.
       do node = 1, size(counts)
          if (.not. counts(node)) cycle
-         if (dot_product(plane%normal, model%x(:, node)) < plane%offset - plane%near) return
-         if (.not. is_on(plane, model%x(:, node))) cycle
-         if (allocated(model%left_out)) then
-            if (all(model%left_out(:, node))) cycle ! moves with other nodes
+         if (dot_product(plane%normal, model%mesh%x(:, node)) < plane%offset - plane%near) return
+         if (.not. is_on(plane, model%mesh%x(:, node))) cycle
+         if (allocated(model%freedoms%left_out)) then
+            if (all(model%freedoms%left_out(:, node))) cycle ! moves with other nodes
          end if
          axes = node_axes(model, node)
          held = supported(model, node)
-         d = findloc([(held(k) .and. is_along(axes(:, k), plane%normal), k = 1, model%dimension)], .true., dim=1)
+         d = findloc([(held(k) .and. is_along(axes(:, k), plane%normal), k = 1, model%mesh%dimension)], .true., dim=1)
          if (d == 0) return
-         do s = 1, size(model%stage_loads)
-            if (.not. allocated(model%stage_loads(s)%moved)) cycle
-            if (abs(model%stage_loads(s)%moved(d, node)) > 0.0_wp) return
+         do s = 1, size(model%history%stages)
+            if (.not. allocated(model%history%stages(s)%moved)) cycle
+            if (abs(model%history%stages(s)%moved(d, node)) > 0.0_wp) return
          end do
       end do
       is_one = .true.
@@ -179,21 +179,21 @@ contains
       logical, intent(in)              :: counts(:)
       type(symmetry_plane), intent(in) :: planes(:), plane
       real(wp) :: axes(3, 3)
-      logical  :: held(model%dimension), is_explained
+      logical  :: held(model%mesh%dimension), is_explained
       integer  :: d, k, n, node, n_explained
 
       n = 0
       n_explained = 0
       do node = 1, size(counts)
          if (.not. counts(node)) cycle
-         if (.not. is_on(plane, model%x(:, node))) cycle
+         if (.not. is_on(plane, model%mesh%x(:, node))) cycle
          n = n + 1
          held = supported(model, node)
          axes = node_axes(model, node)
          is_explained = .true.
-         do d = 1, model%dimension
-            if (.not. held(d) .or. (model%axisymmetric .and. abs(model%x(1, node)) <= plane%near .and. d == 1)) cycle
-            is_explained = is_explained .and. any([(is_on(planes(k), model%x(:, node)) .and. &
+         do d = 1, model%mesh%dimension
+            if (.not. held(d) .or. (model%mesh%axisymmetric .and. abs(model%mesh%x(1, node)) <= plane%near .and. d == 1)) cycle
+            is_explained = is_explained .and. any([(is_on(planes(k), model%mesh%x(:, node)) .and. &
                                                     is_along(planes(k)%normal, axes(:, d)), k = 1, size(planes))])
          end do
          if (is_explained) n_explained = n_explained + 1
@@ -214,7 +214,7 @@ contains
       if (size(planes) == 0) return
       call distinct(nodes, each)
       do k = 1, size(planes)
-         cuts(k) = count([(is_on(planes(k), model%x(:, each(i))), i = 1, size(each))]) >= model%dimension - 1
+         cuts(k) = count([(is_on(planes(k), model%mesh%x(:, each(i))), i = 1, size(each))]) >= model%mesh%dimension - 1
       end do
       cut = cut_by(planes, cuts)
    end function planes_through
@@ -232,10 +232,10 @@ contains
       do k = 1, size(planes)
          n = 0
          do node = 1, n_points(model)
-            if (model%first_at(node + 1) == model%first_at(node)) cycle
-            if (is_on(planes(k), model%x(:, node))) n(part(node)) = n(part(node)) + 1
+            if (model%mesh%first_at(node + 1) == model%mesh%first_at(node)) cycle
+            if (is_on(planes(k), model%mesh%x(:, node))) n(part(node)) = n(part(node)) + 1
          end do
-         cuts(:, k) = n >= model%dimension - 1
+         cuts(:, k) = n >= model%mesh%dimension - 1
       end do
    end function parts_cut
 

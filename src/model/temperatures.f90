@@ -15,14 +15,14 @@ contains
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: e
       type(temperature_type), intent(in) :: temperature
-      real(wp) :: rise(element_table(model%element_kind(e))%n_nodes)
+      real(wp) :: rise(element_table(model%mesh%element_kind(e))%n_nodes)
 
       rise = 0.0_wp
       if (.not. allocated(temperature%at)) return
       rise = temperature%at(corners_of(model, e)) - temperature%reference_share* &
-             model%properties(model%element_property(e))%reference
+             model%mesh%properties(model%mesh%element_property(e))%reference
       if (.not. allocated(temperature%plate)) return
-      if (is_shell(model, e)) rise = rise + temperature%plate(:size(rise), model%structural%place(e))
+      if (is_shell(model, e)) rise = rise + temperature%plate(:size(rise), model%mesh%structural%place(e))
    end function element_rise
 
    !> Gradient of T - TREF over the thickness of shell E [temperature/length].
@@ -32,7 +32,7 @@ contains
       type(temperature_type), intent(in) :: temperature
 
       slope = 0.0_wp
-      if (allocated(temperature%plate)) slope = temperature%plate(5, model%structural%place(e))
+      if (allocated(temperature%plate)) slope = temperature%plate(5, model%mesh%structural%place(e))
    end function element_slope
 
    !> Whether any stage of MODEL has temperatures.
@@ -40,7 +40,7 @@ contains
       type(model_type), intent(in) :: model
       integer :: s
 
-      has_temperatures = any([(allocated(model%stage_loads(s)%temperature%at), s = 1, size(model%stage_loads))])
+      has_temperatures = any([(allocated(model%history%stages(s)%temperature%at), s = 1, size(model%history%stages))])
    end function has_temperatures
 
    !> Nodal temperatures [temperature]. Where the deck gives none they are TREF; at a node between materials, the mean over its
@@ -48,15 +48,15 @@ contains
    pure function node_temperatures(model, temperature) result(t)
       type(model_type), intent(in)       :: model
       type(temperature_type), intent(in) :: temperature
-      real(wp) :: t(model%n_nodes)
+      real(wp) :: t(model%mesh%n_nodes)
       integer  :: i
 
       t = 0.0_wp
       if (temperature%reference_share < 1.0_wp) then
-         do i = 1, model%n_nodes
-            associate (elements => model%elements_at(model%first_at(i):model%first_at(i + 1) - 1))
+         do i = 1, model%mesh%n_nodes
+            associate (elements => model%mesh%elements_at(model%mesh%first_at(i):model%mesh%first_at(i + 1) - 1))
                if (size(elements) > 0) t(i) = (1.0_wp - temperature%reference_share)* &
-                  sum(model%properties(model%element_property(elements))%reference)/size(elements)
+                  sum(model%mesh%properties(model%mesh%element_property(elements))%reference)/size(elements)
             end associate
          end do
       end if

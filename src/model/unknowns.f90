@@ -60,17 +60,17 @@ contains
 
       direction = ''
       if (node_kind(model, node) == an_overlap) then
-         owner = 'BOLT '//integer_text(model%sections(place_in_kind(model, node))%bolt)
+         owner = 'BOLT '//integer_text(model%mesh%sections(place_in_kind(model, node))%bolt)
          return
       end if
       is_rotation = node_kind(model, node) == a_rotation
       point = point_of(model, node)
-      owner = 'node '//integer_text(model%node_id(point))
+      owner = 'node '//integer_text(model%mesh%node_id(point))
       system = 0
-      if (allocated(model%node_system)) system = model%node_system(point)
-      direction = letters(merge(3, d, is_rotation .and. model%dimension == 2))
+      if (allocated(model%mesh%node_system)) system = model%mesh%node_system(point)
+      direction = letters(merge(3, d, is_rotation .and. model%mesh%dimension == 2))
       if (.not. is_rotation) direction = 'direction '//direction
-      if (system > 0) direction = 'direction '//integer_text(d)//' of its system '//integer_text(model%systems(system)%id)
+      if (system > 0) direction = 'direction '//integer_text(d)//' of its system '//integer_text(model%mesh%systems(system)%id)
       if (is_rotation) direction = 'rotation about '//direction
    end subroutine name_unknown
 
@@ -105,17 +105,17 @@ contains
    pure function motions_of(model, node) result(q)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
-      real(wp) :: q(model%dimension, n_motions(model%dimension)), axes(3, 3)
+      real(wp) :: q(model%mesh%dimension, n_motions(model%mesh%dimension)), axes(3, 3)
       integer  :: d
 
-      d = model%dimension
+      d = model%mesh%dimension
       q = 0.0_wp
       select case (node_kind(model, node))
       case (a_point)
          axes = node_axes(model, node)
-         q = matmul(transpose(axes(:d, :d)), motions_at(model%x(:d, node)))
+         q = matmul(transpose(axes(:d, :d)), motions_at(model%mesh%x(:d, node)))
       case (a_rotation)
-         associate (arm => model%rotations(place_in_kind(model, node))%arm)
+         associate (arm => model%mesh%rotations(place_in_kind(model, node))%arm)
             if (d == 2) then
                q(rotation_component(model, 6), 3) = arm ! about z, whatever the system CD
             else
@@ -131,8 +131,8 @@ contains
       integer, intent(in)          :: point
 
       rotation = 0
-      if (.not. allocated(model%rotation_of)) return
-      if (point <= size(model%rotation_of)) rotation = model%rotation_of(point)
+      if (.not. allocated(model%mesh%rotation_of)) return
+      if (point <= size(model%mesh%rotation_of)) rotation = model%mesh%rotation_of(point)
    end function rotation_at
 
    !> The position of rotation DIGIT, 4 to 6 in NASTRAN, among the components of a node of rotations; 0: it does not exist in the
@@ -142,7 +142,7 @@ contains
       integer, intent(in)          :: digit
 
       d = digit - 3
-      if (model%dimension == 2) d = merge(1, 0, digit == 6)
+      if (model%mesh%dimension == 2) d = merge(1, 0, digit == 6)
    end function rotation_component
 
    !> The place of component DIGIT, 1 to 6, of POINT.
@@ -153,13 +153,15 @@ contains
       integer :: rotation
 
       if (digit <= 3) then
-         if (digit <= model%dimension) place = component_place(point, digit, 1.0_wp)
+         if (digit <= model%mesh%dimension) place = component_place(point, digit, 1.0_wp)
          return
       end if
       rotation = rotation_at(model, point)
       if (rotation == 0 .or. rotation_component(model, digit) == 0) return
-      place = component_place(model%rotations(rotation)%node, rotation_component(model, digit), model%rotations(rotation)%arm)
-      if (model%dimension == 2) place%scale = place%scale*sum(third_axis(model, point)) ! the z axis of the node may point along -z
+      place = component_place(model%mesh%rotations(rotation)%node, rotation_component(model, digit), &
+         model%mesh%rotations(rotation)%arm)
+      ! the z axis of the node may point along -z
+      if (model%mesh%dimension == 2) place%scale = place%scale*sum(third_axis(model, point))
    end function place_of_component
 
    !> The third direction of NODE of a plane model, along z or -z.
@@ -180,8 +182,9 @@ contains
       logical  :: ok
 
       axes = identity
-      if (.not. allocated(model%node_system)) return
-      if (model%node_system(node) > 0) call directions_at(model%systems(model%node_system(node)), model%x(:, node), axes, ok)
+      if (.not. allocated(model%mesh%node_system)) return
+      if (model%mesh%node_system(node) > 0) call directions_at(model%mesh%systems(model%mesh%node_system(node)), model%mesh%x(:, &
+         node), axes, ok)
    end function node_axes
 
 end module unknowns

@@ -51,7 +51,7 @@ contains
       end associate
       call MatSetOption(stiffness%matrix, MAT_SPD, PETSC_TRUE, code)
       call MatSetOption(stiffness%matrix, MAT_SPD_ETERNAL, PETSC_TRUE, code)
-      do e = 1, subdomain%model%n_elements
+      do e = 1, subdomain%model%mesh%n_elements
          call coupled_stiffness(subdomain%model, e, k)
          associate (nodes => corners_of(subdomain%model, e))
             n = d*size(nodes)

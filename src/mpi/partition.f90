@@ -68,10 +68,10 @@ contains
 
       call part_by_metis(graph, n_ranks, parts%owner, ok)
       if (.not. ok) return
-      where (.not. model%used) parts%owner = -1
-      call list_owners(n_ranks, reshape(parts%owner + 1, [1, model%n_nodes]), first, parts%order)
+      where (.not. model%freedoms%used) parts%owner = -1
+      call list_owners(n_ranks, reshape(parts%owner + 1, [1, model%mesh%n_nodes]), first, parts%order)
       parts%counts = first(2:) - first(:n_ranks)
-      allocate (parts%block(model%n_nodes), source=-1)
+      allocate (parts%block(model%mesh%n_nodes), source=-1)
       parts%block(parts%order) = [(i - 1, i = 1, size(parts%order))]
    end subroutine partition_nodes
 
@@ -85,16 +85,16 @@ contains
       integer, allocatable :: mine(:), nodes(:)
       integer :: b, e, node
 
-      subdomain%dimension = model%dimension
+      subdomain%dimension = model%mesh%dimension
       subdomain%n_blocks = size(parts%order)
       subdomain%n_own = parts%counts(r + 1)
       subdomain%first = sum(parts%counts(:r))
-      associate (d => model%dimension, n => subdomain%n_own)
+      associate (d => model%mesh%dimension, n => subdomain%n_own)
          allocate (subdomain%held_own(d, n), subdomain%motions(d, n_motions(d), n), subdomain%inside(n), subdomain%outside(n))
       end associate
       do b = 1, subdomain%n_own
          node = parts%order(subdomain%first + b)
-         subdomain%held_own(:, b) = model%held(:, node)
+         subdomain%held_own(:, b) = model%freedoms%held(:, node)
          subdomain%motions(:, :, b) = motions_of(model, node)
          associate (owners => parts%owner(graph%neighbours(graph%first(node):graph%first(node + 1) - 1)))
             subdomain%inside(b) = 1 + count(owners == r)
@@ -102,12 +102,12 @@ contains
          end associate
       end do
       ! elements whose nodes have their own unknowns in global axes; rank 0 forms the other elements
-      mine = pack([(e, e = 1, model%n_elements)], parts%owner(model%element_nodes(1, :)) == r)
+      mine = pack([(e, e = 1, model%mesh%n_elements)], parts%owner(model%mesh%element_nodes(1, :)) == r)
       mine = pack(mine, [(.not. is_entangled(model, mine(e)), e = 1, size(mine))])
       nodes = nodes_of_elements(model, mine)
       call extract(model, mine, nodes, subdomain%model)
       subdomain%block = parts%block(nodes)
-      subdomain%held = model%held(:, nodes)
+      subdomain%held = model%freedoms%held(:, nodes)
    end subroutine subdomain_of
 
    !> Whether element E has nodes that depend on others, have local axes, lie on a bolt section, or have rotations.
@@ -126,7 +126,7 @@ contains
 
       call pass(r, subdomain%dimension, subdomain%n_blocks, subdomain%n_own, subdomain%first)
       call pass_part(r, subdomain%model)
-      associate (d => subdomain%dimension, nodes => subdomain%model%n_nodes, own => subdomain%n_own)
+      associate (d => subdomain%dimension, nodes => subdomain%model%mesh%n_nodes, own => subdomain%n_own)
          if (rank /= 0) then
             allocate (subdomain%block(nodes), subdomain%held(d, nodes), subdomain%held_own(d, own), subdomain%inside(own), &
                       subdomain%outside(own), subdomain%motions(d, n_motions(d), own))
@@ -142,15 +142,16 @@ contains
       integer :: n_corners, n_properties
 
       if (rank == 0) then
-         n_corners = size(part%element_nodes, 1)
-         n_properties = size(part%properties)
+         n_corners = size(part%mesh%element_nodes, 1)
+         n_properties = size(part%mesh%properties)
       end if
-      call pass(r, part%dimension, part%n_elements, part%n_nodes, n_corners, n_properties)
+      call pass(r, part%mesh%dimension, part%mesh%n_elements, part%mesh%n_nodes, n_corners, n_properties)
       if (rank /= 0) then
-         allocate (part%element_kind(part%n_elements), part%element_property(part%n_elements), part%x(3, part%n_nodes), &
-                   part%element_nodes(n_corners, part%n_elements), part%properties(n_properties))
+         allocate (part%mesh%element_kind(part%mesh%n_elements), part%mesh%element_property(part%mesh%n_elements), &
+            part%mesh%x(3, part%mesh%n_nodes), &
+                   part%mesh%element_nodes(n_corners, part%mesh%n_elements), part%mesh%properties(n_properties))
       end if
-      call pass(r, part%element_kind, part%element_property, part%element_nodes, part%x, part%properties)
+      call pass(r, part%mesh%element_kind, part%mesh%element_property, part%mesh%element_nodes, part%mesh%x, part%mesh%properties)
    end subroutine pass_part
 
    !> The touched blocks of the interface ELEMENTS, on unknowns, of the bars and of the bolt sections of MODEL.
@@ -170,10 +171,10 @@ contains
             call pair(elements(i)%node)
          end do
          do i = 1, n_bars(model)
-            call pair(unknown_nodes(model, bar_nodes(model%bars(i))))
+            call pair(unknown_nodes(model, bar_nodes(model%mesh%bars(i))))
          end do
          do i = 1, n_sections(model)
-            associate (node => model%sections(i)%node)
+            associate (node => model%mesh%sections(i)%node)
                do k = graph%first(node), graph%first(node + 1) - 1
                   call pair([node, graph%neighbours(k)])
                end do

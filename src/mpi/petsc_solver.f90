@@ -64,12 +64,12 @@ contains
 
       call partition_nodes(model, graph, self%parts, ok)
       if (.not. ok) then
-         call failure%raise('no memory to deal out '//integer_text(model%n_nodes)//' nodes')
+         call failure%raise('no memory to deal out '//integer_text(model%mesh%n_nodes)//' nodes')
          return
       end if
       call self%number_unknowns(model, self%parts%order)
       allocate (self%row(0:self%n), source=0)
-      self%row(1:) = [(model%dimension*self%parts%block(self%node(i)) + self%direction(i), i = 1, self%n)]
+      self%row(1:) = [(model%mesh%dimension*self%parts%block(self%node(i)) + self%direction(i), i = 1, self%n)]
       call broadcast_command(command_take)
       do r = 1, n_ranks - 1
          call subdomain_of(model, graph, self%parts, r, other)
@@ -77,17 +77,17 @@ contains
       end do
       call subdomain_of(model, graph, self%parts, 0, subdomain)
       self%equations = [(i, i = 1, self%n)]
-      self%retained = pack([(i, i = 1, model%n_nodes)], model%used)
+      self%retained = pack([(i, i = 1, model%mesh%n_nodes)], model%freedoms%used)
       call list_on_unknowns(model, elements)
       call list_interface_equations(elements, self%number, self%joints)
       call list_touched(model, graph, self%parts, elements, self%touched)
-      allocate (self%bodies(model%dimension, model%dimension, self%touched%n), source=0.0_wp)
+      allocate (self%bodies(model%mesh%dimension, model%mesh%dimension, self%touched%n), source=0.0_wp)
       allocate (self%diagonal(self%n), source=0.0_wp)
       self%reuse%most_steps = steps_of_set_up
       associate (description => self%description)
          description%name = one_of(self%wanted == by_gamg, 'PETSC, CONJUGATE GRADIENTS WITH GAMG', 'PETSC, FACTOR BY MUMPS')
          description%words(1) = 'ENTRIES OF THE STIFFNESS MATRIX'
-         description%numbers(1) = int(model%dimension, long)**2*(size(graph%neighbours) + int(model%n_nodes, long))
+         description%numbers(1) = int(model%mesh%dimension, long)**2*(size(graph%neighbours) + int(model%mesh%n_nodes, long))
       end associate
    end subroutine start
 
@@ -101,12 +101,12 @@ contains
 
       fault = 0
       call broadcast_command(command_start, [self%parts%counts, self%touched%counts, self%touched%row, self%touched%column])
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          if (.not. is_entangled(model, e)) cycle
          call coupled_stiffness(model, e, k)
          associate (nodes => coupled_nodes(model, e))
-            n = model%dimension*size(nodes)
-            call add_blocks(self%parts%block(nodes), model%held(:, nodes), k(:n, :n), stiffness)
+            n = model%mesh%dimension*size(nodes)
+            call add_blocks(self%parts%block(nodes), model%freedoms%held(:, nodes), k(:n, :n), stiffness)
          end associate
       end do
       self%way = self%wanted

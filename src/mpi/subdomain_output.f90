@@ -106,7 +106,7 @@ contains
       character(:), allocatable :: file, notes
       logical :: ok
 
-      allocate (u(piece%model%dimension, piece%model%n_nodes))
+      allocate (u(piece%model%mesh%dimension, piece%model%mesh%n_nodes))
       call pass_state(rank, u, temperature, notes, file)
       call write_own(u, temperature, notes, file, ok)
    end subroutine write_received

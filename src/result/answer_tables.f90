@@ -50,7 +50,7 @@ contains
       call heading(page%screen, title)
       call table%start('', [column('', 'a33', key='what'), column('VALUE', 'es13.4'), column('', 'a13', key='unit'), &
                             column('AT', 'a8'), column('NUMBER', 'i11'), &
-                            column(axes(:model%dimension), 'es13.5', page%labels%length)], page%screen)
+                            column(axes(:model%mesh%dimension), 'es13.5', page%labels%length)], page%screen)
       do k = 1, 3
          if (.not. peaks(k)%is_there) cycle
          call table%put('what', names(k))
@@ -58,7 +58,7 @@ contains
          call table%put('unit', units(k))
          call table%put('AT', trim(kinds(k)))
          call table%put('NUMBER', peaks(k)%id)
-         call table%put(axes(:model%dimension), peaks(k)%x(:model%dimension))
+         call table%put(axes(:model%mesh%dimension), peaks(k)%x(:model%mesh%dimension))
          call table%print_row(page%screen)
       end do
 
@@ -73,9 +73,9 @@ contains
       call page%screen%put('')
       call table%print_head(page%screen)
       do j = 1, size(joints)
-         call begin_row(model%joints(j)%id)
-         associate (joint => joints(j), now => joints(j)%now, frame => model%joints(j)%frame)
-            call table%put('area', model%joints(j)%area)
+         call begin_row(model%joints%list(j)%id)
+         associate (joint => joints(j), now => joints(j)%now, frame => model%joints%list(j)%frame)
+            call table%put('area', model%joints%list(j)%area)
             call table%put(xyz, frame%centroid)
             call table%put('closed', merge(1, 0, frame%closed))
             call table%put('normal_'//xyz, frame%axes(:, 3), where=spread(.not. frame%closed, 1, 3))
@@ -97,7 +97,7 @@ contains
          end associate
          call table%print_row(page%screen, page%tables(stage_table))
       end do
-      if (is_first) call note_cuts(page, 'THE BODIES OF JOINT', model%joints%id, joints%n_cuts, &
+      if (is_first) call note_cuts(page, 'THE BODIES OF JOINT', model%joints%list%id, joints%n_cuts, &
                                    'T, MU N/T, M AND SECANT LEAVE OUT WHAT THE MIRROR IMAGE BALANCES')
       call print_stiffnesses(page, model, joints)
 
@@ -142,7 +142,7 @@ contains
       integer :: c, j
       logical :: shown(6)
 
-      shown = [(any([(model%joints(j)%frame%exists(c), j = 1, size(joints))]), c = 1, 6)]
+      shown = [(any([(model%joints%list(j)%frame%exists(c), j = 1, size(joints))]), c = 1, 6)]
       unit(:3) = page%labels%stiffness
       unit(4:) = page%labels%moment
       call page%screen%put('')
@@ -150,11 +150,11 @@ contains
                             column(pack(names, shown), 'es14.4', pack(unit, shown))], page%screen)
       do j = 1, size(joints)
          associate (joint => joints(j))
-            call table%put('JOINT', model%joints(j)%id)
+            call table%put('JOINT', model%joints%list(j)%id)
             call table%put('STIFFNESS', 'TANGENT')
-            call table%put(pack(names, shown), pack(joint%tangent, shown), where=pack(model%joints(j)%frame%exists, shown))
+            call table%put(pack(names, shown), pack(joint%tangent, shown), where=pack(model%joints%list(j)%frame%exists, shown))
             call table%print_row(page%screen)
-            call table%put('JOINT', model%joints(j)%id)
+            call table%put('JOINT', model%joints%list(j)%id)
             call table%put('STIFFNESS', 'SECANT')
             call table%put(pack(names, shown), pack(joint%secant, shown), where=pack(joint%has_secant, shown))
             call table%print_row(page%screen)
@@ -307,8 +307,8 @@ contains
       do k = 1, size(answer%nodes)
          associate (node => answer%nodes(k))
             call table%put('stage', page%stage_id)
-            call table%put('node', model%node_id(node%node))
-            call table%put(xyz, model%x(:, node%node))
+            call table%put('node', model%mesh%node_id(node%node))
+            call table%put(xyz, model%mesh%x(:, node%node))
             call table%put('u_'//xyz, node%u)
             call table%put('change_'//xyz, node%change)
             call table%put('load_'//xyz, node%load)

@@ -44,24 +44,25 @@ contains
       logical  :: has_bodies
       integer  :: m, node
 
-      list = pack([(node, node = 1, n_points(model))], [(model%used(node) .and. shows(page, [node]), node = 1, n_points(model))])
+      list = pack([(node, node = 1, n_points(model))], [(model%freedoms%used(node) .and. shows(page, [node]), node = 1, &
+         n_points(model))])
       call list_vectors(page, model, [character(22) :: 'DISPLACEMENTS OF NODES', 'U.', page%labels%length], list, &
                         analysis%all_u(:, list), spread(page_zero*maxval(abs(analysis%all_u(:, :n_points(model)))), 1, size(list)))
-      m = merge(3, 1, model%dimension == 3)
-      associate (rotations => model%rotations)
+      m = merge(3, 1, model%mesh%dimension == 3)
+      associate (rotations => model%mesh%rotations)
          if (n_rotations(model) > 0) call list_vectors(page, model, &
             [character(28) :: 'ROTATIONS OF REFERENCE NODES', 'THETA .', 'RADIANS'], rotations%point, &
             analysis%all_u(:m, rotations%node)/spread(rotations%arm, 1, m), page_zero*maxval(abs(analysis%all_u))/rotations%arm, &
             turns=.true.)
       end associate
-      has_bodies = model%n_elements > 0
-      if (allocated(model%structural%place)) has_bodies = any(model%structural%place == 0)
+      has_bodies = model%mesh%n_elements > 0
+      if (allocated(model%mesh%structural%place)) has_bodies = any(model%mesh%structural%place == 0)
       if (has_bodies) call list_stresses(page, asked%stress, model, analysis)
-      if (allocated(model%structural%place)) then
+      if (allocated(model%mesh%structural%place)) then
          call list_shells(page, asked%forces, model, analysis)
          call list_beams(page, model, analysis)
       end if
-      if (asked%stress .and. any(is_second_order(model%element_kind))) then ! stresses at nodes, averaged over their elements
+      if (asked%stress .and. any(is_second_order(model%mesh%element_kind))) then ! stresses at nodes, averaged over their elements
          allocate (stress(max_stresses, n_points(model)))
          call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
          floor = page_zero*maxval(abs(stress))
@@ -69,8 +70,8 @@ contains
          call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
                           [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')], page%file)
          do node = 1, n_points(model)
-            if (model%first_at(node + 1) == model%first_at(node) .or. .not. shows(page, [node])) cycle
-            call table%put('NODE', model%node_id(node))
+            if (model%mesh%first_at(node + 1) == model%mesh%first_at(node) .or. .not. shows(page, [node])) cycle
+            call table%put('NODE', model%mesh%node_id(node))
             call table%put(stress_names(model), stress(shown, node), floor)
             call table%put('VON MISES', von_mises(stress(:, node)), floor)
             call table%print_row(page%file)
@@ -99,7 +100,7 @@ contains
 
       first = 1
       last = size(vectors, 1)
-      n_places = model%dimension
+      n_places = model%mesh%dimension
       if (present(turns)) n_places = 0
       if (n_places == 0) first = 4 - last
       if (n_places == 0) last = 3
@@ -109,8 +110,8 @@ contains
          do i = 1, size(nodes)
             directions = node_axes(model, nodes(i))
             along(:, i) = matmul(along(:, i), directions(first:last, first:last))
-            if (allocated(model%node_system)) system(i) = model%node_system(nodes(i))
-            if (system(i) > 0) system(i) = model%systems(system(i))%id
+            if (allocated(model%mesh%node_system)) system(i) = model%mesh%node_system(nodes(i))
+            if (system(i) > 0) system(i) = model%mesh%systems(system(i))%id
          end do
       end if
       allocate (keys(1 + n_places + size(along, 1)))
@@ -121,9 +122,9 @@ contains
                        page%now//in_units(words(3)), [column(keys(1), 'i11'), column(keys(2:), 'es13.5'), &
                        column('CD', 'i11', is_listed=page%along_cd)], page%file)
       allocate (values(n_places + size(along, 1), size(nodes)))
-      values(:n_places, :) = clean(model%x(:n_places, nodes))
+      values(:n_places, :) = clean(model%mesh%x(:n_places, nodes))
       values(n_places + 1:, :) = clean(along, spread(floors, 1, size(along, 1)))
-      call print_rows(page, table, keys, model%node_id(nodes), values, system)
+      call print_rows(page, table, keys, model%mesh%node_id(nodes), values, system)
    end subroutine list_vectors
 
    !> Print the rows of TABLE: under the first of KEYS the ID, under the others VALUES, and the number of a SYSTEM under CD if given.
@@ -172,34 +173,34 @@ contains
       real(wp) :: floor, full(max_stresses)
       integer  :: e, i, n
 
-      allocate (stress(max_stresses, model%n_elements), source=0.0_wp)
-      allocate (centre(model%dimension, model%n_elements))
+      allocate (stress(max_stresses, model%mesh%n_elements), source=0.0_wp)
+      allocate (centre(model%mesh%dimension, model%mesh%n_elements))
       n = size(stress_names(model))
-      !$omp parallel do schedule(dynamic, piece) default(shared) if(model%n_elements > few)
-      do e = 1, model%n_elements
+      !$omp parallel do schedule(dynamic, piece) default(shared) if(model%mesh%n_elements > few)
+      do e = 1, model%mesh%n_elements
          if (is_shell(model, e) .or. is_beam(model, e)) cycle
-         stress(:n_stresses(model%properties(model%element_property(e))%state), e) = &
+         stress(:n_stresses(model%mesh%properties(model%mesh%element_property(e))%state), e) = &
             element_stress(model, e, analysis%all_u, analysis%now%temperature)
          centre(:, e) = element_centre(model, e)
       end do
       !$omp end parallel do
       floor = page_zero*maxval(abs(stress))
       call table%start('STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
-                       [column('ELEMENT', 'i11'), column('CENTRE '//axes(:model%dimension), 'es13.5'), &
+                       [column('ELEMENT', 'i11'), column('CENTRE '//axes(:model%mesh%dimension), 'es13.5'), &
                         column(stress_names(model), 'es13.5')], page%file)
-      list = pack([(e, e = 1, model%n_elements)], [(shows(page, corners_of(model, e)) .and. &
-                  .not. (is_shell(model, e) .or. is_beam(model, e)), e = 1, model%n_elements)])
-      allocate (values(model%dimension + n, size(list)))
-      values(:model%dimension, :) = clean(centre(:, list))
-      values(model%dimension + 1:, :) = clean(stress(:n, list), floor)
-      call print_rows(page, table, [character(10) :: 'ELEMENT', 'CENTRE '//axes(:model%dimension), stress_names(model)], &
-                      model%element_id(list), values)
+      list = pack([(e, e = 1, model%mesh%n_elements)], [(shows(page, corners_of(model, e)) .and. &
+                  .not. (is_shell(model, e) .or. is_beam(model, e)), e = 1, model%mesh%n_elements)])
+      allocate (values(model%mesh%dimension + n, size(list)))
+      values(:model%mesh%dimension, :) = clean(centre(:, list))
+      values(model%mesh%dimension + 1:, :) = clean(stress(:n, list), floor)
+      call print_rows(page, table, [character(10) :: 'ELEMENT', 'CENTRE '//axes(:model%mesh%dimension), stress_names(model)], &
+                      model%mesh%element_id(list), values)
       if (.not. has_principal) return
       call table%start('PRINCIPAL STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
                        [column('ELEMENT', 'i11'), column(principal, 'es13.5')], page%file)
       do i = 1, size(list)
          full = whole_stress(model, list(i), analysis%all_u, analysis%now%temperature)
-         call table%put('ELEMENT', model%element_id(list(i)))
+         call table%put('ELEMENT', model%mesh%element_id(list(i)))
          call table%put(principal, [principal_stresses(full), von_mises(full)], floor)
          call table%print_row(page%file)
       end do
@@ -212,8 +213,8 @@ contains
       integer :: k
 
       shown = [(k, k = 1, max_stresses)]
-      if (model%dimension == 2) shown = [1, 2, 4]
-      if (model%axisymmetric) shown = [1, 2, 3, 4]
+      if (model%mesh%dimension == 2) shown = [1, 2, 4]
+      if (model%mesh%axisymmetric) shown = [1, 2, 3, 4]
    end function shown_stresses
 
    !> Names of the stresses; the stress across the plane of an axisymmetric model is the hoop stress.
@@ -223,7 +224,7 @@ contains
       character(10) :: all_names(max_stresses)
 
       all_names = [character(10) :: 'SIGMA X', 'SIGMA Y', 'SIGMA Z', 'TAU XY', 'TAU YZ', 'TAU ZX']
-      if (model%axisymmetric) all_names(3) = 'SIGMA HOOP'
+      if (model%mesh%axisymmetric) all_names(3) = 'SIGMA HOOP'
       names = all_names(shown_stresses(model))
    end function stress_names
 
@@ -246,23 +247,24 @@ contains
       call list_vectors(page, model, [character(21) :: 'REACTIONS AT SUPPORTS', 'R.', page%labels%force], list, &
                         balance%held(:, list), spread(floor, 1, size(list)))
       ! the balance
-      first = merge(2, 1, model%axisymmetric)
+      first = merge(2, 1, model%mesh%axisymmetric)
       call table%start('BALANCE OF FORCES'//page%now//in_units(page%labels%force), &
-                       [column('', 'a35', key='of'), column(axes(first:model%dimension), 'es13.5'), &
-                        column(one_of(model%axisymmetric, '  (THE RADIAL FORCES BALANCE ROUND THE RING)', ''), 'a', &
+                       [column('', 'a35', key='of'), column(axes(first:model%mesh%dimension), 'es13.5'), &
+                        column(one_of(model%mesh%axisymmetric, '  (THE RADIAL FORCES BALANCE ROUND THE RING)', ''), 'a', &
                                key='note')], page%file)
       do i = 1, size(names)
-         if (i == balance_springs .and. all(model%bars%nodes(2) > 0)) cycle
+         if (i == balance_springs .and. all(model%mesh%bars%nodes(2) > 0)) cycle
          call table%put('of', names(i))
-         call table%put(axes(first:model%dimension), balance%force(first:, i), balance%floors(i))
+         call table%put(axes(first:model%mesh%dimension), balance%force(first:, i), balance%floors(i))
          call table%leave_rest()
          call table%print_row(page%file)
       end do
       ! support moments, where any rotation is supported
-      list = pack([(i, i = 1, n_rotations(model))], [(any(supported(model, model%rotations(i)%node)), i = 1, n_rotations(model))])
+      list = pack([(i, i = 1, n_rotations(model))], [(any(supported(model, model%mesh%rotations(i)%node)), i = 1, &
+         n_rotations(model))])
       if (size(list) == 0) return
-      m = merge(3, 1, model%dimension == 3)
-      associate (rotations => model%rotations(list))
+      m = merge(3, 1, model%mesh%dimension == 3)
+      associate (rotations => model%mesh%rotations(list))
          call list_vectors(page, model, [character(19) :: 'MOMENTS AT SUPPORTS', 'M.', ''], rotations%point, &
                            balance%held(:m, rotations%node)*spread(rotations%arm, 1, m), floor*rotations%arm, turns=.true.)
       end associate
@@ -294,11 +296,12 @@ contains
          do i = 1, n ! 12Y, or 900RZ for a rotation of node 900, whose rows hold moments over its arm
             associate (node => condensed%node(i), d => condensed%direction(i))
                k = 0
-               if (n_rotations(model) > 0) k = findloc(model%rotations%node, node, dim=1)
-               if (k == 0) names(i) = integer_text(model%node_id(node))//axes(d)
+               if (n_rotations(model) > 0) k = findloc(model%mesh%rotations%node, node, dim=1)
+               if (k == 0) names(i) = integer_text(model%mesh%node_id(node))//axes(d)
                if (k == 0) cycle
-               names(i) = integer_text(model%node_id(model%rotations(k)%point))//'R'//axes(merge(d, 3, model%dimension == 3))
-               scale(i) = model%rotations(k)%arm
+               names(i) = integer_text(model%mesh%node_id(model%mesh%rotations(k)%point))//'R'//axes(merge(d, 3, &
+                  model%mesh%dimension == 3))
+               scale(i) = model%mesh%rotations(k)%arm
             end associate
          end do
          do first = 1, n, across

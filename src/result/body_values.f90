@@ -43,36 +43,36 @@ contains
       do node = 1, size(size_of)
          size_of(node) = norm2(analysis%all_u(:, node))
       end do
-      node = first_largest(size_of, model%used(:size(size_of)))
-      if (node > 0) answer%displacement = peak_type(.true., maxval(size_of, mask=model%used(:size(size_of))), &
-                                                    model%node_id(node), model%x(:, node))
-      if (model%n_elements == 0) return
+      node = first_largest(size_of, model%freedoms%used(:size(size_of)))
+      if (node > 0) answer%displacement = peak_type(.true., maxval(size_of, mask=model%freedoms%used(:size(size_of))), &
+                                                    model%mesh%node_id(node), model%mesh%x(:, node))
+      if (model%mesh%n_elements == 0) return
 
       ! the largest von Mises stress at a node
       allocate (at_node(max_stresses, n_points(model)))
       call node_stresses(model, analysis%all_u, analysis%now%temperature, at_node)
-      allocate (structural(size(size_of)), at_ends(model%n_elements))
+      allocate (structural(size(size_of)), at_ends(model%mesh%n_elements))
       call node_peaks(model, analysis%all_u, analysis%now%temperature, structural, at_ends, analysis)
       do node = 1, size(size_of)
          size_of(node) = max(von_mises(at_node(:, node)), structural(node))
       end do
-      node = first_largest(size_of, model%used(:size(size_of)))
-      answer%at_node = peak_type(.true., largest(size_of), model%node_id(node), model%x(:, node))
+      node = first_largest(size_of, model%freedoms%used(:size(size_of)))
+      answer%at_node = peak_type(.true., largest(size_of), model%mesh%node_id(node), model%mesh%x(:, node))
 
       ! that at the centre of an element
       deallocate (size_of)
-      allocate (size_of(model%n_elements))
-      !$omp parallel do schedule(dynamic, 512) default(shared) if(model%n_elements > 4096)
-      do e = 1, model%n_elements
+      allocate (size_of(model%mesh%n_elements))
+      !$omp parallel do schedule(dynamic, 512) default(shared) if(model%mesh%n_elements > 4096)
+      do e = 1, model%mesh%n_elements
          size_of(e) = max(von_mises(whole_stress(model, e, analysis%all_u, analysis%now%temperature)), at_ends(e))
       end do
       !$omp end parallel do
-      associate (modulus => model%properties(model%element_property)%e)
+      associate (modulus => model%mesh%properties(model%mesh%element_property)%e)
          if (all(is_measure(size_of))) answer%strained = maxval(size_of/modulus, mask=modulus > 0.0_wp)
       end associate
       e = first_largest(size_of, size_of >= 0.0_wp)
-      answer%at_centre = peak_type(.true., largest(size_of), model%element_id(e))
-      answer%at_centre%x(:model%dimension) = element_centre(model, e)
+      answer%at_centre = peak_type(.true., largest(size_of), model%mesh%element_id(e))
+      answer%at_centre%x(:model%mesh%dimension) = element_centre(model, e)
    end subroutine find_body_values
 
    !> The largest of VALUES, or the first one that is not a number.

@@ -104,31 +104,31 @@ contains
       real(wp) :: k(max_section_dofs, max_section_dofs), p(max_section_dofs)
       integer  :: d, e, i, j, n, s
 
-      d = model%dimension
-      s = findloc(model%surfaces%id, section%surface, dim=1)
-      call surface_nodes(model, model%surfaces(s), list)
+      d = model%mesh%dimension
+      s = findloc(model%mesh%surfaces%id, section%surface, dim=1)
+      call surface_nodes(model, model%mesh%surfaces(s), list)
       centroid = 0.0_wp
       do i = 1, list%n
-         centroid = centroid + list%area(i)*model%x(:, list%node(i))/sum(list%area)
+         centroid = centroid + list%area(i)*model%mesh%x(:, list%node(i))/sum(list%area)
       end do
       moment = 0.0_wp
-      do j = model%first_at(section%node), model%first_at(section%node + 1) - 1
-         e = model%elements_at(j)
+      do j = model%mesh%first_at(section%node), model%mesh%first_at(section%node + 1) - 1
+         e = model%mesh%elements_at(j)
          call element_stiffness(model, e, k)
          call element_thermal_forces(model, e, temperature, thermal(:d, :))
          associate (nodes => corners_of(model, e))
             n = d*size(nodes)
             p(:n) = matmul(k(:n, :n), reshape(corner_displacements(model, e, u), [n]))
             do i = 1, size(nodes)
-               if (model%node_section(nodes(i)) /= model%element_section(e)) cycle
+               if (model%mesh%node_section(nodes(i)) /= model%mesh%element_section(e)) cycle
                force = 0.0_wp
                force(:d) = p(d*(i - 1) + 1:d*i) - thermal(:d, i)
-               moment = moment + cross(model%x(:, nodes(i)) - centroid, force)
+               moment = moment + cross(model%mesh%x(:, nodes(i)) - centroid, force)
             end do
          end associate
       end do
       moment = moment - dot_product(moment, section%direction)*section%direction
-      if (model%axisymmetric) moment = 0.0_wp ! self-equilibrated around the ring
+      if (model%mesh%axisymmetric) moment = 0.0_wp ! self-equilibrated around the ring
    end function bending_moment
 
    !> Follow the bolts through the increment just completed: their history, and their values now. The bending of solid bolts is known
@@ -172,11 +172,11 @@ contains
             answer%has_strength = bolt%strength > 0.0_wp
             if (answer%has_strength) answer%use = answer%largest/(bolt%strength*bolt%area)
             if (bolt%joint == 0) cycle
-            answer%joint = model%joints(bolt%joint)%id
+            answer%joint = model%joints%list(bolt%joint)%id
             answer%clamping = above(clamping(i), floor)
             if (history%clamped(i) > floor) answer%loss = above(1.0_wp - clamping(i)/history%clamped(i), zero_remainder)
-            answer%has_safety = model%joints(bolt%joint)%law%has_friction .and. shear(i) > floor
-            if (answer%has_safety) answer%safety = model%joints(bolt%joint)%law%mu*max(0.0_wp, clamping(i))/shear(i)
+            answer%has_safety = model%joints%list(bolt%joint)%law%has_friction .and. shear(i) > floor
+            if (answer%has_safety) answer%safety = model%joints%list(bolt%joint)%law%mu*max(0.0_wp, clamping(i))/shear(i)
          end associate
       end do
    end subroutine follow_bolts
@@ -212,18 +212,18 @@ contains
       answer%n_cuts = bolt%cut%n
       if (bolt%bar > 0) then
          force = bar_tension(model, analysis, bolt%bar)
-         answer%element = model%bars(bolt%bar)%id
+         answer%element = model%mesh%bars(bolt%bar)%id
          answer%longer = elongation_now(model, analysis, bolt%bar)
       else
          force = section_tension(model, analysis, bolt%section)
-         answer%surface = model%sections(bolt%section)%surface
+         answer%surface = model%mesh%sections(bolt%section)%surface
          answer%longer = -overlap_now(model, analysis, bolt%section)
       end if
       answer%force = above(force, floor)
       answer%stress = answer%force/bolt%area
       answer%has_moment = bolt%section > 0 .and. analysis%fraction >= 1.0_wp
       if (.not. answer%has_moment) return
-      moment = bending_moment(model, model%sections(bolt%section), analysis%all_u, analysis%now%temperature)
+      moment = bending_moment(model, model%mesh%sections(bolt%section), analysis%all_u, analysis%now%temperature)
       answer%moment = above(norm2(axis_part(bolt%cut, moment)), floor*sqrt(bolt%area))
       ! W = pi d**3/32, A = pi d**2/4; one plane of symmetry leaves half of the moment and of the area of the whole shank
       answer%edge_stress = answer%stress + &
@@ -274,11 +274,12 @@ contains
 
       clamping = 0.0_wp
       along = 0.0_wp
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i), state => analysis%states(i), of_joint => bolts%joint == model%interface(i)%joint)
+      do i = 1, size(model%joints%element)
+         associate (element => model%joints%element(i), state => analysis%states(i), of_joint => bolts%joint == &
+            model%joints%element(i)%joint)
             if (.not. any(of_joint)) cycle
             do b = 1, size(bolts)
-               off(b) = distance(bolts(b), at_first_end(element, model%x))
+               off(b) = distance(bolts(b), at_first_end(element, model%mesh%x))
             end do
             share = merge(1.0_wp, 0.0_wp, of_joint .and. off <= (1.0_wp + symmetric_tie)*minval(off, mask=of_joint))
             share = share/sum(share)
@@ -288,7 +289,7 @@ contains
             end do
          end associate
       end do
-      if (model%axisymmetric) along = 0.0_wp ! self-equilibrated around the ring
+      if (model%mesh%axisymmetric) along = 0.0_wp ! self-equilibrated around the ring
       do b = 1, size(bolts)
          shear(b) = norm2(free_part(bolts(b)%cut, along(:, b)))
       end do

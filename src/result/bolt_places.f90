@@ -42,19 +42,19 @@ contains
       integer  :: i, n
 
       n = n_sections(model)
-      if (n_bars(model) > 0) n = n + count(model%bars%bolt > 0)
+      if (n_bars(model) > 0) n = n + count(model%mesh%bars%bolt > 0)
       allocate (bolts(n))
       if (n > 0) call start_passages(model, cuts, passages)
       allocate (crossing(passages%n, n), source=0)
       n = 0
       do i = 1, n_bars(model)
-         associate (bar => model%bars(i))
+         associate (bar => model%mesh%bars(i))
             if (bar%bolt == 0) cycle
             n = n + 1
-            bolts(n) = bolt_place(id=bar%bolt, bar=i, stage=bar%stage, point=model%x(:, bar%nodes(1)), &
+            bolts(n) = bolt_place(id=bar%bolt, bar=i, stage=bar%stage, point=model%mesh%x(:, bar%nodes(1)), &
                                   direction=bar%direction(:, 1), area=bar%area, strength=bar%strength, &
                                   cut=planes_along(model, planes, bar%nodes, bar%direction(:, 1)))
-            span = [0.0_wp, norm2(model%x(:, bar%nodes(2)) - model%x(:, bar%nodes(1)))]
+            span = [0.0_wp, norm2(model%mesh%x(:, bar%nodes(2)) - model%mesh%x(:, bar%nodes(1)))]
             call find_own_joint(model, span, passages, bolts(n), crossing(:, n))
          end associate
       end do
@@ -78,25 +78,25 @@ contains
       real(wp) :: along, centroid(3), radius
       integer  :: node, s
 
-      associate (section => model%sections(i))
-         s = findloc(model%surfaces%id, section%surface, dim=1)
-         call surface_nodes(model, model%surfaces(s), list)
+      associate (section => model%mesh%sections(i))
+         s = findloc(model%mesh%surfaces%id, section%surface, dim=1)
+         call surface_nodes(model, model%mesh%surfaces(s), list)
          bolt = bolt_place(id=section%bolt, section=i, stage=section%stage, direction=section%direction, area=section%area, &
                            strength=section%strength, cut=planes_along(model, planes, list%node, section%direction))
          centroid = 0.0_wp
          do s = 1, list%n
-            centroid = centroid + list%area(s)/sum(list%area)*model%x(:, list%node(s))
+            centroid = centroid + list%area(s)/sum(list%area)*model%mesh%x(:, list%node(s))
          end do
          bolt%point = onto_planes(bolt%cut, planes, centroid)
          radius = 0.0_wp
          do s = 1, list%n
-            radius = max(radius, norm2(model%x(:, list%node(s)) - bolt%point))
+            radius = max(radius, norm2(model%mesh%x(:, list%node(s)) - bolt%point))
          end do
          span = 0.0_wp
          do node = 1, n_points(model)
-            if (model%part(node) /= model%part(section%point)) cycle
-            if (distance(bolt, model%x(:, node)) > radius*(1.0_wp + beside_bolt)) cycle
-            along = dot_product(model%x(:, node) - bolt%point, bolt%direction)
+            if (model%freedoms%part(node) /= model%freedoms%part(section%point)) cycle
+            if (distance(bolt, model%mesh%x(:, node)) > radius*(1.0_wp + beside_bolt)) cycle
+            along = dot_product(model%mesh%x(:, node) - bolt%point, bolt%direction)
             span = [min(span(1), along), max(span(2), along)]
          end do
       end associate
@@ -124,30 +124,30 @@ contains
       type(passage_type), intent(in)  :: passages
       type(bolt_place), intent(inout) :: bolt
       integer, intent(inout)          :: crossing(:) !! (pairs) 0 on entry
-      real(wp) :: off(size(model%joints)), along, near
-      logical  :: crossed(size(model%joints))
-      integer  :: at(size(model%joints)), i, j
+      real(wp) :: off(size(model%joints%list)), along, near
+      logical  :: crossed(size(model%joints%list))
+      integer  :: at(size(model%joints%list)), i, j
 
       crossed = .false.
       off = huge(1.0_wp)
       associate (length => span(2) - span(1))
-         do j = 1, size(model%joints)
-            do i = model%joints(j)%first, model%joints(j)%last
-               near = distance(bolt, at_first_end(model%interface(i), model%x))
+         do j = 1, size(model%joints%list)
+            do i = model%joints%list(j)%first, model%joints%list(j)%last
+               near = distance(bolt, at_first_end(model%joints%element(i), model%mesh%x))
                if (near > off(j) - symmetric_tie*length) cycle
                off(j) = near
                at(j) = i
-               along = dot_product(at_first_end(model%interface(i), model%x) - bolt%point, bolt%direction)
+               along = dot_product(at_first_end(model%joints%element(i), model%mesh%x) - bolt%point, bolt%direction)
                crossed(j) = along > span(1) - symmetric_tie*length .and. along < span(2) + symmetric_tie*length .and. &
-                            abs(dot_product(model%interface(i)%axes(:, 3), bolt%direction)) > 0.5_wp
+                            abs(dot_product(model%joints%element(i)%axes(:, 3), bolt%direction)) > 0.5_wp
             end do
          end do
          crossed = crossed .and. off <= minval(off, mask=crossed) + about_as_near*length
       end associate
-      bolt%joint = first_largest(model%joints%area, crossed)
-      do j = 1, size(model%joints) ! the normal of an element points from its end 1 to its end 2
+      bolt%joint = first_largest(model%joints%list%area, crossed)
+      do j = 1, size(model%joints%list) ! the normal of an element points from its end 1 to its end 2
          if (crossed(j)) crossing(passages%of_element(at(j))) = passages%sense(at(j))* &
-            nint(sign(1.0_wp, dot_product(model%interface(at(j))%axes(:, 3), bolt%direction)))
+            nint(sign(1.0_wp, dot_product(model%joints%element(at(j))%axes(:, 3), bolt%direction)))
       end do
    end subroutine find_own_joint
 

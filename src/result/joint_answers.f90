@@ -45,10 +45,10 @@ contains
       real(wp), allocatable :: k(:, :)
       integer :: j
 
-      allocate (answers(size(model%joints)))
+      allocate (answers(size(model%joints%list)))
       allocate (k, source=tangents_now(model, analysis, method))
       do j = 1, size(answers)
-         call describe_joint(model, analysis, model%joints(j), now(j), cuts(j), k, zero_remainder*largest_force, answers(j))
+         call describe_joint(model, analysis, model%joints%list(j), now(j), cuts(j), k, zero_remainder*largest_force, answers(j))
       end do
    end subroutine find_joint_answers
 
@@ -70,7 +70,7 @@ contains
       total = now%total
       answer%n_cuts = cut%n
       associate (frame => joint%frame)
-         if (model%axisymmetric) total%shear(1) = 0.0_wp ! self-equilibrated around the ring
+         if (model%mesh%axisymmetric) total%shear(1) = 0.0_wp ! self-equilibrated around the ring
          answer%normal = above(total%normal, floor)
          answer%shear = above(norm2(free_part(cut, total%shear)), floor)
          answer%force(:3) = above(matmul(total%force, frame%axes), floor)
@@ -119,7 +119,7 @@ contains
       mean = 0.0_wp
       do i = joint%first, joint%last
          if (analysis%states(i)%normal%branch == branch_open) cycle
-         a = model%interface(i)%area/unit_area
+         a = model%joints%element(i)%area/unit_area
          area = area + a
          place = place + a*(arm_of(model, joint%frame, i)/unit_length)
          mean = mean + a*deflection_of(model, analysis, joint, i)
@@ -131,7 +131,7 @@ contains
       moment = 0.0_wp
       do i = joint%first, joint%last
          if (analysis%states(i)%normal%branch == branch_open) cycle
-         a = model%interface(i)%area/unit_area
+         a = model%joints%element(i)%area/unit_area
          arm = arm_of(model, joint%frame, i)/unit_length - place
          d = deflection_of(model, analysis, joint, i) - mean
          inertia = inertia + a*(dot_product(arm, arm)*identity - spread(arm, 2, 3)*spread(arm, 1, 3))
@@ -168,7 +168,7 @@ contains
 
       d(:2) = merge(analysis%states(i)%shear%delta, analysis%movement(:2, i), joint%law%shear%given)
       d(3) = analysis%states(i)%normal%lambda
-      d = matmul(model%interface(i)%axes, d)
+      d = matmul(model%joints%element(i)%axes, d)
       d = matmul(d, joint%frame%axes)
    end function deflection_of
 
@@ -188,7 +188,7 @@ contains
             moved(modulo(c - 1, 3) + 1) = 1.0_wp
             if (c > 3) moved = cross(moved, arm_of(model, joint%frame, i))
             moved = matmul(joint%frame%axes, moved)
-            moved = matmul(moved, model%interface(i)%axes)
+            moved = matmul(moved, model%joints%element(i)%axes)
             total(c) = total(c) + dot_product(k(:, i), moved**2)
          end do
       end do
@@ -202,7 +202,7 @@ contains
       integer, intent(in)           :: i
       real(wp) :: arm(3)
 
-      arm = at_first_end(model%interface(i), model%x) - frame%centroid
+      arm = at_first_end(model%joints%element(i), model%mesh%x) - frame%centroid
       arm = matmul(arm, frame%axes)
    end function arm_of
 
@@ -218,7 +218,7 @@ contains
          associate (joint => answers(i))
             if (.not. all(is_measure([joint%now%pressure, joint%now%gap, joint%normal, joint%shear, joint%moment, joint%safety, &
                                       joint%force, joint%movement, joint%tangent, joint%secant]))) then
-               words = 'the force of joint '//integer_text(model%joints(i)%id)//', or its stiffness,'
+               words = 'the force of joint '//integer_text(model%joints%list(i)%id)//', or its stiffness,'
                return
             end if
          end associate

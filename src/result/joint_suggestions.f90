@@ -36,7 +36,7 @@ contains
       type(next_numbers)   :: next
       integer, allocatable :: sees(:), mark(:)
       logical, allocatable :: on_side(:, :)
-      integer  :: body(model%n_elements), first, i, k, marks(2), p
+      integer  :: body(model%mesh%n_elements), first, i, k, marks(2), p
       logical  :: is_new(2)
       real(wp) :: reach
 
@@ -45,7 +45,7 @@ contains
       call find_facing(model, sides, pairs, sees)
       call find_marks(model, sides, mark)
       associate (bulk => deck%bulk)
-         next%element = 1 + maxval([0, model%element_id, bulk%edge%id, bulk%element%id, bulk%rigid%id, &
+         next%element = 1 + maxval([0, model%mesh%element_id, bulk%edge%id, bulk%element%id, bulk%rigid%id, &
                                     bulk%conrod%id, bulk%spring%id, bulk%mass%id, bulk%cjoint%id])
          next%mark = 1 + maxval([0, bulk%pmark%id, bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, &
                                  bulk%beam_property%id, bulk%spring_property%id])
@@ -111,9 +111,9 @@ contains
       integer :: i, j, k, s
 
       allocate (mark(size(sides)), source=0)
-      call list_owners(model%n_elements, reshape(sides%element, [1, size(sides)]), first, owners)
-      do k = 1, size(model%surfaces)
-         associate (surface => model%surfaces(k))
+      call list_owners(model%mesh%n_elements, reshape(sides%element, [1, size(sides)]), first, owners)
+      do k = 1, size(model%mesh%surfaces)
+         associate (surface => model%mesh%surfaces(k))
             do s = 1, surface%n
                do j = first(surface%element(s)), first(surface%element(s) + 1) - 1
                   i = owners(j)
@@ -134,14 +134,14 @@ contains
          integer :: at, c, below(size(corners))
 
          below = corners
-         if (allocated(model%face_of)) then
+         if (allocated(model%mesh%face_of)) then
             do c = 1, size(corners)
-               if (model%face_of(corners(c)) > 0) below(c) = model%faces(model%face_of(corners(c)))%point
+               if (model%mesh%face_of(corners(c)) > 0) below(c) = model%mesh%faces(model%mesh%face_of(corners(c)))%point
             end do
          end if
          same_side = .false.
          do at = 1, size(corners)
-            same_side = same_side .or. all([(any([side%corners(c), model%duplicate(side%corners(c))] == &
+            same_side = same_side .or. all([(any([side%corners(c), model%mesh%duplicate(side%corners(c))] == &
                                                  below(1 + modulo(at + c - 2, size(corners)))), c = 1, size(corners))])
          end do
       end function same_side
@@ -177,8 +177,8 @@ contains
       do i = 1, size(sides)
          nodes = sides(i)%corners(:sides(i)%n)
          if (sides(i)%side > 0) then
-            associate (kind => element_table(model%element_kind(sides(i)%element)), side => sides(i)%side)
-               nodes = model%element_nodes(kind%side_nodes(:kind%side_size(side), side), sides(i)%element)
+            associate (kind => element_table(model%mesh%element_kind(sides(i)%element)), side => sides(i)%side)
+               nodes = model%mesh%element_nodes(kind%side_nodes(:kind%side_size(side), side), sides(i)%element)
             end associate
          end if
          select case (sides(i)%n)
@@ -192,7 +192,7 @@ contains
          line = line//','//integer_text(next%element)//','//integer_text(mark)
          do k = 1, size(nodes)
             if (k == 7) line = line//new_line('a')//'+'
-            line = line//','//integer_text(model%node_id(nodes(k)))
+            line = line//','//integer_text(model%mesh%node_id(nodes(k)))
          end do
          call file%put_lines(line//new_line('a'))
          next%element = next%element + 1
@@ -211,7 +211,7 @@ contains
       real(wp) :: extent
       integer  :: d, id
 
-      d = model%dimension
+      d = model%mesh%dimension
       if (size(sides) == 0) return
       extent = maxval(sides%centre(d)) - minval(sides%centre(d))
       lowest = sides%centre(d) <= minval(sides%centre(d)) + at_the_bottom*extent .and. sides%normal(d) < -0.999_wp .and. sees == 0

@@ -38,18 +38,18 @@ contains
       logical  :: gaps, slides
 
       gaps = has_gaps(model)
-      slides = any(model%joints%law%has_friction)
+      slides = any(model%joints%list%law%has_friction)
       call table%start('', table_columns(joint_table, page%labels, model))
-      do i = 1, size(model%interface)
+      do i = 1, size(model%joints%element)
          call table%put('stage', page%stage_id)
          call table%put('increment', analysis%increment)
          call table%put('load', analysis%fraction)
-         associate (element => model%interface(i), state => analysis%states(i)%normal)
-            call table%put('joint', model%joints(element%joint)%id)
+         associate (element => model%joints%element(i), state => analysis%states(i)%normal)
+            call table%put('joint', model%joints%list(element%joint)%id)
             call table%put('element', element%id)
             call table%put('node1', joint_node_id(model, i, 1))
             call table%put('node2', joint_node_id(model, i, 2))
-            call table%put(xyz, at_first_end(element, model%x))
+            call table%put(xyz, at_first_end(element, model%mesh%x))
             call table%put('area', element%area)
             call table%put('branch', branch_name(state%branch))
             call table%put('lambda', state%lambda)
@@ -58,7 +58,8 @@ contains
             call table%put('k_n', state%k_n)
          end associate
          do k = 1, 2
-            associate (state => analysis%states(i)%shear(k), has_law => model%joints(model%interface(i)%joint)%law%shear(k)%given)
+            associate (state => analysis%states(i)%shear(k), &
+               has_law => model%joints%list(model%joints%element(i)%joint)%law%shear(k)%given)
                call table%put('branch_'//xyz(k), branch_name(state%branch), where=has_law)
                call table%put('delta_'//xyz(k), merge(state%delta, analysis%movement(k, i), has_law)) ! else only the movement
                call table%put('tau_'//xyz(k), merge(state%tau, 0.0_wp, has_law))
@@ -66,7 +67,7 @@ contains
             end associate
          end do
          call table%put('slip', merge(1, 0, analysis%states(i)%slips))
-         if (gaps) call table%put('gap', model%interface(i)%gap)
+         if (gaps) call table%put('gap', model%joints%element(i)%gap)
          if (slides) call table%put('slid_'//xyz(:2), analysis%states(i)%shear%slid)
          call table%print_row(csv_file=page%tables(joint_table))
       end do
@@ -80,18 +81,18 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer :: j, k
 
-      do j = 1, size(model%joints)
+      do j = 1, size(model%joints%list)
          call list_elements(page, of_elements, model, analysis, j)
          call list_elements(page, of_stiffness, model, analysis, j)
          if (allocated(analysis%exact)) call list_elements(page, of_removed, model, analysis, j) ! STEP
-         do k = 1, model%dimension - 1
+         do k = 1, model%mesh%dimension - 1
             call list_elements(page, of_shear, model, analysis, j, k)
          end do
       end do
       if (asked%state) then
-         do j = 1, size(model%joints)
+         do j = 1, size(model%joints%list)
             call list_elements(page, of_state, model, analysis, j)
-            do k = 1, model%dimension - 1
+            do k = 1, model%mesh%dimension - 1
                call list_elements(page, of_shear_state, model, analysis, j, k)
             end do
          end do
@@ -114,8 +115,8 @@ contains
       integer, allocatable :: list(:)
       integer :: i
 
-      associate (joint => model%joints(j), normal => analysis%states%normal)
-         list = pack([(i, i = joint%first, joint%last)], [(shows(page, model%interface(i)%node), i = joint%first, joint%last)])
+      associate (joint => model%joints%list(j), normal => analysis%states%normal)
+         list = pack([(i, i = joint%first, joint%last)], [(shows(page, model%joints%element(i)%node), i = joint%first, joint%last)])
          if (subject == of_removed) list = pack(list, normal(list)%branch == branch_open .and. force_reached(normal(list)) < 0.0_wp)
          if (subject == of_removed .and. size(list) == 0) return
          title = trim(titles(subject))
@@ -126,7 +127,7 @@ contains
          if (subject /= of_removed) title = title//' OF JOINT'
          title = title//' '//integer_text(joint%id)//page%now
       end associate
-      associate (labels => page%labels, d => model%dimension)
+      associate (labels => page%labels, d => model%mesh%dimension)
          select case (subject)
          case (of_elements) ! K_N in space only in the joint history
             columns = [column('NODE 2', 'i11'), column(axes(:d), 'es13.5', labels%length), column('AREA', 'es13.5', labels%area), &
@@ -157,7 +158,7 @@ contains
       end associate
       call table%start(title, [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), columns], page%file)
       do i = 1, size(list)
-         call table%put([character(7) :: 'ELEMENT', 'NODE 1'], [model%interface(list(i))%id, joint_node_id(model, list(i), 1)])
+         call table%put([character(7) :: 'ELEMENT', 'NODE 1'], [model%joints%element(list(i))%id, joint_node_id(model, list(i), 1)])
          if (present(k)) call add_shear(table, subject, model, analysis, list(i), k)
          if (.not. present(k)) call add_normal(table, subject, model, analysis, list(i))
          call table%print_row(page%file)
@@ -178,11 +179,12 @@ contains
 
       lambda_floor = page_zero*analysis%largest_lambda
       p_floor = page_zero*analysis%largest_p
-      associate (element => model%interface(i), joint => model%joints(model%interface(i)%joint), state => analysis%states(i)%normal)
+      associate (element => model%joints%element(i), joint => model%joints%list(model%joints%element(i)%joint), &
+         state => analysis%states(i)%normal)
          select case (subject)
          case (of_elements)
             call table%put('NODE 2', joint_node_id(model, i, 2))
-            call table%put(axes(:model%dimension), at_first_end(element, model%x(:model%dimension, :)))
+            call table%put(axes(:model%mesh%dimension), at_first_end(element, model%mesh%x(:model%mesh%dimension, :)))
             call table%put('AREA', element%area)
             call table%put('BRANCH', branch_name(state%branch))
             call table%put('LAMBDA', state%lambda, lambda_floor)
@@ -220,7 +222,7 @@ contains
 
       delta_floor = page_zero*analysis%largest_lambda
       tau_floor = page_zero*analysis%largest_p
-      associate (element => model%interface(i), law => model%joints(model%interface(i)%joint)%law, &
+      associate (element => model%joints%element(i), law => model%joints%list(model%joints%element(i)%joint)%law, &
                  state => analysis%states(i)%shear(k), p => analysis%states(i)%normal%pressure)
          call table%put('BRANCH', branch_name(state%branch))
          if (subject == of_shear) then
@@ -254,8 +256,8 @@ contains
       integer  :: j
       logical  :: slides
 
-      if (size(model%joints) == 0) return
-      slides = any(model%joints%law%has_friction)
+      if (size(model%joints%list) == 0) return
+      slides = any(model%joints%list%law%has_friction)
       call heading(page%file, 'ENERGY OF JOINTS, '//page%stage)
       call page%file%put('                 ------------- NORMAL -------------------   -------------- SHEAR -------------------'// &
                          one_of(slides, '   SLIDING', ''))
@@ -264,11 +266,11 @@ contains
                             column(names, ['es15.5', 'es13.5', 'es13.5'], key='SHEAR '//names), &
                             column('LOST', 'es15.5', is_listed=slides)], page%file)
       if (page%labels%moment /= '') call page%file%put('                 ('//trim(page%labels%moment)//')')
-      do j = 1, size(model%joints)
+      do j = 1, size(model%joints%list)
          associate (energy => analysis%energy(j))
             floor = page_zero*sum(energy%put_in)
             kept = energy%kept()
-            call table%put('JOINT', model%joints(j)%id)
+            call table%put('JOINT', model%joints%list(j)%id)
             call table%put('NORMAL '//names, [energy%put_in(2), energy%given_back(2), kept(2)], floor)
             call table%put('SHEAR '//names, [energy%put_in(1), energy%given_back(1), kept(1)], floor)
             call table%put('LOST', energy%lost, floor)
@@ -294,7 +296,7 @@ contains
       integer  :: column, i, row
 
       do i = joint%first, joint%last
-         place(:, i) = at_first_end(model%interface(i), model%x) - joint%frame%centroid
+         place(:, i) = at_first_end(model%joints%element(i), model%mesh%x) - joint%frame%centroid
          place(:, i) = matmul(place(:, i), joint%frame%axes)
       end do
       low = minval(place, dim=2)
@@ -337,7 +339,7 @@ contains
       real(wp) :: p_most, lambda_most, lambda_least
       integer  :: i
 
-      if (model%dimension == 3 .and. .not. joint%frame%faces_all_ways) then
+      if (model%mesh%dimension == 3 .and. .not. joint%frame%faces_all_ways) then
          call map_joint(page, model, analysis, joint)
          return
       end if
@@ -353,7 +355,8 @@ contains
          call page%file%put(line)
          call page%file%put('      NODE            X  +'//repeat('---------+', 10))
          do i = joint%first, joint%last
-            write (line, '(i10, es13.5)') joint_node_id(model, i, 1), clean(at_first_end(model%interface(i), model%x(1:1, :)))
+            write (line, '(i10, es13.5)') joint_node_id(model, i, 1), clean(at_first_end(model%joints%element(i), &
+               model%mesh%x(1:1, :)))
             line(26:26) = '|'
             line(25 + width:25 + width) = '|'
             call mark((state(i)%lambda - lambda_least)/(lambda_most - lambda_least), '+')

@@ -56,17 +56,17 @@ contains
       now%n = size(analysis%loaded)
       allocate (now%node, source=analysis%loaded)
       allocate (now%force(3, now%n), source=0.0_wp)
-      now%force(:model%dimension, :) = analysis%now%load(:, now%node)
-      allocate (values(size(model%joints)))
+      now%force(:model%mesh%dimension, :) = analysis%now%load(:, now%node)
+      allocate (values(size(model%joints%list)))
       do j = 1, size(values)
-         associate (joint => model%joints(j), of_joint => values(j), &
-                    states => analysis%states(model%joints(j)%first:model%joints(j)%last))
+         associate (joint => model%joints%list(j), of_joint => values(j), &
+                    states => analysis%states(model%joints%list(j)%first:model%joints%list(j)%last))
             of_joint%total = find_resultant(model, analysis, joint)
             of_joint%has_applied = joint%determinate
             if (joint%determinate) of_joint%applied = carried_resultant(model, joint, now)
             of_joint%n_open = count(states%normal%branch == branch_open)
             of_joint%slipping = count(states%slips)
-            of_joint%contact = above(1.0_wp - sum(model%interface(joint%first:joint%last)%area, &
+            of_joint%contact = above(1.0_wp - sum(model%joints%element(joint%first:joint%last)%area, &
                                                   mask=states%normal%branch == branch_open)/joint%area, page_zero)
             of_joint%lambda = above(maxval(states%normal%lambda), page_zero*analysis%largest_lambda)
             of_joint%lambda_at = joint%first - 1 + first_largest(above(states%normal%lambda, page_zero*analysis%largest_lambda))
@@ -100,11 +100,11 @@ contains
       integer  :: i
 
       do i = joint%first, joint%last
-         associate (element => model%interface(i), state => analysis%states(i))
+         associate (element => model%joints%element(i), state => analysis%states(i))
             force = element_force(element, state)
             total%force = total%force + force
             total%across = total%across + dot_product(force, joint%normal)
-            total%moment = total%moment + cross(at_first_end(element, model%x) - joint%frame%centroid, force)
+            total%moment = total%moment + cross(at_first_end(element, model%mesh%x) - joint%frame%centroid, force)
             total%normal = total%normal + state%normal%sumf
             total%along = total%along + state%shear%tau*element%area
             total%shear = total%shear + matmul(element%axes(:, :2), state%shear%tau*element%area)
@@ -123,15 +123,15 @@ contains
       integer :: i, j, k, n_parts
 
       call find_planes(model, planes)
-      allocate (cuts(size(model%joints)))
+      allocate (cuts(size(model%joints%list)))
       if (size(planes) == 0) return
       call number_parts(model, .false., part, n_parts)
       allocate (of_part, source=parts_cut(model, planes, part, n_parts))
       allocate (all_cut(size(planes)))
       do j = 1, size(cuts)
          all_cut = .true.
-         do i = model%joints(j)%first, model%joints(j)%last
-            associate (nodes => model%interface(i)%node)
+         do i = model%joints%list(j)%first, model%joints%list(j)%last
+            associate (nodes => model%joints%element(i)%node)
                do k = 1, size(nodes)
                   all_cut = all_cut .and. of_part(part(nodes(k)), :)
                end do

@@ -63,20 +63,20 @@ contains
       call write_echo(page%file, deck)
       call write_summary(page%file, deck, model, system)
       call write_bodies(page, model)
-      if (size(model%joints) > 0) call write_joints(page, model, has_unloading_modes(plan))
+      if (size(model%joints%list) > 0) call write_joints(page, model, has_unloading_modes(plan))
       call write_shear_laws(page%file, model)
       ! the load history: totals at the end of every stage
       call table%start('STAGES', [column('STAGE', 'i11', heading_shift=-1), column('INCREMENTS', 'i11'), &
                                   column(['FIRST SHARE', 'LAST SHARE '], 'es14.5'), &
-                                  column('TOTAL LOAD '//axes(:model%dimension), 'es15.5', page%labels%force), &
+                                  column('TOTAL LOAD '//axes(:model%mesh%dimension), 'es15.5', page%labels%force), &
                                   column('   LABEL', 'a')], page%file)
       do s = 1, size(plan%stages)
-         associate (stage => plan%stages(s), loads => model%stage_loads(s))
+         associate (stage => plan%stages(s), loads => model%history%stages(s))
             total = sum(loads%force(:, :loads%n), dim=2, mask=spread(loads%node(:loads%n) <= n_points(model), 1, 3)) ! no moments
             largest = max(0.0_wp, maxval(abs(loads%force(:, :loads%n))))
             call table%put([character(10) :: 'STAGE', 'INCREMENTS'], [stage%id, size(stage%fractions)])
             call table%put([character(11) :: 'FIRST SHARE', 'LAST SHARE'], stage%fractions([1, size(stage%fractions)]))
-            call table%put('TOTAL LOAD '//axes(:model%dimension), total(:model%dimension), page_zero*largest)
+            call table%put('TOTAL LOAD '//axes(:model%mesh%dimension), total(:model%mesh%dimension), page_zero*largest)
             call table%put('LABEL', '   '//cut(stage%label, 33))
             call table%print_row(page%file)
          end associate
@@ -163,17 +163,17 @@ contains
 
       call heading(file, 'MODEL SUMMARY')
       call count_line(file, 'NODES', int(n_points(model), long))
-      if (.not. all(model%used)) &
-         call count_line(file, '   OF THESE WITHOUT AN ELEMENT, LEFT OUT', count(.not. model%used, kind=long))
-      if (model%n_filled > 0) call count_line(file, '   OF THESE MADE AT THE MIDDLE OF EDGES', int(model%n_filled, long))
-      if (any(model%duplicate > 0)) &
-         call count_line(file, '   OF THESE DOUBLED AT SPLIT SURFACES', count(model%duplicate > 0, kind=long))
+      if (.not. all(model%freedoms%used)) &
+         call count_line(file, '   OF THESE WITHOUT AN ELEMENT, LEFT OUT', count(.not. model%freedoms%used, kind=long))
+      if (model%mesh%n_filled > 0) call count_line(file, '   OF THESE MADE AT THE MIDDLE OF EDGES', int(model%mesh%n_filled, long))
+      if (any(model%mesh%duplicate > 0)) &
+         call count_line(file, '   OF THESE DOUBLED AT SPLIT SURFACES', count(model%mesh%duplicate > 0, kind=long))
       ! the elements, those of bodies by kind and formulation, and the constraints
-      call count_line(file, 'BODY ELEMENTS', int(model%n_elements, long))
+      call count_line(file, 'BODY ELEMENTS', int(model%mesh%n_elements, long))
       n = 0
-      do i = 1, model%n_elements
-         k = model%element_kind(i)
-         associate (property => model%properties(model%element_property(i)))
+      do i = 1, model%mesh%n_elements
+         k = model%mesh%element_kind(i)
+         associate (property => model%mesh%properties(model%mesh%element_property(i)))
             m = merge(2, 1, property%incompatible .and. has_modes(k, property%state))
          end associate
          n(m, k) = n(m, k) + 1
@@ -186,17 +186,18 @@ contains
                                              ' NODES, INCOMPATIBLE MODES', n(2, k))
          end associate
       end do
-      associate (n_springs => count(model%bars%kind == a_spring, kind=long))
+      associate (n_springs => count(model%mesh%bars%kind == a_spring, kind=long))
          if (n_bars(model) > n_springs) call count_line(file, 'BARS, BOLTS INCLUDED', n_bars(model) - n_springs)
          if (n_springs > 0) call count_line(file, 'SPRINGS, ONE A DIRECTION', n_springs)
       end associate
-      if (n_sections(model) > 0) call count_line(file, 'SOLID BOLTS', size(model%sections, kind=long))
-      call count_line(file, 'JOINTS', size(model%joints, kind=long))
-      call count_line(file, 'INTERFACE ELEMENTS', size(model%interface, kind=long))
+      if (n_sections(model) > 0) call count_line(file, 'SOLID BOLTS', size(model%mesh%sections, kind=long))
+      call count_line(file, 'JOINTS', size(model%joints%list, kind=long))
+      call count_line(file, 'INTERFACE ELEMENTS', size(model%joints%element, kind=long))
       call count_line(file, 'SUPPORTED COMPONENTS', &
                       sum([(count(supported(model, i), kind=long), i = 1, n_points(model) + n_rotations(model))]))
       if (size(deck%bulk%rigid) > 0) call count_line(file, 'RIGID ELEMENTS', size(deck%bulk%rigid, kind=long))
-      if (allocated(model%left_out)) call count_line(file, 'COMPONENTS DEPENDENT OR IDLE', count(model%left_out, kind=long))
+      if (allocated(model%freedoms%left_out)) call count_line(file, 'COMPONENTS DEPENDENT OR IDLE', &
+         count(model%freedoms%left_out, kind=long))
       call count_line(file, 'UNKNOWNS', int(system%n, long))
       do i = 1, size(system%description%words)
          if (system%description%words(i) /= '') &
@@ -219,7 +220,7 @@ contains
          if (allocated(solver%reason)) call file%put('  '//solver%reason)
       end associate
       if (any(deck%control%stages%vibration%modes%id > 0)) call file%put('  MASS '// &
-         one_of(model%lumped, 'LUMPED', 'CONSISTENT (DEFAULT OF NASTRAN: LUMPED)'))
+         one_of(model%mesh%lumped, 'LUMPED', 'CONSISTENT (DEFAULT OF NASTRAN: LUMPED)'))
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
       call put_lines(file, upper(deck%bulk%ignored%words()), ',')
@@ -250,9 +251,9 @@ contains
       type(model_type), intent(in)   :: model
       type(table_type) :: table
       type(body_type), allocatable :: bodies(:)
-      integer :: body(model%n_elements), d, i
+      integer :: body(model%mesh%n_elements), d, i
 
-      d = model%dimension
+      d = model%mesh%dimension
       call list_bodies(model, body, bodies)
       if (size(bodies) > 1) call table%start('BODIES', &
          [column('BODY', 'i11'), column([character(8) :: 'ELEMENTS', 'NODES'], 'i11'), &
@@ -270,13 +271,13 @@ contains
             end associate
          end do
       end if
-      if (.not. allocated(model%placed)) return ! nodes by place
+      if (.not. allocated(model%mesh%placed)) return ! nodes by place
       call table%start('NODES BY PLACE AND SURFACE', [column([character(8) :: 'NODE', 'NODEAT', 'ELEMENT', 'PMARK'], 'i11'), &
                        column(axes(:d), 'es14.5', page%labels%length), column('DISTANCE', 'es12.3', page%labels%length)], page%file)
-      do i = 1, size(model%placed)
-         associate (placed => model%placed(i), x => model%x(:, model%placed(i)%node))
+      do i = 1, size(model%mesh%placed)
+         associate (placed => model%mesh%placed(i), x => model%mesh%x(:, model%mesh%placed(i)%node))
             call table%put([character(7) :: 'NODE', 'NODEAT', 'ELEMENT', 'PMARK'], &
-                           [model%node_id(placed%node), placed%id, placed%element, placed%surface])
+                           [model%mesh%node_id(placed%node), placed%id, placed%element, placed%surface])
             call table%put(axes(:d), x(:d))
             call table%put('DISTANCE', merge(norm2(x - placed%x), 0.0_wp, placed%id > 0))
             call table%print_row(page%file)
@@ -291,19 +292,19 @@ contains
       type(model_type), intent(in)   :: model
       logical, intent(in)            :: modes_tell !! modes about unloading name joints whose E_u is the default
       type(table_type) :: table
-      integer :: d, i, j, lists(size(model%joints)) ! interface elements coupled to lists of nodes
-      logical :: shown(size(model%joints))
+      integer :: d, i, j, lists(size(model%joints%list)) ! interface elements coupled to lists of nodes
+      logical :: shown(size(model%joints%list))
 
       ! laws and areas
-      d = model%dimension
+      d = model%mesh%dimension
       associate (labels => page%labels)
          call table%start('JOINTS', [column('JOINT', 'i11'), column('ELEMENTS', 'i9'), column('A_INT', 'es13.5', labels%area), &
                                      column('C', 'es13.5'), column('M', 'f7.4'), column('E_U', 'es15.5', labels%slope), &
                                      column(['FIRST P (EQ.9) ', 'LEAST P ON LOAD'], 'es17.5', labels%pressure), &
                                      column('NORMAL '//axes(:d), merge('f10.6', 'f11.6', d == 3))], page%file)
       end associate
-      do j = 1, size(model%joints)
-         associate (joint => model%joints(j), law => model%joints(j)%law%normal)
+      do j = 1, size(model%joints%list)
+         associate (joint => model%joints%list(j), law => model%joints%list(j)%law%normal)
             call table%put([character(8) :: 'JOINT', 'ELEMENTS'], [joint%id, joint%last - joint%first + 1])
             call table%put([character(15) :: 'A_INT', 'C', 'M', 'E_U', 'FIRST P (EQ.9)', 'LEAST P ON LOAD'], &
                            [joint%area, law%c, law%m, law%e_u, joint%p_av, pressure_floor*joint%p_av])
@@ -311,13 +312,14 @@ contains
             if (joint%frame%faces_all_ways) call table%leave_rest()
             if (.not. joint%frame%faces_all_ways) call table%put('NORMAL '//axes(:d), joint%normal(:d), page_zero)
             call table%print_row(page%file)
-            lists(j) = count([(model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0, i = joint%first, joint%last)])
+            lists(j) = count([(model%joints%element(i)%n_1 > 1 .or. named_node(model%joints%element(i), 2) < 0, i = joint%first, &
+               joint%last)])
          end associate
       end do
 
       if (.not. modes_tell) then
-         do j = 1, size(model%joints)
-            associate (joint => model%joints(j), law => model%joints(j)%law%normal)
+         do j = 1, size(model%joints%list)
+            associate (joint => model%joints%list(j), law => model%joints%list(j)%law%normal)
                if (.not. joint%e_u_given .and. law%c > 0.0_wp) call page%file%put('  NOTE: E_U OF JOINT '// &
                   integer_text(joint%id)//' IS THE DEFAULT, E OF THE BODIES,'// &
                   in_form(law%e_u/normal_tangent(law, 1.0_wp, joint%p_av, joint%p_av), '(es10.2)', 10)// &
@@ -327,21 +329,21 @@ contains
       end if
 
       ! the cover of sides that do not match
-      shown = model%joints%cover%fitted .and. (lists > 0 .or. model%joints%cover%share < whole_share)
+      shown = model%joints%list%cover%fitted .and. (lists > 0 .or. model%joints%list%cover%share < whole_share)
       if (any(shown)) call table%start('JOINTS OF FACES THAT DO NOT MATCH', [column('JOINT', 'i11'), &
                                        column(['PAIRS', 'LISTS'], 'i9'), column('SIDE1 COVERED', 'f15.6'), &
                                        column('FARTHEST APART', 'es17.5', page%labels%length)], page%file)
-      do j = 1, size(model%joints)
+      do j = 1, size(model%joints%list)
          if (.not. shown(j)) cycle
-         associate (joint => model%joints(j))
+         associate (joint => model%joints%list(j))
             call table%put(['JOINT', 'PAIRS', 'LISTS'], [joint%id, joint%last - joint%first + 1 - lists(j), lists(j)])
             call table%put('SIDE1 COVERED', joint%cover%share)
             call table%put('FARTHEST APART', joint%cover%farthest, page_zero*sqrt(joint%area))
             call table%print_row(page%file)
          end associate
       end do
-      do j = 1, size(model%joints)
-         associate (joint => model%joints(j))
+      do j = 1, size(model%joints%list)
+         associate (joint => model%joints%list(j))
             if (shown(j) .and. joint%cover%share < whole_share) call page%file%put( &
                '  NOTE: SIDE2 COVERS ONLY A PART OF SIDE1 OF JOINT '//integer_text(joint%id)//'. THE REST OF SIDE1 HAS NO JOINT.')
             if (shown(j) .and. is_coarser(joint%cover)) call page%file%put('  NOTE: SIDE1 OF JOINT '//integer_text(joint%id)// &
@@ -354,8 +356,9 @@ contains
       call table%start('INITIAL GAPS, NEGATIVE: INTERFERENCE', &
                        [column('JOINT', 'i11'), column('GIVEN BY', 'a10'), column(['SMALLEST', 'LARGEST '], 'es15.5', &
                         page%labels%length), column(['OPEN   ', 'PRESSED'], 'i9')], page%file)
-      do j = 1, size(model%joints)
-         associate (joint => model%joints(j), gaps => model%interface(model%joints(j)%first:model%joints(j)%last)%gap)
+      do j = 1, size(model%joints%list)
+         associate (joint => model%joints%list(j), &
+            gaps => model%joints%element(model%joints%list(j)%first:model%joints%list(j)%last)%gap)
             if (joint%gap_kind == '') cycle
             call table%put('JOINT', joint%id)
             call table%put('GIVEN BY', trim(joint%gap_kind))
@@ -379,18 +382,19 @@ contains
       type(cubic) :: curve
       integer :: b, j, k
 
-      if (.not. any(model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given .or. model%joints%law%has_friction)) return
+      if (.not. any(model%joints%list%law%shear(1)%given .or. model%joints%list%law%shear(2)%given &
+         .or. model%joints%list%law%has_friction)) return
       call table%start('SHEAR LAWS: TAU = (C11 + C12 P) D + (C21 + C22 P) D**2 + (C31 + C32 P) D**3', &
                        [column('JOINT', 'i11', heading_shift=-1), column('AXIS', 'a4'), column('BRANCH', 'a8'), &
                         column(cubic_names, 'es13.5')], file)
-      do j = 1, size(model%joints)
-         associate (law => model%joints(j)%law)
-            do k = 1, model%dimension - 1
+      do j = 1, size(model%joints%list)
+         associate (law => model%joints%list(j)%law)
+            do k = 1, model%mesh%dimension - 1
                associate (shear => law%shear(k))
                   if (.not. shear%given) cycle
                   do b = 1, 3
                      curve = cubic_of(shear, branches(b))
-                     call table%put('JOINT', model%joints(j)%id)
+                     call table%put('JOINT', model%joints%list(j)%id)
                      call table%put('AXIS', axes(k))
                      call table%put('BRANCH', branch_name(branches(b)))
                      call table%put(cubic_names, pack(curve%coefficients, .true.))
@@ -398,7 +402,7 @@ contains
                   end do
                   if (shear%p_max < huge(1.0_wp)) call file%put(behind//'TESTED UP TO P ='//in_form(shear%p_max, '(es13.5)', 13))
                   if (shear%d_max < huge(1.0_wp)) call file%put(behind//'TESTED UP TO D ='//in_form(shear%d_max, '(es13.5)', 13))
-                  closure = worst_closure(shear, model%joints(j)%p_av) ! of the loops: the widest gap and its place
+                  closure = worst_closure(shear, model%joints%list(j)%p_av) ! of the loops: the widest gap and its place
                end associate
                line = '   D ='//in_form(closure%d, '(es13.5)', 13)
                if (.not. closure%d > 0.0_wp) line = '   OF SMALL LOOPS: THE CARD HAS NO DMAX'
@@ -408,8 +412,8 @@ contains
                if (.not. closure%is_known) call file%put(behind//'CLOSURE: UNLOADING DOES NOT REACH TAU = 0')
             end do
             if (law%has_friction) then
-               write (line, '(i11, 3a, i5)') model%joints(j)%id, '   FRICTION MU =', in_form(law%mu, '(f10.6)', 10), &
-                  '   RE-ANALYSES', model%joints(j)%n_reanalyses
+               write (line, '(i11, 3a, i5)') model%joints%list(j)%id, '   FRICTION MU =', in_form(law%mu, '(f10.6)', 10), &
+                  '   RE-ANALYSES', model%joints%list(j)%n_reanalyses
                call file%put(line)
             end if
          end associate

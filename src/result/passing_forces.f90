@@ -46,16 +46,16 @@ contains
 
       call number_parts(model, .false., passages%part, passages%base)
       passages%base = passages%base + 1
-      allocate (passages%of_element(size(model%interface)), passages%sense(size(model%interface)), source=1)
+      allocate (passages%of_element(size(model%joints%element)), passages%sense(size(model%joints%element)), source=1)
       allocate (pairs(3, 0))
-      do i = 1, size(model%interface)
+      do i = 1, size(model%joints%element)
          do end = 1, 2
-            nodes = nodes_of_end(model%interface(i), end)
+            nodes = nodes_of_end(model%joints%element(i), end)
             bodies(end) = passages%base
             if (size(nodes) > 0) bodies(end) = passages%part(nodes(1))
          end do
          if (bodies(1) > bodies(2)) passages%sense(i) = -1
-         candidate = [minval(bodies), maxval(bodies), merge(model%interface(i)%joint, 0, bodies(1) == bodies(2))]
+         candidate = [minval(bodies), maxval(bodies), merge(model%joints%element(i)%joint, 0, bodies(1) == bodies(2))]
          do j = size(pairs, 2), 1, -1 ! most elements are of the last pair
             if (all(pairs(:, j) == candidate)) exit
          end do
@@ -65,8 +65,8 @@ contains
       passages%n = size(pairs, 2)
       call move_alloc(pairs, passages%pairs)
       allocate (passages%cut(passages%n))
-      do i = 1, size(model%interface)
-         associate (known => passages%cut(passages%of_element(i)), cut => cuts(model%interface(i)%joint))
+      do i = 1, size(model%joints%element)
+         associate (known => passages%cut(passages%of_element(i)), cut => cuts(model%joints%element(i)%joint))
             if (cut%n > known%n) known = cut
          end associate
       end do
@@ -92,11 +92,11 @@ contains
          do b = 1, size(bar)
             if (crossing(k, b) /= 0) cycle
             if (bar(b) > 0) then
-               associate (ends => model%bars(bar(b))%nodes)
+               associate (ends => model%mesh%bars(bar(b))%nodes)
                   call join(group, passages%part(ends(1)), passages%part(ends(2)))
                end associate
             else
-               associate (halves => model%sections(section(b)))
+               associate (halves => model%mesh%sections(section(b)))
                   call join(group, passages%part(halves%node), passages%part(halves%point))
                end associate
             end if
@@ -120,25 +120,25 @@ contains
       type(cut_type), intent(in)     :: cut
       logical :: grounded(passages%base)
       real(wp) :: axes(3, 3)
-      logical  :: held(model%dimension)
+      logical  :: held(model%mesh%dimension)
       integer  :: d, i, node
 
       grounded = .false.
       grounded(passages%base) = .true.
-      if (.not. model%floats) then
+      if (.not. model%freedoms%floats) then
          do node = 1, n_points(model)
             if (grounded(passages%part(node))) cycle
             held = supported(model, node)
             if (.not. any(held)) cycle
             axes = node_axes(model, node)
-            do d = 1, model%dimension
+            do d = 1, model%mesh%dimension
                if (held(d)) call ground(node, axes(:, d))
             end do
          end do
       end if
       do i = 1, n_bars(model)
-         if (model%bars(i)%nodes(2) == 0 .and. node_kind(model, model%bars(i)%nodes(1)) == a_point) &
-            call ground(model%bars(i)%nodes(1), model%bars(i)%direction(:, 1))
+         if (model%mesh%bars(i)%nodes(2) == 0 .and. node_kind(model, model%mesh%bars(i)%nodes(1)) == a_point) &
+            call ground(model%mesh%bars(i)%nodes(1), model%mesh%bars(i)%direction(:, 1))
       end do
 
    contains
@@ -150,7 +150,7 @@ contains
          real(wp) :: along(3)
 
          along = free_part(cut, direction)
-         if (model%axisymmetric) along(1) = 0.0_wp
+         if (model%mesh%axisymmetric) along(1) = 0.0_wp
          if (norm2(along) > parallel_in_mesh) grounded(passages%part(node)) = .true.
       end subroutine ground
 
@@ -169,10 +169,10 @@ contains
       integer  :: b, i, k, s
 
       force = 0.0_wp
-      do i = 1, size(model%interface)
+      do i = 1, size(model%joints%element)
          k = passages%of_element(i)
          if (.not. passages%by_statics(k)) &
-            force(:, k) = force(:, k) + passages%sense(i)*element_force(model%interface(i), analysis%states(i))
+            force(:, k) = force(:, k) + passages%sense(i)*element_force(model%joints%element(i), analysis%states(i))
       end do
       do k = 1, passages%n
          if (passages%by_statics(k)) then
@@ -185,7 +185,7 @@ contains
                force(:, k) = force(:, k) - crossing(k, b)*tension(b)*direction(:, b)
             end do
          end if
-         if (model%axisymmetric) force(1, k) = 0.0_wp ! self-equilibrated around the ring
+         if (model%mesh%axisymmetric) force(1, k) = 0.0_wp ! self-equilibrated around the ring
          force(:, k) = free_part(passages%cut(k), force(:, k))
       end do
    end function forces_between
@@ -200,7 +200,7 @@ contains
       integer  :: i
 
       force = 0.0_wp
-      associate (loads => model%stage_loads(stage))
+      associate (loads => model%history%stages(stage))
          do i = 1, loads%n
             if (node_kind(model, loads%node(i)) == a_point) &
                force = force + passages%side(passages%part(loads%node(i)), k)*loads%force(:, i)

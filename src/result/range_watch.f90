@@ -60,10 +60,10 @@ contains
       type(model_type), intent(in)        :: model
       type(range_watch_type), intent(out) :: watch
 
-      allocate (watch%stage(no_slope, size(model%interface)), source=0)
-      allocate (watch%tallies(no_slope, size(model%joints)))
-      allocate (watch%soft_line(size(model%joints)), watch%soft_unloading(2*size(model%joints)), source=.false.)
-      allocate (watch%first_of(2, size(model%joints)), source=-1)
+      allocate (watch%stage(no_slope, size(model%joints%element)), source=0)
+      allocate (watch%tallies(no_slope, size(model%joints%list)))
+      allocate (watch%soft_line(size(model%joints%list)), watch%soft_unloading(2*size(model%joints%list)), source=.false.)
+      allocate (watch%first_of(2, size(model%joints%list)), source=-1)
       if (tetra_words(model) /= '') watch%n_warnings = 1
       if (allocated(model%warnings)) watch%n_warnings = watch%n_warnings + size(model%warnings)
       allocate (watch%lines(0))
@@ -143,7 +143,7 @@ contains
       real(wp) :: excess, limit, unbalanced
       integer  :: i, j, which
 
-      do j = 1, size(model%joints)
+      do j = 1, size(model%joints%list)
          do which = beyond_p, no_slope
             associate (tally => watch%tallies(which, j))
                if (tally%n == 0) cycle
@@ -155,7 +155,7 @@ contains
                case default
                   words = 'WITHOUT A POSITIVE SLOPE'
                end select
-               call warn(watch, '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', '//page%stage//': '// &
+               call warn(watch, '  WARNING: JOINT '//integer_text(model%joints%list(j)%id)//', '//page%stage//': '// &
                   upper(plural(tally%n, 'element'))//' '//trim(words)//' OF THE SHEAR LAW, FIRST NODE '// &
                   integer_text(tally%node)//' (INCREMENT '//integer_text(tally%increment)//'),', &
                   ' WORST '//integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d))
@@ -173,8 +173,8 @@ contains
          integer_text(analysis%record%n_iterations)//' ITERATIONS; THE RESULTS ARE THOSE OF THE LAST: SEE AVERAGE = YES')
       excess = 0.0_wp
       limit = 0.0_wp
-      do i = 1, size(model%interface)
-         associate (law => model%joints(model%interface(i)%joint)%law, area => model%interface(i)%area)
+      do i = 1, size(model%joints%element)
+         associate (law => model%joints%list(model%joints%element(i)%joint)%law, area => model%joints%element(i)%area)
             excess = excess + norm2(friction_excess(law, area, analysis%states(i)))
             limit = limit + friction_limit(law, analysis%states(i)%normal%pressure)*area
          end associate
@@ -189,7 +189,8 @@ contains
       character(:), allocatable    :: words
 
       words = ''
-      if (model%n_elements > 0 .and. all(model%element_kind == kind_tetra4)) words = 'all bodies are of linear tetrahedra, on '// &
+      if (model%mesh%n_elements > 0 .and. all(model%mesh%element_kind == kind_tetra4)) words = &
+         'all bodies are of linear tetrahedra, on '// &
          'usual meshes 10 to 35 % too stiff in bending: mesh with second order'
    end function tetra_words
 
@@ -201,18 +202,18 @@ contains
       integer :: i, j, k
 
       watch%first_of = 0
-      do j = 1, size(model%joints)
-         do k = 1, model%dimension - 1
-            associate (law => model%joints(j)%law%shear(k))
+      do j = 1, size(model%joints%list)
+         do k = 1, model%mesh%dimension - 1
+            associate (law => model%joints%list(j)%law%shear(k))
                if (.not. law%given) cycle
                do i = 1, 2*(j - 1) + k
-                  if (is_same_law(law, model%joints((i + 1)/2)%law%shear(2 - modulo(i, 2)))) exit
+                  if (is_same_law(law, model%joints%list((i + 1)/2)%law%shear(2 - modulo(i, 2)))) exit
                end do
                watch%first_of(k, j) = i
                if (i < 2*(j - 1) + k) cycle
-               closure = worst_closure(law, model%joints(j)%p_av)
+               closure = worst_closure(law, model%joints%list(j)%p_av)
                if (.not. closure%is_known .or. closure%share <= wide_gap) cycle
-               call warn(watch, '  WARNING: SHEAR LAW OF JOINT '//integer_text(model%joints(j)%id)//', '//axes(k)// &
+               call warn(watch, '  WARNING: SHEAR LAW OF JOINT '//integer_text(model%joints%list(j)%id)//', '//axes(k)// &
                   ': RELOADING MISSES POINT A BY MORE THAN 5 PER CENT OF TAU_R, CYCLES CREEP: SEE ITS CLOSURE ABOVE')
             end associate
          end do
@@ -238,10 +239,10 @@ contains
       logical  :: is_beyond(no_slope)
       integer  :: i, k, which
 
-      do i = 1, size(model%interface)
+      do i = 1, size(model%joints%element)
          if (analysis%states(i)%normal%branch == branch_open) cycle
-         do k = 1, model%dimension - 1
-            associate (law => model%joints(model%interface(i)%joint)%law%shear(k), shear => analysis%states(i)%shear(k))
+         do k = 1, model%mesh%dimension - 1
+            associate (law => model%joints%list(model%joints%element(i)%joint)%law%shear(k), shear => analysis%states(i)%shear(k))
                if (.not. law%given) cycle
                p = analysis%states(i)%normal%pressure
                d = abs(curve_deflection(shear))
@@ -251,7 +252,7 @@ contains
             end associate
             do which = beyond_p, no_slope
                if (.not. is_beyond(which)) cycle
-               associate (tally => watch%tallies(which, model%interface(i)%joint))
+               associate (tally => watch%tallies(which, model%joints%element(i)%joint))
                   if (tally%n == 0) then
                      tally%node = joint_node_id(model, i, 1)
                      tally%increment = analysis%increment
@@ -313,33 +314,35 @@ contains
       real(wp) :: slope
       integer  :: i, k, law
 
-      do i = 1, size(model%interface)
-         do k = 1, model%dimension - 1
-            law = watch%first_of(k, model%interface(i)%joint)
+      do i = 1, size(model%joints%element)
+         do k = 1, model%mesh%dimension - 1
+            law = watch%first_of(k, model%joints%element(i)%joint)
             if (law == 0) cycle
             if (watch%soft_unloading(law)) cycle
-            associate (curves => model%joints(model%interface(i)%joint)%law%shear(k), state => analysis%states(i)%shear(k), &
+            associate (curves => model%joints%list(model%joints%element(i)%joint)%law%shear(k), &
+               state => analysis%states(i)%shear(k), &
                        p => max(0.0_wp, analysis%states(i)%normal%pressure))
                if (state%branch /= branch_unload .or. cubic_slope(curves%unload, state%d_r, p) >= &
                    (1.0_wp - equal_slopes)*cubic_slope(curves%load, state%d_r, p)) cycle
                watch%soft_unloading(law) = .true.
                call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(place)//': SHEAR LAW OF JOINT '// &
-                  integer_text(model%joints(model%interface(i)%joint)%id)//', '//axes(k)// &
+                  integer_text(model%joints%list(model%joints%element(i)%joint)%id)//', '//axes(k)// &
                   ': UNLOADING IS LESS STEEP THAN LOADING AT P = '//real_text(p)//', D = '//real_text(state%d_r))
             end associate
          end do
       end do
-      do i = 1, size(model%interface)
-         associate (j => model%interface(i)%joint, state => analysis%states(i)%normal)
+      do i = 1, size(model%joints%element)
+         associate (j => model%joints%element(i)%joint, state => analysis%states(i)%normal)
             if (watch%soft_line(j) .or. state%branch /= branch_load) cycle
-            associate (law => model%joints(j)%law%normal, p => state%pressure)
+            associate (law => model%joints%list(j)%law%normal, p => state%pressure)
                slope = normal_tangent(law, 1.0_wp, p, state%p_av)
                if (law%e_u >= slope*(1.0_wp - equal_slopes)) cycle
                watch%soft_line(j) = .true.
                call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(place)//': E_U = '//real_text(law%e_u)//' OF JOINT '// &
-                  integer_text(model%joints(j)%id)//' IS BELOW THE LOADING SLOPE '//real_text(slope)//' AT P = '//real_text(p)// &
+                  integer_text(model%joints%list(j)%id)//' IS BELOW THE LOADING SLOPE '//real_text(slope)//' AT P = '// &
+                     real_text(p)// &
                   one_of(p/law%e_u > loading_deflection(law, max(p, 0.0_wp)), ': NEGATIVE SET', ''))
             end associate
          end associate

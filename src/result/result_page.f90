@@ -81,7 +81,7 @@ contains
    pure logical function has_gaps(model)
       type(model_type), intent(in) :: model
 
-      has_gaps = any(model%joints%gap_kind /= '')
+      has_gaps = any(model%joints%list%gap_kind /= '')
    end function has_gaps
 
    !> The columns of one of the tables with a CSV file. Of a plane model the listing shows components in the plane and moments
@@ -93,15 +93,15 @@ contains
       type(column_type), allocatable :: columns(:)
       logical :: along(3), about(3)
 
-      along = [.true., .true., model%dimension == 3]
-      about = [model%dimension == 3, model%dimension == 3, .true.]
+      along = [.true., .true., model%mesh%dimension == 3]
+      about = [model%mesh%dimension == 3, model%mesh%dimension == 3, .true.]
       select case (table)
       case (joint_table) ! a row for each interface element and increment; GAP and SLID only where the deck has them
          columns = csv([character(9) :: 'stage', 'increment', 'load', 'joint', 'element', 'node1', 'node2', xyz, 'area', 'branch', &
             'lambda', 'pressure', 'force', 'k_n', 'branch_x', 'delta_x', 'tau_x', 'k_sx', 'branch_y', 'delta_y', 'tau_y', 'k_sy', &
             'slip'])
          if (has_gaps(model)) columns = [columns, csv('gap')]
-         if (any(model%joints%law%has_friction)) columns = [columns, csv(['slid_x', 'slid_y'])]
+         if (any(model%joints%list%law%has_friction)) columns = [columns, csv(['slid_x', 'slid_y'])]
       case (stage_table) ! for each joint: peaks of the bodies, contact, forces, movement, stiffness; percent in the listing only
          columns = [csv('stage'), column('JOINT', 'i11', name='joint'), &
             csv([character(13) :: 'u_max', 'u_node', 'mises_centre', 'mises_element', 'mises_max', 'mises_node', 'area', xyz, &

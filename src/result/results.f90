@@ -144,7 +144,7 @@ contains
          page%largest_force = max(page%largest_force, maxval(abs(analysis%now%load(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &
             max(page%largest_force, maxval(abs(held_forces(model, analysis%all_unbalanced)))) ! forces that move the supports
-         if (any(model%interface%gap < 0.0_wp)) page%largest_force = &
+         if (any(model%joints%element%gap < 0.0_wp)) page%largest_force = &
             max(page%largest_force, maxval(abs(analysis%states%normal%sumf)))              ! forces of interference
 
          call find_values(model, analysis, results)
@@ -195,8 +195,8 @@ contains
          if (.not. allocated(results%joints_now)) call find_values(model, analysis, results) ! the run has resumed, and ends here
          if (stage%output%level >= output_last) call list_joints(page, stage%output, model, analysis)
          if (stage%output%plot) then
-            do i = 1, size(model%joints)
-               call plot_joint(page, model, analysis, model%joints(i))
+            do i = 1, size(model%joints%list)
+               call plot_joint(page, model, analysis, model%joints%list(i))
             end do
          end if
          if (any(stage%output%level == [output_all, output_last])) then

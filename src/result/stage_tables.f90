@@ -70,7 +70,7 @@ contains
          call table%put('SHARE', analysis%increment_fraction)
          call table%put('LOAD', analysis%fraction)
          if (j > 0) then
-            associate (joint => model%joints(j), now => joints(j))
+            associate (joint => model%joints%list(j), now => joints(j))
                call table%put('JOINT', joint%id)
                call table%put('OPEN', now%n_open)
                call table%put('LAMBDA MAX', now%lambda, page_zero*analysis%largest_lambda)
@@ -98,7 +98,7 @@ contains
       logical :: has_shear
       integer :: j
 
-      has_shear = any([(model%joints(j)%law%shear%given, j = 1, size(joints))])
+      has_shear = any([(model%joints%list(j)%law%shear%given, j = 1, size(joints))])
       associate (p => page%labels%pressure, length => page%labels%length)
          if (.not. table%has_begun()) call table%start('DISTANCE FROM THE LAWS, '//page%stage// &
             ': LARGEST |LAMBDA - LAMBDA LAW| OF THE LARGEST LAMBDA'// &
@@ -110,7 +110,7 @@ contains
       end associate
       do j = 1, size(joints)
          call table%put('INCR', analysis%increment)
-         call table%put('JOINT', model%joints(j)%id)
+         call table%put('JOINT', model%joints%list(j)%id)
          associate (normal => joints(j)%distances(1), shear => joints(j)%distances(2))
             if (normal%is_there) then
                call table%put('LAMBDA OFF %', 100.0_wp*clean(normal%relative, page_zero))
@@ -153,10 +153,10 @@ contains
          associate (slip => analysis%record%slips(i))
             if (slip%reanalysis > reanalyses_shown + 1 .and. all(analysis%record%slips(:i - 1)%reanalysis < slip%reanalysis)) &
                call table%keep_line('        ...')
-            do k = 1, model%dimension - 1
-               if (.not. model%joints(model%interface(slip%element)%joint)%law%shear(k)%given) cycle
+            do k = 1, model%mesh%dimension - 1
+               if (.not. model%joints%list(model%joints%element(slip%element)%joint)%law%shear(k)%given) cycle
                call table%put(['INCR', 'PASS'], [analysis%increment, slip%reanalysis])
-               call table%put([character(7) :: 'ELEMENT', 'NODE 1'], [model%interface(slip%element)%id, &
+               call table%put([character(7) :: 'ELEMENT', 'NODE 1'], [model%joints%element(slip%element)%id, &
                                                                      joint_node_id(model, slip%element, 1)])
                call table%put('ALONG', axes(k))
                call table%put([character(11) :: 'DELTA', 'DELTA AFTER'], slip%delta(k, :), delta_floor)
@@ -181,16 +181,16 @@ contains
       integer  :: j, n
 
       headings = [character(12) :: 'NORMAL FORCE', 'FORCE '//axes, 'MOMENT '//axes]
-      if (model%dimension == 2) headings(2:5) = [character(12) :: 'SHEAR FORCE', 'FORCE X', 'FORCE Y', 'MOMENT Z']
-      n = 2*model%dimension + 1
+      if (model%mesh%dimension == 2) headings(2:5) = [character(12) :: 'SHEAR FORCE', 'FORCE X', 'FORCE Y', 'MOMENT Z']
+      n = 2*model%mesh%dimension + 1
       if (.not. table%has_begun()) call table%start( &
          'RESULTANTS OF JOINTS, SIDE 1 ON SIDE 2 (MOMENT ABOUT THE CENTROID OF THE JOINT), '//page%stage, &
          [column('INCR', 'i6'), column('JOINT', 'i11'), column(headings(:4), 'es15.5', page%labels%force), &
           column(headings(5:n), 'es15.5', page%labels%moment)])
-      do j = 1, size(model%joints)
-         associate (joint => model%joints(j), total => joints(j)%total)
+      do j = 1, size(model%joints%list)
+         associate (joint => model%joints%list(j), total => joints(j)%total)
             values = [total%normal, total%force, total%moment]
-            if (model%dimension == 2) values(2:5) = [total%along(1), total%force(:2), total%moment(3)]
+            if (model%mesh%dimension == 2) values(2:5) = [total%along(1), total%force(:2), total%moment(3)]
             floors = page_zero*page%largest_force
             floors(5:) = floors(5:)*joint%frame%extent
             call table%put('INCR', analysis%increment)
@@ -285,12 +285,12 @@ contains
       end associate
       floors = page_zero*[page%largest_force, maxval(abs(analysis%u))]
       do i = 1, n_bars(model)
-         associate (bar => model%bars(i), &
+         associate (bar => model%mesh%bars(i), &
                     values => clean([bar_tension(model, analysis, i), elongation_now(model, analysis, i)], floors))
             if (bar%kind == a_spring) then
                id = 0
                do k = 1, size(bar_nodes(bar))
-                  id(k) = model%node_id(point_of(model, bar%nodes(k)))
+                  id(k) = model%mesh%node_id(point_of(model, bar%nodes(k)))
                end do
                if (bar%ground_first) id = id([2, 1])
                call springs%put('INCR', analysis%increment)
@@ -301,7 +301,7 @@ contains
             else
                call bars%put('INCR', analysis%increment)
                call bars%put('BOLT', bar%bolt, where=bar%bolt > 0)
-               call bars%put([character(7) :: 'ELEMENT', 'NODE 1', 'NODE 2'], [bar%id, model%node_id(bar%nodes)])
+               call bars%put([character(7) :: 'ELEMENT', 'NODE 1', 'NODE 2'], [bar%id, model%mesh%node_id(bar%nodes)])
                call bars%put([character(10) :: 'FORCE', 'ELONGATION'], values)
                call bars%put('state', state_of_bolt(bar%stage == analysis%stage, analysis%is_elastic(i)), where=bar%bolt > 0)
                call bars%keep_row()
@@ -324,7 +324,7 @@ contains
           column('SHORTENED BY', 'es15.5', page%labels%length), column('', 'a', key='state')])
       floors = page_zero*[page%largest_force, maxval(abs(analysis%u))]
       do i = 1, n_sections(model)
-         associate (section => model%sections(i))
+         associate (section => model%mesh%sections(i))
             call table%put([character(7) :: 'INCR', 'BOLT', 'SURFACE'], [analysis%increment, section%bolt, section%surface])
             call table%put('FORCE', section_tension(model, analysis, i), floors(1))
             call table%put('SHORTENED BY', overlap_now(model, analysis, i), floors(2))

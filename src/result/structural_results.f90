@@ -38,7 +38,7 @@ contains
       stress = 0.0_wp
       associate (n => size(corners_of(model, e)) + 1)
          call structural_stress(model, e, u(:, own_nodes(model, e)), temperature, &
-                                model%properties(model%element_property(e))%fibre, stress(:, :n, :))
+                                model%mesh%properties(model%mesh%element_property(e))%fibre, stress(:, :n, :))
       end associate
    end subroutine face_stresses
 
@@ -50,15 +50,15 @@ contains
       integer, intent(in)             :: e
       real(wp) :: forces(6, 2), load(12), s(12)
 
-      associate (place => model%structural%place(e), now => analysis%now%temperature)
-         load = beam_thermal_load(model%structural%beams(place), sum(element_rise(model, e, now))/2.0_wp)
+      associate (place => model%mesh%structural%place(e), now => analysis%now%temperature)
+         load = beam_thermal_load(model%mesh%structural%beams(place), sum(element_rise(model, e, now))/2.0_wp)
          load = load + analysis%fraction*of_stage(analysis%stage) + (1.0_wp - analysis%fraction)*of_stage(analysis%stage - 1)
-         s = beam_end_forces(model%structural%beams(place), model%x(:, corners_of(model, e)), &
+         s = beam_end_forces(model%mesh%structural%beams(place), model%mesh%x(:, corners_of(model, e)), &
                              nodal_values(model, e, analysis%all_u(:, own_nodes(model, e))), load)
       end associate
       forces = reshape([-s(:6), s(7:)], [6, 2])
-      if (model%structural%beams(model%structural%place(e))%is_cut) forces(1, :) = bar_tension(model, analysis, &
-         findloc(model%bars%id == model%element_id(e) .and. model%bars%kind == a_bar, .true., dim=1))
+      if (model%mesh%structural%beams(model%mesh%structural%place(e))%is_cut) forces(1, :) = bar_tension(model, analysis, &
+         findloc(model%mesh%bars%id == model%mesh%element_id(e) .and. model%mesh%bars%kind == a_bar, .true., dim=1))
 
    contains
 
@@ -69,7 +69,7 @@ contains
 
          f = 0.0_wp
          if (stage < 1) return
-         if (allocated(model%stage_loads(stage)%beam)) f = model%stage_loads(stage)%beam(:, model%structural%place(e))
+         if (allocated(model%history%stages(stage)%beam)) f = model%history%stages(stage)%beam(:, model%mesh%structural%place(e))
       end function of_stage
 
    end function end_forces
@@ -113,22 +113,22 @@ contains
 
       at_node = 0.0_wp
       at_centre = 0.0_wp
-      if (.not. allocated(model%structural%place)) return
-      allocate (stress(max_stresses, 5, 2, size(model%structural%shells)), normal(3, size(model%structural%shells)))
-      do e = 1, model%n_elements
+      if (.not. allocated(model%mesh%structural%place)) return
+      allocate (stress(max_stresses, 5, 2, size(model%mesh%structural%shells)), normal(3, size(model%mesh%structural%shells)))
+      do e = 1, model%mesh%n_elements
          if (is_shell(model, e)) then
-            associate (of_face => stress(:, :, :, model%structural%place(e)), n => size(corners_of(model, e)))
+            associate (of_face => stress(:, :, :, model%mesh%structural%place(e)), n => size(corners_of(model, e)))
                call face_stresses(model, e, u, temperature, of_face)
-               frame = shell_frame_of(model%x(:, corners_of(model, e)), 0.0_wp)
-               normal(:, model%structural%place(e)) = frame%axes(:, 3)
+               frame = shell_frame_of(model%mesh%x(:, corners_of(model, e)), 0.0_wp)
+               normal(:, model%mesh%structural%place(e)) = frame%axes(:, 3)
                at_centre(e) = max(von_mises(of_face(:, n + 1, 1)), von_mises(of_face(:, n + 1, 2)))
             end associate
          else if (is_beam(model, e) .and. present(analysis)) then
             forces = end_forces(model, analysis, e)
             do end = 1, 2
-               largest = maxval(abs(section_stresses(model%structural%beams(model%structural%place(e)), forces(:, end))))
+               largest = maxval(abs(section_stresses(model%mesh%structural%beams(model%mesh%structural%place(e)), forces(:, end))))
                at_centre(e) = max(at_centre(e), largest)
-               node = model%element_nodes(end, e)
+               node = model%mesh%element_nodes(end, e)
                at_node(node) = max(at_node(node), largest)
             end do
          end if
@@ -145,16 +145,16 @@ contains
          real(wp) :: total(max_stresses, 2)
          integer  :: corner, f, i, j, n
 
-         do i = model%first_at(node), model%first_at(node + 1) - 1
-            if (.not. is_shell(model, model%elements_at(i))) cycle
+         do i = model%mesh%first_at(node), model%mesh%first_at(node + 1) - 1
+            if (.not. is_shell(model, model%mesh%elements_at(i))) cycle
             total = 0.0_wp
             n = 0
-            do j = model%first_at(node), model%first_at(node + 1) - 1
-               if (.not. is_shell(model, model%elements_at(j))) cycle
-               associate (first => model%structural%place(model%elements_at(i)), &
-                          other => model%structural%place(model%elements_at(j)))
+            do j = model%mesh%first_at(node), model%mesh%first_at(node + 1) - 1
+               if (.not. is_shell(model, model%mesh%elements_at(j))) cycle
+               associate (first => model%mesh%structural%place(model%mesh%elements_at(i)), &
+                          other => model%mesh%structural%place(model%mesh%elements_at(j)))
                   if (abs(dot_product(normal(:, first), normal(:, other))) < one_plate) cycle
-                  corner = findloc(corners_of(model, model%elements_at(j)), node, dim=1)
+                  corner = findloc(corners_of(model, model%mesh%elements_at(j)), node, dim=1)
                   if (corner == 0) cycle
                   n = n + 1
                   do f = 1, 2 ! for a reversed shell the faces change places
@@ -182,23 +182,23 @@ contains
       real(wp) :: stress(max_stresses, 5, 2), floor
       integer  :: e, f
 
-      if (size(model%structural%shells) == 0) return
-      allocate (centre(max_stresses, 2, size(model%structural%shells)))
-      do e = 1, model%n_elements
+      if (size(model%mesh%structural%shells) == 0) return
+      allocate (centre(max_stresses, 2, size(model%mesh%structural%shells)))
+      do e = 1, model%mesh%n_elements
          if (.not. is_shell(model, e)) cycle
          call face_stresses(model, e, analysis%all_u, analysis%now%temperature, stress)
-         centre(:, :, model%structural%place(e)) = stress(:, size(corners_of(model, e)) + 1, :)
+         centre(:, :, model%mesh%structural%place(e)) = stress(:, size(corners_of(model, e)) + 1, :)
       end do
       floor = page_zero*maxval(abs(centre))
       call table%start('STRESSES AT THE FACES OF SHELLS, AT THEIR CENTRES'//page%now//in_units(page%labels%pressure), &
          [column('ELEMENT', 'i11'), column('HEIGHT', 'es13.5'), column(stresses, 'es13.5')], page%file)
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          if (.not. is_shell(model, e)) cycle
          if (.not. shows(page, corners_of(model, e))) cycle
-         associate (of_element => centre(:, :, model%structural%place(e)), &
-                    fibre => model%properties(model%element_property(e))%fibre)
+         associate (of_element => centre(:, :, model%mesh%structural%place(e)), &
+                    fibre => model%mesh%properties(model%mesh%element_property(e))%fibre)
             do f = 1, 2
-               call table%put('ELEMENT', model%element_id(e))
+               call table%put('ELEMENT', model%mesh%element_id(e))
                call table%put('HEIGHT', fibre(f))
                call table%put(stresses, [of_element(:, f), von_mises(of_element(:, f))], floor)
                call table%print_row(page%file)
@@ -221,20 +221,20 @@ contains
       real(wp) :: axes(3, 3), floor(2), thickness, x(3)
       integer  :: e, i, node
 
-      if (.not. allocated(model%structural%place)) return
+      if (.not. allocated(model%mesh%structural%place)) return
       thickness = 0.0_wp
-      allocate (force(8, 5, size(model%structural%shells)), source=0.0_wp)
-      do e = 1, model%n_elements
+      allocate (force(8, 5, size(model%mesh%structural%shells)), source=0.0_wp)
+      do e = 1, model%mesh%n_elements
          if (.not. is_shell(model, e)) cycle
          associate (nodes => corners_of(model, e))
-            frame = shell_frame_of(model%x(:, nodes), 0.0_wp)
+            frame = shell_frame_of(model%mesh%x(:, nodes), 0.0_wp)
             axes = joint_axes(model, frame%axes(:, 3))
-            call shell_forces(model%structural%shells(model%structural%place(e)), model%x(:, nodes), &
+            call shell_forces(model%mesh%structural%shells(model%mesh%structural%place(e)), model%mesh%x(:, nodes), &
                               nodal_values(model, e, analysis%all_u(:, own_nodes(model, e))), &
                               element_rise(model, e, analysis%now%temperature), &
                               element_slope(model, e, analysis%now%temperature), axes(:, 1), &
-                              force(:, :size(nodes) + 1, model%structural%place(e)))
-            thickness = max(thickness, maxval(model%structural%shells(model%structural%place(e))%thickness))
+                              force(:, :size(nodes) + 1, model%mesh%structural%place(e)))
+            thickness = max(thickness, maxval(model%mesh%structural%shells(model%mesh%structural%place(e))%thickness))
          end associate
       end do
       if (size(force) == 0) return
@@ -242,20 +242,20 @@ contains
       call table%start('FORCES AND MOMENTS PER LENGTH OF SHELLS, AT THEIR CENTRES'//page%now, &
                        table_columns(shell_table, page%labels, model))
       if (is_listed) call table%print_head(page%file)
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          if (.not. is_shell(model, e)) cycle
          associate (nodes => corners_of(model, e), n => size(corners_of(model, e)))
             if (.not. shows(page, nodes)) cycle
             do i = 1, n + 1
                node = 0
-               x = sum(model%x(:, nodes), dim=2)/n
-               if (i <= n) node = model%node_id(nodes(i))
-               if (i <= n) x = model%x(:, nodes(i))
-               associate (of_corner => force(:, i, model%structural%place(e)))
+               x = sum(model%mesh%x(:, nodes), dim=2)/n
+               if (i <= n) node = model%mesh%node_id(nodes(i))
+               if (i <= n) x = model%mesh%x(:, nodes(i))
+               associate (of_corner => force(:, i, model%mesh%structural%place(e)))
                   call table%put('stage', page%stage_id)
                   call table%put('increment', analysis%increment)
                   call table%put('load', analysis%fraction)
-                  call table%put('element', model%element_id(e))
+                  call table%put('element', model%mesh%element_id(e))
                   call table%put('node', node)
                   call table%put(xyz, x)
                   call table%put(['n_x ', 'n_y ', 'n_xy'], of_corner(:3), floor(1))
@@ -281,14 +281,14 @@ contains
       real(wp) :: floor(3)
       integer  :: e, end
 
-      if (size(model%structural%beams) == 0) return
-      allocate (forces(6, 2, size(model%structural%beams)), stress(5, 2, size(model%structural%beams)))
-      do e = 1, model%n_elements
+      if (size(model%mesh%structural%beams) == 0) return
+      allocate (forces(6, 2, size(model%mesh%structural%beams)), stress(5, 2, size(model%mesh%structural%beams)))
+      do e = 1, model%mesh%n_elements
          if (.not. is_beam(model, e)) cycle
-         associate (place => model%structural%place(e))
+         associate (place => model%mesh%structural%place(e))
             forces(:, :, place) = end_forces(model, analysis, e)
             do end = 1, 2
-               stress(:, end, place) = section_stresses(model%structural%beams(place), forces(:, end, place))
+               stress(:, end, place) = section_stresses(model%mesh%structural%beams(place), forces(:, end, place))
             end do
          end associate
       end do
@@ -298,18 +298,18 @@ contains
           column(moment_names, 'es13.5', page%labels%moment)], page%file)
       call stresses%start('STRESSES IN BEAMS, AT BOTH ENDS'//page%now//in_units(page%labels%pressure), &
          [column('ELEMENT', 'i11'), column('NODE', 'i11'), column(points, 'es13.5')])
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          if (.not. is_beam(model, e)) cycle
          if (.not. shows(page, corners_of(model, e))) cycle
-         associate (place => model%structural%place(e))
+         associate (place => model%mesh%structural%place(e))
             do end = 1, 2
-               call table%put('ELEMENT', model%element_id(e))
-               call table%put('NODE', model%node_id(model%element_nodes(end, e)))
+               call table%put('ELEMENT', model%mesh%element_id(e))
+               call table%put('NODE', model%mesh%node_id(model%mesh%element_nodes(end, e)))
                call table%put(force_names, forces(:3, end, place), floor(1))
                call table%put(moment_names, forces(4:, end, place), floor(2))
                call table%print_row(page%file)
-               call stresses%put('ELEMENT', model%element_id(e))
-               call stresses%put('NODE', model%node_id(model%element_nodes(end, e)))
+               call stresses%put('ELEMENT', model%mesh%element_id(e))
+               call stresses%put('NODE', model%mesh%node_id(model%mesh%element_nodes(end, e)))
                call stresses%put(points, stress(:, end, place), floor(3))
                call stresses%keep_row()
             end do

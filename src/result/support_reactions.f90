@@ -58,19 +58,19 @@ contains
 
       allocate (balance%held, source=-held_forces(model, analysis%all_unbalanced))
       balance%supported = pack([(i, i = 1, n_points(model))], &
-                               [(any(supported(model, i)) .and. model%used(i), i = 1, n_points(model))])
-      allocate (balance%force(model%dimension, balance_left), source=0.0_wp)
+                               [(any(supported(model, i)) .and. model%freedoms%used(i), i = 1, n_points(model))])
+      allocate (balance%force(model%mesh%dimension, balance_left), source=0.0_wp)
       balance%force(:, balance_loads) = sum(analysis%now%load(:, :n_points(model)), dim=2)
       balance%force(:, balance_supports) = sum(balance%held(:, balance%supported), dim=2)
-      do i = 1, size(model%interface)
-         if (named_node(model%interface(i), 2) /= 0) cycle
-         force = element_force(model%interface(i), analysis%states(i))
-         balance%force(:, balance_bases) = balance%force(:, balance_bases) - force(:model%dimension)
+      do i = 1, size(model%joints%element)
+         if (named_node(model%joints%element(i), 2) /= 0) cycle
+         force = element_force(model%joints%element(i), analysis%states(i))
+         balance%force(:, balance_bases) = balance%force(:, balance_bases) - force(:model%mesh%dimension)
       end do
       do i = 1, n_bars(model)
-         if (model%bars(i)%nodes(2) > 0 .or. node_kind(model, model%bars(i)%nodes(1)) /= a_point) cycle
+         if (model%mesh%bars(i)%nodes(2) > 0 .or. node_kind(model, model%mesh%bars(i)%nodes(1)) /= a_point) cycle
          balance%force(:, balance_springs) = balance%force(:, balance_springs) + &
-                                             bar_tension(model, analysis, i)*model%bars(i)%direction(:model%dimension, 1)
+                                             bar_tension(model, analysis, i)*model%mesh%bars(i)%direction(:model%mesh%dimension, 1)
       end do
       balance%force(:, balance_left) = sum(balance%force, dim=2)
       balance%floors = page_zero*max(largest_force, tiny(1.0_wp))
@@ -84,46 +84,46 @@ contains
       real(wp), intent(in)              :: largest_force !! ever applied at a node, for the noise
       type(reactions_type), intent(out) :: answer
       real(wp), allocatable :: on_unknowns(:, :)
-      real(wp) :: force(model%dimension)
+      real(wp) :: force(model%mesh%dimension)
       integer  :: d, g, i, j, last, n, node
 
-      n = size(model%support_groups)
-      last = n + size(model%joints) + 1
+      n = size(model%freedoms%support_groups)
+      last = n + size(model%joints%list) + 1
       allocate (answer%parts(last))
-      answer%parts(:n)%kind = model%support_groups%kind
-      answer%parts(:n)%id = model%support_groups%id
-      answer%parts(:n)%line = model%support_groups%line
+      answer%parts(:n)%kind = model%freedoms%support_groups%kind
+      answer%parts(:n)%id = model%freedoms%support_groups%id
+      answer%parts(:n)%line = model%freedoms%support_groups%line
       answer%parts(n + 1:last - 1)%kind = 'BASE'
-      answer%parts(n + 1:last - 1)%id = model%joints%id
+      answer%parts(n + 1:last - 1)%id = model%joints%list%id
       answer%parts(last)%kind = 'SPRINGS'
       allocate (on_unknowns, source=forces_on_unknowns(model, analysis%all_unbalanced))
-      do node = 1, size(model%support_of, 2)
-         associate (groups => model%support_of(:, node), coupled => coupling_parts(model, node))
-            do d = 1, model%dimension
+      do node = 1, size(model%freedoms%support_of, 2)
+         associate (groups => model%freedoms%support_of(:, node), coupled => coupling_parts(model, node))
+            do d = 1, model%mesh%dimension
                g = groups(d)
-               if (g == 0 .or. any(groups(:d - 1) == g) .or. .not. model%used(node)) cycle
+               if (g == 0 .or. any(groups(:d - 1) == g) .or. .not. model%freedoms%used(node)) cycle
                force = -merge(on_unknowns(:, node), 0.0_wp, groups == g)
                do i = coupled(1), coupled(2) ! from the unknowns of the node to global axes
-                  if (model%coupling%node(i) == node) force = matmul(model%coupling%t(:, :, i), force)
+                  if (model%freedoms%coupling%node(i) == node) force = matmul(model%freedoms%coupling%t(:, :, i), force)
                end do
                call act_on(model, node, force, answer%parts(g))
             end do
          end associate
       end do
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i))
-            if (named_node(element, 2) == 0) call act(answer%parts(n + element%joint), at_first_end(element, model%x), &
+      do i = 1, size(model%joints%element)
+         associate (element => model%joints%element(i))
+            if (named_node(element, 2) == 0) call act(answer%parts(n + element%joint), at_first_end(element, model%mesh%x), &
                                                       -element_force(element, analysis%states(i)))
          end associate
       end do
       do i = 1, n_bars(model)
-         associate (bar => model%bars(i), part => answer%parts(last))
+         associate (bar => model%mesh%bars(i), part => answer%parts(last))
             if (bar%nodes(2) > 0) cycle
             if (node_kind(model, bar%nodes(1)) == a_rotation) then
                part%nodes = part%nodes + 1
-               part%centre = part%centre + model%x(:, bar%nodes(1))
+               part%centre = part%centre + model%mesh%x(:, bar%nodes(1))
             end if
-            call act_on(model, bar%nodes(1), bar_tension(model, analysis, i)*bar%direction(:model%dimension, 1), part)
+            call act_on(model, bar%nodes(1), bar_tension(model, analysis, i)*bar%direction(:model%mesh%dimension, 1), part)
          end associate
       end do
       answer%parts = pack(answer%parts, answer%parts%nodes > 0)
@@ -142,7 +142,7 @@ contains
          call complete_part(model, largest_force, answer%parts(j))
       end do
       answer%left = answer%total%force + answer%loads%force
-      if (model%axisymmetric) answer%left(1) = 0.0_wp
+      if (model%mesh%axisymmetric) answer%left(1) = 0.0_wp
       answer%left = above(answer%left, zero_remainder*largest_force)
       call complete_part(model, largest_force, answer%total)
       call complete_part(model, largest_force, answer%loads)
@@ -156,12 +156,12 @@ contains
       type(reaction_type), intent(inout) :: part
 
       if (node_kind(model, node) /= a_rotation) then
-         call act(part, model%x(:, node), force)
+         call act(part, model%mesh%x(:, node), force)
          return
       end if
-      associate (arm => model%rotations(place_in_kind(model, node))%arm)
-         if (model%dimension == 3) part%moment = part%moment + force*arm
-         if (model%dimension == 2) part%moment(3) = part%moment(3) + force(1)*arm
+      associate (arm => model%mesh%rotations(place_in_kind(model, node))%arm)
+         if (model%mesh%dimension == 3) part%moment = part%moment + force*arm
+         if (model%mesh%dimension == 2) part%moment(3) = part%moment(3) + force(1)*arm
       end associate
    end subroutine act_on
 
@@ -188,14 +188,14 @@ contains
 
       part%centre = part%centre/max(part%nodes, 1)
       part%about_centre = part%moment - cross(part%centre, part%force)
-      if (model%axisymmetric) then
+      if (model%mesh%axisymmetric) then
          part%force(1) = 0.0_wp
          part%moment = 0.0_wp
          part%about_centre = 0.0_wp
       end if
       floor = zero_remainder*largest_force
       part%force = above(part%force, floor)
-      floor = floor*maxval(abs(model%x(:, :n_points(model))))
+      floor = floor*maxval(abs(model%mesh%x(:, :n_points(model))))
       part%moment = above(part%moment, floor)
       part%about_centre = above(part%about_centre, floor)
    end subroutine complete_part

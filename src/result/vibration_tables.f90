@@ -46,14 +46,14 @@ contains
       call page%file%put(' NATURAL MODES ABOUT THE END OF '//page%stage//'   '// &
                          one_of(plan%on_loading, 'STIFFNESS OF LOADING', 'STIFFNESS OF UNLOADING')//', '// &
                          one_of(plan%free, 'SUPPORTS RELEASED', 'SUPPORTS HELD')//', '// &
-                         one_of(model%lumped, 'LUMPED MASS', 'CONSISTENT MASS'))
-      if (size(model%interface) > 0) call page%file%put('  INTERFACE ELEMENTS IN CONTACT: '// &
-         integer_text(modes%n_touching)//' OF '//integer_text(size(model%interface))//'; THE OTHERS HAVE NO STIFFNESS')
-      do j = 1, size(model%joints)
+                         one_of(model%mesh%lumped, 'LUMPED MASS', 'CONSISTENT MASS'))
+      if (size(model%joints%element) > 0) call page%file%put('  INTERFACE ELEMENTS IN CONTACT: '// &
+         integer_text(modes%n_touching)//' OF '//integer_text(size(model%joints%element))//'; THE OTHERS HAVE NO STIFFNESS')
+      do j = 1, size(model%joints%list)
          if (.not. modes%steeper(j) > 0.0_wp) cycle
          warns = modes%steeper(j) > steep
          call page%file%put(one_of(warns, '  WARNING: E_U OF JOINT', '  NOTE: E_U OF JOINT')//' '// &
-            integer_text(model%joints(j)%id)//' IS THE DEFAULT, AND MAKES IT '//trim(adjustl(in_form(modes%steeper(j), &
+            integer_text(model%joints%list(j)%id)//' IS THE DEFAULT, AND MAKES IT '//trim(adjustl(in_form(modes%steeper(j), &
             '(es10.2)', 10)))//' TIMES AS STIFF AS ITS LOADING CURVES'//one_of(warns, ': GIVE EU ON JNORM', ''))
          if (warns) n_warnings = n_warnings + 1
       end do
@@ -68,9 +68,9 @@ contains
       if (size(modes%modes) == 0) call page%file%put('  NO MODE IS IN THE RANGE')
 
       ! mass, centre and moments of inertia
-      d = model%dimension
-      shown = pack([(c, c = 1, 6)], [(d == 3 .or. (c == 3 .and. .not. model%axisymmetric), c = 1, 6)])
-      extent = maxval(abs(model%x))
+      d = model%mesh%dimension
+      shown = pack([(c, c = 1, 6)], [(d == 3 .or. (c == 3 .and. .not. model%mesh%axisymmetric), c = 1, 6)])
+      extent = maxval(abs(model%mesh%x))
       call table%start('MASS OF THE STRUCTURE', [column('MASS', 'es13.5'), column('CENTRE '//axes(:d), 'es13.5', &
                        page%labels%length), column(moments(shown), 'es13.5')], page%file)
       call table%put('MASS', modes%mass)
@@ -132,10 +132,10 @@ contains
                call put('BODY', i, [energy%body(i), 0.0_wp])
             end do
             do i = 1, size(energy%normal)
-               call put('JOINT', model%joints(i)%id, [energy%normal(i), energy%shear(i)])
+               call put('JOINT', model%joints%list(i)%id, [energy%normal(i), energy%shear(i)])
             end do
             do i = 1, size(energy%bar)
-               call put('BAR', model%bars(i)%id, [energy%bar(i), 0.0_wp])
+               call put('BAR', model%mesh%bars(i)%id, [energy%bar(i), 0.0_wp])
             end do
          end associate
       end do
@@ -174,7 +174,7 @@ contains
                          '   LOOPS UNDER +/- ALPHA [M] PHI, BY NEWTON')
       if (size(found%loops) > 0) then
          linear = sqrt(found%omega_squared)/two_pi
-         call page%file%put('  AMPLITUDE: OF THE MODE AT NODE '//integer_text(model%node_id(found%node))// &
+         call page%file%put('  AMPLITUDE: OF THE MODE AT NODE '//integer_text(model%mesh%node_id(found%node))// &
                             '; SHIFT: FROM THE FREQUENCY OF MODES; LOSS FACTOR: THAT OF THE JOINTS, TWICE ZETA')
          call table%start('FREQUENCY AND LOSS AGAINST AMPLITUDE', table_columns(backbone_table, page%labels, model), page%file)
          do i = 1, size(found%loops)
@@ -196,14 +196,14 @@ contains
             end associate
             call table%print_row(page%file, page%tables(backbone_table))
          end do
-         if (size(model%joints) > 1) then ! the contribution of every joint to the loss
+         if (size(model%joints%list) > 1) then ! the contribution of every joint to the loss
             call table%start('SHARE OF THE LOSS BY JOINT', [column('AMPLITUDE', 'es14.5', page%labels%length), &
                              column('JOINT', 'i11'), column('SHARE', 'f10.2', 'PERCENT')], page%file)
             do i = 1, size(found%loops)
                if (found%loops(i)%loss > least_loss_factor) then
-                  do k = 1, size(model%joints)
+                  do k = 1, size(model%joints%list)
                      call table%put('AMPLITUDE', found%loops(i)%q*found%peak)
-                     call table%put('JOINT', model%joints(k)%id)
+                     call table%put('JOINT', model%joints%list(k)%id)
                      call table%put('SHARE', percent*found%loops(i)%shares(k), zero_loop_share)
                      call table%print_row(page%file)
                   end do
@@ -242,7 +242,7 @@ contains
       character(:), allocatable :: amplitude
       integer :: i, n
 
-      n = size(model%interface)
+      n = size(model%joints%element)
       do i = 1, size(found%loops)
          associate (loop => found%loops(i))
             amplitude = real_text(loop%q*found%peak)

@@ -53,14 +53,14 @@ contains
       m = shown%n_points
       n = size(shown%elements)
       allocate (moved(3, m), source=0.0_wp)
-      allocate (at_node(max_stresses, model%n_nodes), at_centre(max_stresses, n), principal(3, n))
-      moved(:model%dimension, :) = u(:, :m)
+      allocate (at_node(max_stresses, model%mesh%n_nodes), at_centre(max_stresses, n), principal(3, n))
+      moved(:model%mesh%dimension, :) = u(:, :m)
       do i = 1, n
          at_centre(:, i) = whole_stress(model, shown%elements(i), u, temperature)
          principal(:, i) = principal_stresses(at_centre(:, i))
       end do
       call node_stresses(model, u, temperature, at_node)
-      allocate (peaks(model%n_nodes), at_ends(model%n_elements))
+      allocate (peaks(model%mesh%n_nodes), at_ends(model%mesh%n_elements))
       call node_peaks(model, u, temperature, peaks(:m), at_ends)
       call write_mesh(file, model, shown)
       call file%add(point_data, named('displacement', labels%length), moved)
@@ -71,20 +71,20 @@ contains
             call file%add(point_data, 'temperature [deg]', t(:m))
          end associate
       end if
-      call file%add(cell_data, 'element', model%element_id(shown%elements))
-      call file%add(cell_data, 'property', model%properties(model%element_property(shown%elements))%id)
+      call file%add(cell_data, 'element', model%mesh%element_id(shown%elements))
+      call file%add(cell_data, 'property', model%mesh%properties(model%mesh%element_property(shown%elements))%id)
       call file%add(cell_data, named('stress_at_centre', labels%pressure), at_centre)
       call file%add(cell_data, named('principal_stress', labels%pressure), principal)
       call file%add(cell_data, named('von_mises_at_centre', labels%pressure), [(max(von_mises(at_centre(:, i)), &
                                                                                 at_ends(shown%elements(i))), i = 1, n)])
-      if (.not. allocated(model%structural%place)) return
+      if (.not. allocated(model%mesh%structural%place)) return
       allocate (thickness(n), at_face(n, 2), source=0.0_wp) ! at the centres of both faces of shells; zero for other elements
       do i = 1, n
          if (.not. is_shell(model, shown%elements(i))) cycle
          k = size(corners_of(model, shown%elements(i)))
          call face_stresses(model, shown%elements(i), u, temperature, stress)
          at_face(i, :) = [(von_mises(stress(:, k + 1, f)), f = 1, 2)]
-         thickness(i) = sum(model%structural%shells(model%structural%place(shown%elements(i)))%thickness(:k))/k
+         thickness(i) = sum(model%mesh%structural%shells(model%mesh%structural%place(shown%elements(i)))%thickness(:k))/k
       end do
       call file%add(cell_data, named('thickness', labels%length), thickness)
       call file%add(cell_data, named('von_mises_at_z1', labels%pressure), at_face(:, 1))
@@ -120,20 +120,21 @@ contains
       integer :: i, m, n
 
       m = shown%n_points
-      allocate (connected(count(model%element_nodes(:, shown%elements) > 0)))
+      allocate (connected(count(model%mesh%element_nodes(:, shown%elements) > 0)))
       allocate (ends(size(shown%elements)), types(size(shown%elements)))
       n = 0
       do i = 1, size(ends)
-         associate (nodes => corners_of(model, shown%elements(i)), kind => element_table(model%element_kind(shown%elements(i))))
+         associate (nodes => corners_of(model, shown%elements(i)), &
+            kind => element_table(model%mesh%element_kind(shown%elements(i))))
             connected(n + 1:n + size(nodes)) = nodes(kind%vtk_nodes(:size(nodes)))
             n = n + size(nodes)
             ends(i) = n
             types(i) = int(kind%vtk_type, int8)
          end associate
       end do
-      call file%points(model%x(:, :m))
+      call file%points(model%mesh%x(:, :m))
       call file%cells(connected, ends, types)
-      call file%add(point_data, 'node', model%node_id(:m))
+      call file%add(point_data, 'node', model%mesh%node_id(:m))
    end subroutine write_mesh
 
    !> Write all joints into FILE. BRANCH is 1 load, 2 unload, 3 open, 4 reload as in the chart. TAU is the shear stress on side
@@ -148,11 +149,11 @@ contains
       real(wp), allocatable :: u(:, :)
       integer :: cells, i, j, n, points
 
-      points = size(model%interface) ! upper bounds of points and cells
+      points = size(model%joints%element) ! upper bounds of points and cells
       cells = points
-      do j = 1, size(model%joints)
-         if (model%joints(j)%side_1 == 0) cycle
-         associate (surface => model%surfaces(model%joints(j)%side_1))
+      do j = 1, size(model%joints%list)
+         if (model%joints%list(j)%side_1 == 0) cycle
+         associate (surface => model%mesh%surfaces(model%joints%list(j)%side_1))
             points = points + sum(surface%n_nodes(:surface%n))
             cells = cells + surface%n
          end associate
@@ -160,11 +161,11 @@ contains
       allocate (grid%x(3, points), grid%node(points), grid%element(points), grid%corners(points))
       allocate (grid%ends(cells), grid%types(cells))
       allocate (grid%values(n_values, points), source=0.0_wp)
-      do j = 1, size(model%joints)
-         if (model%joints(j)%side_1 > 0) then
-            call add_faces(model, analysis, model%joints(j), model%surfaces(model%joints(j)%side_1), grid)
+      do j = 1, size(model%joints%list)
+         if (model%joints%list(j)%side_1 > 0) then
+            call add_faces(model, analysis, model%joints%list(j), model%mesh%surfaces(model%joints%list(j)%side_1), grid)
          else
-            do i = model%joints(j)%first, model%joints(j)%last ! elements of a joint of single elements
+            do i = model%joints%list(j)%first, model%joints%list(j)%last ! elements of a joint of single elements
                call add_element(model, analysis, i, grid)
             end do
          end if
@@ -173,10 +174,10 @@ contains
       call file%points(grid%x(:, :n))
       call file%cells(grid%corners(:grid%n_corners), grid%ends(:grid%n_cells), grid%types(:grid%n_cells))
       associate (values => grid%values(:, :n), of => grid%element(:n))
-         call file%add(point_data, 'element', model%interface(of)%id)
-         call file%add(point_data, 'joint', model%joints(model%interface(of)%joint)%id)
+         call file%add(point_data, 'element', model%joints%element(of)%id)
+         call file%add(point_data, 'joint', model%joints%list(model%joints%element(of)%joint)%id)
          allocate (u(3, n), source=0.0_wp)
-         u(:model%dimension, :) = analysis%all_u(:, grid%node(:n))
+         u(:model%mesh%dimension, :) = analysis%all_u(:, grid%node(:n))
          call file%add(point_data, named('displacement', labels%length), u)
          call file%add(point_data, named('lambda', labels%length), values(1, :))
          call file%add(point_data, named('pressure', labels%pressure), values(2, :))
@@ -199,11 +200,11 @@ contains
       logical, allocatable :: second(:)
       integer :: before, f, i, k
 
-      allocate (element_at(model%n_nodes), point(model%n_nodes), source=0) ! element and point of a node
+      allocate (element_at(model%mesh%n_nodes), point(model%mesh%n_nodes), source=0) ! element and point of a node
       allocate (share(size(grid%element)), source=0)
       allocate (second(joint%first:joint%last), source=.false.) ! whether an earlier element has the same node
       do i = joint%first, joint%last
-         associate (nodes => nodes_of_end(model%interface(i), 1), weights => weights_of_end(model%interface(i), 1))
+         associate (nodes => nodes_of_end(model%joints%element(i), 1), weights => weights_of_end(model%joints%element(i), 1))
             associate (node => nodes(maxloc(weights, dim=1)))
                second(i) = element_at(node) > 0
                if (.not. second(i)) element_at(node) = i
@@ -219,7 +220,7 @@ contains
       all_nodes = nodes_of(surface)
       do k = 1, size(all_nodes)
          if (point(all_nodes(k)) == 0) cycle
-         call add_point(all_nodes(k), model%x(:, all_nodes(k)), grid)
+         call add_point(all_nodes(k), model%mesh%x(:, all_nodes(k)), grid)
          point(all_nodes(k)) = grid%n_points
       end do
       do f = 1, surface%n
@@ -288,8 +289,8 @@ contains
       integer, intent(in)             :: i
       type(grid_type), intent(inout)  :: grid
 
-      associate (nodes => nodes_of_end(model%interface(i), 1))
-         call add_point(nodes(1), at_first_end(model%interface(i), model%x), grid)
+      associate (nodes => nodes_of_end(model%joints%element(i), 1))
+         call add_point(nodes(1), at_first_end(model%joints%element(i), model%mesh%x), grid)
       end associate
       grid%element(grid%n_points) = i
       grid%values(:, grid%n_points) = values_of(model, analysis, i)
@@ -327,7 +328,7 @@ contains
       integer, intent(in)             :: i
       real(wp) :: values(n_values)
 
-      associate (state => analysis%states(i), element => model%interface(i))
+      associate (state => analysis%states(i), element => model%joints%element(i))
          values(1:2) = [state%normal%lambda, state%normal%pressure]
          values(3:5) = matmul(element%axes(:, :2), state%shear%tau)
          values(6) = face_distance(state%normal)

@@ -88,15 +88,15 @@ contains
          words = ''
          if (stage%output%steps) words = '.'//integer_text(analysis%increment)
          time = real(stage%id - 1, wp) + analysis%fraction
-         if (model%n_elements > 0 .and. allocated(results%subdomains)) then
+         if (model%mesh%n_elements > 0 .and. allocated(results%subdomains)) then
             call begin_part(results, stage%id, words//'.pvtu', time, of_bodies)
             call write_pieces(results, analysis)
-         else if (model%n_elements > 0) then
+         else if (model%mesh%n_elements > 0) then
             call begin_part(results, stage%id, words//'.vtu', time, of_bodies, grid)
             call write_bodies(grid, results%labels, model, all_shown(model), analysis%all_u, analysis%now%temperature)
             call end_part(results, grid)
          end if
-         if (size(model%interface) == 0) return
+         if (size(model%joints%element) == 0) return
          call begin_part(results, stage%id, words//'.joint.vtu', time, of_joints, grid)
          call write_joints(grid, results%labels, model, analysis)
          call end_part(results, grid)
@@ -191,12 +191,12 @@ contains
       real(wp), allocatable :: u(:, :)
       integer :: k
 
-      if (results%name == '' .or. model%n_elements == 0) return
+      if (results%name == '' .or. model%mesh%n_elements == 0) return
       call begin_part(results, stage, '.modes.vtu', real(stage, wp), of_modes, grid)
       call write_mesh(grid, model, all_shown(model))
       allocate (u(3, n_points(model)), source=0.0_wp)
       do k = 1, size(modes%modes)
-         u(:model%dimension, :) = modes%modes(k)%u(:, :n_points(model))
+         u(:model%mesh%dimension, :) = modes%modes(k)%u(:, :n_points(model))
          call grid%add(point_data, 'mode '//integer_text(modes%n_before + k)//', frequency '// &
                        real_text(modes%modes(k)%frequency), u)
       end do

@@ -68,14 +68,14 @@ contains
       real(wp) :: on_nodes(3), total(3), amount, largest
       integer  :: d, k, s
 
-      d = model%dimension
+      d = model%mesh%dimension
       now = state_at_end(model, analysis)
       change = now%u - before%u
       largest = maxval(abs(change(:, :n_points(model))))
       ! change over the stage of the loads of the deck, without preloads and moments [force]
       allocate (load(3, n_points(model)), source=0.0_wp)
       do s = max(1, analysis%stage - 1), analysis%stage
-         associate (loads => model%stage_loads(s))
+         associate (loads => model%history%stages(s))
             do k = 1, loads%n
                if (node_kind(model, loads%node(k)) == a_point) load(:, loads%node(k)) = load(:, loads%node(k)) + &
                   merge(1, -1, s == analysis%stage)*analysis%fraction*loads%force(:, k)
@@ -115,24 +115,24 @@ contains
       type(compliance_share), allocatable   :: parts(:)
       real(wp), allocatable :: f(:, :), thermal(:, :)
       integer, allocatable  :: of_node(:)
-      integer  :: body(model%n_elements), e, i, n_bodies, n_joints, node
+      integer  :: body(model%mesh%n_elements), e, i, n_bodies, n_joints, node
       real(wp) :: work(3), all_amounts
 
       ! the bodies
       call find_bodies(model, body, n_bodies)
       allocate (parts(n_bodies))
-      allocate (of_node(model%n_nodes), source=0)
+      allocate (of_node(model%mesh%n_nodes), source=0)
       parts%kind = 'BODY'
       parts%first = huge(1)
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          associate (part => parts(body(e)))
             part%id = body(e)
-            part%first = min(part%first, model%element_id(e))
-            part%last = max(part%last, model%element_id(e))
+            part%first = min(part%first, model%mesh%element_id(e))
+            part%last = max(part%last, model%mesh%element_id(e))
          end associate
          of_node(corners_of(model, e)) = body(e)
-         if (allocated(model%element_section)) then
-            if (model%element_section(e) > 0) of_node(model%sections(model%element_section(e))%node) = body(e)
+         if (allocated(model%mesh%element_section)) then
+            if (model%mesh%element_section(e) > 0) of_node(model%mesh%sections(model%mesh%element_section(e))%node) = body(e)
          end if
       end do
       allocate (f, mold=change)
@@ -143,7 +143,7 @@ contains
       thermal = 0.0_wp
       if (allocated(analysis%now%temperature%at)) call add_thermal_forces(model, analysis%now%temperature, thermal)
       f = f - thermal
-      do node = 1, model%n_nodes
+      do node = 1, model%mesh%n_nodes
          if (of_node(node) == 0) cycle
          associate (part => parts(of_node(node)))
             part%share(1) = part%share(1) + 0.5_wp*dot_product(f(:, node), change(:, node))
@@ -151,22 +151,22 @@ contains
       end do
 
       ! the joints, bars and springs
-      n_joints = size(model%joints)
-      parts = [parts, [(compliance_share('JOINT', model%joints(i)%id), i = 1, n_joints)], &
-               [(compliance_share(merge('SPRING', 'BAR   ', model%bars(i)%kind == a_spring), model%bars(i)%id), &
+      n_joints = size(model%joints%list)
+      parts = [parts, [(compliance_share('JOINT', model%joints%list(i)%id), i = 1, n_joints)], &
+               [(compliance_share(merge('SPRING', 'BAR   ', model%mesh%bars(i)%kind == a_spring), model%mesh%bars(i)%id), &
                  i = 1, n_bars(model))]]
       do i = 1, n_bars(model)
-         if (model%bars(i)%bolt > 0) parts(n_bodies + n_joints + i) = compliance_share('BOLT', model%bars(i)%bolt)
+         if (model%mesh%bars(i)%bolt > 0) parts(n_bodies + n_joints + i) = compliance_share('BOLT', model%mesh%bars(i)%bolt)
       end do
-      do i = 1, size(model%interface)
+      do i = 1, size(model%joints%element)
          work = 0.5_wp*(now%force(:, i) - before%force(:, i))*(now%movement(:, i) - before%movement(:, i))
-         associate (part => parts(n_bodies + model%interface(i)%joint))
+         associate (part => parts(n_bodies + model%joints%element(i)%joint))
             part%share = part%share + [work(3), work(1) + work(2)]
          end associate
       end do
       do i = 1, n_bars(model)
          parts(n_bodies + n_joints + i)%share(1) = 0.5_wp*(now%tension(i) - before%tension(i))* &
-                                                   bar_elongation(model%bars(i), change(:, bar_nodes(model%bars(i))))
+                                                   bar_elongation(model%mesh%bars(i), change(:, bar_nodes(model%mesh%bars(i))))
       end do
 
       ! works become shares, unless they are only rounding
@@ -185,8 +185,8 @@ contains
       type(model_type), intent(in)   :: model
       type(watch_state), intent(out) :: before
 
-      allocate (before%u(model%dimension, model%n_nodes), before%force(3, size(model%interface)), &
-                before%movement(3, size(model%interface)), before%tension(n_bars(model)), source=0.0_wp)
+      allocate (before%u(model%mesh%dimension, model%mesh%n_nodes), before%force(3, size(model%joints%element)), &
+                before%movement(3, size(model%joints%element)), before%tension(n_bars(model)), source=0.0_wp)
    end subroutine start_watched
 
    !> The structure at the end of the completed stage.
@@ -198,8 +198,8 @@ contains
 
       allocate (now%u, source=analysis%all_u)
       allocate (now%force, now%movement, source=analysis%movement)
-      do i = 1, size(model%interface)
-         now%force(:, i) = [analysis%states(i)%shear%tau*model%interface(i)%area, analysis%states(i)%normal%sumf]
+      do i = 1, size(model%joints%element)
+         now%force(:, i) = [analysis%states(i)%shear%tau*model%joints%element(i)%area, analysis%states(i)%normal%sumf]
       end do
       allocate (now%tension, source=[(bar_tension(model, analysis, i), i = 1, n_bars(model))])
    end function state_at_end

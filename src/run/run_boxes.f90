@@ -254,7 +254,7 @@ contains
       call take_up(run, model, plan, system, analysis)
       call expect(run, plan, analysis%stage, analysis%increment)
       call enter(run, phase_increments)
-      if (any(model%interface%gap < 0.0_wp) .and. deck%control%method /= method_back) call note_drops(run, model, analysis)
+      if (any(model%joints%element%gap < 0.0_wp) .and. deck%control%method /= method_back) call note_drops(run, model, analysis)
       if (allocated(analysis%kept)) call go_on(run, deck, model, plan, system, analysis)
    end subroutine start_joints
 
@@ -267,13 +267,13 @@ contains
       integer :: i
 
       if (run%tells_drops .or. run%failure%raised) return
-      do i = 1, size(model%interface)
-         associate (law => model%joints(model%interface(i)%joint)%law, state => analysis%states(i)%normal)
+      do i = 1, size(model%joints%element)
+         associate (law => model%joints%list(model%joints%element(i)%joint)%law, state => analysis%states(i)%normal)
             if (state%branch /= branch_open .or. law%has_friction .or. .not. any(law%shear%given)) cycle
             if (state%gap > 0.0_wp .and. .not. state%p_a > 0.0_wp) cycle
          end associate
          run%tells_drops = .true.
-         call tell(run, 'JOINT '//integer_text(model%joints(model%interface(i)%joint)%id)//', node '// &
+         call tell(run, 'JOINT '//integer_text(model%joints%list(model%joints%element(i)%joint)%id)//', node '// &
                    integer_text(joint_node_id(model, i, 1))//': an element with shear stiffness and without MU on '// &
                    'PJOINT has opened; it drops its shear at once, and the equilibrium may be one of several that rounding chooses')
          return

@@ -241,12 +241,12 @@ contains
       if (run%results%finished%is_named()) row%ended = 'ENDED EARLY at '//run%results%page%place
       associate (digest => row%digest)
          if (digest%stages == 0 .and. .not. run%keeps_results) return
-         row%is_there = [.true., model%n_elements > 0, size(model%joints) > 0, digest%safety < huge(1.0_wp), &
+         row%is_there = [.true., model%mesh%n_elements > 0, size(model%joints%list) > 0, digest%safety < huge(1.0_wp), &
                          digest%frequency >= 0.0_wp]
       end associate
       if (.not. allocated(run%results%watched%nodes)) return
       row%watched = run%results%watched%nodes(1)
-      row%node = model%node_id(row%watched%node)
+      row%node = model%mesh%node_id(row%watched%node)
    end subroutine finish_run
 
    !> Report that the standard output is full or closed.
@@ -264,7 +264,7 @@ contains
       type(deck_type), intent(in)  :: deck
       type(model_type), intent(in) :: model
 
-      if (allocated(model%kind_words)) call tell(run, model%kind_words)
+      if (allocated(model%mesh%kind_words)) call tell(run, model%mesh%kind_words)
       if (deck%bulk%ignored%n > 0) call tell(run, deck%bulk%ignored%words())
       if (deck%control%of_nastran .and. size(deck%control%stages) > 1) call tell(run, plural(size(deck%control%stages), &
          'SUBCASE')//' are stages of one history: each starts from the end of the previous one')
@@ -292,13 +292,13 @@ contains
                   call tell(run, 'its results would overwrite the INCLUDE file '//deck%text%files(i)%path)
             end do
          case (has_errors)
-            if (allocated(model%kind_words)) call tell(run, model%kind_words)
+            if (allocated(model%mesh%kind_words)) call tell(run, model%mesh%kind_words)
             call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, run%errors)
          case (was_checked)
             call say_of_deck(run, deck, model)
             call write_bytes(1, name//': no errors; '//plural(n_points(model), 'node')//', '// &
-                             plural(model%n_elements, 'body element')//', '// &
-                             plural(size(model%interface), 'interface element')//', '//plural(size(plan%stages), 'stage')// &
+                             plural(model%mesh%n_elements, 'body element')//', '// &
+                             plural(size(model%joints%element), 'interface element')//', '//plural(size(plan%stages), 'stage')// &
                              new_line('a'), ok)
             if (.not. ok) call miss_output(run)
          case (was_searched)

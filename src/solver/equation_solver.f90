@@ -174,11 +174,12 @@ contains
       logical, allocatable :: is_free(:, :)
       integer :: d, i
 
-      allocate (is_free, source=.not. model%held(:, order) .and. spread(model%used(order), 1, model%dimension))
+      allocate (is_free, source=.not. model%freedoms%held(:, order) .and. spread(model%freedoms%used(order), 1, &
+         model%mesh%dimension))
       self%n = count(is_free)
-      self%node = pack(spread(order, 1, model%dimension), is_free)
-      self%direction = pack(spread([(d, d = 1, model%dimension)], 2, size(order)), is_free)
-      self%number = spread([(0, d = 1, model%dimension)], 2, model%n_nodes)
+      self%node = pack(spread(order, 1, model%mesh%dimension), is_free)
+      self%direction = pack(spread([(d, d = 1, model%mesh%dimension)], 2, size(order)), is_free)
+      self%number = spread([(0, d = 1, model%mesh%dimension)], 2, model%mesh%n_nodes)
       do i = 1, self%n
          self%number(self%direction(i), self%node(i)) = i
       end do

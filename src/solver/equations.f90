@@ -42,7 +42,7 @@ contains
 
       wanted = solver_auto
       if (present(solver)) wanted = solver
-      n = sum(merge(count(.not. model%held, dim=1), 0, model%used))
+      n = sum(merge(count(.not. model%freedoms%held, dim=1), 0, model%freedoms%used))
       if (n == 0) then
          call failure%raise('nothing to solve: all components of all nodes are supported')
          return
@@ -55,7 +55,7 @@ contains
       allocate (system%locked(0))
       call system%start(model, graph, failure)
       if (failure%raised) return
-      allocate (system%retained_index(model%n_nodes), source=0) ! positions, also in the interface elements
+      allocate (system%retained_index(model%mesh%n_nodes), source=0) ! positions, also in the interface elements
       system%retained_index(system%retained) = [(i, i = 1, size(system%retained))]
       call list_on_unknowns(model, system%interface)
       do i = 1, size(system%interface)
@@ -75,17 +75,17 @@ contains
       call system%report_fault(model, fault, '', failure)
       if (failure%raised) return
       do i = 1, n_bars(model)
-         if (model%bars(i)%bolt == 0) call add_bar(model, i, system)
+         if (model%mesh%bars(i)%bolt == 0) call add_bar(model, i, system)
       end do
       if (.not. abs(system%shift) > 0.0_wp) return
       do i = 1, n_bars(model) ! - sigma [m] of bars, and of masses at nodes
-         if (.not. model%bars(i)%mass > 0.0_wp) cycle
-         call system%add_to_bodies([system%number(:, unknown_nodes(model, bar_nodes(model%bars(i))))], &
+         if (.not. model%mesh%bars(i)%mass > 0.0_wp) cycle
+         call system%add_to_bodies([system%number(:, unknown_nodes(model, bar_nodes(model%mesh%bars(i))))], &
                                    -system%shift*coupled_bar_mass(model, i))
       end do
       do i = 1, n_masses(model)
-         call system%add_to_bodies([system%number(:, unknown_nodes(model, mass_nodes(model, model%masses(i))))], &
-                                   -system%shift*coupled_point_mass(model, model%masses(i)))
+         call system%add_to_bodies([system%number(:, unknown_nodes(model, mass_nodes(model, model%mesh%masses(i))))], &
+                                   -system%shift*coupled_point_mass(model, model%mesh%masses(i)))
       end do
    end subroutine form_body_stiffness
 
@@ -95,9 +95,9 @@ contains
       integer, intent(in)                   :: i
       class(equation_system), intent(inout) :: system
 
-      call system%add_to_bodies([system%number(:, unknown_nodes(model, bar_nodes(model%bars(i))))], &
-                                between_unknowns(model, bar_nodes(model%bars(i)), bar_stiffness(model, i)))
-      system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
+      call system%add_to_bodies([system%number(:, unknown_nodes(model, bar_nodes(model%mesh%bars(i))))], &
+                                between_unknowns(model, bar_nodes(model%mesh%bars(i)), bar_stiffness(model, i)))
+      system%stiffest = max(system%stiffest, model%mesh%bars(i)%stiffness)
       call system%forget_factors()
    end subroutine add_bar
 

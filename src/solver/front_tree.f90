@@ -284,13 +284,13 @@ contains
       integer, allocatable :: front(:, :), first(:), list(:)
       integer :: e, f
 
-      allocate (front(1, max(model%n_elements, size(model%interface))))
+      allocate (front(1, max(model%mesh%n_elements, size(model%joints%element))))
       !$omp parallel do schedule(dynamic, 512) default(shared) if(tree%is_parallel)
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          front(1, e) = front_of(tree, pack(tree%number(:, coupled_nodes(model, e)), .true.))
       end do
       !$omp end parallel do
-      call list_owners(size(tree%fronts), front(:, :model%n_elements), first, list)
+      call list_owners(size(tree%fronts), front(:, :model%mesh%n_elements), first, list)
       do f = 1, size(tree%fronts)
          tree%fronts(f)%elements = list(first(f):first(f + 1) - 1)
       end do

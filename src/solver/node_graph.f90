@@ -30,7 +30,7 @@ contains
       integer, allocatable :: mark(:), joined(:, :), first_list(:), lists_at(:)
       integer :: e, i, k, node, pass, n
 
-      graph%n = model%n_nodes
+      graph%n = model%mesh%n_nodes
       if (present(with_masses)) graph%with_masses = with_masses
       call list_joined(model, graph%with_masses, .true., joined)
       call list_owners(graph%n, joined, first_list, lists_at)
@@ -42,10 +42,10 @@ contains
             graph%first(node) = n + 1
             mark(node) = node
             if (.not. is_face_node(model, node)) then ! a face has no unknowns
-               do i = model%first_at(node), model%first_at(node + 1) - 1
-                  e = model%elements_at(i)
-                  do k = 1, size(model%element_nodes, 1)
-                     call visit(model%element_nodes(k, e))
+               do i = model%mesh%first_at(node), model%mesh%first_at(node + 1) - 1
+                  e = model%mesh%elements_at(i)
+                  do k = 1, size(model%mesh%element_nodes, 1)
+                     call visit(model%mesh%element_nodes(k, e))
                   end do
                   call visit(section_node(model, e))
                   call visit_rotations(e)
@@ -68,10 +68,10 @@ contains
          integer, intent(in) :: e
          integer :: j
 
-         if (.not. allocated(model%structural%place)) return
-         if (model%structural%place(e) == 0) return
+         if (.not. allocated(model%mesh%structural%place)) return
+         if (model%mesh%structural%place(e) == 0) return
          do j = 1, size(corners_of(model, e))
-            call visit(model%rotations(model%rotation_of(model%element_nodes(j, e)))%node)
+            call visit(model%mesh%rotations(model%mesh%rotation_of(model%mesh%element_nodes(j, e)))%node)
          end do
       end subroutine visit_rotations
 
@@ -96,21 +96,21 @@ contains
       integer, allocatable :: wider(:, :)
       integer :: e, i, n
 
-      allocate (joined(2, size(model%interface) + n_bars(model)), source=0)
+      allocate (joined(2, size(model%joints%element) + n_bars(model)), source=0)
       n = 0
-      do i = 1, size(model%interface)
-         call join(unknown_nodes(model, model%interface(i)%node))
+      do i = 1, size(model%joints%element)
+         call join(unknown_nodes(model, model%joints%element(i)%node))
       end do
       do i = 1, n_bars(model)
-         call join(unknown_nodes(model, bar_nodes(model%bars(i))))
+         call join(unknown_nodes(model, bar_nodes(model%mesh%bars(i))))
       end do
       if (with_masses) then
          do i = 1, n_masses(model)
-            call join(unknown_nodes(model, mass_nodes(model, model%masses(i))))
+            call join(unknown_nodes(model, mass_nodes(model, model%mesh%masses(i))))
          end do
       end if
-      if (.not. (with_bodies .and. allocated(model%coupling%of_node))) return
-      do e = 1, model%n_elements
+      if (.not. (with_bodies .and. allocated(model%freedoms%coupling%of_node))) return
+      do e = 1, model%mesh%n_elements
          ! an unknown of the element may belong to a node that does not participate
          associate (participating => participating_nodes(model, e), unknown => coupled_nodes(model, e))
             if (any([(all(participating /= unknown(i)), i = 1, size(unknown))])) call join(unknown)

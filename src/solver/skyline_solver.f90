@@ -38,12 +38,12 @@ contains
       integer :: i
 
       call reverse_cuthill_mckee(graph, order)
-      call self%number_unknowns(model, [(i, i = 1, model%n_nodes)])
+      call self%number_unknowns(model, [(i, i = 1, model%mesh%n_nodes)])
       call lay_out_profile(graph, self, first_row_as_numbered, self%profile_as_numbered)
       call self%number_unknowns(model, order)
       call lay_out_profile(graph, self, self%first_row, self%profile)
       if (self%profile < self%profile_as_numbered) return
-      call self%number_unknowns(model, [(i, i = 1, model%n_nodes)])
+      call self%number_unknowns(model, [(i, i = 1, model%mesh%n_nodes)])
       call move_alloc(first_row_as_numbered, self%first_row)
       self%profile = self%profile_as_numbered
    end subroutine lay_out
@@ -67,7 +67,7 @@ contains
       call start_skyline(self%first_row, self%body, ok)
       if (.not. ok) call failure%raise('no memory for the skyline of '//integer_text(self%n)//' equations')
       self%equations = [(i, i = 1, self%n)]
-      self%retained = pack([(i, i = 1, model%n_nodes)], model%used)
+      self%retained = pack([(i, i = 1, model%mesh%n_nodes)], model%freedoms%used)
       call list_on_unknowns(model, elements)
       call list_interface_equations(elements, self%number, self%joints)
       associate (description => self%description)
@@ -107,7 +107,7 @@ contains
 
       fault = 0
       allocate (rows(0))
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          call coupled_dynamic_stiffness(model, e, self%shift, k)
          rows = [self%number(:, coupled_nodes(model, e))]
          call scatter(self%body, rows, k(:size(rows), :size(rows)))

@@ -58,7 +58,7 @@ contains
             work%refactored_operations = tree%description%refactored_operations
             work%bytes = tree%bytes
             work%there = real(memory_for(work%bytes), wp)
-            work%entries = real(model%dimension, wp)**2*(size(graph%neighbours) + real(model%n_nodes, wp))
+            work%entries = real(model%mesh%dimension, wp)**2*(size(graph%neighbours) + real(model%mesh%n_nodes, wp))
             work%solutions = factorisations
             work%processes = n_processes
             work%threads = omp_get_max_threads()

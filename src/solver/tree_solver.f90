@@ -54,16 +54,16 @@ contains
       type(node_graph_type), intent(in)      :: graph
       integer, allocatable :: joined(:, :), order(:), weight(:)
 
-      allocate (weight, source=merge(count(.not. model%held, dim=1), 0, model%used))
+      allocate (weight, source=merge(count(.not. model%freedoms%held, dim=1), 0, model%freedoms%used))
       call dissect(graph, weight > 0, order, self%is_laid_out)
       if (.not. self%is_laid_out) return
       call list_joined(model, graph%with_masses, .false., joined)
-      allocate (self%in_joint(model%n_nodes), source=.false.)
+      allocate (self%in_joint(model%mesh%n_nodes), source=.false.)
       self%in_joint(pack(joined, joined > 0)) = .true.
-      if (n_sections(model) > 0) self%in_joint(model%sections%node) = .true.
+      if (n_sections(model) > 0) self%in_joint(model%mesh%sections%node) = .true.
       call choose_layout(graph, order, weight, self%in_joint, self%factorisations, self%layout, self%way)
       ! elements of refactored fronts are kept entry by entry with two indices, in number as for a regular mesh
-      self%bytes = 8.0_wp*self%layout%most_entries + 16.0_wp*(0.5_wp*model%dimension*3**model%dimension*sum(weight))
+      self%bytes = 8.0_wp*self%layout%most_entries + 16.0_wp*(0.5_wp*model%mesh%dimension*3**model%mesh%dimension*sum(weight))
       self%description%static_operations = self%layout%static_operations
       self%description%refactored_operations = self%layout%refactored_operations
    end subroutine lay_out
@@ -79,12 +79,12 @@ contains
 
       if (.not. self%is_laid_out) call self%lay_out(model, graph)
       if (.not. self%is_laid_out) then
-         call failure%raise('no memory to order '//integer_text(count(model%used))//' nodes')
+         call failure%raise('no memory to order '//integer_text(count(model%freedoms%used))//' nodes')
          return
       end if
       associate (layout => self%layout, description => self%description)
          call self%number_unknowns(model, layout%order)
-         call check_memory(self%n, model%dimension, self%bytes, failure)
+         call check_memory(self%n, model%mesh%dimension, self%bytes, failure)
          if (failure%raised) return
          call start_front_tree(model, self%number, layout, self%fronts)
          self%factor%reuse%most_steps = price_in_steps(layout%refactored_operations, layout%refactored_entries)
@@ -96,7 +96,7 @@ contains
       end associate
       self%layout = none
       self%in_joint(self%node(self%equations)) = .true.
-      self%retained = pack([(i, i = 1, model%n_nodes)], self%in_joint)
+      self%retained = pack([(i, i = 1, model%mesh%n_nodes)], self%in_joint)
    end subroutine start
 
    !> Form [k_b] and factorise the static fronts.

@@ -97,7 +97,7 @@ contains
          call start_modal_load(model, plan, analysis, system, mode%u/sqrt(mode%mass), found%modal, failure)
       end associate
       if (allocated(analysis%kept)) &
-         found%loops = [(taken_up(size(model%joints), analysis%kept(:, i)), i = 1, size(analysis%kept, 2))]
+         found%loops = [(taken_up(size(model%joints%list), analysis%kept(:, i)), i = 1, size(analysis%kept, 2))]
    end subroutine start_backbone
 
    !> Find the loop of the next amplitude of the backbone and keep it in ANALYSIS; MORE is false where none is left.
@@ -270,7 +270,7 @@ contains
       integer  :: i, k, n
 
       if (.not. allocated(found%modal)) return
-      if (allocated(vibration%response)) force = abs(sum(found%modal%phi*vibration%response%force(:model%dimension, :)))
+      if (allocated(vibration%response)) force = abs(sum(found%modal%phi*vibration%response%force(:model%mesh%dimension, :)))
       deallocate (found%modal)
       if (.not. allocated(vibration%response)) return
       associate (mode => modes%modes(found%mode - modes%n_before))

@@ -244,7 +244,7 @@ contains
       real(wp), allocatable :: f(:, :)
 
       x(system%locked) = 0.0_wp
-      allocate (f(model%dimension, model%n_nodes))
+      allocate (f(model%mesh%dimension, model%mesh%n_nodes))
       call mass_times(model, mass, all_displacements(model, system, x), f)
       x = on_equations(model, system, f)
    end subroutine times_mass
@@ -275,13 +275,13 @@ contains
       real(wp), allocatable :: u(:, :)
       integer :: i
 
-      allocate (u(model%dimension, model%n_nodes), source=0.0_wp)
+      allocate (u(model%mesh%dimension, model%mesh%n_nodes), source=0.0_wp)
       !$omp parallel do default(shared) if(system%n > worth_threads)
       do i = 1, system%n
          u(system%direction(i), system%node(i)) = x(i)
       end do
       !$omp end parallel do
-      if (allocated(model%coupling%of_node)) u = displacements(model, u)
+      if (allocated(model%freedoms%coupling%of_node)) u = displacements(model, u)
    end function all_displacements
 
 end module eigenpairs

@@ -190,11 +190,11 @@ contains
       loop%lost = sum(lost)
       if (abs(loop%lost) <= size(path%points, 2)*rounding_of_work(modal, loop%alpha*loop%q)) loop%lost = 0.0_wp
       loop%loss = 2.0_wp*loop%lost/(two_pi*loop%alpha*loop%q)
-      loop%shares = [(sum(lost(model%joints(j)%first:model%joints(j)%last)), j = 1, size(model%joints))]/ &
+      loop%shares = [(sum(lost(model%joints%list(j)%first:model%joints%list(j)%last)), j = 1, size(model%joints%list))]/ &
                     merge(loop%lost, huge(1.0_wp), loop%lost > 0.0_wp)
       loop%centre = modal%sense*(0.25_wp*(high + top) + 0.5_wp*low)/loop%q
       loop%gap = (high - top)/loop%q
-      share = 1.0_wp/max(1, size(model%interface))
+      share = 1.0_wp/max(1, size(model%joints%element))
       loop%slipping = share*count(path%has_slipped)
       loop%open = share*count(path%has_opened)
       loop%way = modal%sense*path%points
@@ -225,7 +225,8 @@ contains
 
       lost = 0.0_wp
       do e = 1, size(start)
-         associate (element => model%interface(e), law => model%joints(model%interface(e)%joint)%law, state => now%states(e))
+         associate (element => model%joints%element(e), law => model%joints%list(model%joints%element(e)%joint)%law, &
+            state => now%states(e))
             k = [(element%area*shear_slope(law%shear(d), state%shear(d), state%normal%pressure), d = 1, 2), &
                  element%area*law%normal%e_u]
             force(:, 1) = force_of(element%area, start(e))

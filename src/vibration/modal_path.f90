@@ -68,7 +68,7 @@ contains
       type(modal_load_type), intent(out) :: modal
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: inside(:, :), on_unknowns(:, :)
-      real(wp) :: work(size(model%interface))
+      real(wp) :: work(size(model%joints%element))
       integer :: e
 
       if (failure%raised) return
@@ -91,11 +91,11 @@ contains
       call condense_load(modal%system, on_unknowns, modal%condensed)
       call recover_displacements(modal%system, on_unknowns, 0.0_wp*modal%condensed, inside)
       modal%inside = sum(on_unknowns*inside)
-      allocate (modal%rest_forces(3, size(model%interface)), source=0.0_wp)
+      allocate (modal%rest_forces(3, size(model%joints%element)), source=0.0_wp)
       modal%rest%increment_fraction = 0.0_wp
       call load_increment(model, modal, [0.0_wp, 0.0_wp], modal%rest, work, failure)
-      do e = 1, size(model%interface)
-         modal%rest_forces(:, e) = force_of(model%interface(e)%area, modal%rest%states(e))
+      do e = 1, size(model%joints%element)
+         modal%rest_forces(:, e) = force_of(model%joints%element(e)%area, modal%rest%states(e))
       end do
       associate (states => modal%rest%states)
          modal%work_noise = rounding_of_forces*(sum(abs(modal%rest_forces*modal%rest%movement)) + &
@@ -143,7 +143,7 @@ contains
       type(path_type), intent(inout)       :: path
       type(failure_type), intent(inout)    :: failure
       type(analysis_type), allocatable :: straight
-      real(wp) :: at(2), work(size(model%interface))
+      real(wp) :: at(2), work(size(model%joints%element))
       integer  :: i
 
       modal%begins = ends(1)
@@ -183,7 +183,7 @@ contains
       integer  :: n
       logical  :: hides
 
-      n = size(model%interface)
+      n = size(model%joints%element)
       middle = 0.5_wp*sum(ends)
       half = now
       call load_increment(model, modal, [ends(1), middle], half, first(:n), failure)
@@ -218,8 +218,8 @@ contains
       type(path_type), intent(inout) :: path
 
       path%points = reshape([alpha, q], [2, 1])
-      path%work = spread(0.0_wp, 1, size(model%interface))
-      path%has_slipped = spread(.false., 1, size(model%interface))
+      path%work = spread(0.0_wp, 1, size(model%joints%element))
+      path%has_slipped = spread(.false., 1, size(model%joints%element))
       path%has_opened = path%has_slipped
    end subroutine begin_path
 
@@ -271,8 +271,8 @@ contains
          return
       end if
       do e = 1, size(before)
-         associate (element => model%interface(e), to => now%movement(:, e))
-            energy = work_along(model%joints(element%joint)%law, element%area, before(e), to)
+         associate (element => model%joints%element(e), to => now%movement(:, e))
+            energy = work_along(model%joints%list(element%joint)%law, element%area, before(e), to)
             work(e) = sum(energy%net()) - dot_product(modal%rest_forces(:, e), to - from(:, e))
          end associate
       end do

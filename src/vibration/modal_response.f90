@@ -138,12 +138,12 @@ contains
       type(modal_system) :: superposed
       type(failure_type) :: loose
       real(wp), allocatable :: x(:), u_rest(:, :)
-      complex(wp) :: u(model%dimension*size(plan%nodes))
+      complex(wp) :: u(model%mesh%dimension*size(plan%nodes))
       real(wp) :: large(size(u))
       integer  :: d, f, m, n
       logical  :: ok
 
-      d = model%dimension
+      d = model%mesh%dimension
       n = size(plan%nodes)
       allocate (superposed%shape(d*n, size(modes%modes)), superposed%force(size(modes%modes)), &
                 superposed%viscous(size(modes%modes)), source=0.0_wp)
@@ -189,7 +189,7 @@ contains
          superposed%rest = pack(u_rest(:, plan%nodes), .true.)
          if (system%shift >= 0.0_wp) superposed%rest = superposed%rest - static_share(superposed)
       end if
-      response%node = model%node_id(plan%nodes)
+      response%node = model%mesh%node_id(plan%nodes)
       response%frequency = asked_frequencies(plan, modes%modes%frequency)
       allocate (response%amplitude(d, n, size(response%frequency)), response%phase(d, n, size(response%frequency)))
       do f = 1, size(response%frequency)

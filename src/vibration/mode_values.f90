@@ -165,15 +165,15 @@ contains
       modes%n_counted = spectrum%n_counted
       modes%counted_at = merge(sqrt(spectrum%counted_at)/two_pi, huge(1.0_wp), spectrum%counted_at < huge(1.0_wp))
       modes%n_touching = count(analysis%states%normal%branch /= branch_open)
-      modes%steeper = [(merge(0.0_wp, default_steepness(model, analysis, d), plan%on_loading), d = 1, size(model%joints))]
+      modes%steeper = [(merge(0.0_wp, default_steepness(model, analysis, d), plan%on_loading), d = 1, size(model%joints%list))]
       call total_mass(model, structure%mass, modes%mass, modes%centre, modes%inertia)
       n = size(spectrum%lambda)
-      allocate (u(model%dimension, model%n_nodes, n), g(model%dimension, n))
-      allocate (e(model%dimension, model%n_nodes), of_mass(model%dimension, model%n_nodes))
+      allocate (u(model%mesh%dimension, model%mesh%n_nodes, n), g(model%mesh%dimension, n))
+      allocate (e(model%mesh%dimension, model%mesh%n_nodes), of_mass(model%mesh%dimension, model%mesh%n_nodes))
       do m = 1, n
          u(:, :, m) = all_displacements(model, system, spectrum%x(:, m))
       end do
-      do d = 1, model%dimension                                       ! g(d, m) = u^T [m] e_d
+      do d = 1, model%mesh%dimension                                       ! g(d, m) = u^T [m] e_d
          e = 0.0_wp
          e(d, :n_points(model)) = 1.0_wp
          call mass_times(model, structure%mass, e, of_mass)
@@ -181,20 +181,20 @@ contains
             g(d, m) = sum(u(:, :, m)*of_mass)
          end do
       end do
-      if (model%axisymmetric) g(1, :) = 0.0_wp ! a ring has rigid-body motion along its axis only
+      if (model%mesh%axisymmetric) g(1, :) = 0.0_wp ! a ring has rigid-body motion along its axis only
       call settle_equal_modes(spectrum%lambda, modes%mass, g, u)
       n = spectrum%n_wanted
       do m = 1, n
          call settle_sign(g(:, m), u(:, :, m))
       end do
-      allocate (energies(n), f(model%dimension, model%n_nodes, n), modes%modes(n))
+      allocate (energies(n), f(model%mesh%dimension, model%mesh%n_nodes, n), modes%modes(n))
       call strain_energies(model, structure, u(:, :, :n), energies, f)
       do m = 1, n
          call mass_times(model, structure%mass, u(:, :, m), of_mass)
          associate (mode => modes%modes(m))
             mode%lambda = spectrum%lambda(m)
             mode%is_rigid = m <= spectrum%n_rigid
-            mode%participation(:model%dimension) = g(:, m)
+            mode%participation(:model%mesh%dimension) = g(:, m)
             allocate (mode%u, source=u(:, :, m))
             mode%energy = energies(m)
             call evaluate_mode(model, analysis, plan, system, f(:, :, m), of_mass, mode)
@@ -213,13 +213,13 @@ contains
       ratio = 0.0_wp
       area = 0.0_wp
       tangent = 0.0_wp
-      associate (joint => model%joints(j), law => model%joints(j)%law%normal)
+      associate (joint => model%joints%list(j), law => model%joints%list(j)%law%normal)
          if (joint%e_u_given) return
          do i = joint%first, joint%last
             associate (state => analysis%states(i)%normal)
                if (state%branch == branch_open) cycle
-               area = area + model%interface(i)%area
-               tangent = tangent + normal_tangent(law, model%interface(i)%area, max(0.0_wp, state%pressure), joint%p_av)
+               area = area + model%joints%element(i)%area
+               tangent = tangent + normal_tangent(law, model%joints%element(i)%area, max(0.0_wp, state%pressure), joint%p_av)
             end associate
          end do
          if (tangent > 0.0_wp) ratio = law%e_u*(area/tangent)
@@ -282,11 +282,11 @@ contains
 
       factor = plan%amplitude/sqrt(maxval(sum(mode%u(:, :n_points(model))**2, dim=1)))
       lost = 0.0_wp
-      do i = 1, size(model%interface)
-         associate (state => analysis%states(i), law => model%joints(model%interface(i)%joint)%law)
+      do i = 1, size(model%joints%element)
+         associate (state => analysis%states(i), law => model%joints%list(model%joints%element(i)%joint)%law)
             if (state%normal%branch == branch_open) cycle
-            movement = factor*joint_movement(model%interface(i), mode%u)
-            lost = lost + model%interface(i)%area*loss_of_element(law, max(0.0_wp, state%normal%pressure), movement(:2))
+            movement = factor*joint_movement(model%joints%element(i), mode%u)
+            lost = lost + model%joints%element(i)%area*loss_of_element(law, max(0.0_wp, state%normal%pressure), movement(:2))
          end associate
       end do
       loss = lost/(two_pi*factor**2*mode%energy%total())
@@ -322,16 +322,16 @@ contains
       real(wp) :: k(max_section_dofs, max_section_dofs), q(max_section_dofs, size(energies))
       real(wp) :: p(max_section_dofs, size(energies)), energy
       real(wp) :: movement(3), tension
-      integer  :: body(model%n_elements), d, e, i, j, m, n, n_bodies
+      integer  :: body(model%mesh%n_elements), d, e, i, j, m, n, n_bodies
 
-      d = model%dimension
+      d = model%mesh%dimension
       f = 0.0_wp
       call find_bodies(model, body, n_bodies)
       do m = 1, size(energies)
-         allocate (energies(m)%body(n_bodies), energies(m)%bar(n_bars(model)), energies(m)%normal(size(model%joints)), &
-                   energies(m)%shear(size(model%joints)), source=0.0_wp)
+         allocate (energies(m)%body(n_bodies), energies(m)%bar(n_bars(model)), energies(m)%normal(size(model%joints%list)), &
+                   energies(m)%shear(size(model%joints%list)), source=0.0_wp)
       end do
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          call element_stiffness(model, e, k)
          associate (nodes => participating_nodes(model, e))
             n = d*size(nodes)
@@ -342,26 +342,26 @@ contains
          do m = 1, size(energies)
             energy = 0.5_wp*dot_product(q(:n, m), p(:n, m))
             energies(m)%body(body(e)) = energies(m)%body(body(e)) + energy
-            energies(m)%damped = energies(m)%damped + model%properties(model%element_property(e))%damping*energy
+            energies(m)%damped = energies(m)%damped + model%mesh%properties(model%mesh%element_property(e))%damping*energy
          end do
       end do
       do m = 1, size(energies)
          do i = 1, n_bars(model)
             if (.not. structure%is_elastic(i)) cycle
-            associate (bar => model%bars(i))
+            associate (bar => model%mesh%bars(i))
                tension = bar%stiffness*bar_elongation(bar, u(:, bar_nodes(bar), m))
                energies(m)%bar(i) = 0.5_wp*tension**2/bar%stiffness
                energies(m)%damped = energies(m)%damped + bar%damping*energies(m)%bar(i)
                call add_axial_force(model, i, -tension, f(:, :, m))
             end associate
          end do
-         do i = 1, size(model%interface)
-            movement = joint_movement(model%interface(i), u(:, :, m))
+         do i = 1, size(model%joints%element)
+            movement = joint_movement(model%joints%element(i), u(:, :, m))
             associate (k_int => structure%k(:, i))
-               j = model%interface(i)%joint
+               j = model%joints%element(i)%joint
                energies(m)%shear(j) = energies(m)%shear(j) + 0.5_wp*sum(k_int(:2)*movement(:2)**2)
                energies(m)%normal(j) = energies(m)%normal(j) + 0.5_wp*k_int(3)*movement(3)**2
-               call add_force(model%interface(i), k_int*movement, f(:, :, m))
+               call add_force(model%joints%element(i), k_int*movement, f(:, :, m))
             end associate
          end do
       end do

@@ -56,13 +56,13 @@ contains
    !> MODEL without its supports; the condition on the axis of a ring remains.
    pure subroutine release_supports(model)
       type(model_type), intent(inout) :: model
-      logical :: free(model%dimension)
+      logical :: free(model%mesh%dimension)
       integer :: i
 
-      do i = 1, model%n_nodes - n_sections(model)
+      do i = 1, model%mesh%n_nodes - n_sections(model)
          free = supported(model, i)
-         if (model%axisymmetric) free(1) = free(1) .and. abs(model%x(1, i)) > 0.0_wp
-         model%held(:, i) = model%held(:, i) .and. .not. free
+         if (model%mesh%axisymmetric) free(1) = free(1) .and. abs(model%mesh%x(1, i)) > 0.0_wp
+         model%freedoms%held(:, i) = model%freedoms%held(:, i) .and. .not. free
       end do
    end subroutine release_supports
 
@@ -77,13 +77,14 @@ contains
       type(failure_type), intent(inout)   :: failure
       integer :: i
 
-      allocate (structure%k(3, size(model%interface)))
-      do i = 1, size(model%interface)
-         structure%k(:, i) = oscillation_stiffness(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, &
+      allocate (structure%k(3, size(model%joints%element)))
+      do i = 1, size(model%joints%element)
+         structure%k(:, i) = oscillation_stiffness(model%joints%list(model%joints%element(i)%joint)%law, &
+            model%joints%element(i)%area, &
                                                    analysis%states(i), on_loading)
       end do
-      structure%is_elastic = [(model%bars(i)%bolt == 0 .or. model%bars(i)%stage <= analysis%stage, i = 1, n_bars(model))]
-      structure%is_locked = [(model%sections(i)%stage <= analysis%stage, i = 1, n_sections(model))]
+      structure%is_elastic = [(model%mesh%bars(i)%bolt == 0 .or. model%mesh%bars(i)%stage <= analysis%stage, i = 1, n_bars(model))]
+      structure%is_locked = [(model%mesh%sections(i)%stage <= analysis%stage, i = 1, n_sections(model))]
       call form_mass(model, structure%mass)
       call start_equations(model, structure%started, failure, &
                            merge(solver_skyline, solver_tree, system%description%name == 'SKYLINE'), factorisations=1, shift=0.0_wp)
@@ -105,7 +106,7 @@ contains
       call form_body_stiffness(model, system, failure)
       if (failure%raised) return
       do i = 1, n_bars(model)
-         if (model%bars(i)%bolt > 0 .and. structure%is_elastic(i)) call add_bar(model, i, system)
+         if (model%mesh%bars(i)%bolt > 0 .and. structure%is_elastic(i)) call add_bar(model, i, system)
       end do
       call hold_bolts(model, structure, system)
       call form_structure_stiffness(model, stiffness_matrices(structure%k), 'natural modes', system, failure)
@@ -119,7 +120,7 @@ contains
       integer :: i
 
       do i = 1, n_sections(model)
-         if (structure%is_locked(i)) call lock_unknown(model%sections(i)%node, 1, system)
+         if (structure%is_locked(i)) call lock_unknown(model%mesh%sections(i)%node, 1, system)
       end do
    end subroutine hold_bolts
 
@@ -136,7 +137,7 @@ contains
       if (failure%raised) return
       spectrum%n_wanted = merge(plan%most, huge(1), plan%most > 0)
       if (allocated(plan%response)) &
-         spectrum%load = on_equations(model, structure%started, plan%response%force(:model%dimension, :))
+         spectrum%load = on_equations(model, structure%started, plan%response%force(:model%mesh%dimension, :))
       if (needs_all(structure%started, plan%most)) then
          call find_all(model, structure, plan, spectrum, failure)
       else
@@ -318,12 +319,13 @@ contains
       end if
 
       ! the square of the frequency of a wave through the structure: E/rho over its size^2
-      associate (x => model%x(:, :n_points(model)))
+      associate (x => model%mesh%x(:, :n_points(model)))
          extent = norm2(maxval(x, dim=2) - minval(x, dim=2))
       end associate
       scale = 0.0_wp
-      do i = 1, size(model%properties)
-         if (model%properties(i)%rho > 0.0_wp) scale = max(scale, model%properties(i)%e/(model%properties(i)%rho*extent**2))
+      do i = 1, size(model%mesh%properties)
+         if (model%mesh%properties(i)%rho > 0.0_wp) scale = max(scale, &
+            model%mesh%properties(i)%e/(model%mesh%properties(i)%rho*extent**2))
       end do
       if (.not. scale > 0.0_wp) scale = 1.0_wp ! nodal masses only: the search finds its own scale
       spectrum%shift = -scale

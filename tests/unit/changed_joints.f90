@@ -43,11 +43,11 @@ contains
    pure function changed(model, share) result(k)
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: share
-      real(wp) :: k(3, 3, size(model%interface))
+      real(wp) :: k(3, 3, size(model%joints%element))
       integer  :: i
 
       k = some_stiffnesses(model, 1)
-      do i = 1, size(model%interface)
+      do i = 1, size(model%joints%element)
          k(:, :, i) = k(:, :, i)*(1.0_wp + share*(modulo(7*i, 11) - 5)/5.0_wp)
       end do
    end function changed

@@ -102,11 +102,11 @@ contains
    !> Forces on every component of every node, between -1/2 and 1/2 times 1000.
    pure function some_forces(model) result(f)
       type(model_type), intent(in) :: model
-      real(wp) :: f(model%dimension, model%n_nodes)
+      real(wp) :: f(model%mesh%dimension, model%mesh%n_nodes)
       integer  :: d, i
 
-      do i = 1, model%n_nodes
-         do d = 1, model%dimension
+      do i = 1, model%mesh%n_nodes
+         do d = 1, model%mesh%dimension
             f(d, i) = 1000.0_wp*(modulo(0.37_wp*(3*i + d)**2, 1.0_wp) - 0.5_wp)
          end do
       end do
@@ -116,10 +116,10 @@ contains
    pure function some_stiffnesses(model, seed) result(k_int)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: seed
-      real(wp) :: k_int(3, 3, size(model%interface))
+      real(wp) :: k_int(3, 3, size(model%joints%element))
       integer  :: i
 
-      do i = 1, size(model%interface)
+      do i = 1, size(model%joints%element)
          k_int(:, :, i) = reshape([3.0_wp, 0.5_wp, -0.7_wp, 0.5_wp, 2.0_wp, 0.4_wp, -0.7_wp, 0.4_wp, 5.0_wp], [3, 3]) &
                           *1.0e3_wp*(1 + modulo(3*i + seed, 5))
       end do

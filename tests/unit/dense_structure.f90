@@ -28,17 +28,17 @@ contains
       type(model_type), intent(in) :: model
       real(wp), allocatable :: k(:, :)
       real(wp), allocatable :: k_e(:, :)
-      real(wp) :: end_directions(2*model%dimension)
+      real(wp) :: end_directions(2*model%mesh%dimension)
       integer  :: e, i
 
-      allocate (k(model%dimension*model%n_nodes, model%dimension*model%n_nodes), source=0.0_wp)
-      do e = 1, model%n_elements
+      allocate (k(model%mesh%dimension*model%mesh%n_nodes, model%mesh%dimension*model%mesh%n_nodes), source=0.0_wp)
+      do e = 1, model%mesh%n_elements
          call coupled_stiffness(model, e, k_e)
          call add(rows_of(model, corners_of(model, e)), k_e)
       end do
       do i = 1, n_bars(model)
-         if (model%bars(i)%bolt > 0) cycle
-         associate (d => model%dimension, bar => model%bars(i))
+         if (model%mesh%bars(i)%bolt > 0) cycle
+         associate (d => model%mesh%dimension, bar => model%mesh%bars(i))
             end_directions(:d) = bar%direction(:d, 1)
             end_directions(d + 1:) = -bar%direction(:d, 2)
             call add(rows_of(model, bar%nodes), bar%stiffness*matmul(reshape(end_directions, [2*d, 1]), reshape(end_directions, [1, 2*d])))
@@ -67,25 +67,25 @@ contains
       real(wp) :: m_e(max_nodes, max_nodes)
       integer  :: c, e, i
 
-      allocate (m(model%dimension*model%n_nodes, model%dimension*model%n_nodes), source=0.0_wp)
-      do e = 1, model%n_elements
+      allocate (m(model%mesh%dimension*model%mesh%n_nodes, model%mesh%dimension*model%mesh%n_nodes), source=0.0_wp)
+      do e = 1, model%mesh%n_elements
          associate (corners => corners_of(model, e))
-            call shape_products(law_of(model, e), model%x(:model%dimension, corners), m_e)
+            call shape_products(law_of(model, e), model%mesh%x(:model%mesh%dimension, corners), m_e)
             associate (n => size(corners))
-               m_e(:n, :n) = model%properties(model%element_property(e))%rho*m_e(:n, :n)
-               if (model%lumped) call lump(m_e(:n, :n))
+               m_e(:n, :n) = model%mesh%properties(model%mesh%element_property(e))%rho*m_e(:n, :n)
+               if (model%mesh%lumped) call lump(m_e(:n, :n))
             end associate
             call add(corners, m_e)
          end associate
       end do
       do i = 1, n_bars(model)
-         m_e(:2, :2) = reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])*model%bars(i)%mass/6.0_wp
-         if (model%lumped) m_e(:2, :2) = reshape([3.0_wp, 0.0_wp, 0.0_wp, 3.0_wp], [2, 2])*model%bars(i)%mass/6.0_wp
-         if (model%bars(i)%mass > 0.0_wp) call add(model%bars(i)%nodes, m_e)
+         m_e(:2, :2) = reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])*model%mesh%bars(i)%mass/6.0_wp
+         if (model%mesh%lumped) m_e(:2, :2) = reshape([3.0_wp, 0.0_wp, 0.0_wp, 3.0_wp], [2, 2])*model%mesh%bars(i)%mass/6.0_wp
+         if (model%mesh%bars(i)%mass > 0.0_wp) call add(model%mesh%bars(i)%nodes, m_e)
       end do
-      do i = 1, size(model%masses)
-         m_e(1, 1) = model%masses(i)%mass
-         call add([model%masses(i)%node], m_e)
+      do i = 1, size(model%mesh%masses)
+         m_e(1, 1) = model%mesh%masses(i)%mass
+         call add([model%mesh%masses(i)%node], m_e)
       end do
 
    contains
@@ -97,8 +97,8 @@ contains
          integer :: j
 
          do j = 1, size(nodes)
-            do c = 1, model%dimension
-               associate (d => model%dimension)
+            do c = 1, model%mesh%dimension
+               associate (d => model%mesh%dimension)
                   m(d*(nodes - 1) + c, d*(nodes(j) - 1) + c) = m(d*(nodes - 1) + c, d*(nodes(j) - 1) + c) + part(:size(nodes), j)
                end associate
             end do
@@ -116,9 +116,9 @@ contains
       integer  :: a, i
       integer, allocatable :: rows(:)
 
-      allocate (k(model%dimension*model%n_nodes, model%dimension*model%n_nodes), source=0.0_wp)
-      do i = 1, size(model%interface)
-         associate (d => model%dimension, element => model%interface(i))
+      allocate (k(model%mesh%dimension*model%mesh%n_nodes, model%mesh%dimension*model%mesh%n_nodes), source=0.0_wp)
+      do i = 1, size(model%joints%element)
+         associate (d => model%mesh%dimension, element => model%joints%element(i))
             rows = rows_of(model, element%node)
             allocate (movement(3, size(rows)))
             do a = 1, size(element%node)
@@ -133,10 +133,11 @@ contains
    pure function rows_of(model, nodes) result(rows)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
-      integer :: rows(model%dimension*size(nodes)), d, i
+      integer :: rows(model%mesh%dimension*size(nodes)), d, i
 
       do i = 1, size(nodes)
-         rows(model%dimension*(i - 1) + 1:model%dimension*i) = [(model%dimension*(nodes(i) - 1) + d, d = 1, model%dimension)]
+         rows(model%mesh%dimension*(i - 1) + 1:model%mesh%dimension*i) = [(model%mesh%dimension*(nodes(i) - 1) + d, d = 1, &
+            model%mesh%dimension)]
       end do
    end function rows_of
 
@@ -144,11 +145,11 @@ contains
    pure function free_rows(model) result(rows)
       type(model_type), intent(in) :: model
       integer, allocatable :: rows(:)
-      logical :: is_free(model%dimension, model%n_nodes)
+      logical :: is_free(model%mesh%dimension, model%mesh%n_nodes)
       integer :: i
 
-      do i = 1, model%n_nodes
-         is_free(:, i) = .not. model%held(:, i) .and. model%used(i)
+      do i = 1, model%mesh%n_nodes
+         is_free(:, i) = .not. model%freedoms%held(:, i) .and. model%freedoms%used(i)
       end do
       allocate (rows, source=pack([(i, i = 1, size(is_free))], reshape(is_free, [size(is_free)])))
    end function free_rows

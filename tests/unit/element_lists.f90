@@ -42,13 +42,13 @@ contains
       type(interface_element), allocatable :: pairs(:)
       integer :: i, j
 
-      allocate (pairs, source=model%interface)
-      do j = 1, size(model%joints)
-         do i = model%joints(j)%first, model%joints(j)%last
-            associate (own => pairs(i)%node, next => pairs(merge(i + 1, i - 1, i < model%joints(j)%last))%node)
-               model%interface(i)%n_1 = 2
-               model%interface(i)%node = [own(1), next(1), own(2:), next(2:)]
-               model%interface(i)%weight = [0.75_wp, 0.25_wp, spread(-0.5_wp, 1, 2*size(own) - 2)]
+      allocate (pairs, source=model%joints%element)
+      do j = 1, size(model%joints%list)
+         do i = model%joints%list(j)%first, model%joints%list(j)%last
+            associate (own => pairs(i)%node, next => pairs(merge(i + 1, i - 1, i < model%joints%list(j)%last))%node)
+               model%joints%element(i)%n_1 = 2
+               model%joints%element(i)%node = [own(1), next(1), own(2:), next(2:)]
+               model%joints%element(i)%weight = [0.75_wp, 0.25_wp, spread(-0.5_wp, 1, 2*size(own) - 2)]
             end associate
          end do
       end do

@@ -49,7 +49,7 @@ contains
 
       call run_lines(lines, run)
       if (run%problem /= '') error stop 'oscillating_decks: a deck is at fault'
-      if (present(lumped)) run%model%lumped = lumped
+      if (present(lumped)) run%model%mesh%lumped = lumped
       if (present(on_loading)) then
          call start_oscillation(run%model, run%analysis, run%system, on_loading, structure, run%failure)
       else

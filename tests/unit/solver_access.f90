@@ -70,7 +70,7 @@ contains
       real(wp), intent(in)                  :: f(:, :)        !! (dimension, n_nodes) [force]
       real(wp), allocatable, intent(out)    :: u(:, :)        !! likewise [length]
       type(failure_type), intent(inout)     :: failure
-      real(wp) :: on_retained(model%dimension, size(system%retained)), of_retained(model%dimension, size(system%retained))
+      real(wp) :: on_retained(model%mesh%dimension, size(system%retained)), of_retained(model%mesh%dimension, size(system%retained))
 
       allocate (u, source=99.0_wp + 0.0_wp*f)
       of_retained = 99.0_wp

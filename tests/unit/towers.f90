@@ -30,24 +30,26 @@ contains
       type(failure_type) :: failure
       integer :: i
 
-      model%n_nodes = n
-      allocate (model%node_id(n), model%x(3, n), model%used(n), model%held(2, n), model%element_nodes(4, 0))
-      allocate (model%first_at(n + 1), model%elements_at(0), model%interface(n), model%joints(n), model%stage_loads(2))
-      model%node_id = [(100 + i, i=1, n)]
-      model%x = 0.0_wp
-      model%used = .true.
-      model%held = .false.
-      model%held(1, :) = .not. sideways
-      model%first_at = 1
+      model%mesh%n_nodes = n
+      allocate (model%mesh%node_id(n), model%mesh%x(3, n), model%freedoms%used(n), model%freedoms%held(2, n), &
+         model%mesh%element_nodes(4, 0))
+      allocate (model%mesh%first_at(n + 1), model%mesh%elements_at(0), model%joints%element(n), model%joints%list(n), &
+         model%history%stages(2))
+      model%mesh%node_id = [(100 + i, i=1, n)]
+      model%mesh%x = 0.0_wp
+      model%freedoms%used = .true.
+      model%freedoms%held = .false.
+      model%freedoms%held(1, :) = .not. sideways
+      model%mesh%first_at = 1
       do i = 1, n
-         model%interface(i)%joint = i
-         call connect_nodes(model%interface(i), i, i - 1)
-         model%interface(i)%area = area
-         model%interface(i)%axes = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, -1.0_wp, 0.0_wp], [3, 3])
-         model%joints(i)%law = law
-         model%joints(i)%p_av = 0.5_wp
-         model%joints(i)%first = i
-         model%joints(i)%last = i
+         model%joints%element(i)%joint = i
+         call connect_nodes(model%joints%element(i), i, i - 1)
+         model%joints%element(i)%area = area
+         model%joints%element(i)%axes = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, -1.0_wp, 0.0_wp], [3, 3])
+         model%joints%list(i)%law = law
+         model%joints%list(i)%p_av = 0.5_wp
+         model%joints%list(i)%first = i
+         model%joints%list(i)%last = i
       end do
       allocate (plan%stages(2))
       do i = 1, 2
@@ -64,9 +66,9 @@ contains
       integer, intent(in)             :: s, node
       real(wp), intent(in)            :: force(2)
 
-      model%stage_loads(s)%n = 1
-      model%stage_loads(s)%node = [node]
-      model%stage_loads(s)%force = reshape([force, 0.0_wp], [3, 1])
+      model%history%stages(s)%n = 1
+      model%history%stages(s)%node = [node]
+      model%history%stages(s)%force = reshape([force, 0.0_wp], [3, 1])
    end subroutine put_load
 
    !> A law with shear and friction.
