@@ -11,7 +11,7 @@ module body_loads
    use isoparametric, only: body_forces
    use kinds, only: wp
    use mass_matrix, only: bar_mass, scalar_mass
-   use model_data, only: corners_of, is_beam, is_shell, model_type, n_points, own_nodes, stage_load_type
+   use model_data, only: corners_of, is_beam, is_shell, mesh_type, n_points, own_nodes, stage_load_type
    use model_kind, only: space_hint
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity
@@ -34,22 +34,22 @@ module body_loads
 contains
 
    !> Error: a z component of VECTOR in a plane model, from FIELD of the card on LINE.
-   subroutine check_plane(deck, model, line, vector, field)
+   subroutine check_plane(deck, mesh, line, vector, field)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)            :: line
       real(wp), intent(in)           :: vector(3) !! in global axes
       character(*), intent(in)       :: field     !! N3; CID, or the first node of a line that gives the direction
 
-      if (model%mesh%dimension == 3 .or. abs(vector(3)) <= zero_component*norm2(vector)) return
+      if (mesh%dimension == 3 .or. abs(vector(3)) <= zero_component*norm2(vector)) return
       call deck%field_error(line, field, one_of(field == 'N3', 'not zero', 'the load points out of the plane')// &
-                            ', but a plane model lies in x-y'//space_hint(model))
+                            ', but a plane model lies in x-y'//space_hint(mesh))
    end subroutine check_plane
 
    !> The FIELDS of the GRAV, ACCEL1 and RFORCE cards. Errors: no mass; a direction or an axis that the model does not have.
-   subroutine find_fields(deck, model, fields)
+   subroutine find_fields(deck, mesh, fields)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       type(acceleration_field), allocatable, intent(out) :: fields(:)
       real(wp) :: axes(3, 3)
       integer  :: i
@@ -58,19 +58,19 @@ contains
       do i = 1, size(fields)
          fields(i)%gravity_card = deck%bulk%gravity(i)
          associate (field => fields(i))
-            call rectangular_axes(deck, model%mesh%systems, field%line, field%system, &
+            call rectangular_axes(deck, mesh%systems, field%line, field%system, &
                                   one_of(field%is_spin, 'the axis has', 'gravity has')//' one direction everywhere', axes)
             field%uniform = matmul(axes, field%acceleration)
             if (field%is_spin) then
                call set_spin(field)
             else
                if (allocated(field%nodes%first)) call check_listed(field)
-               call check_plane(deck, model, field%line, field%uniform, one_of(field%system > 0, 'CID', 'N3'))
-               if (model%mesh%axisymmetric .and. abs(field%uniform(1)) > zero_component*norm2(field%uniform)) &
+               call check_plane(deck, mesh, field%line, field%uniform, one_of(field%system > 0, 'CID', 'N3'))
+               if (mesh%axisymmetric .and. abs(field%uniform(1)) > zero_component*norm2(field%uniform)) &
                   call deck%field_error(field%line, 'N1', 'not zero, but in an axisymmetric model gravity acts along y')
             end if
-            if (all(model%mesh%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp) .and. &
-                all(model%mesh%bars%mass <= 0.0_wp)) call deck%errors%add(field%line, &
+            if (all(mesh%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp) .and. &
+                all(mesh%bars%mass <= 0.0_wp)) call deck%errors%add(field%line, &
                one_of(field%is_spin, 'RFORCE', 'GRAV')//': no body has a mass; give RHO on its MAT1')
          end associate
       end do
@@ -83,11 +83,11 @@ contains
          integer :: k
 
          do k = 1, size(card%nodes%first)
-            if (.not. any(model%mesh%node_id >= card%nodes%first(k) .and. model%mesh%node_id <= card%nodes%last(k))) &
+            if (.not. any(mesh%node_id >= card%nodes%first(k) .and. mesh%node_id <= card%nodes%last(k))) &
                call deck%field_error(card%line, card%nodes%at(k), 'there is no GRID '//integer_text(card%nodes%first(k)), &
                                      called='GRID')
          end do
-         if (any([(is_beam(model, k), k = 1, model%mesh%n_elements)])) call deck%errors%add(card%line, &
+         if (any([(is_beam(mesh, k), k = 1, mesh%n_elements)])) call deck%errors%add(card%line, &
             'ACCEL1: the masses of beams belong to no node; expected GRAV, or CONM2 in place of RHO')
       end subroutine check_listed
 
@@ -100,33 +100,33 @@ contains
 
          node = 0
          if (field%node > 0) then
-            node = model%mesh%node_table%find(field%node)
+            node = mesh%node_table%find(field%node)
             if (node == 0) call deck%field_error(field%line, 'G', 'there is no GRID '//integer_text(field%node))
          end if
-         if (node > 0) field%origin = model%mesh%x(:, node)
+         if (node > 0) field%origin = mesh%x(:, node)
          w = matmul(axes, field%spin)
          rate = matmul(axes, field%spin_rate)
          do c = 1, 3
             field%gradient(:, c) = -(cross(w, cross(w, identity(:, c))) + cross(rate, identity(:, c)))
          end do
          axis = abs(w) + abs(rate)
-         if (model%mesh%axisymmetric) then
+         if (mesh%axisymmetric) then
             field%gradient(:, 3) = 0.0_wp
             if (maxval(axis([1, 3])) > zero_component*maxval(axis)) call deck%field_error(field%line, 'R1', &
                'a ring turns about y; expected R1 and R3 zero')
             if (any(abs(field%spin_rate) > 0.0_wp)) call deck%field_error(field%line, 'RACC', &
                'not zero, but an axisymmetric model has no circumferential forces')
-         else if (model%mesh%dimension == 2) then
+         else if (mesh%dimension == 2) then
             if (maxval(axis(:2)) > zero_component*maxval(axis)) call deck%field_error(field%line, 'R1', &
-               'a plane model turns about z; expected R1 and R2 zero'//space_hint(model))
+               'a plane model turns about z; expected R1 and R2 zero'//space_hint(mesh))
          end if
       end subroutine set_spin
 
    end subroutine find_fields
 
    !> Add FACTOR times the FIELDS of SET: end forces of beams to LOADS, nodal forces to FORCE. An ACCEL1 acts at its nodes alone.
-   subroutine add_gravity(model, fields, set, factor, loads, force)
-      type(model_type), intent(in)         :: model
+   subroutine add_gravity(mesh, fields, set, factor, loads, force)
+      type(mesh_type), intent(in) :: mesh
       type(acceleration_field), intent(in) :: fields(:)
       integer, intent(in)                  :: set
       real(wp), intent(in)                 :: factor
@@ -142,13 +142,13 @@ contains
          field%uniform = factor*field%uniform
          field%gradient = factor*field%gradient
          if (.not. allocated(field%nodes%first)) then
-            call add_field(model, field, loads, force)
+            call add_field(mesh, field, loads, force)
             cycle
          end if
-         everywhere = spread(spread(0.0_wp, 1, 3), 2, model%mesh%n_nodes)
-         call add_field(model, field, loads, everywhere)
-         do node = 1, n_points(model)
-            associate (id => model%mesh%node_id(node))
+         everywhere = spread(spread(0.0_wp, 1, 3), 2, mesh%n_nodes)
+         call add_field(mesh, field, loads, everywhere)
+         do node = 1, n_points(mesh)
+            associate (id => mesh%node_id(node))
                if (any(id >= field%nodes%first .and. id <= field%nodes%last)) force(:, node) = force(:, node) + everywhere(:, node)
             end associate
          end do
@@ -166,57 +166,57 @@ contains
    end function acceleration_at
 
    !> Add the forces of an acceleration FIELD on all masses: end forces of beams to LOADS, nodal forces to FORCE.
-   subroutine add_field(model, field, loads, force)
-      type(model_type), intent(in)         :: model
+   subroutine add_field(mesh, field, loads, force)
+      type(mesh_type), intent(in) :: mesh
       type(acceleration_field), intent(in) :: field
       type(stage_load_type), intent(inout) :: loads
       real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes)
-      real(wp) :: a(3, 2*max_nodes), f(model%mesh%dimension, 2*max_nodes), m(2*max_nodes, 2*max_nodes), q(6, 2), x(3, 2)
+      real(wp) :: a(3, 2*max_nodes), f(mesh%dimension, 2*max_nodes), m(2*max_nodes, 2*max_nodes), q(6, 2), x(3, 2)
       integer  :: e, end, k
 
-      do e = 1, model%mesh%n_elements
-         if (any(corners_of(model, e) == 0) .or. model%mesh%element_property(e) == 0 .or. is_beam(model, e)) cycle
-         associate (nodes => own_nodes(model, e), d => model%mesh%dimension)
-            if (.not. field%is_spin .and. .not. is_shell(model, e)) then
-               call body_forces(law_of(model, e), model%mesh%x(:d, corners_of(model, e)), &
-                                model%mesh%properties(model%mesh%element_property(e))%rho*field%uniform(:d), f)
+      do e = 1, mesh%n_elements
+         if (any(corners_of(mesh, e) == 0) .or. mesh%element_property(e) == 0 .or. is_beam(mesh, e)) cycle
+         associate (nodes => own_nodes(mesh, e), d => mesh%dimension)
+            if (.not. field%is_spin .and. .not. is_shell(mesh, e)) then
+               call body_forces(law_of(mesh, e), mesh%x(:d, corners_of(mesh, e)), &
+                                mesh%properties(mesh%element_property(e))%rho*field%uniform(:d), f)
             else ! from the translational mass alone: at constant speed rotations do not accelerate
-               associate (corners => corners_of(model, e))
-                  call scalar_mass(model, e, m)
+               associate (corners => corners_of(mesh, e))
+                  call scalar_mass(mesh, e, m)
                   f = 0.0_wp
                   do k = 1, size(corners)
-                     a(:, k) = acceleration_at(field, model%mesh%x(:, corners(k)))
+                     a(:, k) = acceleration_at(field, mesh%x(:, corners(k)))
                   end do
                   f(:, :size(corners)) = matmul(a(:d, :size(corners)), m(:size(corners), :size(corners)))
                end associate
             end if
             force(:d, nodes) = force(:d, nodes) + f(:, :size(nodes))
-            call add_section_share(model, e, nodes, f, force)
+            call add_section_share(mesh, e, nodes, f, force)
          end associate
       end do
-      do e = 1, model%mesh%n_elements
-         if (.not. is_beam(model, e)) cycle
-         x = model%mesh%x(:, corners_of(model, e))
-         associate (law => model%mesh%structural%beams(model%mesh%structural%place(e)))
+      do e = 1, mesh%n_elements
+         if (.not. is_beam(mesh, e)) cycle
+         x = mesh%x(:, corners_of(mesh, e))
+         associate (law => mesh%structural%beams(mesh%structural%place(e)))
             q = 0.0_wp
             do end = 1, 2
                q(:3, end) = (law%rho*law%area + law%extra_mass)*acceleration_at(field, x(:, end) + law%offset(:, end))
             end do
-            call add_to_beam(model, e, beam_line_load(law, x, q, 0.0_wp, 1.0_wp), loads, force)
+            call add_to_beam(mesh, e, beam_line_load(law, x, q, 0.0_wp, 1.0_wp), loads, force)
          end associate
       end do
-      do k = 1, size(model%mesh%bars)
-         associate (bar => model%mesh%bars(k), d => model%mesh%dimension)
+      do k = 1, size(mesh%bars)
+         associate (bar => mesh%bars(k), d => mesh%dimension)
             if (.not. bar%mass > 0.0_wp) cycle
             do end = 1, 2
-               a(:, end) = acceleration_at(field, model%mesh%x(:, bar%nodes(end)))
+               a(:, end) = acceleration_at(field, mesh%x(:, bar%nodes(end)))
             end do
-            force(:d, bar%nodes) = force(:d, bar%nodes) + matmul(a(:d, :2), bar_mass(model, k))
+            force(:d, bar%nodes) = force(:d, bar%nodes) + matmul(a(:d, :2), bar_mass(mesh, k))
          end associate
       end do
-      do k = 1, size(model%mesh%masses)
-         associate (point => model%mesh%masses(k), acceleration => acceleration_at(field, model%mesh%x(:, &
-            model%mesh%masses(k)%node)))
+      do k = 1, size(mesh%masses)
+         associate (point => mesh%masses(k), acceleration => acceleration_at(field, mesh%x(:, &
+            mesh%masses(k)%node)))
             force(:, point%node) = force(:, point%node) + point%mass*acceleration + matmul(point%directed, acceleration)
          end associate
       end do
@@ -224,9 +224,9 @@ contains
 
    !> The BEAM that each PLOAD1 loads, and its end forces F in the axes of the beam [force], [moment]; 0 for a card in error.
    !! Errors: no such beam, a position beyond its end, a direction that a plane model does not have.
-   subroutine find_beam_loads(deck, model, beam, f)
+   subroutine find_beam_loads(deck, mesh, beam, f)
       type(checked_deck), intent(in)     :: deck
-      type(model_type), intent(in)       :: model
+      type(mesh_type), intent(in) :: mesh
       integer, allocatable, intent(out)  :: beam(:) !! (cards) the element
       real(wp), allocatable, intent(out) :: f(:, :) !! (12, cards)
       real(wp) :: length
@@ -236,31 +236,31 @@ contains
       allocate (f(12, size(beam)), source=0.0_wp)
       do i = 1, size(beam)
          associate (card => deck%bulk%beam_load(i))
-            e = findloc(model%mesh%element_id == card%element .and. model%mesh%element_kind == kind_edge2, .true., dim=1)
+            e = findloc(mesh%element_id == card%element .and. mesh%element_kind == kind_edge2, .true., dim=1)
             if (card%element > 0 .and. e == 0) call deck%field_error(card%line, 'EID', 'there is no beam '// &
                integer_text(card%element)//': no CBAR or CBEAM with a PBAR, PBARL, PBEAM or PBEAML')
             if (e == 0 .or. deck%errors%any()) cycle
-            length = beam_length(model%mesh%structural%beams(model%mesh%structural%place(e)), model%mesh%x(:, corners_of(model, e)))
+            length = beam_length(mesh%structural%beams(mesh%structural%place(e)), mesh%x(:, corners_of(mesh, e)))
             if (.not. card%is_fraction .and. any(card%x > length*(1.0_wp + past_the_end))) &
                call deck%field_error(card%line, 'X1', 'X1 or X2 lies beyond the end of the beam')
-            if (model%mesh%dimension == 2 .and. card%kind <= 6 .and. any(load_types(card%kind) == ['FZ ', 'MX ', 'MY '])) &
+            if (mesh%dimension == 2 .and. card%kind <= 6 .and. any(load_types(card%kind) == ['FZ ', 'MX ', 'MY '])) &
                call deck%field_error(card%line, 'TYPE', trim(load_types(card%kind))//' in a plane model, which lies in x-y'// &
-                                     space_hint(model))
+                                     space_hint(mesh))
             beam(i) = e
-            f(:, i) = at_ends(model, e, card)
+            f(:, i) = at_ends(mesh, e, card)
          end associate
       end do
    end subroutine find_beam_loads
 
    !> The end forces of beam E under the load of CARD, in the axes of the beam.
-   pure function at_ends(model, e, card) result(f)
-      type(model_type), intent(in)     :: model
+   pure function at_ends(mesh, e, card) result(f)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)              :: e
       type(beam_load_card), intent(in) :: card
       real(wp) :: f(12), axes(3, 3), q(6, 2), s(2), direction(3)
       integer  :: first, k
 
-      associate (law => model%mesh%structural%beams(model%mesh%structural%place(e)), x => model%mesh%x(:, corners_of(model, e)))
+      associate (law => mesh%structural%beams(mesh%structural%place(e)), x => mesh%x(:, corners_of(mesh, e)))
          s = card%x
          if (.not. card%is_fraction) s = min(1.0_wp, s/beam_length(law, x))
          axes = beam_axes(law, x)
@@ -282,20 +282,20 @@ contains
    end function at_ends
 
    !> Add the end forces F of beam E to LOADS, and the equivalent nodal forces to FORCE.
-   subroutine add_to_beam(model, e, f, loads, force)
-      type(model_type), intent(in)         :: model
+   subroutine add_to_beam(mesh, e, f, loads, force)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)                  :: e
       real(wp), intent(in)                 :: f(12)
       type(stage_load_type), intent(inout) :: loads
       real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes) [force]
-      real(wp) :: nodal(model%mesh%dimension, 4)
+      real(wp) :: nodal(mesh%dimension, 4)
 
-      associate (place => model%mesh%structural%place(e), d => model%mesh%dimension)
-         if (.not. allocated(loads%beam)) allocate (loads%beam(12, size(model%mesh%structural%beams)), source=0.0_wp)
+      associate (place => mesh%structural%place(e), d => mesh%dimension)
+         if (.not. allocated(loads%beam)) allocate (loads%beam(12, size(mesh%structural%beams)), source=0.0_wp)
          loads%beam(:, place) = loads%beam(:, place) + f
-         call onto_own(model, e, beam_nodal_forces(model%mesh%structural%beams(place), model%mesh%x(:, corners_of(model, e)), &
+         call onto_own(mesh, e, beam_nodal_forces(mesh%structural%beams(place), mesh%x(:, corners_of(mesh, e)), &
             f), nodal)
-         associate (nodes => own_nodes(model, e))
+         associate (nodes => own_nodes(mesh, e))
             force(:d, nodes) = force(:d, nodes) + nodal
          end associate
       end associate

@@ -5,7 +5,7 @@ module constraint_equations
    use blas_lapack, only: dgesv
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: a_rotation, model_type, node_kind, point_of
+   use model_data, only: a_rotation, freedoms_type, mesh_type, node_kind, point_of
    use node_coupling, only: couple_node
    use numbers, only: identity
    use text_tools, only: integer_text, one_of
@@ -87,16 +87,17 @@ contains
    end subroutine add_expansion
 
    !> Errors: a component that depends twice, is supported too, or depends on a dependent component.
-   subroutine check_dependences(deck, model, list)
+   subroutine check_dependences(deck, mesh, freedoms, list)
       type(checked_deck), intent(in)    :: deck
-      type(model_type), intent(in)      :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       type(dependence_list), intent(in) :: list
       integer, allocatable :: of(:, :) ! (dimension, n_nodes) the equation of a component, 0: none
       character(:), allocatable :: words
       logical, allocatable :: is_named(:)
       integer :: i, k, other
 
-      allocate (of(model%mesh%dimension, model%mesh%n_nodes), source=0)
+      allocate (of(mesh%dimension, mesh%n_nodes), source=0)
       allocate (is_named(list%n), source=.false.)
       do i = 1, list%n
          associate (item => list%item(i))
@@ -105,11 +106,11 @@ contains
                words = ' is already dependent by '//name_of(deck, list%item(of(item%d, item%node))%line)
             else
                of(item%d, item%node) = i
-               if (model%freedoms%held(item%d, item%node)) words = ' is supported by '//support_name(deck, model, item%node, &
+               if (freedoms%held(item%d, item%node)) words = ' is supported by '//support_name(deck, freedoms, item%node, &
                   item%d)// &
                                                           ' too; a component is either dependent or supported'
             end if
-            if (words /= '') call name_once(i, component_text(model, item%node, item%d)//words)
+            if (words /= '') call name_once(i, component_text(mesh, item%node, item%d)//words)
          end associate
       end do
       do i = 1, list%n
@@ -117,7 +118,7 @@ contains
             associate (on => list%item(i)%on(k))
                other = of(on%d, on%node)
                if (other == 0) cycle
-               call name_once(i, component_text(model, on%node, on%d)//', on which this component depends, is itself dependent '// &
+               call name_once(i, component_text(mesh, on%node, on%d)//', on which this component depends, is itself dependent '// &
                   'by '//name_of(deck, list%item(other)%line)//'; expected an independent component: name its own independent '// &
                   'nodes')
             end associate
@@ -160,18 +161,18 @@ contains
    end function name_of
 
    !> The same for the card that supports component D of NODE.
-   function support_name(deck, model, node, d) result(name)
+   function support_name(deck, freedoms, node, d) result(name)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(freedoms_type), intent(in) :: freedoms
       integer, intent(in)            :: node, d
       character(:), allocatable :: name
       integer :: group
 
       group = 0
-      if (node <= size(model%freedoms%support_of, 2)) group = model%freedoms%support_of(d, node)
+      if (node <= size(freedoms%support_of, 2)) group = freedoms%support_of(d, node)
       name = 'a support'
       if (group == 0) return
-      associate (source => model%freedoms%support_groups(group))
+      associate (source => freedoms%support_groups(group))
          name = trim(source%kind)
          if (source%kind == 'GRID') name = 'PS of GRID'
          if (source%kind == 'SPCM') name = name//' of surface '//integer_text(source%id)
@@ -181,23 +182,24 @@ contains
    end function support_name
 
    !> Text such as 'component 3 of node 7' for component D of NODE, which may be a node of rotations.
-   pure function component_text(model, node, d) result(words)
-      type(model_type), intent(in) :: model
+   pure function component_text(mesh, node, d) result(words)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: node, d
       character(:), allocatable :: words
       integer :: digit
 
       digit = d
-      if (node_kind(model, node) == a_rotation) digit = merge(d + 3, 6, model%mesh%dimension == 3)
-      words = 'component '//integer_text(digit)//' of node '//integer_text(model%mesh%node_id(point_of(model, node)))
+      if (node_kind(mesh, node) == a_rotation) digit = merge(d + 3, 6, mesh%dimension == 3)
+      words = 'component '//integer_text(digit)//' of node '//integer_text(mesh%node_id(point_of(mesh, node)))
    end function component_text
 
    !> Couple the nodes of LIST, whose cards have no errors: their dependent components lose their unknowns and follow the equations,
    !! their other components keep theirs. Components (rotations too) of reference nodes without elements that no equation uses lose
    !! their unknowns too.
-   subroutine eliminate(list, model)
+   subroutine eliminate(list, mesh, freedoms)
       type(dependence_list), intent(in) :: list
-      type(model_type), intent(inout)   :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(inout) :: freedoms
       real(wp), allocatable :: t(:, :, :)
       logical, allocatable  :: is_used(:, :)
       integer, allocatable  :: masters(:), column(:) ! of a node, and their places among them
@@ -205,27 +207,27 @@ contains
       logical  :: expands(3)
       integer  :: d, i, k, n, node
 
-      d = model%mesh%dimension
-      allocate (model%freedoms%left_out(d, model%mesh%n_nodes), is_used(d, model%mesh%n_nodes), source=.false.)
-      allocate (masters(model%mesh%n_nodes), column(model%mesh%n_nodes), source=0)
+      d = mesh%dimension
+      allocate (freedoms%left_out(d, mesh%n_nodes), is_used(d, mesh%n_nodes), source=.false.)
+      allocate (masters(mesh%n_nodes), column(mesh%n_nodes), source=0)
       do i = 1, list%n
          associate (item => list%item(i))
-            model%freedoms%left_out(item%d, item%node) = .true.
+            freedoms%left_out(item%d, item%node) = .true.
             do k = 1, item%n
                is_used(item%on(k)%d, item%on(k)%node) = .true.
             end do
          end associate
       end do
-      do node = 1, model%mesh%n_nodes
-         if (.not. any(model%freedoms%left_out(:, node))) cycle
-         axes = node_axes(model, point_of(model, node))
-         if (node_kind(model, node) == a_rotation .and. d == 2) axes = identity ! z in the first column
+      do node = 1, mesh%n_nodes
+         if (.not. any(freedoms%left_out(:, node))) cycle
+         axes = node_axes(mesh, point_of(mesh, node))
+         if (node_kind(mesh, node) == a_rotation .and. d == 2) axes = identity ! z in the first column
          n = 0
          expands = .false.
          do i = 1, list%n
             if (list%item(i)%node == node) expands(list%item(i)%d) = list%item(i)%expands
          end do
-         if (any(expands(:d) .or. .not. model%freedoms%left_out(:, node))) call add_master(node)
+         if (any(expands(:d) .or. .not. freedoms%left_out(:, node))) call add_master(node)
          do i = 1, list%n
             if (list%item(i)%node /= node) cycle
             do k = 1, list%item(i)%n
@@ -234,7 +236,7 @@ contains
          end do
          allocate (t(d, d, n), source=0.0_wp)
          do k = 1, d
-            if (expands(k) .or. .not. model%freedoms%left_out(k, node)) t(:, k, 1) = axes(:d, k)
+            if (expands(k) .or. .not. freedoms%left_out(k, node)) t(:, k, 1) = axes(:d, k)
          end do
          do i = 1, list%n
             if (list%item(i)%node /= node) cycle
@@ -244,15 +246,15 @@ contains
                end associate
             end do
          end do
-         call couple_node(model%freedoms%coupling, model%mesh%n_nodes, node, masters(:n), t)
+         call couple_node(freedoms%coupling, mesh%n_nodes, node, masters(:n), t)
          column(masters(:n)) = 0
          deallocate (t)
       end do
-      do node = 1, model%mesh%n_nodes
-         if (list%without(node)) model%freedoms%left_out(:, node) = model%freedoms%left_out(:, node) .or. &
-                                                           (.not. is_used(:, node) .and. .not. model%freedoms%held(:, node))
+      do node = 1, mesh%n_nodes
+         if (list%without(node)) freedoms%left_out(:, node) = freedoms%left_out(:, node) .or. &
+                                                           (.not. is_used(:, node) .and. .not. freedoms%held(:, node))
       end do
-      model%freedoms%held = model%freedoms%held .or. model%freedoms%left_out
+      freedoms%held = freedoms%held .or. freedoms%left_out
 
    contains
 

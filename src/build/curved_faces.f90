@@ -13,7 +13,7 @@ module curved_faces
    use face_overlap, only: edge_lengths, face_frame, make_frame
    use kinds, only: wp
    use lists, only: list_owners
-   use model_data, only: model_type, surface_type
+   use model_data, only: mesh_type, surface_type
    use numbers, only: cross
    use tolerances, only: level_tangent
    implicit none
@@ -27,8 +27,8 @@ contains
 
    !> The angle of the tangents of each edge of each face of SURFACE, edge k from corner k to the next; > 0 where the surface bulges
    !! out of its body. Faces of second order are curved themselves: zero.
-   pure subroutine find_tilts(model, surface, tilt)
-      type(model_type), intent(in)       :: model
+   pure subroutine find_tilts(mesh, surface, tilt)
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(in)     :: surface
       real(wp), allocatable, intent(out) :: tilt(:, :) !! (4, faces) [rad]
       type(face_frame) :: frames(surface%n)
@@ -40,9 +40,9 @@ contains
       allocate (tilt(4, surface%n), source=0.0_wp)
       if (any(surface%n_nodes(:surface%n) /= surface%corners(:surface%n))) return
       do s = 1, surface%n
-         call make_frame(model%mesh%dimension, model%mesh%x(:, surface%nodes(:surface%corners(s), s)), frames(s))
+         call make_frame(mesh%dimension, mesh%x(:, surface%nodes(:surface%corners(s), s)), frames(s))
       end do
-      call list_owners(model%mesh%n_nodes, surface%nodes(:, :surface%n), first, owners)
+      call list_owners(mesh%n_nodes, surface%nodes(:, :surface%n), first, owners)
       do s = 1, surface%n
          n = surface%corners(s)
          do k = 1, merge(1, n, n == 2)
@@ -73,15 +73,15 @@ contains
          normal = 0.0_wp
          goes_on = .false.
          associate (face_normal => frames(s)%axes(:, 3))
-            along = model%mesh%x(:, to) - model%mesh%x(:, at)
+            along = mesh%x(:, to) - mesh%x(:, at)
             along = along - dot_product(along, face_normal)*face_normal
             along = along/max(norm2(along), tiny(1.0_wp))
             do i = first(at), first(at + 1) - 1
                associate (other => frames(owners(i)))
                   if (dot_product(other%axes(:, 3), face_normal) < smooth) cycle
-                  normal = normal + weight_at(model, surface, owners(i), at)*other%axes(:, 3)
-                  if (dot_product(other%centre - model%mesh%x(:, at), along) < -level_tangent*norm2(other%centre - &
-                     model%mesh%x(:, at))) &
+                  normal = normal + weight_at(mesh, surface, owners(i), at)*other%axes(:, 3)
+                  if (dot_product(other%centre - mesh%x(:, at), along) < -level_tangent*norm2(other%centre - &
+                     mesh%x(:, at))) &
                      goes_on = .true.
                end associate
             end do
@@ -92,8 +92,8 @@ contains
    end subroutine find_tilts
 
    !> The weight of the normal of face S of SURFACE at its corner NODE: sin of the angle there over the lengths of both edges.
-   pure real(wp) function weight_at(model, surface, s, node) result(weight)
-      type(model_type), intent(in)   :: model
+   pure real(wp) function weight_at(mesh, surface, s, node) result(weight)
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(in) :: surface
       integer, intent(in)            :: s, node
       real(wp) :: a(3), b(3)
@@ -102,8 +102,8 @@ contains
       n = surface%corners(s)
       associate (nodes => surface%nodes(:n, s))
          k = findloc(nodes, node, dim=1)
-         a = model%mesh%x(:, nodes(modulo(k, n) + 1)) - model%mesh%x(:, node)
-         b = model%mesh%x(:, nodes(modulo(k - 2, n) + 1)) - model%mesh%x(:, node)
+         a = mesh%x(:, nodes(modulo(k, n) + 1)) - mesh%x(:, node)
+         b = mesh%x(:, nodes(modulo(k - 2, n) + 1)) - mesh%x(:, node)
       end associate
       weight = 1.0_wp/norm2(a)
       if (n > 2) weight = norm2(cross(a, b))/max(sum(a**2)*sum(b**2), tiny(1.0_wp))

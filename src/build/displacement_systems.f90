@@ -6,16 +6,16 @@ module displacement_systems
    use deck_check, only: checked_deck
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: model_type
-   use node_coupling, only: couple_node
+   use model_data, only: freedoms_type, mesh_type
+   use node_coupling, only: couple_node, is_coupled
    use numbers, only: identity
    use text_tools, only: integer_text
    use tolerances, only: zero_component_along
-   use unknowns, only: rotation_at
+   use unknowns, only: node_axes, rotation_at
    implicit none
    private
 
-   public :: build_systems, find_system, find_directions, rectangular_axes, build_frames
+   public :: build_systems, find_system, find_directions, rectangular_axes, find_node_systems, couple_node_systems
 
 contains
 
@@ -153,19 +153,19 @@ contains
    !> Couple the nodes of MODEL that have a CD, and their duplicates, to unknowns along its directions; in space the rotations
    !! of these nodes too are about these directions. Errors: no such system; a node on the axis of a cylindrical or spherical one;
    !! directions out of the plane of a plane model.
-   subroutine build_frames(deck, model)
+   subroutine find_node_systems(deck, mesh)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       real(wp) :: directions(3, 3)
-      integer  :: i, node, rotation
+      integer  :: i, node
       logical  :: ok
 
       do i = 1, size(deck%bulk%grid)
-         associate (grid => deck%bulk%grid(i), d => model%mesh%dimension)
+         associate (grid => deck%bulk%grid(i), d => mesh%dimension)
             if (grid%cd <= 0) cycle
-            node = model%mesh%node_table%find(grid%id)
+            node = mesh%node_table%find(grid%id)
             if (node == 0) cycle
-            call find_directions(deck, model%mesh%systems, grid%line, grid%cd, model%mesh%x(:, node), directions, ok, &
+            call find_directions(deck, mesh%systems, grid%line, grid%cd, mesh%x(:, node), directions, ok, &
                                  ['CD      ', 'the node'])
             if (.not. ok) cycle
             if (d == 2 .and. any(abs(directions(3, :2)) > zero_component_along)) then
@@ -173,21 +173,42 @@ contains
                                      'model, x-y')
                cycle
             end if
-            if (.not. allocated(model%mesh%node_system)) allocate (model%mesh%node_system(model%mesh%n_nodes), source=0)
+            if (.not. allocated(mesh%node_system)) allocate (mesh%node_system(mesh%n_nodes), source=0)
             do while (node > 0)
-               if (model%mesh%node_system(node) > 0) exit ! a number given twice has one node
-               model%mesh%node_system(node) = findloc(model%mesh%systems%id, grid%cd, dim=1)
-               call couple_node(model%freedoms%coupling, model%mesh%n_nodes, node, [node], reshape(directions(:d, :d), [d, d, 1]))
-               rotation = rotation_at(model, node)
-               if (d == 3 .and. rotation > 0) then
-                  rotation = model%mesh%rotations(rotation)%node
-                  call couple_node(model%freedoms%coupling, model%mesh%n_nodes, rotation, [rotation], reshape(directions, [3, 3, &
-                     1]))
-               end if
-               node = model%mesh%duplicate(node)
+               if (mesh%node_system(node) > 0) exit ! a number given twice has one node
+               mesh%node_system(node) = findloc(mesh%systems%id, grid%cd, dim=1)
+               node = mesh%duplicate(node)
             end do
          end associate
       end do
-   end subroutine build_frames
+   end subroutine find_node_systems
+
+   !> Couple the nodes with a system CD, and their rotations, to unknowns along the directions of their system.
+   subroutine couple_node_systems(deck, mesh, freedoms)
+      type(checked_deck), intent(in)     :: deck
+      type(mesh_type), intent(in)        :: mesh
+      type(freedoms_type), intent(inout) :: freedoms
+      real(wp) :: directions(3, 3)
+      integer  :: i, node, rotation
+
+      if (.not. allocated(mesh%node_system)) return
+      do i = 1, size(deck%bulk%grid)
+         if (deck%bulk%grid(i)%cd <= 0) cycle
+         node = mesh%node_table%find(deck%bulk%grid(i)%id)
+         associate (d => mesh%dimension)
+            do while (node > 0)
+               if (mesh%node_system(node) == 0 .or. is_coupled(freedoms, [node])) exit
+               directions = node_axes(mesh, node)
+               call couple_node(freedoms%coupling, mesh%n_nodes, node, [node], reshape(directions(:d, :d), [d, d, 1]))
+               rotation = rotation_at(mesh, node)
+               if (d == 3 .and. rotation > 0) then
+                  rotation = mesh%rotations(rotation)%node
+                  call couple_node(freedoms%coupling, mesh%n_nodes, rotation, [rotation], reshape(directions, [3, 3, 1]))
+               end if
+               node = mesh%duplicate(node)
+            end do
+         end associate
+      end do
+   end subroutine couple_node_systems
 
 end module displacement_systems

@@ -7,7 +7,7 @@ module element_build
    use element_mapping, only: smallest_jacobian
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order
-   use model_data, only: corners_of, model_type, property_type
+   use model_data, only: corners_of, mesh_type, property_type
    use node_build, only: blank_node, find_nodes
    use shell_membrane, only: flat_coordinates
    use spring_build, only: is_bar
@@ -32,19 +32,19 @@ module element_build
 contains
 
    !> Whether an element card marks a face: in space a CTRIA3, CQUAD4 or second-order card whose property is no PSHELL.
-   elemental logical function is_face(model, card)
-      type(model_type), intent(in)   :: model
+   elemental logical function is_face(mesh, card)
+      type(mesh_type), intent(in) :: mesh
       type(element_card), intent(in) :: card
 
-      is_face = model%mesh%dimension == 3 .and. element_table(card%kind)%dimension == 2
-      if (is_face) is_face = .not. any(model%mesh%properties%id == card%property .and. model%mesh%properties%state == shell)
+      is_face = mesh%dimension == 3 .and. element_table(card%kind)%dimension == 2
+      if (is_face) is_face = .not. any(mesh%properties%id == card%property .and. mesh%properties%state == shell)
    end function is_face
 
    !> Every PSHELL, PAXIS and PSOLID with its material, followed by the sections of beams. In space a PSHELL with a bending material
    !! is a shell property.
-   subroutine resolve_properties(deck, model)
+   subroutine resolve_properties(deck, mesh)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       type(property_card), allocatable :: cards(:)
       type(id_table_type) :: materials
       integer :: i, k
@@ -53,11 +53,11 @@ contains
       allocate (cards, source=[deck%bulk%pshell, deck%bulk%paxis, deck%bulk%psolid, (property_card( &
          line=deck%bulk%beam_property(i)%line, id=deck%bulk%beam_property(i)%id, material=deck%bulk%beam_property(i)%material, &
          state=beam), i = 1, size(deck%bulk%beam_property))])
-      allocate (model%mesh%properties(size(cards)))
+      allocate (mesh%properties(size(cards)))
       do i = 1, size(cards)
-         associate (card => cards(i), property => model%mesh%properties(i))
+         associate (card => cards(i), property => mesh%properties(i))
             property = property_type(id=card%id, state=card%state, thickness=card%thickness, incompatible=card%incompatible)
-            if (model%mesh%dimension == 3 .and. i <= size(deck%bulk%pshell) .and. card%bending > 0) then
+            if (mesh%dimension == 3 .and. i <= size(deck%bulk%pshell) .and. card%bending > 0) then
                property%state = shell
                property%fibre = card%fibre
                property%extra_mass = deck%bulk%parameters%mass_factor*card%extra_mass
@@ -84,63 +84,63 @@ contains
 
    !> The elements of CARDS, blocks included, and the beams, in ascending order of their numbers; blank mid-side nodes become
    !! blank_node.
-   subroutine collect_elements(deck, cards, model)
+   subroutine collect_elements(deck, cards, mesh)
       type(checked_deck), intent(in)  :: deck
       type(element_card), intent(in)  :: cards(:)
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       type(id_table_type)  :: properties
       integer, allocatable :: beams(:), bodies(:), nodes(:, :), order(:), property(:)
       integer :: corners, e, i, k
 
-      bodies = pack([(i, i = 1, size(cards))], .not. is_face(model, cards))
+      bodies = pack([(i, i = 1, size(cards))], .not. is_face(mesh, cards))
       associate (edges => deck%bulk%edge)
          beams = pack([(i, i = 1, size(edges))], [(is_beam_edge(deck, edges(i)), i = 1, size(edges))])
-         model%mesh%element_id = [cards(bodies)%id, edges(beams)%id]
-         model%mesh%element_line = [cards(bodies)%line, edges(beams)%line]
-         model%mesh%element_kind = [cards(bodies)%kind, spread(kind_edge2, 1, size(beams))]
+         mesh%element_id = [cards(bodies)%id, edges(beams)%id]
+         mesh%element_line = [cards(bodies)%line, edges(beams)%line]
+         mesh%element_kind = [cards(bodies)%kind, spread(kind_edge2, 1, size(beams))]
       end associate
-      model%mesh%n_elements = size(model%mesh%element_id)
-      allocate (property(model%mesh%n_elements), source=0)
-      allocate (nodes(maxval([4, element_table(model%mesh%element_kind)%n_nodes]), model%mesh%n_elements), source=0)
-      call properties%build(model%mesh%properties%id)
+      mesh%n_elements = size(mesh%element_id)
+      allocate (property(mesh%n_elements), source=0)
+      allocate (nodes(maxval([4, element_table(mesh%element_kind)%n_nodes]), mesh%n_elements), source=0)
+      call properties%build(mesh%properties%id)
       do e = 1, size(bodies)
          associate (card => cards(bodies(e)))
             k = element_table(card%kind)%n_nodes
             corners = element_table(card%kind)%n_corners
-            call find_nodes(deck, card%line, card%nodes(:k), model, nodes(:k, e))
+            call find_nodes(deck, card%line, card%nodes(:k), mesh, nodes(:k, e))
             where (card%nodes(corners + 1:k) == 0) nodes(corners + 1:k, e) = blank_node
             property(e) = properties%find(card%property)
-            call check_property(deck, model, card, property(e))
+            call check_property(deck, mesh, card, property(e))
          end associate
       end do
       do i = 1, size(beams)
          e = size(bodies) + i
          associate (edge => deck%bulk%edge(beams(i)))
-            call find_nodes(deck, edge%line, edge%nodes(:2), model, nodes(:2, e))
-            property(e) = findloc(model%mesh%properties%id == edge%property .and. model%mesh%properties%state == beam, .true., &
+            call find_nodes(deck, edge%line, edge%nodes(:2), mesh, nodes(:2, e))
+            property(e) = findloc(mesh%properties%id == edge%property .and. mesh%properties%state == beam, .true., &
                dim=1)
          end associate
       end do
-      call sorted_order(model%mesh%element_id, order)
-      model%mesh%element_id = model%mesh%element_id(order)
-      model%mesh%element_line = model%mesh%element_line(order)
-      model%mesh%element_kind = model%mesh%element_kind(order)
-      model%mesh%element_nodes = nodes(:, order)
-      model%mesh%element_property = property(order)
+      call sorted_order(mesh%element_id, order)
+      mesh%element_id = mesh%element_id(order)
+      mesh%element_line = mesh%element_line(order)
+      mesh%element_kind = mesh%element_kind(order)
+      mesh%element_nodes = nodes(:, order)
+      mesh%element_property = property(order)
    end subroutine collect_elements
 
    !> The property of the element CARD must be one for its kind; PROPERTY is its position, 0 for a missing property or one for
    !! another kind.
-   subroutine check_property(deck, model, card, property)
+   subroutine check_property(deck, mesh, card, property)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       type(element_card), intent(in) :: card
       integer, intent(inout)         :: property
       integer :: state
 
       associate (kind => element_table(card%kind))
          state = 0
-         if (property > 0) state = model%mesh%properties(property)%state
+         if (property > 0) state = mesh%properties(property)%state
          if (state > 0 .and. state /= beam .and. (state /= shell .or. kind%linear == card%kind) .and. &
              (state == solid .eqv. kind%dimension == 3)) return
          property = 0
@@ -158,21 +158,21 @@ contains
    end subroutine check_property
 
    !> Marked sides: CBAR and CROD edges in the plane, faces of solids from cards of plane elements, and sides of blocks.
-   subroutine collect_sides(deck, of_blocks, model, sides)
+   subroutine collect_sides(deck, of_blocks, mesh, sides)
       type(checked_deck), intent(in) :: deck
       type(element_card), intent(in) :: of_blocks(:)
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       type(marked_side), allocatable, intent(out) :: sides(:)
       integer :: i, n, total
 
       total = size(deck%bulk%edge) + size(of_blocks)
-      if (model%mesh%dimension == 3) total = total + size(deck%bulk%element)
+      if (mesh%dimension == 3) total = total + size(deck%bulk%element)
       allocate (sides(total))
       n = 0
       do i = 1, size(deck%bulk%edge)
          associate (edge => deck%bulk%edge(i))
             if (is_bar(deck, edge) .or. is_beam_edge(deck, edge)) cycle
-            if (model%mesh%dimension == 3 .and. all(model%mesh%properties%state /= shell)) then
+            if (mesh%dimension == 3 .and. all(mesh%properties%state /= shell)) then
                call deck%errors%add(edge%line, 'a CBAR, or a CROD without a PROD, marks an edge of a plane body; surfaces of '// &
                                'solids are marked with CTRIA3 and CQUAD4 faces; the PID of a beam is that of a PBAR, PBARL, '// &
                                'PBEAM or PBEAML')
@@ -183,7 +183,7 @@ contains
       end do
       do i = 1, size(deck%bulk%element)
          associate (face => deck%bulk%element(i))
-            if (is_face(model, face)) call add_card(face, element_table(face%kind)%n_corners, element_table(face%kind)%n_nodes)
+            if (is_face(mesh, face)) call add_card(face, element_table(face%kind)%n_corners, element_table(face%kind)%n_nodes)
          end associate
       end do
       do i = 1, size(of_blocks)
@@ -204,37 +204,37 @@ contains
          sides(n)%element_card = card
          sides(n)%corners = corners
          sides(n)%n_nodes = n_nodes
-         call find_nodes(deck, card%line, card%nodes(:n_nodes), model, sides(n)%nodes(:n_nodes))
+         call find_nodes(deck, card%line, card%nodes(:n_nodes), mesh, sides(n)%nodes(:n_nodes))
       end subroutine add_card
 
    end subroutine collect_sides
 
    !> Errors: an element whose det J is not positive: in a plane element at the corners, in a solid at its integration points.
-   subroutine check_elements(deck, nodes, model)
+   subroutine check_elements(deck, nodes, mesh)
       type(checked_deck), intent(in) :: deck
       type(grid_card), intent(in)    :: nodes(:)    !! of DECK, then of blocks, in global axes
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       logical, allocatable :: doubtful(:), sound(:) ! doubtful: the position of a node is not known, which has been reported
       integer :: e, i, last_line, node
 
-      allocate (doubtful(0:model%mesh%n_nodes), source=.false.)
+      allocate (doubtful(0:mesh%n_nodes), source=.false.)
       do i = 1, size(nodes)
-         node = model%mesh%node_table%find(nodes(i)%id)
+         node = mesh%node_table%find(nodes(i)%id)
          doubtful(node) = doubtful(node) .or. nodes(i)%doubtful
          if (i > size(deck%bulk%grid)) & ! of a block: a number that another node has too
-            doubtful(node) = doubtful(node) .or. any(abs(nodes(i)%x - model%mesh%x(:, node)) > 0.0_wp)
+            doubtful(node) = doubtful(node) .or. any(abs(nodes(i)%x - mesh%x(:, node)) > 0.0_wp)
       end do
-      allocate (sound(model%mesh%n_elements))
-      !$omp parallel do schedule(dynamic, 512) default(shared) if(model%mesh%n_elements > few)
-      do e = 1, model%mesh%n_elements
+      allocate (sound(mesh%n_elements))
+      !$omp parallel do schedule(dynamic, 512) default(shared) if(mesh%n_elements > few)
+      do e = 1, mesh%n_elements
          sound(e) = is_sound(e)
       end do
       !$omp end parallel do
       last_line = 0
-      do e = 1, model%mesh%n_elements
-         if (sound(e) .or. model%mesh%element_line(e) == last_line) cycle ! one error per card
-         last_line = model%mesh%element_line(e)
-         call deck%errors%add(model%mesh%element_line(e), 'element '//integer_text(model%mesh%element_id(e))//shape_fault(model, e))
+      do e = 1, mesh%n_elements
+         if (sound(e) .or. mesh%element_line(e) == last_line) cycle ! one error per card
+         last_line = mesh%element_line(e)
+         call deck%errors%add(mesh%element_line(e), 'element '//integer_text(mesh%element_id(e))//shape_fault(mesh, e))
       end do
 
    contains
@@ -244,15 +244,15 @@ contains
          integer, intent(in) :: e
 
          is_sound = .true.
-         associate (nodes => corners_of(model, e))
+         associate (nodes => corners_of(mesh, e))
             if (any(nodes == 0)) return
             if (any(doubtful(nodes))) return
-            if (model%mesh%element_kind(e) == kind_edge2) return ! a beam: its length is checked with its offsets
-            if (model%mesh%dimension == 3 .and. element_table(model%mesh%element_kind(e))%dimension == 2) then
+            if (mesh%element_kind(e) == kind_edge2) return ! a beam: its length is checked with its offsets
+            if (mesh%dimension == 3 .and. element_table(mesh%element_kind(e))%dimension == 2) then
                if (size(nodes) > 4) return ! second order: reported already
-               is_sound = smallest_jacobian(model%mesh%element_kind(e), flat_coordinates(model%mesh%x(:, nodes))) > 0.0_wp
+               is_sound = smallest_jacobian(mesh%element_kind(e), flat_coordinates(mesh%x(:, nodes))) > 0.0_wp
             else
-               is_sound = smallest_jacobian(model%mesh%element_kind(e), model%mesh%x(:model%mesh%dimension, nodes)) > 0.0_wp
+               is_sound = smallest_jacobian(mesh%element_kind(e), mesh%x(:mesh%dimension, nodes)) > 0.0_wp
             end if
          end associate
       end function is_sound
@@ -274,24 +274,24 @@ contains
 
    !> What is wrong with the shape of element E, and what was expected: coincident corners, mid-side nodes where the element with
    !! straight edges is sound, or the order of the nodes.
-   function shape_fault(model, e) result(words)
-      type(model_type), intent(in) :: model
+   function shape_fault(mesh, e) result(words)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
       character(:), allocatable :: twins, words
       integer, allocatable :: corners(:), nodes(:)
       real(wp) :: off, largest
       integer  :: i, k, places, worst
 
-      allocate (nodes, source=corners_of(model, e))
-      associate (kind => element_table(model%mesh%element_kind(e)))
+      allocate (nodes, source=corners_of(mesh, e))
+      associate (kind => element_table(mesh%element_kind(e)))
          allocate (corners, source=nodes(:kind%n_corners))
          words = ' has no positive '//one_of(kind%dimension == 3, 'volume', 'area')//' at some integration point'
-         if (kind%dimension == 2 .and. kind%linear == model%mesh%element_kind(e)) words = ' has no positive area at some corner'
+         if (kind%dimension == 2 .and. kind%linear == mesh%element_kind(e)) words = ' has no positive area at some corner'
          twins = ''
          places = size(corners)
          do k = 2, size(corners)
             do i = 1, k - 1
-               if (norm2(model%mesh%x(:, corners(k)) - model%mesh%x(:, corners(i))) < same_corner*longest_edge(model, e)) exit
+               if (norm2(mesh%x(:, corners(k)) - mesh%x(:, corners(i))) < same_corner*longest_edge(mesh, e)) exit
             end do
             if (i == k) cycle
             places = places - 1
@@ -302,24 +302,24 @@ contains
             return
          end if
          if (size(nodes) > size(corners)) then
-            if (smallest_jacobian(kind%linear, model%mesh%x(:kind%dimension, corners)) > 0.0_wp) then
+            if (smallest_jacobian(kind%linear, mesh%x(:kind%dimension, corners)) > 0.0_wp) then
                largest = -1.0_wp
                worst = size(corners) + 1
                do k = 1, kind%n_edges
-                  associate (p => model%mesh%x(:, corners(kind%edges(1, k))), q => model%mesh%x(:, corners(kind%edges(2, k))))
-                     off = norm2(model%mesh%x(:, nodes(size(corners) + k)) - 0.5_wp*(p + q))/norm2(q - p)
+                  associate (p => mesh%x(:, corners(kind%edges(1, k))), q => mesh%x(:, corners(kind%edges(2, k))))
+                     off = norm2(mesh%x(:, nodes(size(corners) + k)) - 0.5_wp*(p + q))/norm2(q - p)
                   end associate
                   if (off > largest) worst = size(corners) + k
                   largest = max(largest, off)
                end do
                words = words//', but would have with straight edges: mid-side nodes are at fault, most of all G'// &
-                       integer_text(worst)//', node '//integer_text(model%mesh%node_id(nodes(worst)))//', which stands '// &
+                       integer_text(worst)//', node '//integer_text(mesh%node_id(nodes(worst)))//', which stands '// &
                        integer_text(nint(100.0_wp*largest))//' % of its edge off the middle'
                if (largest < misplaced) words = words//'; expected smaller elements, or straight edges'
                if (largest < misplaced) return
             end if
          end if
-         select case (model%mesh%element_kind(e))
+         select case (mesh%element_kind(e))
          case (kind_quad4)
             words = words//'; expected four nodes counter-clockwise round a convex quadrilateral'
          case (kind_tria3)
@@ -335,15 +335,15 @@ contains
    end function shape_fault
 
    !> Length of the longest edge of element E [length].
-   pure real(wp) function longest_edge(model, e) result(longest)
-      type(model_type), intent(in) :: model
+   pure real(wp) function longest_edge(mesh, e) result(longest)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
       integer :: k
 
       longest = 0.0_wp
-      associate (kind => element_table(model%mesh%element_kind(e)), nodes => model%mesh%element_nodes(:, e))
+      associate (kind => element_table(mesh%element_kind(e)), nodes => mesh%element_nodes(:, e))
          do k = 1, kind%n_edges
-            longest = max(longest, norm2(model%mesh%x(:, nodes(kind%edges(2, k))) - model%mesh%x(:, nodes(kind%edges(1, k)))))
+            longest = max(longest, norm2(mesh%x(:, nodes(kind%edges(2, k))) - mesh%x(:, nodes(kind%edges(1, k)))))
          end do
       end associate
    end function longest_edge

@@ -8,7 +8,7 @@ module facing_bodies
    use kinds, only: wp
    use lists, only: join, list_owners, root_of
    use connected_bodies, only: find_bodies
-   use model_data, only: corners_of, is_shell, model_type, n_bars, n_points, supported
+   use model_data, only: corners_of, freedoms_type, is_shell, joints_type, mesh_type, n_bars, n_points, supported
    use node_pairing, only: opposed => facing, reach => default_reach
    use numbers, only: cross
    use spatial_search, only: spatial_search_type
@@ -52,26 +52,26 @@ module facing_bodies
 contains
 
    !> All bodies, and the body of each element.
-   pure subroutine list_bodies(model, body, bodies)
-      type(model_type), intent(in)   :: model
+   pure subroutine list_bodies(mesh, body, bodies)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(out)           :: body(:) !! (n_elements)
       type(body_type), allocatable, intent(out) :: bodies(:)
-      integer :: seen(model%mesh%n_nodes), e, i, n
+      integer :: seen(mesh%n_nodes), e, i, n
 
-      call find_bodies(model, body, n)
+      call find_bodies(mesh, body, n)
       allocate (bodies(n))
       seen = 0
-      do e = 1, model%mesh%n_elements
-         associate (record => bodies(body(e)), nodes => corners_of(model, e))
-            record%first = min(record%first, model%mesh%element_id(e))
-            record%last = max(record%last, model%mesh%element_id(e))
+      do e = 1, mesh%n_elements
+         associate (record => bodies(body(e)), nodes => corners_of(mesh, e))
+            record%first = min(record%first, mesh%element_id(e))
+            record%last = max(record%last, mesh%element_id(e))
             record%n_elements = record%n_elements + 1
             do i = 1, size(nodes)
                if (seen(nodes(i)) == body(e)) cycle
                seen(nodes(i)) = body(e)
                record%n_nodes = record%n_nodes + 1
-               record%low = min(record%low, model%mesh%x(:, nodes(i)))
-               record%high = max(record%high, model%mesh%x(:, nodes(i)))
+               record%low = min(record%low, mesh%x(:, nodes(i)))
+               record%high = max(record%high, mesh%x(:, nodes(i)))
             end do
          end associate
       end do
@@ -96,24 +96,24 @@ contains
    end function box_words
 
    !> The outer SIDES of all bodies, in the order of the elements.
-   pure subroutine list_outer_sides(model, body, sides)
-      type(model_type), intent(in) :: model
+   pure subroutine list_outer_sides(mesh, body, sides)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: body(:) !! (n_elements)
       type(outer_side), allocatable, intent(out) :: sides(:)
       integer, allocatable :: first(:), owners(:), least(:, :)
       logical, allocatable :: is_outer(:)
       integer :: e, i, j, n, s
 
-      n = sum([(merge(2, element_table(model%mesh%element_kind(e))%n_sides, is_shell(model, e)), e = 1, model%mesh%n_elements)])
+      n = sum([(merge(2, element_table(mesh%element_kind(e))%n_sides, is_shell(mesh, e)), e = 1, mesh%n_elements)])
       allocate (sides(n), is_outer(n), least(1, n))
       i = 0
-      do e = 1, model%mesh%n_elements
-         do s = 1, merge(2, element_table(model%mesh%element_kind(e))%n_sides, is_shell(model, e))
+      do e = 1, mesh%n_elements
+         do s = 1, merge(2, element_table(mesh%element_kind(e))%n_sides, is_shell(mesh, e))
             i = i + 1
             sides(i)%element = e
-            sides(i)%side = merge(1 - s, s, is_shell(model, e))
+            sides(i)%side = merge(1 - s, s, is_shell(mesh, e))
             sides(i)%body = body(e)
-            associate (corners_here => side_corners(model, e, max(0, sides(i)%side)))
+            associate (corners_here => side_corners(mesh, e, max(0, sides(i)%side)))
                sides(i)%n = size(corners_here)
                sides(i)%corners(:size(corners_here)) = corners_here
                if (sides(i)%side < 0) sides(i)%corners(:size(corners_here)) = corners_here(size(corners_here):1:-1)
@@ -121,7 +121,7 @@ contains
             end associate
          end do
       end do
-      call list_owners(model%mesh%n_nodes, least, first, owners)
+      call list_owners(mesh%n_nodes, least, first, owners)
       is_outer = .true.
       do i = 1, n
          if (sides(i)%side <= 0) cycle
@@ -135,17 +135,17 @@ contains
       end do
       sides = pack(sides, is_outer)
       do i = 1, size(sides)
-         call measure(model, sides(i))
+         call measure(mesh, sides(i))
       end do
    end subroutine list_outer_sides
 
    !> Centre, normal, area and size of SIDE from its corners.
-   pure subroutine measure(model, side)
-      type(model_type), intent(in)    :: model
+   pure subroutine measure(mesh, side)
+      type(mesh_type), intent(in) :: mesh
       type(outer_side), intent(inout) :: side
       real(wp) :: vector(3)
 
-      associate (x => model%mesh%x(:, side%corners(:side%n)))
+      associate (x => mesh%x(:, side%corners(:side%n)))
          side%centre = sum(x, dim=2)/side%n
          side%size = maxval(edge_lengths(x))
          select case (side%n)
@@ -160,22 +160,22 @@ contains
       side%area = norm2(vector)
       side%normal = vector/max(side%area, tiny(1.0_wp))
       if (side%side <= 0) then
-         associate (law => model%mesh%structural%shells(model%mesh%structural%place(side%element)))
+         associate (law => mesh%structural%shells(mesh%structural%place(side%element)))
             side%centre = side%centre + side%normal* &
                           (0.5_wp*sum(law%thickness(:side%n))/side%n + merge(1, -1, side%side == 0)*law%offset)
          end associate
       end if
       if (side%n > 2) return
-      if (model%mesh%axisymmetric) then
+      if (mesh%axisymmetric) then
          side%area = side%area*two_pi*side%centre(1)
       else
-         side%area = side%area*model%mesh%properties(model%mesh%element_property(side%element))%thickness
+         side%area = side%area*mesh%properties(mesh%element_property(side%element))%thickness
       end if
    end subroutine measure
 
    !> The facing bodies, in the order of their numbers, and for each of SIDES the body that its centre SEES, 0: none.
-   pure subroutine find_facing(model, sides, pairs, sees)
-      type(model_type), intent(in)  :: model
+   pure subroutine find_facing(mesh, sides, pairs, sees)
+      type(mesh_type), intent(in) :: mesh
       type(outer_side), intent(in)  :: sides(:)
       type(facing_type), allocatable, intent(out) :: pairs(:)
       integer, allocatable, intent(out) :: sees(:) !! (sides)
@@ -187,7 +187,7 @@ contains
 
       allocate (boxes(3, 2, size(sides)), sees(size(sides)), pairs(0))
       do i = 1, size(sides)
-         associate (x => model%mesh%x(:, sides(i)%corners(:sides(i)%n)))
+         associate (x => mesh%x(:, sides(i)%corners(:sides(i)%n)))
             boxes(:, 1, i) = min(minval(x, dim=2), sides(i)%centre) ! the centre of a shell face lies off its nodes
             boxes(:, 2, i) = max(maxval(x, dim=2), sides(i)%centre)
          end associate
@@ -201,7 +201,7 @@ contains
             nearest = huge(1.0_wp)
             do k = 1, n
                if (sides(found(k))%body == side%body) cycle
-               distance = distance_over(model, side, sides(found(k)))
+               distance = distance_over(mesh, side, sides(found(k)))
                if (distance >= nearest) cycle
                nearest = distance
                sees(i) = sides(found(k))%body
@@ -235,8 +235,8 @@ contains
 
    !> Distance of the centre of SIDE from OTHER along its normal, gap or overlap [length]; huge where OTHER does not face SIDE
    !! there, or is farther away than the reach of the search.
-   pure real(wp) function distance_over(model, side, other) result(distance)
-      type(model_type), intent(in) :: model
+   pure real(wp) function distance_over(mesh, side, other) result(distance)
+      type(mesh_type), intent(in) :: mesh
       type(outer_side), intent(in) :: side, other
       real(wp) :: point(3), along(3), a(3), b(3), cosine
       logical  :: lies_over
@@ -250,15 +250,15 @@ contains
       distance = abs(distance)
       lies_over = distance <= reach*side%size
       if (other%n == 2) then
-         a = model%mesh%x(:, other%corners(1))
-         b = model%mesh%x(:, other%corners(2))
+         a = mesh%x(:, other%corners(1))
+         b = mesh%x(:, other%corners(2))
          associate (share => dot_product(point - a, b - a)/dot_product(b - a, b - a))
             lies_over = lies_over .and. share >= -on_rim .and. share <= 1.0_wp + on_rim
          end associate
       else
          do k = 1, other%n
-            a = model%mesh%x(:, other%corners(k))
-            b = model%mesh%x(:, other%corners(1 + modulo(k, other%n)))
+            a = mesh%x(:, other%corners(k))
+            b = mesh%x(:, other%corners(1 + modulo(k, other%n)))
             along = cross(b - a, point - a)
             lies_over = lies_over .and. dot_product(along, other%normal) >= -on_rim*other%size**2
          end do
@@ -268,36 +268,38 @@ contains
 
    !> Text that lists the unsupported bodies of MODEL; '' where elements, bars, rigid elements and joints (open or closed) connect
    !! every body to a support, a rigid base or a grounded spring.
-   function loose_words(model) result(words)
-      type(model_type), intent(in) :: model
+   function loose_words(mesh, joints, freedoms) result(words)
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(in) :: joints
+      type(freedoms_type), intent(in) :: freedoms
       character(:), allocatable    :: words
       type(body_type), allocatable :: bodies(:)
-      integer :: body(model%mesh%n_elements), parent(model%freedoms%n_parts + 1), e, ground, i, k, said
+      integer :: body(mesh%n_elements), parent(freedoms%n_parts + 1), e, ground, i, k, said
       integer, allocatable :: part(:) ! of each body; of connected parts the first, 0: connected to the ground
 
       words = ''
-      if (model%mesh%n_elements == 0) return
-      call list_bodies(model, body, bodies)
+      if (mesh%n_elements == 0) return
+      call list_bodies(mesh, body, bodies)
       allocate (part(size(bodies)))
       ! join the parts that joints connect, and those that a support, a grounded spring or a rigid base holds to the ground
-      ground = model%freedoms%n_parts + 1
+      ground = freedoms%n_parts + 1
       parent = [(i, i = 1, ground)]
-      do i = 1, n_points(model)
-         if (any(supported(model, i))) call join(parent, model%freedoms%part(i), ground)
+      do i = 1, n_points(mesh)
+         if (any(supported(mesh, freedoms, i))) call join(parent, freedoms%part(i), ground)
       end do
-      do i = 1, n_bars(model)
-         if (model%mesh%bars(i)%nodes(2) == 0) call join(parent, model%freedoms%part(model%mesh%bars(i)%nodes(1)), ground)
+      do i = 1, n_bars(mesh)
+         if (mesh%bars(i)%nodes(2) == 0) call join(parent, freedoms%part(mesh%bars(i)%nodes(1)), ground)
       end do
-      do i = 1, size(model%joints%element)
-         associate (parts => model%freedoms%part(model%joints%element(i)%node))
+      do i = 1, size(joints%element)
+         associate (parts => freedoms%part(joints%element(i)%node))
             do k = 2, size(parts)
                call join(parent, parts(1), parts(k))
             end do
-            if (named_node(model%joints%element(i), 2) == 0) call join(parent, parts(1), ground)
+            if (named_node(joints%element(i), 2) == 0) call join(parent, parts(1), ground)
          end associate
       end do
-      do e = model%mesh%n_elements, 1, -1
-         part(body(e)) = root_of(parent, model%freedoms%part(model%mesh%element_nodes(1, e)))
+      do e = mesh%n_elements, 1, -1
+         part(body(e)) = root_of(parent, freedoms%part(mesh%element_nodes(1, e)))
       end do
       where (part == root_of(parent, ground)) part = 0
 
@@ -313,15 +315,15 @@ contains
             words = words//', on which '//integer_text(k)//one_of(k == 1, ' other body hangs,', ' other bodies hang,')
             words = words//' is held by no support'
          else
-            words = words//' is held by no support, joint, bolt or spring'//neighbour_words(model, body, i)
+            words = words//' is held by no support, joint, bolt or spring'//neighbour_words(mesh, body, i)
          end if
       end do
       if (said > most_said) words = words//'; and others'
    end function loose_words
 
    !> Text about the body next to body I, ', 0 from body 1 over an area of about 1250: a JOINT?'; '' where there is none.
-   function neighbour_words(model, body, i) result(words)
-      type(model_type), intent(in) :: model
+   function neighbour_words(mesh, body, i) result(words)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: body(:) !! (n_elements)
       integer, intent(in)          :: i
       character(:), allocatable    :: words
@@ -333,8 +335,8 @@ contains
       integer  :: k, p, point
 
       words = ''
-      call list_outer_sides(model, body, sides)
-      call find_facing(model, sides, pairs, sees)
+      call list_outer_sides(mesh, body, sides)
+      call find_facing(mesh, sides, pairs, sees)
       pairs = pack(pairs, [(any(pairs(k)%body == i), k = 1, size(pairs))])
       if (size(pairs) > 0) then
          associate (pair => pairs(maxloc([(maxval(pairs(k)%n), k = 1, size(pairs))], dim=1)))
@@ -347,11 +349,11 @@ contains
       if (words /= '' .or. all(sides%body == i)) return
       of_body = pack([(k, k = 1, size(sides))], sides%body == i)
       others = pack([(k, k = 1, size(sides))], sides%body /= i)
-      call search%build(model%mesh%x(:, sides(others)%corners(1)))
+      call search%build(mesh%x(:, sides(others)%corners(1)))
       p = others(1)
       nearest = huge(1.0_wp)
       do k = 1, size(of_body)
-         call search%nearest(model%mesh%x(:, sides(of_body(k))%corners(1)), huge(1.0_wp), point, distance)
+         call search%nearest(mesh%x(:, sides(of_body(k))%corners(1)), huge(1.0_wp), point, distance)
          if (distance >= nearest) cycle
          nearest = distance
          p = others(point)

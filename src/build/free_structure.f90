@@ -6,7 +6,8 @@ module free_structure
    use deck_check, only: checked_deck
    use interface_operator, only: named_node
    use kinds, only: wp
-   use model_data, only: a_point, a_rotation, corners_of, is_face_node, model_type, node_kind, place_in_kind, support_group
+   use model_data, only: a_point, a_rotation, corners_of, freedoms_type, history_type, is_face_node, joints_type, mesh_type, &
+                          node_kind, place_in_kind, support_group
    use numbers, only: cross, first_largest
    use support_build, only: hold
    use tolerances, only: balanced
@@ -20,100 +21,104 @@ contains
 
    !> Support the structure of MODEL if it has no supports and some stage has MODES(FREE): all components of a node with rotations,
    !! else 3, 2 and 1 components of three distant nodes of the largest body. Dependent nodes and nodes with CD are skipped.
-   subroutine hold_free_structure(deck, model)
+   subroutine hold_free_structure(deck, mesh, joints, freedoms)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
-      integer  :: body(model%mesh%n_elements), body_of(model%mesh%n_nodes), a, b, c, e, i, k, n
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(in) :: joints
+      type(freedoms_type), intent(inout) :: freedoms
+      integer  :: body(mesh%n_elements), body_of(mesh%n_nodes), a, b, c, e, i, k, n
       integer, allocatable :: dependent(:)
-      logical  :: may_be(model%mesh%n_nodes)
-      real(wp) :: along(3), off(model%mesh%n_nodes), turn(3)
+      logical  :: may_be(mesh%n_nodes)
+      real(wp) :: along(3), off(mesh%n_nodes), turn(3)
 
-      if (.not. any(deck%control%stages%vibration%free) .or. any(model%freedoms%held)) return
+      if (.not. any(deck%control%stages%vibration%free) .or. any(freedoms%held)) return
       if (any(deck%control%stages%vibration%modes%id > 0 .and. .not. deck%control%stages%vibration%free)) return
       if (any(deck%bulk%spring%nodes(1) == 0 .or. deck%bulk%spring%nodes(2) == 0)) return ! a grounded spring
-      do i = 1, size(model%joints%element)
-         if (named_node(model%joints%element(i), 2) == 0) return                               ! a rigid base
+      do i = 1, size(joints%element)
+         if (named_node(joints%element(i), 2) == 0) return                               ! a rigid base
       end do
-      if (model%mesh%n_elements == 0) return
+      if (mesh%n_elements == 0) return
       ! the nodes of the largest body that may be held
-      call find_bodies(model, body, n)
+      call find_bodies(mesh, body, n)
       body_of = 0
-      do e = 1, model%mesh%n_elements
-         body_of(corners_of(model, e)) = body(e)
+      do e = 1, mesh%n_elements
+         body_of(corners_of(mesh, e)) = body(e)
       end do
       may_be = body_of == maxloc([(count(body_of == i), i = 1, n)], dim=1)
-      if (allocated(model%mesh%node_system)) may_be = may_be .and. model%mesh%node_system(:size(may_be)) == 0
+      if (allocated(mesh%node_system)) may_be = may_be .and. mesh%node_system(:size(may_be)) == 0
       dependent = [([deck%rigid(i)%nodes, deck%rigid(i)%node], i = 1, size(deck%rigid)), &
                    (deck%bulk%equation(i)%node, i = 1, size(deck%bulk%equation))]
       do i = 1, size(dependent) ! these nodes depend on each other
-         k = model%mesh%node_table%find(dependent(i))
+         k = mesh%node_table%find(dependent(i))
          if (k > 0) may_be(k) = .false.
       end do
       do i = 1, size(may_be)
-         may_be(i) = may_be(i) .and. .not. is_face_node(model, i) .and. model%mesh%duplicate(i) == 0
+         may_be(i) = may_be(i) .and. .not. is_face_node(mesh, i) .and. mesh%duplicate(i) == 0
       end do
       a = findloc(may_be, .true., dim=1)
       if (a == 0) return
-      model%freedoms%floats = .true.
-      model%freedoms%support_groups = [support_group('FREE')]
-      if (rotation_at(model, a) > 0) then
-         if (model%mesh%rotations(rotation_at(model, a))%of_element) then
-            call hold(model, a, merge(123456, 126, model%mesh%dimension == 3))
+      freedoms%floats = .true.
+      freedoms%support_groups = [support_group('FREE')]
+      if (rotation_at(mesh, a) > 0) then
+         if (mesh%rotations(rotation_at(mesh, a))%of_element) then
+            call hold(mesh, freedoms, a, merge(123456, 126, mesh%dimension == 3))
             return
          end if
       end if
-      if (model%mesh%axisymmetric) then
-         call hold(model, a, 2)
+      if (mesh%axisymmetric) then
+         call hold(mesh, freedoms, a, 2)
          return
       end if
       ! the node b farthest from a, and in space the node c farthest from the line through both
-      call hold(model, a, merge(123, 12, model%mesh%dimension == 3))
-      off = [(norm2(model%mesh%x(:, i) - model%mesh%x(:, a)), i = 1, size(off))]
+      call hold(mesh, freedoms, a, merge(123, 12, mesh%dimension == 3))
+      off = [(norm2(mesh%x(:, i) - mesh%x(:, a)), i = 1, size(off))]
       b = first_largest(off, may_be)
-      along = (model%mesh%x(:, b) - model%mesh%x(:, a))/max(off(b), tiny(1.0_wp))
+      along = (mesh%x(:, b) - mesh%x(:, a))/max(off(b), tiny(1.0_wp))
       k = first_largest(abs(along))
-      if (model%mesh%dimension == 2) then ! the structure turns about a: the component with the largest movement
-         call hold(model, b, merge(2, 1, k == 1))
+      if (mesh%dimension == 2) then ! the structure turns about a: the component with the largest movement
+         call hold(mesh, freedoms, b, merge(2, 1, k == 1))
          return
       end if
-      call hold(model, b, merge(23, merge(13, 12, k == 2), k == 1))
-      off = [(norm2(cross(along, model%mesh%x(:, i) - model%mesh%x(:, a))), i = 1, size(off))]
+      call hold(mesh, freedoms, b, merge(23, merge(13, 12, k == 2), k == 1))
+      off = [(norm2(cross(along, mesh%x(:, i) - mesh%x(:, a))), i = 1, size(off))]
       c = first_largest(off, may_be)
-      turn = cross(along, model%mesh%x(:, c) - model%mesh%x(:, a))
-      call hold(model, c, first_largest(abs(turn)))
+      turn = cross(along, mesh%x(:, c) - mesh%x(:, a))
+      call hold(mesh, freedoms, c, first_largest(abs(turn)))
    end subroutine hold_free_structure
 
    !> Error: a load of a stage that is not self-equilibrated, in a structure without supports.
-   subroutine check_balance(deck, model)
+   subroutine check_balance(deck, mesh, freedoms, history)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
+      type(history_type), intent(in) :: history
       real(wp) :: force(3), moment(3), of_forces, of_moments, arm ! sums of amounts: the scales of rounding
       integer  :: i, s
 
-      if (.not. model%freedoms%floats) return
-      arm = maxval(maxval(model%mesh%x, dim=2) - minval(model%mesh%x, dim=2))
-      do s = 1, size(model%history%stages)
+      if (.not. freedoms%floats) return
+      arm = maxval(maxval(mesh%x, dim=2) - minval(mesh%x, dim=2))
+      do s = 1, size(history%stages)
          force = 0.0_wp
          moment = 0.0_wp
          of_forces = 0.0_wp
          of_moments = 0.0_wp
-         associate (loads => model%history%stages(s))
+         associate (loads => history%stages(s))
             do i = 1, loads%n
-               if (node_kind(model, loads%node(i)) == a_point) then
+               if (node_kind(mesh, loads%node(i)) == a_point) then
                   of_forces = of_forces + norm2(loads%force(:, i))
                   force = force + loads%force(:, i)
-                  moment = moment + cross(model%mesh%x(:, loads%node(i)), loads%force(:, i))
-               else if (node_kind(model, loads%node(i)) == a_rotation) then
-                  associate (rotation => model%mesh%rotations(place_in_kind(model, loads%node(i))))
+                  moment = moment + cross(mesh%x(:, loads%node(i)), loads%force(:, i))
+               else if (node_kind(mesh, loads%node(i)) == a_rotation) then
+                  associate (rotation => mesh%rotations(place_in_kind(mesh, loads%node(i))))
                      of_moments = of_moments + rotation%arm*norm2(loads%force(:, i))
-                     if (model%mesh%dimension == 3) moment = moment + rotation%arm*loads%force(:, i)
-                     if (model%mesh%dimension == 2) moment(3) = moment(3) + rotation%arm*loads%force(1, i)
+                     if (mesh%dimension == 3) moment = moment + rotation%arm*loads%force(:, i)
+                     if (mesh%dimension == 2) moment(3) = moment(3) + rotation%arm*loads%force(1, i)
                   end associate
                end if
             end do
          end associate
-         if (model%mesh%axisymmetric) force(1) = 0.0_wp
-         if (model%mesh%axisymmetric) moment = 0.0_wp
+         if (mesh%axisymmetric) force(1) = 0.0_wp
+         if (mesh%axisymmetric) moment = 0.0_wp
          if (norm2(force) > balanced*of_forces .or. norm2(moment) > balanced*(of_forces*arm + of_moments)) call deck%errors%add( &
             deck%control%stages(s)%load%line, 'LOAD: nothing supports the structure, and this load does not balance itself; '// &
             'expected a support')

@@ -7,7 +7,7 @@ module joint_build
    use joint_sides, only: joint_axes, outward, join_sides
    use kinds, only: wp
    use lists, only: id_table_type, list_owners
-   use model_data, only: joint_type, model_type
+   use model_data, only: joint_type, joints_type, mesh_type
    use model_kind, only: space_hint
    use node_build, only: find_nodes
    use text_tools, only: integer_text, real_text
@@ -60,9 +60,10 @@ contains
    !> Values of JOINT that depend on E of the adjacent bodies. A blank unloading slope becomes the equivalent E of both bodies,
    !! 2 E1 E2/(E1 + E2), per unit length; on a rigid base E of the body. A P0 above E is an error: the bodies could not bear it, and
    !! the rounding tolerance of the joint laws, which scales with P0, would hide the tension of an element.
-   subroutine compare_with_bodies(deck, model, joint)
+   subroutine compare_with_bodies(deck, mesh, joints, joint)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(in)    :: model
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(in) :: joints
       type(joint_type), intent(inout) :: joint
       real(wp) :: e(2), lower, higher
       logical  :: is_there(2), lacks_slope
@@ -71,7 +72,7 @@ contains
       lacks_slope = .not. joint%e_u_given .and. joint%law%normal%c > 0.0_wp
       if (.not. lacks_slope .and. joint%p0 <= 0.0_wp) return
       do end = 1, 2
-         call find_modulus(model, joint, end, e(end), is_there(end))
+         call find_modulus(mesh, joints, joint, end, e(end), is_there(end))
       end do
       if (lacks_slope .and. any(is_there)) then
          lower = minval(e, mask=is_there)
@@ -88,8 +89,9 @@ contains
 
    !> E of the bodies at END 1 or 2 of the interface elements of JOINT, if there are any: the mean over the elements at the nodes,
    !! weighted with the tributary areas, which are divided among the nodes of an end by their weights [pressure].
-   pure subroutine find_modulus(model, joint, end, e, is_there)
-      type(model_type), intent(in) :: model
+   pure subroutine find_modulus(mesh, joints, joint, end, e, is_there)
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(in) :: joints
       type(joint_type), intent(in) :: joint
       integer, intent(in)          :: end
       real(wp), intent(out)        :: e
@@ -103,17 +105,17 @@ contains
       is_there = .false.
       total = 0.0_wp
       do i = joint%first, joint%last
-         nodes = nodes_of_end(model%joints%element(i), end)
-         share = weights_of_end(model%joints%element(i), end)
+         nodes = nodes_of_end(joints%element(i), end)
+         share = weights_of_end(joints%element(i), end)
          share = share/sum(share)
          do k = 1, size(nodes)
-            associate (elements => model%mesh%elements_at(model%mesh%first_at(nodes(k)):model%mesh%first_at(nodes(k) + 1) - 1))
+            associate (elements => mesh%elements_at(mesh%first_at(nodes(k)):mesh%first_at(nodes(k) + 1) - 1))
                do j = 1, size(elements)
                   is_there = .true.
-                  if (model%mesh%element_property(elements(j)) == 0) cycle      ! reported elsewhere
-                  weight = model%joints%element(i)%area*share(k)/size(elements)
+                  if (mesh%element_property(elements(j)) == 0) cycle      ! reported elsewhere
+                  weight = joints%element(i)%area*share(k)/size(elements)
                   total = total + weight
-                  e = e + (model%mesh%properties(model%mesh%element_property(elements(j)))%e - e)*(weight/max(total, tiny(1.0_wp)))
+                  e = e + (mesh%properties(mesh%element_property(elements(j)))%e - e)*(weight/max(total, tiny(1.0_wp)))
                end do
             end associate
          end do
@@ -121,46 +123,47 @@ contains
    end subroutine find_modulus
 
    !> Build the joints and interface elements of MODEL. CJOINT cards with the same PJOINT form one joint.
-   subroutine build_joints(deck, model)
+   subroutine build_joints(deck, mesh, joints)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(inout) :: joints
       type(interface_element), allocatable :: elements(:)
       type(joint_tables)   :: tables
       integer, allocatable :: first(:), leader(:), members(:)
       integer :: highest, i, j, n
 
-      associate (joints => deck%bulk%joint, cjoints => deck%bulk%cjoint)
-         call tables%joint%build(joints%id)
-         call tables%side%build([(joints(j)%sides, j = 1, size(joints))])
-         call tables%surface%build(model%mesh%surfaces%id)
+      associate (cards => deck%bulk%joint, cjoints => deck%bulk%cjoint)
+         call tables%joint%build(cards%id)
+         call tables%side%build([(cards(j)%sides, j = 1, size(cards))])
+         call tables%surface%build(mesh%surfaces%id)
          call tables%group%build(cjoints%law)
          call tables%pjoint%build(deck%bulk%pjoint%id)
          call tables%jnorm%build(deck%bulk%jnorm%id)
          call tables%jshear%build(deck%bulk%jshear%id)
          leader = [(tables%group%find(cjoints(i)%law), i = 1, size(cjoints))] ! the first card of the group
-         allocate (model%joints%list(size(joints) + count(leader == [(i, i = 1, size(cjoints))])), model%joints%element(0))
+         allocate (joints%list(size(cards) + count(leader == [(i, i = 1, size(cjoints))])), joints%element(0))
          highest = max(0, maxval(cjoints%id))
          n = 0
-         do j = 1, size(joints)
-            call joint_elements(deck, tables, j, model, highest, elements)
-            call add_elements(model, n, j, joints(j)%id, joints(j)%line, elements)
-            model%joints%list(j)%side_1 = tables%surface%find(joints(j)%sides(1))
-            call resolve_laws(deck, tables, joints(j)%law, model%joints%list(j))
+         do j = 1, size(cards)
+            call joint_elements(deck, tables, j, mesh, joints, highest, elements)
+            call add_elements(joints, n, j, cards(j)%id, cards(j)%line, elements)
+            joints%list(j)%side_1 = tables%surface%find(cards(j)%sides(1))
+            call resolve_laws(deck, tables, cards(j)%law, joints%list(j))
          end do
          call list_owners(size(cjoints), reshape(leader, [1, size(cjoints)]), first, members)
-         j = size(joints)
+         j = size(cards)
          do i = 1, size(cjoints)
             if (leader(i) /= i) cycle
             j = j + 1
-            call cjoint_elements(deck, cjoints(members(first(i):first(i + 1) - 1)), model, elements)
-            call add_elements(model, n, j, group_number(deck, tables%joint, cjoints(i)%law), cjoints(i)%line, elements)
-            call resolve_laws(deck, tables, cjoints(i)%law, model%joints%list(j))
+            call cjoint_elements(deck, cjoints(members(first(i):first(i + 1) - 1)), mesh, elements)
+            call add_elements(joints, n, j, group_number(deck, tables%joint, cjoints(i)%law), cjoints(i)%line, elements)
+            call resolve_laws(deck, tables, cjoints(i)%law, joints%list(j))
          end do
       end associate
-      model%joints%element = model%joints%element(:n)
-      do j = 1, size(model%joints%list)
-         associate (joint => model%joints%list(j), &
-            elements => model%joints%element(model%joints%list(j)%first:model%joints%list(j)%last))
+      joints%element = joints%element(:n)
+      do j = 1, size(joints%list)
+         associate (joint => joints%list(j), &
+            elements => joints%element(joints%list(j)%first:joints%list(j)%last))
             joint%area = 0.0_wp
             joint%normal = 0.0_wp
             do i = 1, size(elements)
@@ -172,39 +175,40 @@ contains
             else
                joint%normal = 0.0_wp
             end if
-            call compare_with_bodies(deck, model, joint)
+            call compare_with_bodies(deck, mesh, joints, joint)
          end associate
       end do
    end subroutine build_joints
 
    !> Store the interface elements of joint J behind the first N of the model; the array may have spare room.
-   subroutine add_elements(model, n, j, id, line, elements)
-      type(model_type), intent(inout)        :: model
+   subroutine add_elements(joints, n, j, id, line, elements)
+      type(joints_type), intent(inout) :: joints
       integer, intent(inout)                 :: n
       integer, intent(in)                    :: j, id, line
       type(interface_element), intent(inout) :: elements(:)
       type(interface_element), allocatable   :: longer(:)
 
-      model%joints%list(j)%id = id
-      model%joints%list(j)%line = line
-      model%joints%list(j)%first = n + 1
-      model%joints%list(j)%last = n + size(elements)
+      joints%list(j)%id = id
+      joints%list(j)%line = line
+      joints%list(j)%first = n + 1
+      joints%list(j)%last = n + size(elements)
       elements%joint = j
-      if (model%joints%list(j)%last > size(model%joints%element)) then
-         allocate (longer(2*model%joints%list(j)%last))
-         longer(:n) = model%joints%element(:n)
-         call move_alloc(longer, model%joints%element)
+      if (joints%list(j)%last > size(joints%element)) then
+         allocate (longer(2*joints%list(j)%last))
+         longer(:n) = joints%element(:n)
+         call move_alloc(longer, joints%element)
       end if
-      model%joints%element(n + 1:model%joints%list(j)%last) = elements
-      n = model%joints%list(j)%last
+      joints%element(n + 1:joints%list(j)%last) = elements
+      n = joints%list(j)%last
    end subroutine add_elements
 
    !> Interface elements of JOINT card J, numbered from HIGHEST + 1; none in case of an error.
-   subroutine joint_elements(deck, tables, j, model, highest, elements)
+   subroutine joint_elements(deck, tables, j, mesh, joints, highest, elements)
       type(checked_deck), intent(in)                    :: deck
       type(joint_tables), intent(in)                    :: tables
       integer, intent(in)                               :: j
-      type(model_type), intent(inout)                   :: model
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(inout) :: joints
       integer, intent(inout)                            :: highest
       type(interface_element), allocatable, intent(out) :: elements(:)
       integer :: first, surface(2), k
@@ -225,9 +229,9 @@ contains
                'own, divide the face into a PMARK for each body')
          end do
          if (surface(1) == 0 .or. (surface(2) == 0 .and. card%sides(2) /= 0)) return
-         if (any(model%mesh%surfaces(pack(surface, surface > 0))%n == 0)) return
+         if (any(mesh%surfaces(pack(surface, surface > 0))%n == 0)) return
          shared = .false. ! whether bodies lie on both sides of any part of a surface
-         if (surface(2) > 0) shared = [(any(model%mesh%surfaces(surface(k))%other(:model%mesh%surfaces(surface(k))%n) > 0), k = &
+         if (surface(2) > 0) shared = [(any(mesh%surfaces(surface(k))%other(:mesh%surfaces(surface(k))%n) > 0), k = &
             1, 2)]
          if (shared(2)) then
             call deck%field_error(card%line, 'SIDE2', 'bodies lie on both sides of surface '//integer_text(card%sides(2)))
@@ -235,7 +239,7 @@ contains
             call deck%field_error(card%line, 'SIDE1', 'bodies lie on both sides of surface '//integer_text(card%sides(1))// &
                                   ': leave SIDE2 blank, and the program splits it')
          else
-            call join_sides(deck, j, model, surface, elements)
+            call join_sides(deck, j, mesh, joints, surface, elements)
          end if
          if (highest > huge(highest) - size(elements)) then
             call deck%field_error(card%line, 'JID', 'the numbers of its interface elements, which follow those of the CJOINTs, '// &
@@ -249,10 +253,10 @@ contains
    end subroutine joint_elements
 
    !> The interface elements of CJOINT CARDS.
-   subroutine cjoint_elements(deck, cards, model, elements)
+   subroutine cjoint_elements(deck, cards, mesh, elements)
       type(checked_deck), intent(in) :: deck
       type(cjoint_card), intent(in)  :: cards(:)
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       type(interface_element), allocatable, intent(out) :: elements(:)
       integer :: k, nodes(2)
 
@@ -261,12 +265,12 @@ contains
          associate (card => cards(k), element => elements(k))
             element%id = card%id
             element%area = card%area
-            call find_nodes(deck, card%line, card%nodes, model, nodes)
+            call find_nodes(deck, card%line, card%nodes, mesh, nodes)
             call connect_nodes(element, nodes(1), nodes(2))
-            if (model%mesh%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) &
-               call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y'//space_hint(model))
+            if (mesh%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) &
+               call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y'//space_hint(mesh))
             if (norm2(card%normal) > 0.0_wp) &
-               element%axes = joint_axes(model, outward(model, nodes, card%normal/norm2(card%normal)))
+               element%axes = joint_axes(mesh, outward(mesh, nodes, card%normal/norm2(card%normal)))
          end associate
       end do
    end subroutine cjoint_elements

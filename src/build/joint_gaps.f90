@@ -16,7 +16,7 @@ module joint_gaps
    use interface_operator, only: at_first_end, joint_movement, nodes_of_end
    use joint_sides, only: joint_axes, joint_centroid
    use kinds, only: wp
-   use model_data, only: joint_type, model_type
+   use model_data, only: joint_type, joints_type, mesh_type
    use text_tools, only: integer_text, real_text
    use tolerances, only: flat_height, off_square, same_gap_point, touching_faces
    implicit none
@@ -210,40 +210,42 @@ contains
    end function cross
 
    !> Give the interface elements of MODEL their gaps.
-   subroutine build_gaps(deck, model)
+   subroutine build_gaps(deck, mesh, joints)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(inout) :: joints
       integer :: i, j
 
       do i = 1, size(deck%bulk%jgap)
          associate (card => deck%bulk%jgap(i))
             if (card%joint == 0) cycle ! a field that could not be read
-            j = findloc(model%joints%list%id, card%joint, dim=1)
+            j = findloc(joints%list%id, card%joint, dim=1)
             if (j == 0) then
                call deck%field_error(card%line, 'JID', 'there is no joint '//integer_text(card%joint))
                cycle
             end if
-            model%joints%list(j)%gap_kind = card%kind
+            joints%list(j)%gap_kind = card%kind
             select case (card%kind)
             case ('CONST')
-               model%joints%element(model%joints%list(j)%first:model%joints%list(j)%last)%gap = card%g0
+               joints%element(joints%list(j)%first:joints%list(j)%last)%gap = card%g0
             case ('PLANE', 'TABLE')
-               call gaps_by_place(deck, card, model%joints%list(j), model)
+               call gaps_by_place(deck, card, joints%list(j), mesh, joints)
             case ('NODES')
-               call gaps_by_node(deck, card, model%joints%list(j), model)
+               call gaps_by_node(deck, card, joints%list(j), mesh, joints)
             case ('TRUE')
-               call true_gaps(deck, card, model%joints%list(j), model)
+               call true_gaps(deck, card, joints%list(j), mesh, joints)
             end select
          end associate
       end do
    end subroutine build_gaps
 
    !> PLANE and TABLE: the gap is a function of the position x, y of an element in the axes of the mean normal.
-   subroutine gaps_by_place(deck, card, joint, model)
+   subroutine gaps_by_place(deck, card, joint, mesh, joints)
       type(checked_deck), intent(in)  :: deck
       type(jgap_card), intent(in)     :: card
       type(joint_type), intent(in)    :: joint
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(inout) :: joints
       character(*), parameter :: no_y = 'not zero, but a joint of a plane model has x alone'
       type(gap_table_type) :: table
       real(wp) :: axes(3, 3), centroid(3), place(2)
@@ -256,13 +258,13 @@ contains
                                ' point in all directions, so that it has no mean plane: expected CONST, NODES or TRUE')
          return
       end if
-      axes = joint_axes(model, joint%normal)
-      centroid = joint_centroid(model, joint)
-      if (model%mesh%axisymmetric) centroid(1) = 0.0_wp ! the centroid of a ring lies on the axis
+      axes = joint_axes(mesh, joint%normal)
+      centroid = joint_centroid(mesh, joints, joint)
+      if (mesh%axisymmetric) centroid(1) = 0.0_wp ! the centroid of a ring lies on the axis
       if (card%kind == 'TABLE') then
          if (size(card%gap) == 0) return ! reported where the card is read
          x = matmul(transpose(axes(:, :2)), card%x - spread(centroid, 2, size(card%gap)))
-         if (model%mesh%dimension == 2) x(2, :) = 0.0_wp
+         if (mesh%dimension == 2) x(2, :) = 0.0_wp
          call table%build(x, card%gap, twice)
          if (twice(1) > 0) then
             call deck%field_error(card%line, card%at(twice(2)), 'point '//integer_text(twice(2))// &
@@ -270,13 +272,13 @@ contains
             return
          end if
       end if
-      if (card%kind == 'PLANE' .and. model%mesh%dimension == 2) then
+      if (card%kind == 'PLANE' .and. mesh%dimension == 2) then
          if (abs(card%slope(2)) > 0.0_wp) call deck%field_error(card%line, 'SY', no_y)
          if (abs(card%crown(2)) > 0.0_wp) call deck%field_error(card%line, 'CY', no_y)
       end if
       do i = joint%first, joint%last
-         associate (element => model%joints%element(i))
-            place = matmul(at_first_end(element, model%mesh%x) - centroid, axes(:, :2))
+         associate (element => joints%element(i))
+            place = matmul(at_first_end(element, mesh%x) - centroid, axes(:, :2))
             if (card%kind == 'TABLE') then
                element%gap = table%value_at(place)
             else
@@ -284,7 +286,7 @@ contains
             end if
          end associate
       end do
-      associate (gaps => model%joints%element(joint%first:joint%last)%gap)
+      associate (gaps => joints%element(joint%first:joint%last)%gap)
          where (abs(gaps) <= touching_faces*maxval(abs(gaps))) gaps = 0.0_wp
       end associate
    end subroutine gaps_by_place
@@ -292,39 +294,40 @@ contains
    !> NODES: gaps of nodes of SIDE1, zero for a node that is not given. An element on several nodes has their mean. A node without
    !! elements, such as a corner of a six-node face, is a node of SIDE1 too. For the face of a shell the card names the nodes of the
    !! shell.
-   subroutine gaps_by_node(deck, card, joint, model)
+   subroutine gaps_by_node(deck, card, joint, mesh, joints)
       type(checked_deck), intent(in)  :: deck
       type(jgap_card), intent(in)     :: card
       type(joint_type), intent(in)    :: joint
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(inout) :: joints
       real(wp), allocatable :: gap(:, :)
       integer, allocatable  :: given_at(:) ! 0: not on SIDE1, -1: not given
       integer, allocatable  :: on_side(:)  ! the node itself; of a shell its face node on SIDE1
       integer :: i, node
       character(:), allocatable :: words
 
-      allocate (gap(1, model%mesh%n_nodes), source=0.0_wp)
-      allocate (given_at(model%mesh%n_nodes), source=0)
-      allocate (on_side(model%mesh%n_nodes), source=[(i, i = 1, model%mesh%n_nodes)])
+      allocate (gap(1, mesh%n_nodes), source=0.0_wp)
+      allocate (given_at(mesh%n_nodes), source=0)
+      allocate (on_side(mesh%n_nodes), source=[(i, i = 1, mesh%n_nodes)])
       do i = joint%first, joint%last
-         given_at(nodes_of_end(model%joints%element(i), 1)) = -1
+         given_at(nodes_of_end(joints%element(i), 1)) = -1
       end do
       if (joint%side_1 > 0) then
-         associate (side => model%mesh%surfaces(joint%side_1))
+         associate (side => mesh%surfaces(joint%side_1))
             do i = 1, side%n
                given_at(side%nodes(:side%n_nodes(i), i)) = -1
             end do
          end associate
       end if
-      if (allocated(model%mesh%faces)) then
-         do i = 1, size(model%mesh%faces)
-            if (given_at(model%mesh%faces(i)%node) == -1) on_side(model%mesh%faces(i)%point) = model%mesh%faces(i)%node
+      if (allocated(mesh%faces)) then
+         do i = 1, size(mesh%faces)
+            if (given_at(mesh%faces(i)%node) == -1) on_side(mesh%faces(i)%point) = mesh%faces(i)%node
          end do
       end if
       do i = 1, size(card%node)
          if (card%node(i) == 0) cycle
          words = ''
-         node = model%mesh%node_table%find(card%node(i))
+         node = mesh%node_table%find(card%node(i))
          if (node > 0) node = on_side(node)
          if (node == 0) then
             words = 'there is no GRID '//integer_text(card%node(i))
@@ -339,35 +342,36 @@ contains
          if (words /= '' .and. joint%last >= joint%first) call deck%field_error(card%line, card%at(i), words, called='G')
       end do
       do i = joint%first, joint%last
-         model%joints%element(i)%gap = sum(at_first_end(model%joints%element(i), gap))
+         joints%element(i)%gap = sum(at_first_end(joints%element(i), gap))
       end do
    end subroutine gaps_by_node
 
    !> TRUE: the distance of the faces in the mesh, along the normal from end 1 to end 2. Chords of curved faces stand for arcs; where
    !! the arcs stand out farther than the gaps are wide, a warning gives both.
-   subroutine true_gaps(deck, card, joint, model)
+   subroutine true_gaps(deck, card, joint, mesh, joints)
       type(checked_deck), intent(in)  :: deck
       type(jgap_card), intent(in)     :: card
       type(joint_type), intent(in)    :: joint
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(inout) :: joints
       real(wp) :: closing(3)
       integer  :: i
 
       do i = joint%first, joint%last
-         associate (element => model%joints%element(i))
+         associate (element => joints%element(i))
             if (size(nodes_of_end(element, 2)) == 0) then
                call deck%field_error(card%line, 'KIND', 'TRUE, but joint '//integer_text(joint%id)// &
                                      ' lies on a rigid base, which has no position: expected CONST, PLANE, TABLE or NODES')
                return
             end if
-            closing = joint_movement(element, model%mesh%x)
+            closing = joint_movement(element, mesh%x)
             closing(3) = closing(3) - dot_product(element%bulge, element%axes(:, 3))
             element%gap = 0.0_wp
-            if (abs(closing(3)) > touching_faces*maxval(abs(model%mesh%x(:, element%node)))) element%gap = -closing(3)
+            if (abs(closing(3)) > touching_faces*maxval(abs(mesh%x(:, element%node)))) element%gap = -closing(3)
          end associate
       end do
-      associate (gaps => model%joints%element(joint%first:joint%last)%gap, sagitta => joint%cover%sagitta)
-         if (size(gaps) == 0 .or. maxval(sagitta) <= max(maxval(abs(gaps)), touching_faces*maxval(abs(model%mesh%x)))) return
+      associate (gaps => joints%element(joint%first:joint%last)%gap, sagitta => joint%cover%sagitta)
+         if (size(gaps) == 0 .or. maxval(sagitta) <= max(maxval(abs(gaps)), touching_faces*maxval(abs(mesh%x)))) return
          call deck%errors%warn('joint '//integer_text(joint%id)//': JGAP TRUE finds gaps of '//real_text(minval(gaps))// &
             ' to '//real_text(maxval(gaps))//' between arcs through the nodes, whose chords lie up to '//real_text(sagitta(1))// &
             ' (SIDE1) and '//real_text(sagitta(2))//' (SIDE2) beside them; a finer mesh, or JGAP CONST, is surer')

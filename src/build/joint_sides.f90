@@ -8,7 +8,7 @@ module joint_sides
    use interface_operator, only: at_first_end, connect_nodes, interface_element
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, joint_cover, joint_frame, joint_type, model_type, surface_type
+   use model_data, only: corners_of, joint_cover, joint_frame, joint_type, joints_type, mesh_type, surface_type
    use mortar_integrals, only: face_part, whole_shares, interface_sums_type
    use node_pairing, only: aside_type, pair_nodes, fit_side
    use numbers, only: cross
@@ -25,10 +25,11 @@ contains
    !> The elements between two sides: pairs if every node has a partner that faces it along the normal and the card does not request
    !! a projection; the coverage of projected sides is stored in joint J of MODEL. FIT = NO makes pairs whose nodes stand aside, too.
    !! SURFACE(2) = 0: the elements between a surface and its duplicate, if the surface was split, or a rigid base.
-   subroutine join_sides(deck, j, model, surface, elements)
+   subroutine join_sides(deck, j, mesh, joints, surface, elements)
       type(checked_deck), intent(in)                       :: deck
       integer, intent(in)                                  :: j, surface(2)
-      type(model_type), intent(inout)                      :: model
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(inout) :: joints
       type(interface_element), allocatable, intent(inout)  :: elements(:)
       type(surface_node_list)   :: side1, side2
       character(:), allocatable :: fault, lack
@@ -40,28 +41,28 @@ contains
       logical :: in_tolerance
       integer :: k
 
-      call surface_nodes(model, model%mesh%surfaces(surface(1)), side1)
+      call surface_nodes(mesh, mesh%surfaces(surface(1)), side1)
       associate (card => deck%bulk%joint(j))
          fault = 'a fit is asked for'
          in_tolerance = .false.
          allocate (partner(side1%n), partly(side1%n))
          if (surface(2) == 0) then
             fault = ''
-            if (any(model%mesh%duplicate(side1%node) > 0)) then ! without the nodes of the edge of a split surface inside a body
-               kept = pack([(k, k = 1, side1%n)], model%mesh%duplicate(side1%node) > 0)
+            if (any(mesh%duplicate(side1%node) > 0)) then ! without the nodes of the edge of a split surface inside a body
+               kept = pack([(k, k = 1, side1%n)], mesh%duplicate(side1%node) > 0)
                side1 = surface_node_list(size(kept), side1%node(kept), side1%area(kept), side1%normal(:, kept))
             end if
-            partner = model%mesh%duplicate(side1%node)
+            partner = mesh%duplicate(side1%node)
          else if (card%fit /= fit_yes) then
-            call surface_nodes(model, model%mesh%surfaces(surface(2)), side2)
-            call pair_nodes(model, surface, side1, side2, card%tolerance, partner, fault, in_tolerance, aside)
+            call surface_nodes(mesh, mesh%surfaces(surface(2)), side2)
+            call pair_nodes(mesh, surface, side1, side2, card%tolerance, partner, fault, in_tolerance, aside)
             if (aside%n > 0 .and. card%fit == fit_no) call deck%errors%warn('joint '//integer_text(card%id)//': '// &
-               aside_words(model, aside)//'; FIT = NO pairs them, and nothing balances the moments of their forces')
-            if (aside%n > 0 .and. card%fit /= fit_no) fault = aside_words(model, aside)
+               aside_words(mesh, aside)//'; FIT = NO pairs them, and nothing balances the moments of their forces')
+            if (aside%n > 0 .and. card%fit /= fit_no) fault = aside_words(mesh, aside)
          end if
          lack = ''
          if (fault == '') then
-            call pair_elements(model, model%mesh%surfaces(surface(1)), side1, partner, elements, lack)
+            call pair_elements(mesh, mesh%surfaces(surface(1)), side1, partner, elements, lack)
          else if (card%fit == fit_no) then
             fault = fault//'; FIT = AUTO joins faces that do not match'
             if (in_tolerance) then
@@ -70,13 +71,13 @@ contains
                call deck%field_error(card%line, 'SIDE2', fault)
             end if
          else
-            call fit_side(model, surface, side1, card%tolerance, sums, cover, partly, fault)
+            call fit_side(mesh, surface, side1, card%tolerance, sums, cover, partly, fault)
             if (fault /= '') then
-               if (aside%n > 0) fault = fault//'; the nodes pair by FIT = NO, but '//aside_words(model, aside)
+               if (aside%n > 0) fault = fault//'; the nodes pair by FIT = NO, but '//aside_words(mesh, aside)
                call deck%field_error(card%line, 'SIDE2', fault)
             else
-               model%joints%list(j)%cover = cover
-               call summed_elements(model, side1, sums, partly, elements, lack)
+               joints%list(j)%cover = cover
+               call summed_elements(mesh, side1, sums, partly, elements, lack)
             end if
          end if
          if (lack /= '') call deck%errors%add(card%line, 'surface '//integer_text(card%sides(1))//' has no area at node '//lack)
@@ -84,20 +85,20 @@ contains
    end subroutine join_sides
 
    !> Text about pairs whose nodes stand aside.
-   function aside_words(model, aside) result(words)
-      type(model_type), intent(in) :: model
+   function aside_words(mesh, aside) result(words)
+      type(mesh_type), intent(in) :: mesh
       type(aside_type), intent(in) :: aside
       character(:), allocatable    :: words
 
       words = plural(aside%n, 'node')//' of SIDE1 and their partners do not face each other along the normal; node '// &
-              integer_text(model%mesh%node_id(aside%nodes(1)))//' stands '//real_text(aside%distance)//' beside node '// &
-              integer_text(model%mesh%node_id(aside%nodes(2)))
+              integer_text(mesh%node_id(aside%nodes(1)))//' stands '//real_text(aside%distance)//' beside node '// &
+              integer_text(mesh%node_id(aside%nodes(2)))
    end function aside_words
 
    !> Elements between the nodes of SIDE and their partners, 0: a rigid base. Faces with mid-side nodes have elements at these nodes
    !! alone, which are connected to the corners too.
-   subroutine pair_elements(model, surface, side, partner, elements, lack)
-      type(model_type), intent(in)                        :: model
+   subroutine pair_elements(mesh, surface, side, partner, elements, lack)
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(in)                      :: surface
       type(surface_node_list), intent(in)                 :: side
       integer, intent(in)                                 :: partner(:) !! (nodes of SIDE)
@@ -111,11 +112,11 @@ contains
 
       if (any(surface%corners(:surface%n) < surface%n_nodes(:surface%n))) then
          call place%build(side%node)
-         call sums%start(side%n, model%mesh%n_nodes)
+         call sums%start(side%n, mesh%n_nodes)
          do s = 1, surface%n
             n = surface%n_nodes(s)
-            call side_influence(model, surface, s, area, normal)
-            share = whole_shares(model%mesh%dimension, n)
+            call side_influence(mesh, surface, s, area, normal)
+            share = whole_shares(mesh%dimension, n)
             part%n = n
             do k = 1, n
                part%same_side(:, k) = share(:, k)*area(k)
@@ -129,11 +130,11 @@ contains
             call sums%add_face(at(:n), surface%nodes(:n, s), opposite(:merge(n, 0, any(partner > 0))), part)
          end do
          call sums%finish()
-         call summed_elements(model, side, sums, spread(.false., 1, side%n), elements, lack)
+         call summed_elements(mesh, side, sums, spread(.false., 1, side%n), elements, lack)
          return
       end if
-      if (model%mesh%axisymmetric .and. any(side%area <= 0.0_wp)) then
-         lack = integer_text(model%mesh%node_id(side%node(minloc(side%area, dim=1))))//': it lies on the axis'
+      if (mesh%axisymmetric .and. any(side%area <= 0.0_wp)) then
+         lack = integer_text(mesh%node_id(side%node(minloc(side%area, dim=1))))//': it lies on the axis'
          return
       end if
       deallocate (elements)
@@ -141,13 +142,13 @@ contains
       do k = 1, side%n
          call connect_nodes(elements(k), side%node(k), partner(k))
          elements(k)%area = side%area(k)
-         elements(k)%axes = joint_axes(model, side%normal(:, k))
+         elements(k)%axes = joint_axes(mesh, side%normal(:, k))
       end do
    end subroutine pair_elements
 
    !> The elements of SUMS at the nodes of SIDE, in their order.
-   subroutine summed_elements(model, side, sums, may_lack, elements, lack)
-      type(model_type), intent(in)                        :: model
+   subroutine summed_elements(mesh, side, sums, may_lack, elements, lack)
+      type(mesh_type), intent(in) :: mesh
       type(surface_node_list), intent(in)                 :: side
       type(interface_sums_type), intent(in)               :: sums
       logical, intent(in)                                 :: may_lack(:) !! whether the area at a node may be 0, as on the axis
@@ -158,9 +159,9 @@ contains
       real(wp) :: normal(3)
 
       at = pack([(k, k = 1, side%n)], sums%around > 0.0_wp)
-      k = findloc(sums%has_area(at) .or. (sums%has_none(at) .and. (may_lack(at) .or. model%mesh%axisymmetric)), .false., dim=1)
+      k = findloc(sums%has_area(at) .or. (sums%has_none(at) .and. (may_lack(at) .or. mesh%axisymmetric)), .false., dim=1)
       if (k > 0) then
-         lack = integer_text(model%mesh%node_id(side%node(at(k))))// &
+         lack = integer_text(mesh%node_id(side%node(at(k))))// &
                 ', or a negative one: move the mid-side nodes back to the middle of the edges'
          return
       end if
@@ -171,19 +172,19 @@ contains
          call sums%connect(at(k), elements(k))
          elements(k)%named = side%node(at(k))
          normal = sums%normal(:, at(k))
-         elements(k)%axes = joint_axes(model, normal/max(norm2(normal), tiny(1.0_wp)))
+         elements(k)%axes = joint_axes(mesh, normal/max(norm2(normal), tiny(1.0_wp)))
       end do
    end subroutine summed_elements
 
    !> Axes of an interface element with normal Z (unit): columns x, y, z, right-handed. In the plane x is tangential to the joint
    !! and y is normal to the plane; x points towards +X (+Y where the joint is vertical). In space x is the projection of +X onto
    !! the joint, or of +Y where the normal is within 25 degrees of X.
-   pure function joint_axes(model, z) result(axes)
-      type(model_type), intent(in) :: model
+   pure function joint_axes(mesh, z) result(axes)
+      type(mesh_type), intent(in) :: mesh
       real(wp), intent(in)         :: z(3)
       real(wp) :: axes(3, 3), x(3)
 
-      if (model%mesh%dimension == 3) then
+      if (mesh%dimension == 3) then
          x = [1.0_wp, 0.0_wp, 0.0_wp]
          if (abs(z(1)) > 0.9_wp) x = [0.0_wp, 1.0_wp, 0.0_wp]
          x = x - dot_product(x, z)*z
@@ -206,8 +207,8 @@ contains
 
    !> The normal of a CJOINT in the sense from node 1 to node 2: out of the body at node 1, else into the body at node 2,
    !! else as given. The card gives the line of the normal; the bodies give its sense.
-   pure function outward(model, nodes, normal) result(z)
-      type(model_type), intent(in) :: model
+   pure function outward(mesh, nodes, normal) result(z)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: nodes(2)
       real(wp), intent(in)         :: normal(3)
       real(wp) :: z(3), along, to_body(3)
@@ -217,10 +218,10 @@ contains
       do side = 1, 2
          if (nodes(side) == 0) cycle
          to_body = 0.0_wp ! from the node to the centres of its elements
-         do i = model%mesh%first_at(nodes(side)), model%mesh%first_at(nodes(side) + 1) - 1
-            associate (corners => corners_of(model, model%mesh%elements_at(i)))
+         do i = mesh%first_at(nodes(side)), mesh%first_at(nodes(side) + 1) - 1
+            associate (corners => corners_of(mesh, mesh%elements_at(i)))
                if (any(corners == 0)) cycle
-               to_body = to_body + sum(model%mesh%x(:, corners), dim=2)/size(corners) - model%mesh%x(:, nodes(side))
+               to_body = to_body + sum(mesh%x(:, corners), dim=2)/size(corners) - mesh%x(:, nodes(side))
             end associate
          end do
          along = dot_product(to_body, normal)
@@ -231,22 +232,24 @@ contains
    end function outward
 
    !> The centroid of the area of JOINT [length].
-   pure function joint_centroid(model, joint) result(centroid)
-      type(model_type), intent(in) :: model
+   pure function joint_centroid(mesh, joints, joint) result(centroid)
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(in) :: joints
       type(joint_type), intent(in) :: joint
       real(wp) :: centroid(3)
       integer  :: i
 
       centroid = 0.0_wp
       do i = joint%first, joint%last
-         centroid = centroid + model%joints%element(i)%area*at_first_end(model%joints%element(i), model%mesh%x)/joint%area
+         centroid = centroid + joints%element(i)%area*at_first_end(joints%element(i), mesh%x)/joint%area
       end do
    end function joint_centroid
 
    !> Axes and centroid of JOINT. The axes are those of an interface element with the mean normal; for a closed joint they are the
    !! axes of the model in space, and z is +Y in the plane.
-   pure function find_frame(model, joint) result(frame)
-      type(model_type), intent(in) :: model
+   pure function find_frame(mesh, joints, joint) result(frame)
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(in) :: joints
       type(joint_type), intent(in) :: joint
       type(joint_frame) :: frame
       real(wp), parameter :: closed_below = 0.1_wp ! length of the mean normal of a joint that faces all ways
@@ -255,27 +258,27 @@ contains
 
       normal = 0.0_wp ! area-weighted mean, of length 1 for a plane joint
       do i = joint%first, joint%last
-         normal = normal + model%joints%element(i)%area*model%joints%element(i)%axes(:, 3)/joint%area
+         normal = normal + joints%element(i)%area*joints%element(i)%axes(:, 3)/joint%area
       end do
       frame%faces_all_ways = norm2(normal) < closed_below
-      if (model%mesh%axisymmetric) normal(1) = 0.0_wp ! over the whole ring only the axial part remains
+      if (mesh%axisymmetric) normal(1) = 0.0_wp ! over the whole ring only the axial part remains
       frame%closed = norm2(normal) < closed_below
       if (frame%closed) then
          normal = 0.0_wp
-         normal(model%mesh%dimension) = 1.0_wp
+         normal(mesh%dimension) = 1.0_wp
       end if
-      frame%axes = joint_axes(model, normal/norm2(normal))
-      frame%centroid = joint_centroid(model, joint)
+      frame%axes = joint_axes(mesh, normal/norm2(normal))
+      frame%centroid = joint_centroid(mesh, joints, joint)
       inertia = 0.0_wp
       do i = joint%first, joint%last
-         arm = at_first_end(model%joints%element(i), model%mesh%x) - frame%centroid
+         arm = at_first_end(joints%element(i), mesh%x) - frame%centroid
          arm = matmul(arm, frame%axes)
          frame%extent = max(frame%extent, norm2(arm))
-         inertia = inertia + model%joints%element(i)%area*(dot_product(arm, arm) - arm**2)
+         inertia = inertia + joints%element(i)%area*(dot_product(arm, arm) - arm**2)
       end do
       frame%exists = .true.
-      if (model%mesh%dimension == 2) frame%exists = [.true., .false., .true., .false., .true., .false.]
-      if (model%mesh%axisymmetric) frame%exists = [.false., .false., .true., .false., .false., .false.]
+      if (mesh%dimension == 2) frame%exists = [.true., .false., .true., .false., .true., .false.]
+      if (mesh%axisymmetric) frame%exists = [.false., .false., .true., .false., .false., .false.]
       if (frame%extent <= no_inertia*norm2(frame%centroid)) frame%exists(4:) = .false. ! all elements at one place, to rounding
       frame%exists(4:) = frame%exists(4:) .and. inertia > no_inertia*maxval(inertia)
    end function find_frame

@@ -9,7 +9,7 @@ module load_build
    use element_kinds, only: max_side_nodes
    use field_rules, only: has_component
    use kinds, only: wp
-   use model_data, only: model_type, stage_load_type, supported, surface_type
+   use model_data, only: freedoms_type, history_type, mesh_type, stage_load_type, supported, surface_type
    use model_kind, only: space_hint
    use node_coupling, only: coupling_parts, add_section_share
    use numbers, only: cross, identity
@@ -42,9 +42,10 @@ contains
 
    !> Nodal forces of the cards: FORCE(:, i) of card I in global axes acts on NODE(i); of a moment on the node of rotations [force].
    !! It is zero where the card is in error.
-   subroutine find_nodal_forces(deck, model, node, force)
+   subroutine find_nodal_forces(deck, mesh, freedoms, node, force)
       type(checked_deck), intent(in)     :: deck
-      type(model_type), intent(in)       :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       integer, allocatable, intent(out)  :: node(:)     !! (cards)
       real(wp), allocatable, intent(out) :: force(:, :) !! (3, cards)
       real(wp) :: axes(3, 3)
@@ -55,77 +56,79 @@ contains
       allocate (force(3, size(deck%bulk%force)), source=0.0_wp)
       do i = 1, size(deck%bulk%force)
          associate (card => deck%bulk%force(i))
-            node(i) = model%mesh%node_table%find(card%node)
+            node(i) = mesh%node_table%find(card%node)
             force(:, i) = card%force
             if (card%ends(1) > 0) then
-               call along_lines(deck, model, card, force(:, i))
+               call along_lines(deck, mesh, card, force(:, i))
             else if (node(i) > 0) then
-               call find_directions(deck, model%mesh%systems, card%line, card%system, model%mesh%x(:, node(i)), axes, ok)
+               call find_directions(deck, mesh%systems, card%line, card%system, mesh%x(:, node(i)), axes, ok)
                if (ok .and. card%system > 0) force(:, i) = matmul(axes, force(:, i))
             end if
             if (card%is_moment) then
-               if (node(i) > 0) call onto_rotations(deck, model, card, node(i), force(:, i))
+               if (node(i) > 0) call onto_rotations(deck, mesh, freedoms, card, node(i), force(:, i))
                cycle
             end if
             if (node(i) > 0) then
-               if (.not. model%freedoms%used(node(i))) call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)// &
+               if (.not. freedoms%used(node(i))) call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)// &
                                                                     ' belongs to no element')
-               call check_movable(deck, model, card, node(i), node_axes(model, node(i)), force(:, i))
+               call check_movable(deck, mesh, freedoms, card, node(i), node_axes(mesh, node(i)), force(:, i))
             end if
-            call check_plane(deck, model, card%line, force(:, i), &
+            call check_plane(deck, mesh, card%line, force(:, i), &
                              one_of(card%ends(1) > 0, 'G1', one_of(card%system > 0, 'CID', 'N3')))
          end associate
       end do
    end subroutine find_nodal_forces
 
    !> A MOMENT acts on the rotations of NODE: NODE becomes the node of rotations, FORCE the moment divided by their arm.
-   subroutine onto_rotations(deck, model, card, node, force)
+   subroutine onto_rotations(deck, mesh, freedoms, card, node, force)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       type(force_card), intent(in)   :: card
       integer, intent(inout)         :: node
       real(wp), intent(inout)        :: force(3) !! [moment], then [force]
       real(wp) :: axes(3, 3)
       integer  :: rotation
 
-      rotation = rotation_at(model, node)
+      rotation = rotation_at(mesh, node)
       if (rotation == 0) then
          call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)//' has no rotations, so that no moment can act '// &
             'on it; expected a node of shells or beams, or the reference node of an RBE2, RBAR, or RBE3 with rotations in REFC')
          force = 0.0_wp
          return
       end if
-      axes = node_axes(model, node)
-      node = model%mesh%rotations(rotation)%node
-      force = force/model%mesh%rotations(rotation)%arm
-      if (model%mesh%dimension == 2) then
+      axes = node_axes(mesh, node)
+      node = mesh%rotations(rotation)%node
+      force = force/mesh%rotations(rotation)%arm
+      if (mesh%dimension == 2) then
          if (any(abs(force(:2)) > zero_component*norm2(force))) call deck%field_error(card%line, 'N1', &
-            'not zero, but in a plane model moments act about z: expected N3 alone'//space_hint(model))
+            'not zero, but in a plane model moments act about z: expected N3 alone'//space_hint(mesh))
          force = [force(3), 0.0_wp, 0.0_wp]
          axes = identity
       end if
-      call check_movable(deck, model, card, node, axes, force)
+      call check_movable(deck, mesh, freedoms, card, node, axes, force)
    end subroutine onto_rotations
 
    !> Error: a FORCE on a reference NODE along a component that was left out and depends on nothing: the node has no movement along
    !! it for any value of the unknowns.
-   subroutine check_movable(deck, model, card, node, axes, force)
+   subroutine check_movable(deck, mesh, freedoms, card, node, axes, force)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       type(force_card), intent(in)   :: card
       integer, intent(in)            :: node
       real(wp), intent(in)           :: axes(3, 3), force(3)
       integer :: d, digit, k, parts(2)
 
-      if (.not. allocated(model%freedoms%left_out)) return
-      parts = coupling_parts(model, node)
-      do d = 1, model%mesh%dimension
-         if (.not. model%freedoms%left_out(d, node) .or. abs(dot_product(axes(:, d), force)) <= &
+      if (.not. allocated(freedoms%left_out)) return
+      parts = coupling_parts(freedoms, node)
+      do d = 1, mesh%dimension
+         if (.not. freedoms%left_out(d, node) .or. abs(dot_product(axes(:, d), force)) <= &
             zero_component_along*norm2(force)) cycle
-         if (any([(abs(matmul(axes(:model%mesh%dimension, d), model%freedoms%coupling%t(:, :, k))) > 0.0_wp, k = parts(1), &
+         if (any([(abs(matmul(axes(:mesh%dimension, d), freedoms%coupling%t(:, :, k))) > 0.0_wp, k = parts(1), &
             parts(2))])) cycle
          digit = d
-         if (card%is_moment) digit = findloc([(rotation_component(model, digit), digit = 1, 6)], d, dim=1)
+         if (card%is_moment) digit = findloc([(rotation_component(mesh, digit), digit = 1, 6)], d, dim=1)
          call deck%field_error(card%line, 'G', 'component '//integer_text(digit)//' of node '//integer_text(card%node)// &
                                ' takes no load: no element, dependent node or support has this component')
          return
@@ -133,19 +136,19 @@ contains
    end subroutine check_movable
 
    !> FORCE of a FORCE1, along a line between two nodes, or of a FORCE2, perpendicular to two such lines.
-   subroutine along_lines(deck, model, card, force)
+   subroutine along_lines(deck, mesh, card, force)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       type(force_card), intent(in)   :: card
       real(wp), intent(inout)        :: force(3)
       real(wp) :: direction(3), line(3, 2)
       integer  :: k, nodes(4)
 
       force = 0.0_wp
-      nodes = [(model%mesh%node_table%find(card%ends(k)), k = 1, 4)]
+      nodes = [(mesh%node_table%find(card%ends(k)), k = 1, 4)]
       if (any(nodes == 0 .and. (card%ends > 0 .or. card%ends(3) > 0)) .or. any(nodes(:2) == 0)) return
       do k = 1, merge(2, 1, nodes(3) > 0)
-         line(:, k) = model%mesh%x(:, nodes(2*k)) - model%mesh%x(:, nodes(2*k - 1))
+         line(:, k) = mesh%x(:, nodes(2*k)) - mesh%x(:, nodes(2*k - 1))
       end do
       direction = line(:, 1)
       if (nodes(3) > 0) direction = cross(line(:, 1), line(:, 2))
@@ -161,45 +164,46 @@ contains
 
    !> Errors of load cards. PLOADM and FORCEM: missing surfaces, and a pressure on a surface with bodies on both sides. SPCD: a
    !! component that is not supported. LOAD: missing sets.
-   subroutine check_cards(deck, model)
+   subroutine check_cards(deck, mesh, freedoms)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       character(:), allocatable :: words
       character(len(others))    :: kinds ! of cards
-      logical :: held(model%mesh%dimension)
+      logical :: held(mesh%dimension)
       integer :: d, i, k, node, s
 
       ! PLOADM and FORCEM
       do i = 1, size(deck%bulk%surface_load)
          associate (card => deck%bulk%surface_load(i))
             if (card%surface == 0) cycle
-            call find_surface(deck, card%line, 'PID', card%surface, model, s)
+            call find_surface(deck, card%line, 'PID', card%surface, mesh, s)
             if (s == 0) cycle
-            associate (surface => model%mesh%surfaces(s))
+            associate (surface => mesh%surfaces(s))
                if (card%is_pressure .and. (any(surface%other(:surface%n) > 0) .or. surface%was_split)) &
                   call deck%field_error(card%line, 'PID', 'bodies lie on both sides of surface '//integer_text(card%surface)// &
                                         ': the loaded body is ambiguous')
-               if (model%mesh%axisymmetric .and. surface%n > 0 .and. all(abs(model%mesh%x(1, nodes_of(surface))) <= 0.0_wp)) &
+               if (mesh%axisymmetric .and. surface%n > 0 .and. all(abs(mesh%x(1, nodes_of(surface))) <= 0.0_wp)) &
                   call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%surface)// &
                                         ' lies on the axis and has no area')
             end associate
-            call check_plane(deck, model, card%line, card%force, 'N3')
+            call check_plane(deck, mesh, card%line, card%force, 'N3')
          end associate
       end do
 
       ! SPCD
       do i = 1, size(deck%bulk%displacement)
          associate (card => deck%bulk%displacement(i))
-            node = model%mesh%node_table%find(card%node)
+            node = mesh%node_table%find(card%node)
             if (node == 0) cycle
             do d = 1, 6
                if (.not. has_component(card%components, d)) cycle
                words = ''
-               associate (place => place_of_component(model, node, d))
+               associate (place => place_of_component(mesh, node, d))
                   if (place%node == 0) then
-                     words = ', expected 1 to '//integer_text(model%mesh%dimension)
+                     words = ', expected 1 to '//integer_text(mesh%dimension)
                   else
-                     held = supported(model, place%node)
+                     held = supported(mesh, freedoms, place%node)
                      if (.not. held(place%d)) words = ' of node '//integer_text(card%node)// &
                                                       ' is not supported: SPCD moves components that an SPC holds'
                   end if
@@ -242,24 +246,26 @@ contains
    end function has_set
 
    !> The total load at the end of each stage, and the amplitude of its oscillating load.
-   subroutine build_loads(deck, model, oscillating)
+   subroutine build_loads(deck, mesh, freedoms, history, oscillating)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
+      type(history_type), intent(inout) :: history
       type(stage_load_type), allocatable, intent(out) :: oscillating(:) !! (stages) DLOAD; empty where none is given
       type(card_loads) :: cards
       integer :: s
 
-      call find_nodal_forces(deck, model, cards%node, cards%force)
-      call check_cards(deck, model)
-      call find_fields(deck, model, cards%fields)
-      call find_beam_loads(deck, model, cards%beam, cards%end_force)
-      call check_kept(deck, model)
-      call find_pressed_sides(deck, model, cards%pressed)
-      allocate (model%history%stages(size(deck%control%stages)), oscillating(size(deck%control%stages)))
+      call find_nodal_forces(deck, mesh, freedoms, cards%node, cards%force)
+      call check_cards(deck, mesh, freedoms)
+      call find_fields(deck, mesh, cards%fields)
+      call find_beam_loads(deck, mesh, cards%beam, cards%end_force)
+      call check_kept(deck, mesh)
+      call find_pressed_sides(deck, mesh, cards%pressed)
+      allocate (history%stages(size(deck%control%stages)), oscillating(size(deck%control%stages)))
       do s = 1, size(deck%control%stages)
-         associate (loads => model%history%stages(s), stage => deck%control%stages(s))
+         associate (loads => history%stages(s), stage => deck%control%stages(s))
             allocate (loads%node(size(deck%bulk%force)), loads%force(3, size(deck%bulk%force)))
-            call keep_moved(deck, model, stage%load%id, loads)
+            call keep_moved(deck, mesh, stage%load%id, loads)
             call add_case(stage%load, 'LOAD', loads)
             allocate (oscillating(s)%node(0), oscillating(s)%force(3, 0))
             call add_case(stage%vibration%load, 'DLOAD', oscillating(s))
@@ -280,11 +286,11 @@ contains
          if (i > 0) then
             associate (load => deck%bulk%load(i))
                do k = 1, size(load%sets)
-                  call add_set(deck, model, cards, load%sets(k), load%scale*load%factors(k), loads)
+                  call add_set(deck, mesh, cards, load%sets(k), load%scale*load%factors(k), loads)
                end do
             end associate
          else
-            call add_set(deck, model, cards, reference%id, 1.0_wp, loads)
+            call add_set(deck, mesh, cards, reference%id, 1.0_wp, loads)
             if (.not. has_set(deck%bulk, reference%id)) call deck%errors%add(reference%line, &
                key//': there is no FORCE or LOAD with set '//integer_text(reference%id)//nor_others)
          end if
@@ -293,9 +299,9 @@ contains
    end subroutine build_loads
 
    !> Add FACTOR times all loads of SET to LOADS: nodal forces one by one, distributed loads as sums per node.
-   subroutine add_set(deck, model, cards, set, factor, loads)
+   subroutine add_set(deck, mesh, cards, set, factor, loads)
       type(checked_deck), intent(in)       :: deck
-      type(model_type), intent(in)         :: model
+      type(mesh_type), intent(in) :: mesh
       type(card_loads), intent(in)         :: cards
       integer, intent(in)                  :: set
       real(wp), intent(in)                 :: factor
@@ -309,28 +315,28 @@ contains
          end do
          do i = 1, size(bulk%displacement)
             associate (card => bulk%displacement(i))
-               if (card%set == set) call move(model, card%node, card%components, 1.0_wp, factor*card%value, loads)
+               if (card%set == set) call move(mesh, card%node, card%components, 1.0_wp, factor*card%value, loads)
             end associate
          end do
          if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set) .and. &
              all(bulk%beam_load%set /= set)) return
          if (deck%errors%any()) return ! elements in error may have no area or volume
-         allocate (spread_out(3, model%mesh%n_nodes), source=0.0_wp)
+         allocate (spread_out(3, mesh%n_nodes), source=0.0_wp)
          do i = 1, size(cards%pressed)
-            if (bulk%pressure(cards%pressed(i)%card)%set == set) call add_pressure(model, cards%pressed(i), factor, spread_out)
+            if (bulk%pressure(cards%pressed(i)%card)%set == set) call add_pressure(mesh, cards%pressed(i), factor, spread_out)
          end do
          do i = 1, size(bulk%surface_load)
             if (bulk%surface_load(i)%set /= set) cycle
-            s = findloc(model%mesh%surfaces%id, bulk%surface_load(i)%surface, dim=1)
-            if (s > 0) call add_surface_load(model, model%mesh%surfaces(s), bulk%surface_load(i), factor, spread_out)
+            s = findloc(mesh%surfaces%id, bulk%surface_load(i)%surface, dim=1)
+            if (s > 0) call add_surface_load(mesh, mesh%surfaces(s), bulk%surface_load(i), factor, spread_out)
          end do
-         call add_gravity(model, cards%fields, set, factor, loads, spread_out)
+         call add_gravity(mesh, cards%fields, set, factor, loads, spread_out)
          do i = 1, size(bulk%beam_load)
             if (bulk%beam_load(i)%set == set .and. cards%beam(i) > 0) &
-               call add_to_beam(model, cards%beam(i), factor*cards%end_force(:, i), loads, spread_out)
+               call add_to_beam(mesh, cards%beam(i), factor*cards%end_force(:, i), loads, spread_out)
          end do
       end associate
-      do node = 1, model%mesh%n_nodes
+      do node = 1, mesh%n_nodes
          if (any(abs(spread_out(:, node)) > 0.0_wp)) call add_force(node, spread_out(:, node), loads)
       end do
    end subroutine add_set
@@ -352,8 +358,8 @@ contains
 
    !> Nodal forces of CARD on SURFACE, times FACTOR: a pressure, positive into the body, or a total force distributed uniformly over
    !! the area.
-   pure subroutine add_surface_load(model, surface, card, factor, force)
-      type(model_type), intent(in)        :: model
+   pure subroutine add_surface_load(mesh, surface, card, factor, force)
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(in)      :: surface
       type(surface_load_card), intent(in) :: card
       real(wp), intent(in)                :: factor
@@ -364,19 +370,19 @@ contains
       total_area = 0.0_wp
       if (.not. card%is_pressure) then
          do s = 1, surface%n
-            call side_influence(model, surface, s, area, normal)
+            call side_influence(mesh, surface, s, area, normal)
             total_area = total_area + sum(area)
          end do
       end if
       if (total_area <= 0.0_wp .and. .not. card%is_pressure) return
       do s = 1, surface%n
-         call side_influence(model, surface, s, area, normal)
+         call side_influence(mesh, surface, s, area, normal)
          do k = 1, surface%n_nodes(s)
             if (card%is_pressure) f(:, k) = -factor*card%pressure*normal(:, k)
             if (.not. card%is_pressure) f(:, k) = area(k)/total_area*(factor*card%force)
             force(:, surface%nodes(k, s)) = force(:, surface%nodes(k, s)) + f(:, k)
          end do
-         call add_section_share(model, surface%element(s), surface%nodes(:surface%n_nodes(s), s), f, force)
+         call add_section_share(mesh, surface%element(s), surface%nodes(:surface%n_nodes(s), s), f, force)
       end do
    end subroutine add_surface_load
 

@@ -12,7 +12,7 @@ module mesh_build
    use element_kinds, only: element_table
    use kinds, only: wp
    use lists, only: list_owners
-   use model_data, only: model_type, placed_node
+   use model_data, only: mesh_type, placed_node
    use model_kind, only: find_kind, space_hint
    use node_build, only: append_nodes, build_nodes, fill_mid_sides, highest_number
    use numbers, only: cross
@@ -26,26 +26,26 @@ module mesh_build
 contains
 
    !> Build the mesh of MODEL; SIDES are the marked sides.
-   subroutine build_mesh(deck, model, sides)
+   subroutine build_mesh(deck, mesh, sides)
       type(checked_deck), intent(inout) :: deck
-      type(model_type), intent(inout)   :: model
+      type(mesh_type), intent(inout) :: mesh
       type(marked_side), allocatable, intent(out) :: sides(:)
       type(mesh_card_type) :: cards
       integer, allocatable :: states(:)
       integer :: b, other, ring
 
-      call build_systems(deck, model%mesh%systems)
+      call build_systems(deck, mesh%systems)
       call collect_cards(deck, cards)
-      call build_nodes(deck, cards%grid, model)
-      call find_kind(deck, model)
+      call build_nodes(deck, cards%grid, mesh)
+      call find_kind(deck, mesh)
       do b = 1, size(deck%bulk%block)
-         if (deck%bulk%block(b)%dimension < model%mesh%dimension) call deck%errors%add(deck%bulk%block(b)%line, &
+         if (deck%bulk%block(b)%dimension < mesh%dimension) call deck%errors%add(deck%bulk%block(b)%line, &
             'BLOCK2: plane bodies cannot stand in a model of space')
       end do
-      if (any(deck%rigid%surface > 0) .or. size(deck%bulk%place) > 0) call place_nodes(deck, cards%side, model)
-      call resolve_properties(deck, model)
-      call collect_elements(deck, cards%element, model)
-      call fill_mid_sides(deck, model)
+      if (any(deck%rigid%surface > 0) .or. size(deck%bulk%place) > 0) call place_nodes(deck, cards%side, mesh)
+      call resolve_properties(deck, mesh)
+      call collect_elements(deck, cards%element, mesh)
+      call fill_mid_sides(deck, mesh)
       ! bodies, faces, edges, interface elements and rigid elements share one numbering, as in NASTRAN
       associate (bulk => deck%bulk, of_blocks => cards%element(size(deck%bulk%element) + 1:))
          call deck%report_repeated('element', &
@@ -56,41 +56,41 @@ contains
             n_cards=size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + size(bulk%rigid) + &
                     size(bulk%spring) + size(bulk%mass))
       end associate
-      call list_owners(model%mesh%n_nodes, model%mesh%element_nodes, model%mesh%first_at, model%mesh%elements_at)
+      call list_owners(mesh%n_nodes, mesh%element_nodes, mesh%first_at, mesh%elements_at)
       ! plane and axisymmetric bodies must not be mixed: forces are those of the thickness, or those of the whole ring
-      allocate (states(0:size(model%mesh%properties)), source=0) ! 0: a property in error
-      states(1:) = model%mesh%properties%state
-      ring = findloc(states(model%mesh%element_property), axisymmetric, dim=1)
-      other = findloc(states(model%mesh%element_property) > 0 .and. states(model%mesh%element_property) /= axisymmetric, .true., &
+      allocate (states(0:size(mesh%properties)), source=0) ! 0: a property in error
+      states(1:) = mesh%properties%state
+      ring = findloc(states(mesh%element_property), axisymmetric, dim=1)
+      other = findloc(states(mesh%element_property) > 0 .and. states(mesh%element_property) /= axisymmetric, .true., &
          dim=1)
-      model%mesh%axisymmetric = ring > 0
-      if (min(ring, other) > 0) call deck%errors%add(model%mesh%element_line(max(ring, other)), 'element '// &
-         integer_text(model%mesh%element_id(max(ring, other)))//': PAXIS and PSHELL cannot be mixed in one model')
-      call check_nodes(deck, model)
-      call check_elements(deck, cards%grid, model)
-      call collect_sides(deck, cards%side, model, sides)
+      mesh%axisymmetric = ring > 0
+      if (min(ring, other) > 0) call deck%errors%add(mesh%element_line(max(ring, other)), 'element '// &
+         integer_text(mesh%element_id(max(ring, other)))//': PAXIS and PSHELL cannot be mixed in one model')
+      call check_nodes(deck, mesh)
+      call check_elements(deck, cards%grid, mesh)
+      call collect_sides(deck, cards%side, mesh, sides)
    end subroutine build_mesh
 
    !> Append the reference nodes of RBE2M and RBE3M that name none: each at the centroid of its surface, numbered from the highest
    !! node number of the deck on. Find the nodes of NODEAT cards: the number of a card becomes a number of the node nearest to its
    !! position. Of equally near nodes the new reference node of an RBE2M or RBE3M is taken, else the node with the lowest number.
-   subroutine place_nodes(deck, sides, model)
+   subroutine place_nodes(deck, sides, mesh)
       type(checked_deck), intent(inout) :: deck
       type(element_card), intent(in)    :: sides(:) !! of blocks
-      type(model_type), intent(inout)   :: model
+      type(mesh_type), intent(inout) :: mesh
       type(element_card), allocatable :: marking(:)
       real(wp), allocatable :: distance(:), x(:, :)
       logical, allocatable  :: is_meant(:)
       real(wp) :: rounding
       integer  :: highest, i, k, n, n_given ! n_given: before the new reference nodes
 
-      n_given = model%mesh%n_nodes
-      allocate (model%mesh%placed(size(deck%bulk%place)))
-      model%mesh%placed%id = deck%bulk%place%id ! reference nodes get higher numbers
+      n_given = mesh%n_nodes
+      allocate (mesh%placed(size(deck%bulk%place)))
+      mesh%placed%id = deck%bulk%place%id ! reference nodes get higher numbers
       ! the new reference nodes
       allocate (x(3, merge(count(deck%rigid%surface > 0 .and. deck%rigid%node == 0), 0, n_given > 0)))
       if (size(x, 2) > 0) then
-         highest = highest_number(model)
+         highest = highest_number(mesh)
          if (highest > huge(1) - size(x, 2)) then
             call deck%errors%add(0, 'the reference nodes of RBE2M and RBE3M get numbers above node '//integer_text(highest)// &
                                  ', and their numbers would exceed 2147483647')
@@ -101,55 +101,55 @@ contains
                   if (card%surface == 0 .or. card%node > 0) cycle
                   n = n + 1
                   card%node = highest + n
-                  x(:, n) = centroid(model, side_cards(deck, sides, card%surface))
+                  x(:, n) = centroid(mesh, side_cards(deck, sides, card%surface))
                end associate
             end do
-            call append_nodes(model, x)
+            call append_nodes(mesh, x)
          end if
       end if
-      model%mesh%placed = [placed_node ::] ! the reference nodes, then the nodes of NODEAT
+      mesh%placed = [placed_node ::] ! the reference nodes, then the nodes of NODEAT
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
-            if (card%surface > 0) model%mesh%placed = [model%mesh%placed, placed_node(element=card%id, surface=card%surface, &
-                                                                            node=model%mesh%node_table%find(card%node))]
+            if (card%surface > 0) mesh%placed = [mesh%placed, placed_node(element=card%id, surface=card%surface, &
+                                                                            node=mesh%node_table%find(card%node))]
          end associate
       end do
       ! the nodes nearest to the positions of NODEAT, on their surfaces if they name one
-      if (size(deck%bulk%place) == 0 .or. model%mesh%n_nodes == 0) return
-      rounding = equal_distance*maxval(maxval(model%mesh%x, dim=2) - minval(model%mesh%x, dim=2))
+      if (size(deck%bulk%place) == 0 .or. mesh%n_nodes == 0) return
+      rounding = equal_distance*maxval(maxval(mesh%x, dim=2) - minval(mesh%x, dim=2))
       do i = 1, size(deck%bulk%place)
          associate (card => deck%bulk%place(i))
             if (card%id == 0) cycle
-            if (any(model%mesh%node_id == card%id)) then
+            if (any(mesh%node_id == card%id)) then
                call deck%field_error(card%line, 'ID', 'there is a node '//integer_text(card%id)// &
                                      ' already; expected another number')
                cycle
             end if
-            is_meant = spread(card%surface == 0, 1, model%mesh%n_nodes)
+            is_meant = spread(card%surface == 0, 1, mesh%n_nodes)
             marking = side_cards(deck, sides, card%surface)
             if (card%surface > 0) then
                do k = 1, size(marking)
-                  is_meant(nodes_on(model, marking(k), merge(3, 8, marking(k)%kind <= 0))) = .true.
+                  is_meant(nodes_on(mesh, marking(k), merge(3, 8, marking(k)%kind <= 0))) = .true.
                end do
             end if
-            do k = 1, size(model%mesh%placed)
-               if (model%mesh%placed(k)%surface == card%surface &
-                  .and. model%mesh%placed(k)%node > 0) is_meant(model%mesh%placed(k)%node) = .true.
+            do k = 1, size(mesh%placed)
+               if (mesh%placed(k)%surface == card%surface &
+                  .and. mesh%placed(k)%node > 0) is_meant(mesh%placed(k)%node) = .true.
             end do
             if (.not. any(is_meant)) then
                call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%surface)//' has no nodes; '// &
                                      'expected a PMARK with faces or edges, or blank')
                cycle
             end if
-            distance = norm2(model%mesh%x - spread(card%x, 2, model%mesh%n_nodes), dim=1)
+            distance = norm2(mesh%x - spread(card%x, 2, mesh%n_nodes), dim=1)
             is_meant = is_meant .and. distance <= minval(distance, mask=is_meant) + rounding
             if (any(is_meant(n_given + 1:))) is_meant(:n_given) = .false.
-            model%mesh%placed = [model%mesh%placed, placed_node(id=card%id, surface=card%surface, x=card%x, &
+            mesh%placed = [mesh%placed, placed_node(id=card%id, surface=card%surface, x=card%x, &
                                                       node=findloc(is_meant, .true., dim=1))]
          end associate
       end do
-      associate (named => model%mesh%placed%id > 0)
-         call model%mesh%node_table%add(pack(model%mesh%placed%id, named), pack(model%mesh%placed%node, named))
+      associate (named => mesh%placed%id > 0)
+         call mesh%node_table%add(pack(mesh%placed%id, named), pack(mesh%placed%node, named))
       end associate
    end subroutine place_nodes
 
@@ -167,21 +167,21 @@ contains
    end function side_cards
 
    !> The first N nodes on CARD, without missing ones.
-   pure function nodes_on(model, card, n) result(nodes)
-      type(model_type), intent(in)   :: model
+   pure function nodes_on(mesh, card, n) result(nodes)
+      type(mesh_type), intent(in) :: mesh
       type(element_card), intent(in) :: card
       integer, intent(in)            :: n
       integer, allocatable :: nodes(:)
       integer :: k
 
-      nodes = [(model%mesh%node_table%find(card%nodes(k)), k = 1, n)]
+      nodes = [(mesh%node_table%find(card%nodes(k)), k = 1, n)]
       nodes = pack(nodes, nodes > 0)
    end function nodes_on
 
    !> The centroid of the sides on CARDS, weighted by length of edges or area of faces; the mean of the nodes where the total is
    !! zero.
-   pure function centroid(model, cards)
-      type(model_type), intent(in)   :: model
+   pure function centroid(mesh, cards)
+      type(mesh_type), intent(in) :: mesh
       type(element_card), intent(in) :: cards(:)
       real(wp) :: centroid(3), extent, total
       integer  :: k, n, s
@@ -191,8 +191,8 @@ contains
       total = 0.0_wp
       do s = 1, size(cards)
          n = merge(2, element_table(max(1, cards(s)%kind))%n_corners, cards(s)%kind <= 0) ! corners
-         nodes = nodes_on(model, cards(s), n)
-         associate (p => model%mesh%x(:, nodes))
+         nodes = nodes_on(mesh, cards(s), n)
+         associate (p => mesh%x(:, nodes))
             n = size(p, 2)
             if (n == 2) then
                extent = norm2(p(:, 2) - p(:, 1))
@@ -210,28 +210,28 @@ contains
    end function centroid
 
    !> Errors: a node outside the x-y plane in a plane model, or with x < 0 in an axisymmetric one.
-   subroutine check_nodes(deck, model)
+   subroutine check_nodes(deck, mesh)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       real(wp) :: x(3)
       integer  :: b, i, node
 
-      if (model%mesh%dimension == 3) return
+      if (mesh%dimension == 3) return
       do i = 1, size(deck%bulk%grid)
-         node = model%mesh%node_table%find(deck%bulk%grid(i)%id)
+         node = mesh%node_table%find(deck%bulk%grid(i)%id)
          if (node == 0) cycle
-         x = model%mesh%x(:, node)
+         x = mesh%x(:, node)
          associate (grid => deck%bulk%grid(i))
             if (grid%cp <= 0) x = grid%x ! a number given twice has one node
             if (abs(x(3)) > 0.0_wp) call deck%field_error(grid%line, one_of(grid%cp > 0, 'CP', 'X3'), &
                one_of(grid%cp > 0, 'puts the node out of the plane', 'not zero')// &
-               ', but a plane model lies in x-y'//space_hint(model))
-            if (model%mesh%axisymmetric .and. x(1) < 0.0_wp) call deck%field_error(grid%line, one_of(grid%cp > 0, 'CP', 'X1'), &
+               ', but a plane model lies in x-y'//space_hint(mesh))
+            if (mesh%axisymmetric .and. x(1) < 0.0_wp) call deck%field_error(grid%line, one_of(grid%cp > 0, 'CP', 'X1'), &
                one_of(grid%cp > 0, 'puts the node at a negative x', 'negative')// &
                ', but an axisymmetric model lies in x >= 0')
          end associate
       end do
-      if (.not. model%mesh%axisymmetric) return
+      if (.not. mesh%axisymmetric) return
       do b = 1, size(deck%bulk%block)
          if (any(deck%bulk%block(b)%corner(1, :) < 0.0_wp)) call deck%errors%add(deck%bulk%block(b)%line, &
             'BLOCK2: a corner has x < 0, but an axisymmetric model lies in x >= 0')
@@ -240,9 +240,9 @@ contains
 
    !> Report the missing nodes of every FORCE, MOMENT, SPC, SPC1, SPCD and CONM2. A number that could not be read is 0 and is not
    !! reported again.
-   subroutine check_named_nodes(deck, model)
+   subroutine check_named_nodes(deck, mesh)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model !! its nodes
+      type(mesh_type), intent(in) :: mesh !! its nodes
       integer :: i, k
 
       do i = 1, size(deck%bulk%force)
@@ -280,7 +280,7 @@ contains
          character(*), intent(in), optional :: called
 
          if (id <= 0) return
-         if (model%mesh%node_table%find(id) == 0) call deck%field_error(line, k, 'there is no GRID '//integer_text(id), called)
+         if (mesh%node_table%find(id) == 0) call deck%field_error(line, k, 'there is no GRID '//integer_text(id), called)
       end subroutine require
 
    end subroutine check_named_nodes

@@ -6,7 +6,8 @@ module mesh_watch
    use element_kinds, only: element_table
    use kinds, only: wp
    use lists, only: join, list_owners, root_of
-   use model_data, only: a_bar, bar_nodes, corners_of, is_face_node, model_type, n_bars, n_points, supported
+   use model_data, only: a_bar, bar_nodes, corners_of, freedoms_type, is_face_node, joints_type, mesh_type, n_bars, n_points, &
+                          supported
    use spatial_search, only: spatial_search_type
    use text_tools, only: integer_text, one_of, plural
    use tolerances, only: same_node
@@ -21,31 +22,31 @@ contains
 
    !> A warning about elements, and bars without a BOLT, that have the nodes of another one; '' where there are none. Bars count if
    !! their stiffness is the same too: several unlike bars may lie between two nodes.
-   function repeated_words(model) result(words)
-      type(model_type), intent(in) :: model
+   function repeated_words(mesh) result(words)
+      type(mesh_type), intent(in) :: mesh
       character(:), allocatable    :: words
       character(:), allocatable :: named
       integer, allocatable :: lowest(:, :), first(:), owners(:)
       integer :: e, i, n
 
-      allocate (lowest(1, model%mesh%n_elements + n_bars(model)), source=0)
-      do e = 1, model%mesh%n_elements
-         lowest(1, e) = minval(corners_of(model, e))
+      allocate (lowest(1, mesh%n_elements + n_bars(mesh)), source=0)
+      do e = 1, mesh%n_elements
+         lowest(1, e) = minval(corners_of(mesh, e))
       end do
-      do i = 1, n_bars(model)
-         if (model%mesh%bars(i)%kind == a_bar .and. model%mesh%bars(i)%bolt == 0) &
-            lowest(1, model%mesh%n_elements + i) = minval(bar_nodes(model%mesh%bars(i)))
+      do i = 1, n_bars(mesh)
+         if (mesh%bars(i)%kind == a_bar .and. mesh%bars(i)%bolt == 0) &
+            lowest(1, mesh%n_elements + i) = minval(bar_nodes(mesh%bars(i)))
       end do
-      call list_owners(model%mesh%n_nodes, lowest, first, owners)
+      call list_owners(mesh%n_nodes, lowest, first, owners)
       n = 0
       named = ''
       do e = 1, size(lowest, 2)
          if (lowest(1, e) == 0) cycle
          do i = first(lowest(1, e)), first(lowest(1, e) + 1) - 1 ! in ascending order
             if (owners(i) >= e) exit
-            if (.not. same_place(model, owners(i), e)) cycle
+            if (.not. same_place(mesh, owners(i), e)) cycle
             n = n + 1
-            call name_pair(n, name_of(model, e)//' as '//name_of(model, owners(i)), named)
+            call name_pair(n, name_of(mesh, e)//' as '//name_of(mesh, owners(i)), named)
             exit
          end do
       end do
@@ -66,41 +67,43 @@ contains
    end subroutine name_pair
 
    !> Whether A and B, elements or behind these bars, have the same corners.
-   pure logical function same_place(model, a, b)
-      type(model_type), intent(in) :: model
+   pure logical function same_place(mesh, a, b)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: a, b
       integer :: k, n
 
       same_place = .false.
-      if ((a > model%mesh%n_elements) .neqv. (b > model%mesh%n_elements)) return
-      if (a > model%mesh%n_elements) then
-         associate (one => model%mesh%bars(a - model%mesh%n_elements), other => model%mesh%bars(b - model%mesh%n_elements))
+      if ((a > mesh%n_elements) .neqv. (b > mesh%n_elements)) return
+      if (a > mesh%n_elements) then
+         associate (one => mesh%bars(a - mesh%n_elements), other => mesh%bars(b - mesh%n_elements))
             same_place = (all(one%nodes == other%nodes) .or. all(one%nodes == other%nodes(2:1:-1))) .and. &
                          .not. abs(one%stiffness - other%stiffness) > 0.0_wp
          end associate
          return
       end if
-      n = element_table(model%mesh%element_kind(a))%n_corners
-      if (n /= element_table(model%mesh%element_kind(b))%n_corners) return
-      associate (own => model%mesh%element_nodes(:n, a), other => model%mesh%element_nodes(:n, b))
+      n = element_table(mesh%element_kind(a))%n_corners
+      if (n /= element_table(mesh%element_kind(b))%n_corners) return
+      associate (own => mesh%element_nodes(:n, a), other => mesh%element_nodes(:n, b))
          same_place = all([(any(own(k) == other), k = 1, n)]) .and. all([(any(other(k) == own), k = 1, n)])
       end associate
    end function same_place
 
    !> The number of element E, or of a bar behind the elements.
-   pure function name_of(model, e) result(name)
-      type(model_type), intent(in) :: model
+   pure function name_of(mesh, e) result(name)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
       character(:), allocatable    :: name
 
-      if (e <= model%mesh%n_elements) name = integer_text(model%mesh%element_id(e))
-      if (e > model%mesh%n_elements) name = integer_text(model%mesh%bars(e - model%mesh%n_elements)%id)
+      if (e <= mesh%n_elements) name = integer_text(mesh%element_id(e))
+      if (e > mesh%n_elements) name = integer_text(mesh%bars(e - mesh%n_elements)%id)
    end function name_of
 
    !> A warning about coincident nodes of elements that no joint, constraint equation, bar or spring connects; '' where there are
    !! none. Nodes that are wholly supported need no connection. Bodies that joints connect may touch elsewhere, too.
-   function crack_words(model) result(words)
-      type(model_type), intent(in) :: model
+   function crack_words(mesh, joints, freedoms) result(words)
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(in) :: joints
+      type(freedoms_type), intent(in) :: freedoms
       character(:), allocatable    :: words
       type(spatial_search_type) :: search
       character(:), allocatable :: named
@@ -108,20 +111,20 @@ contains
       real(wp), allocatable :: reach(:)
       integer :: i, k, n, n_found
 
-      nodes = pack([(i, i = 1, n_points(model))], [(may_part(model, i), i = 1, n_points(model))])
-      call find_reach(model, reach)
-      call search%build(model%mesh%x(:, nodes))
+      nodes = pack([(i, i = 1, n_points(mesh))], [(may_part(mesh, freedoms, i), i = 1, n_points(mesh))])
+      call find_reach(mesh, reach)
+      call search%build(mesh%x(:, nodes))
       allocate (found(16), parent(0))
       n = 0
       named = ''
       do i = 1, size(nodes)
-         associate (x => model%mesh%x(:, nodes(i)), r => reach(nodes(i)))
+         associate (x => mesh%x(:, nodes(i)), r => reach(nodes(i)))
             call search%list_meeting(x - r, x + r, found, n_found)
          end associate
          if (n_found < 2) cycle
          if (size(parent) == 0) then
-            call find_connections(model, parent)
-            call find_assemblies(model, body, assembly)
+            call find_connections(mesh, joints, freedoms, parent)
+            call find_assemblies(mesh, joints, body, assembly)
          end if
          found(:n_found) = nodes(found(:n_found))
          do k = 1, n_found ! a pair counts at its second node
@@ -130,7 +133,7 @@ contains
          end do
          if (k > n_found) cycle
          n = n + 1
-         call name_pair(n, integer_text(model%mesh%node_id(nodes(i)))//' at '//integer_text(model%mesh%node_id(found(k))), named)
+         call name_pair(n, integer_text(mesh%node_id(nodes(i)))//' at '//integer_text(mesh%node_id(found(k))), named)
       end do
       words = ''
       if (n > 0) words = plural(n, 'node')//one_of(n == 1, ' lies', ' lie')//' at the place of another one, and no '// &
@@ -139,28 +142,29 @@ contains
    end function crack_words
 
    !> Whether NODE belongs to an element and is free to part from another one.
-   pure logical function may_part(model, node)
-      type(model_type), intent(in) :: model
+   pure logical function may_part(mesh, freedoms, node)
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       integer, intent(in)          :: node
 
-      may_part = model%mesh%first_at(node + 1) > model%mesh%first_at(node)
-      if (may_part) may_part = .not. (is_face_node(model, node) .or. all(supported(model, node)))
+      may_part = mesh%first_at(node + 1) > mesh%first_at(node)
+      if (may_part) may_part = .not. (is_face_node(mesh, node) .or. all(supported(mesh, freedoms, node)))
    end function may_part
 
    !> The distance within which another node coincides with each node, from the shortest edge of the elements there [length].
-   pure subroutine find_reach(model, reach)
-      type(model_type), intent(in)       :: model
+   pure subroutine find_reach(mesh, reach)
+      type(mesh_type), intent(in) :: mesh
       real(wp), allocatable, intent(out) :: reach(:) !! (n_nodes)
       real(wp) :: shortest
       integer  :: e, k
 
-      allocate (reach(model%mesh%n_nodes), source=huge(1.0_wp))
-      do e = 1, model%mesh%n_elements
-         associate (kind => element_table(model%mesh%element_kind(e)), nodes => model%mesh%element_nodes(:, e))
+      allocate (reach(mesh%n_nodes), source=huge(1.0_wp))
+      do e = 1, mesh%n_elements
+         associate (kind => element_table(mesh%element_kind(e)), nodes => mesh%element_nodes(:, e))
             shortest = huge(1.0_wp)
-            if (kind%n_edges == 0) shortest = norm2(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1))) ! a beam
+            if (kind%n_edges == 0) shortest = norm2(mesh%x(:, nodes(2)) - mesh%x(:, nodes(1))) ! a beam
             do k = 1, kind%n_edges
-               shortest = min(shortest, norm2(model%mesh%x(:, nodes(kind%edges(1, k))) - model%mesh%x(:, nodes(kind%edges(2, k)))))
+               shortest = min(shortest, norm2(mesh%x(:, nodes(kind%edges(1, k))) - mesh%x(:, nodes(kind%edges(2, k)))))
             end do
             reach(nodes(:kind%n_nodes)) = min(reach(nodes(:kind%n_nodes)), same_node*shortest)
          end associate
@@ -175,51 +179,54 @@ contains
    end function share
 
    !> The sets of nodes that interface elements, constraint equations, bars and springs connect: their union-find PARENT.
-   pure subroutine find_connections(model, parent)
-      type(model_type), intent(in)      :: model
+   pure subroutine find_connections(mesh, joints, freedoms, parent)
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(in) :: joints
+      type(freedoms_type), intent(in) :: freedoms
       integer, allocatable, intent(out) :: parent(:) !! (n_nodes)
       integer :: i
 
-      parent = [(i, i = 1, model%mesh%n_nodes)]
-      call join_ends(model, parent)
-      do i = 1, n_bars(model)
-         if (model%mesh%bars(i)%nodes(2) == 0) cycle ! the ground
-         call join(parent, model%mesh%bars(i)%nodes(1), model%mesh%bars(i)%nodes(2))
+      parent = [(i, i = 1, mesh%n_nodes)]
+      call join_ends(joints, parent)
+      do i = 1, n_bars(mesh)
+         if (mesh%bars(i)%nodes(2) == 0) cycle ! the ground
+         call join(parent, mesh%bars(i)%nodes(1), mesh%bars(i)%nodes(2))
       end do
-      call join_coupled(model, parent)
+      call join_coupled(mesh, freedoms, parent)
    end subroutine find_connections
 
    !> The union-finds of the nodes of each BODY, and of each ASSEMBLY of bodies that joints connect.
-   pure subroutine find_assemblies(model, body, assembly)
-      type(model_type), intent(in)      :: model
+   pure subroutine find_assemblies(mesh, joints, body, assembly)
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(in) :: joints
       integer, allocatable, intent(out) :: body(:), assembly(:) !! (n_nodes)
       integer :: e, i, k
 
-      body = [(i, i = 1, model%mesh%n_nodes)]
-      do e = 1, model%mesh%n_elements
-         associate (nodes => model%mesh%element_nodes(:, e))
+      body = [(i, i = 1, mesh%n_nodes)]
+      do e = 1, mesh%n_elements
+         associate (nodes => mesh%element_nodes(:, e))
             do k = 2, size(nodes)
                call join(body, nodes(1), nodes(k))
             end do
          end associate
       end do
-      if (allocated(model%mesh%faces)) then
-         do k = 1, size(model%mesh%faces)
-            call join(body, model%mesh%faces(k)%point, model%mesh%faces(k)%node)
+      if (allocated(mesh%faces)) then
+         do k = 1, size(mesh%faces)
+            call join(body, mesh%faces(k)%point, mesh%faces(k)%node)
          end do
       end if
       assembly = body
-      call join_ends(model, assembly)
+      call join_ends(joints, assembly)
    end subroutine find_assemblies
 
    !> Unite in PARENT the nodes of each interface element.
-   pure subroutine join_ends(model, parent)
-      type(model_type), intent(in) :: model
+   pure subroutine join_ends(joints, parent)
+      type(joints_type), intent(in) :: joints
       integer, intent(inout)       :: parent(:)
       integer :: i, k
 
-      do i = 1, size(model%joints%element)
-         associate (nodes => model%joints%element(i)%node)
+      do i = 1, size(joints%element)
+         associate (nodes => joints%element(i)%node)
             do k = 2, size(nodes)
                call join(parent, nodes(1), nodes(k))
             end do

@@ -1,4 +1,5 @@
-!> From a deck to the model that is solved: the sequence of all build steps.
+!> From a deck to the model that is solved: mesh, joints, freedoms and load history, each from those before it. An exchanged call does
+!! not compile.
 module model_build
    use case_control, only: method_step
    use connected_bodies, only: find_parts
@@ -7,17 +8,17 @@ module model_build
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use determinate_joints, only: find_determinate_joints, find_first_pressures
-   use displacement_systems, only: build_frames
+   use displacement_systems, only: couple_node_systems, find_node_systems
    use element_build, only: marked_side
    use free_structure, only: check_balance, hold_free_structure
    use joint_build, only: build_joints
    use joint_gaps, only: build_gaps
    use joint_sides, only: find_frame
    use load_build, only: build_loads
-   use mass_build, only: build_masses, check_mass
+   use mass_build, only: build_masses, check_mass, check_masses
    use mesh_build, only: build_mesh, check_named_nodes
    use mesh_watch, only: crack_words, repeated_words
-   use model_data, only: model_type, n_sections, stage_load_type
+   use model_data, only: freedoms_type, history_type, joints_type, mesh_type, model_type, n_sections, stage_load_type
    use pretension_section, only: build_sections
    use rigid_elements, only: build_dependents, name_surface_nodes
    use rod_torsion, only: add_torsion
@@ -30,7 +31,6 @@ module model_build
    use surface_build, only: build_surfaces
    use surface_sides, only: split_shared_surfaces
    use temperature_build, only: build_temperatures
-   use text_tools, only: append
    use unit_watch, only: watch_units
    use vibration_build, only: find_shown_nodes, plan_vibrations
    implicit none
@@ -40,76 +40,140 @@ module model_build
 
 contains
 
-   !> Build MODEL and the PLAN of its stages from DECK; inconsistencies are added to ERRORS, and then neither may be solved. After
-   !! mesh errors nothing else is built, because areas, projections and loads would rest on wrong numbers. Errors that do not depend
-   !! on each other are found together.
+   !> Build MODEL and the PLAN of its stages from DECK; inconsistencies are added to ERRORS, and then neither may be solved. Each part
+   !! of the model is made by one routine from the parts before it. After mesh errors nothing else is built, because areas, projections
+   !! and loads would rest on wrong numbers. Errors that do not depend on each other are found together.
    subroutine build_model(deck, model, plan, errors)
       type(deck_type), intent(in), target          :: deck
       type(model_type), intent(out)                :: model
       type(stage_plan_type), intent(out)           :: plan
       type(deck_error_list), intent(inout), target :: errors
       type(checked_deck) :: checked
-      type(marked_side), allocatable :: sides(:)
       type(tie_type), allocatable :: ties(:)
       type(expansion_type), allocatable :: expansions(:)
       type(stage_load_type), allocatable :: oscillating(:)
-      integer :: j
+      logical :: is_whole
 
       allocate (model%warnings(0))
       if (.not. deck%is_whole) return
       call checked%start(deck, errors)
-      ! consistency of the cards, load history, mesh
       call checked%check_ids()
       call plan_stages(deck, plan, errors)
-      call build_mesh(checked, model, sides)
-      call check_named_nodes(checked, model)
-      if (checked%mesh_is_faulty()) return
-      call build_shells(checked, model)
-      call build_surfaces(checked, sides, model)
-      if (checked%mesh_is_faulty()) return
-      call name_surface_nodes(checked, model)
-      ! data on the mesh: each kind is built even if another one has errors
-      call split_shared_surfaces(checked, model)
-      call bow_edges(model)
-      call find_ties(checked, model, ties)
-      call build_shell_faces(checked, model)
-      call build_joints(checked, model)
-      call build_gaps(checked, model)
-      call build_bars(checked, model)
-      call build_rotations(checked, model)
-      call build_supports(checked, model)
-      call hold_free_structure(checked, model)
-      call build_sections(checked, model)
-      call build_frames(checked, model)
-      call build_beams(checked, model)
-      call build_springs(checked, model)
-      call add_torsion(model)
-      call build_dependents(checked, ties, model, expansions)
-      call leave_out_idle(model)
-      call build_masses(checked, model)
-      if (.not. errors%any()) call couple_shell_faces(model)
-      call build_loads(checked, model, oscillating)
-      if (.not. errors%any()) call check_balance(checked, model)
-      call build_temperatures(checked, expansions, model)
-      call find_shown_nodes(checked, model, plan)
-      call plan_vibrations(checked, model, oscillating, plan)
+      call make_mesh(checked, model%mesh, ties, is_whole)
+      if (.not. is_whole) return
+      call make_joints(checked, model%mesh, model%joints)
+      call make_freedoms(checked, model%mesh, model%joints, ties, model%freedoms, expansions)
+      call make_history(checked, model%mesh, model%freedoms, expansions, model%history, oscillating)
+      call find_shown_nodes(checked, model%mesh, model%freedoms, plan)
+      call plan_vibrations(checked, model%mesh, model%freedoms, oscillating, plan)
       if (.not. any(model%freedoms%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
       if (errors%any()) return
-      ! checks and results that need the whole model
-      call find_parts(model, .false.)          ! bolts that are being tightened do not connect parts yet
-      call find_determinate_joints(model)
-      call find_first_pressures(plan%stages(1)%fractions(1), deck%control%method /= method_step, model, errors)
-      if (any(model%mesh%bars%bolt > 0) .or. n_sections(model) > 0) then
-         call find_parts(model, .true.)
-         call find_determinate_joints(model)
-      end if
-      do j = 1, size(model%joints%list)            ! the normals are final now
-         model%joints%list(j)%frame = find_frame(model, model%joints%list(j))
-      end do
-      call check_mass(checked, model)
-      call errors%warn(repeated_words(model))
-      call errors%warn(crack_words(model))
-      call watch_units(deck, model)
+      call find_start(checked, plan, model%mesh, model%history, model%joints, model%freedoms)
+      call errors%warn(repeated_words(model%mesh))
+      call errors%warn(crack_words(model%mesh, model%joints, model%freedoms))
+      call watch_units(deck, model%joints, errors)
+      if (allocated(errors%warnings)) call move_alloc(errors%warnings, model%warnings)
    end subroutine build_model
+
+   !> Make the MESH: points with duplicates at split surfaces, mid-side and face nodes, elements and their laws, surfaces, bars and springs,
+   !! masses, and the nodes of rotations and of pretension sections. TIES belong to the constraint equations. IS_WHOLE is false where an
+   !! error of the mesh makes the rest pointless.
+   subroutine make_mesh(deck, mesh, ties, is_whole)
+      type(checked_deck), intent(inout) :: deck
+      type(mesh_type), intent(out)      :: mesh
+      type(tie_type), allocatable, intent(out) :: ties(:)
+      logical, intent(out)              :: is_whole
+      type(marked_side), allocatable :: sides(:)
+
+      call build_mesh(deck, mesh, sides)
+      call check_named_nodes(deck, mesh)
+      is_whole = .not. deck%mesh_is_faulty()
+      if (.not. is_whole) return
+      call build_shells(deck, mesh)
+      call build_surfaces(deck, sides, mesh)
+      is_whole = .not. deck%mesh_is_faulty()
+      if (.not. is_whole) return
+      call name_surface_nodes(deck, mesh)
+      ! data on the mesh: each kind is built even if another one has errors
+      call split_shared_surfaces(deck, mesh)
+      call bow_edges(mesh)
+      call find_ties(deck, mesh, ties)
+      call build_shell_faces(deck, mesh)
+      call build_bars(deck, mesh)
+      call build_rotations(deck, mesh)
+      call build_sections(deck, mesh)
+      call find_node_systems(deck, mesh)
+      call build_beams(deck, mesh)
+      call build_springs(deck, mesh)
+      call add_torsion(mesh)
+      call build_masses(deck, mesh)
+   end subroutine make_mesh
+
+   !> Make the JOINTS and their interface elements, with their gaps.
+   subroutine make_joints(deck, mesh, joints)
+      type(checked_deck), intent(in) :: deck
+      type(mesh_type), intent(in)    :: mesh
+      type(joints_type), intent(out) :: joints
+
+      call build_joints(deck, mesh, joints)
+      call build_gaps(deck, mesh, joints)
+   end subroutine make_joints
+
+   !> Make the FREEDOMS: supports, displacement systems, constraint equations and rigid elements. EXPANSIONS are those of the rigid
+   !! elements when warm.
+   subroutine make_freedoms(deck, mesh, joints, ties, freedoms, expansions)
+      type(checked_deck), intent(inout) :: deck
+      type(mesh_type), intent(in)       :: mesh
+      type(joints_type), intent(in)     :: joints
+      type(tie_type), intent(in)        :: ties(:)
+      type(freedoms_type), intent(out)  :: freedoms
+      type(expansion_type), allocatable, intent(out) :: expansions(:)
+
+      call build_supports(deck, mesh, joints, freedoms)
+      call hold_free_structure(deck, mesh, joints, freedoms)
+      call couple_node_systems(deck, mesh, freedoms)
+      call build_dependents(deck, ties, mesh, freedoms, expansions)
+      call leave_out_idle(mesh, freedoms)
+      call check_masses(deck, mesh, freedoms)
+      if (.not. deck%errors%any()) call couple_shell_faces(mesh, freedoms)
+   end subroutine make_freedoms
+
+   !> Make the load HISTORY, and the loads that oscillate.
+   subroutine make_history(deck, mesh, freedoms, expansions, history, oscillating)
+      type(checked_deck), intent(in)     :: deck
+      type(mesh_type), intent(in)        :: mesh
+      type(freedoms_type), intent(in)    :: freedoms
+      type(expansion_type), intent(in)   :: expansions(:)
+      type(history_type), intent(out)    :: history
+      type(stage_load_type), allocatable, intent(out) :: oscillating(:)
+
+      call build_loads(deck, mesh, freedoms, history, oscillating)
+      if (.not. deck%errors%any()) call check_balance(deck, mesh, freedoms, history)
+      call build_temperatures(deck, expansions, mesh, freedoms, history)
+   end subroutine make_history
+
+   !> Find what the whole model determines: the connected parts, the pressures of the first increment, the final frames of the joints.
+   subroutine find_start(deck, plan, mesh, history, joints, freedoms)
+      type(checked_deck), intent(in)     :: deck
+      type(stage_plan_type), intent(in)  :: plan
+      type(mesh_type), intent(in)        :: mesh
+      type(history_type), intent(in)     :: history
+      type(joints_type), intent(inout)   :: joints   !! p_av, whether statics determines them, frames
+      type(freedoms_type), intent(inout) :: freedoms !! parts
+      integer :: j
+
+      call find_parts(mesh, freedoms, .false.)          ! bolts that are being tightened do not connect parts yet
+      call find_determinate_joints(mesh, joints, freedoms)
+      call find_first_pressures(plan%stages(1)%fractions(1), deck%control%method /= method_step, mesh, joints, freedoms, history, &
+                                deck%errors)
+      if (any(mesh%bars%bolt > 0) .or. n_sections(mesh) > 0) then
+         call find_parts(mesh, freedoms, .true.)
+         call find_determinate_joints(mesh, joints, freedoms)
+      end if
+      do j = 1, size(joints%list)            ! the normals are final now
+         joints%list(j)%frame = find_frame(mesh, joints, joints%list(j))
+      end do
+      call check_mass(deck, mesh, freedoms)
+   end subroutine find_start
 
 end module model_build

@@ -12,7 +12,7 @@ module model_kind
    use element_kinds, only: element_table, is_second_order
    use field_rules, only: has_component
    use kinds, only: wp
-   use model_data, only: model_type
+   use model_data, only: mesh_type
    use structural_build, only: is_beam_edge
    use text_tools, only: integer_text, one_of
    use tolerances, only: zero_component
@@ -25,9 +25,9 @@ contains
 
    !> Find the dimension of MODEL, whose nodes are known. Errors: a MODEL that contradicts the deck. MODEL%KIND_WORDS say why a deck
    !! without MODEL in x-y is what it is, and the word that changes it.
-   subroutine find_kind(deck, model)
+   subroutine find_kind(deck, mesh)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       character(:), allocatable :: reason
       logical :: has_rings, has_solids
 
@@ -35,52 +35,52 @@ contains
          has_rings = size(bulk%paxis) > 0
          has_solids = any(bulk%block%dimension == 3) .or. any(element_table(bulk%element%kind)%dimension == 3)
          reason = ''
-         if (.not. (has_solids .or. has_rings .or. any(bulk%block%dimension == 2))) reason = reason_for_space(deck, model)
-         model%mesh%dimension = merge(3, 2, has_solids .or. reason /= '')
+         if (.not. (has_solids .or. has_rings .or. any(bulk%block%dimension == 2))) reason = reason_for_space(deck, mesh)
+         mesh%dimension = merge(3, 2, has_solids .or. reason /= '')
          select case (control%model)
          case (model_space)
             if (has_rings) call deck%errors%add(control%model_line, 'MODEL = SPACE, but the deck has a PAXIS; expected '// &
                                                 'AXISYMMETRIC, or no PAXIS')
-            if (.not. has_rings) model%mesh%dimension = 3
+            if (.not. has_rings) mesh%dimension = 3
          case (model_plane, model_axisymmetric)
             if (has_solids) call deck%errors%add(control%model_line, 'MODEL: the deck has solids; expected SPACE')
-            if (.not. has_solids) model%mesh%dimension = 2
+            if (.not. has_solids) mesh%dimension = 2
             if (has_rings .eqv. control%model == model_plane) call deck%errors%add(control%model_line, &
                one_of(control%model == model_plane, 'MODEL = PLANE, but the deck has a PAXIS', &
                       'MODEL = AXISYMMETRIC, but the deck has no PAXIS'))
          case default
             if (has_solids .or. has_rings .or. any(bulk%block%dimension == 2)) return
-            if (any(abs(model%mesh%x(3, :)) > 0.0_wp)) return
-            if (model%mesh%dimension == 3) then
-               model%mesh%kind_words = 'a model of space, because '//reason//'; MODEL = PLANE makes it plane'
+            if (any(abs(mesh%x(3, :)) > 0.0_wp)) return
+            if (mesh%dimension == 3) then
+               mesh%kind_words = 'a model of space, because '//reason//'; MODEL = PLANE makes it plane'
             else if (size(bulk%joint) + size(bulk%cjoint) > 0) then ! joints on edges: plane by intent
                return
             else if (has_membranes(deck)) then
-               model%mesh%kind_words = 'a plane model, because its PSHELL have no bending material; MID2 makes it a model of space'
+               mesh%kind_words = 'a plane model, because its PSHELL have no bending material; MID2 makes it a model of space'
             else
-               model%mesh%kind_words = 'a plane model, nothing in it leaves x-y; MODEL = SPACE makes it a model of space'
+               mesh%kind_words = 'a plane model, nothing in it leaves x-y; MODEL = SPACE makes it a model of space'
             end if
          end select
       end associate
    end subroutine find_kind
 
    !> The end of a message about an entry that a plane MODEL does not have.
-   pure function space_hint(model) result(words)
-      type(model_type), intent(in) :: model
+   pure function space_hint(mesh) result(words)
+      type(mesh_type), intent(in) :: mesh
       character(:), allocatable :: words
 
       words = ' (MODEL = SPACE makes it a model of space)'
-      if (allocated(model%mesh%properties)) then
-         if (any(model%mesh%properties%state < axisymmetric)) &
+      if (allocated(mesh%properties)) then
+         if (any(mesh%properties%state < axisymmetric)) &
             words = ' (MODEL = SPACE, and MID2 on PSHELL, make it a model of space)'
       end if
-      if (model%mesh%axisymmetric) words = ''
+      if (mesh%axisymmetric) words = ''
    end function space_hint
 
    !> The first entry that only space has, in words; empty: there is none, or the bodies are plane.
-   function reason_for_space(deck, model) result(words)
+   function reason_for_space(deck, mesh) result(words)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       character(:), allocatable :: words
       integer :: i, k
 
@@ -97,8 +97,8 @@ contains
             end associate
          end do
          if (has_membranes(deck)) return
-         k = findloc(abs(model%mesh%x(3, :)) > 0.0_wp, .true., dim=1)
-         if (k > 0) words = 'node '//integer_text(model%mesh%node_id(k))//' lies out of x-y'
+         k = findloc(abs(mesh%x(3, :)) > 0.0_wp, .true., dim=1)
+         if (k > 0) words = 'node '//integer_text(mesh%node_id(k))//' lies out of x-y'
          do i = 1, size(bulk%edge)
             if (words /= '') return
             if (is_beam_edge(deck, bulk%edge(i))) words = one_of(bulk%edge(i)%kind == edge_cbeam, 'CBEAM', 'CBAR')//' '// &
@@ -111,7 +111,7 @@ contains
                words = 'the spring '//integer_text(bulk%spring(i)%id)//' acts out of x-y'
          end do
       end associate
-      if (words == '') words = load_out_of_plane(deck, model)
+      if (words == '') words = load_out_of_plane(deck, mesh)
       if (words == '') words = support_out_of_plane(deck)
    end function reason_for_space
 
@@ -128,9 +128,9 @@ contains
    end function has_membranes
 
    !> The first load that only space has, in words; empty: none.
-   function load_out_of_plane(deck, model) result(words)
+   function load_out_of_plane(deck, mesh) result(words)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       character(:), allocatable :: words
       integer :: i
 
@@ -178,10 +178,10 @@ contains
          global = vector
          k = 0
          if (cid > 0) k = findloc(deck%bulk%system%id, cid, dim=1)
-         if (k > 0 .and. k <= size(model%mesh%systems)) then
+         if (k > 0 .and. k <= size(mesh%systems)) then
             x = 0.0_wp
-            if (model%mesh%node_table%find(node) > 0) x = model%mesh%x(:, model%mesh%node_table%find(node))
-            call directions_at(model%mesh%systems(k), x, directions, ok)
+            if (mesh%node_table%find(node) > 0) x = mesh%x(:, mesh%node_table%find(node))
+            call directions_at(mesh%systems(k), x, directions, ok)
             if (ok) global = matmul(directions, vector)
          end if
          leaves = any(abs(global(components)) > zero_component*norm2(global))

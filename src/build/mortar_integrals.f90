@@ -33,7 +33,8 @@ module mortar_integrals
    type, public :: cover_integrals
       real(wp) :: seen = 0.0_wp                                     !! covered area, projected onto the plane of the face
       real(wp) :: farthest = 0.0_wp                                 !! largest distance of the faces [length]
-      real(wp) :: bulge(max_side_nodes) = 0.0_wp                    !! of N_k times what curved surfaces are farther apart than their
+      !! of N_k times what curved surfaces are farther apart than their
+      real(wp) :: bulge(max_side_nodes) = 0.0_wp
                                                                     !! chords [length^3]
       real(wp) :: along(3) = 0.0_wp                                 !! normal of the face, of bulges
       real(wp) :: area(max_side_nodes) = 0.0_wp                     !! of N_k [length^2]
@@ -50,7 +51,8 @@ module mortar_integrals
       real(wp) :: normal(3, max_side_nodes) = 0.0_wp                      !! area times normal [length^2]
       real(wp) :: same_side(max_side_nodes, max_side_nodes) = 0.0_wp      !! (element, node k) area times weight [length^2]
       real(wp), allocatable :: opposite(:, :)                             !! (max_side_nodes, nodes opposite) likewise
-      real(wp) :: bulge(3, max_side_nodes) = 0.0_wp                       !! area times bulge, along the normal of the face [length^3]
+      !! area times bulge, along the normal of the face [length^3]
+      real(wp) :: bulge(3, max_side_nodes) = 0.0_wp
    end type face_part
 
    !> The sums of the interface elements at the nodes of a side.

@@ -10,7 +10,7 @@ module node_build
    use element_kinds, only: element_table, is_second_order
    use kinds, only: wp
    use lists, only: sorted_order, list_owners
-   use model_data, only: model_type
+   use model_data, only: mesh_type
    use text_tools, only: integer_text
    use tolerances, only: zero_coordinate
    implicit none
@@ -34,67 +34,67 @@ contains
 
    !> The nodes of the GRID cards of DECK and its blocks, in ascending order of their numbers; CARDS get their coordinates in global
    !! axes.
-   subroutine build_nodes(deck, cards, model)
+   subroutine build_nodes(deck, cards, mesh)
       type(checked_deck), intent(in)  :: deck
       type(grid_card), intent(inout)  :: cards(:) !! those of blocks last
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       integer, allocatable :: order(:)
       integer :: i, system
 
       do i = 1, size(cards)
          if (cards(i)%cp <= 0) cycle
-         call find_system(deck, cards(i)%line, 'CP', cards(i)%cp, model%mesh%systems, system)
+         call find_system(deck, cards(i)%line, 'CP', cards(i)%cp, mesh%systems, system)
          if (system == 0) cycle
          associate (x => cards(i)%x)
-            x = position_in(model%mesh%systems(system), x)
-            where (abs(x) <= zero_coordinate*(norm2(x) + norm2(model%mesh%systems(system)%origin))) x = 0.0_wp
+            x = position_in(mesh%systems(system), x)
+            where (abs(x) <= zero_coordinate*(norm2(x) + norm2(mesh%systems(system)%origin))) x = 0.0_wp
          end associate
       end do
       call deck%report_repeated('node', cards%id, cards%line, n_cards=size(deck%bulk%grid))
       call sorted_order(cards%id, order)
-      model%mesh%n_nodes = size(cards)
-      model%mesh%node_id = cards(order)%id
-      allocate (model%mesh%x(3, model%mesh%n_nodes))
-      do i = 1, model%mesh%n_nodes
-         model%mesh%x(:, i) = cards(order(i))%x
+      mesh%n_nodes = size(cards)
+      mesh%node_id = cards(order)%id
+      allocate (mesh%x(3, mesh%n_nodes))
+      do i = 1, mesh%n_nodes
+         mesh%x(:, i) = cards(order(i))%x
       end do
-      call model%mesh%node_table%build(model%mesh%node_id)
+      call mesh%node_table%build(mesh%node_id)
    end subroutine build_nodes
 
    !> Append nodes at X to MODEL, numbered from the highest number on, and enter them in the table of numbers. Numbers stop at the
    !! largest integer.
-   subroutine append_nodes(model, x)
-      type(model_type), intent(inout) :: model
+   subroutine append_nodes(mesh, x)
+      type(mesh_type), intent(inout) :: mesh
       real(wp), intent(in)            :: x(:, :) !! (3, new nodes) [length]
       integer :: highest, k
 
-      highest = highest_number(model)
-      model%mesh%node_id = [model%mesh%node_id, (highest + min(k, huge(1) - highest), k = 1, size(x, 2))]
-      model%mesh%n_nodes = size(model%mesh%node_id)
-      model%mesh%x = reshape([model%mesh%x, x], [3, model%mesh%n_nodes])
-      if (allocated(model%mesh%duplicate)) model%mesh%duplicate = [model%mesh%duplicate, spread(0, 1, size(x, 2))]
-      call model%mesh%node_table%build(model%mesh%node_id)
-      if (.not. allocated(model%mesh%placed)) return
-      associate (named => model%mesh%placed%id > 0 .and. model%mesh%placed%node > 0)
-         call model%mesh%node_table%add(pack(model%mesh%placed%id, named), pack(model%mesh%placed%node, named))
+      highest = highest_number(mesh)
+      mesh%node_id = [mesh%node_id, (highest + min(k, huge(1) - highest), k = 1, size(x, 2))]
+      mesh%n_nodes = size(mesh%node_id)
+      mesh%x = reshape([mesh%x, x], [3, mesh%n_nodes])
+      if (allocated(mesh%duplicate)) mesh%duplicate = [mesh%duplicate, spread(0, 1, size(x, 2))]
+      call mesh%node_table%build(mesh%node_id)
+      if (.not. allocated(mesh%placed)) return
+      associate (named => mesh%placed%id > 0 .and. mesh%placed%node > 0)
+         call mesh%node_table%add(pack(mesh%placed%id, named), pack(mesh%placed%node, named))
       end associate
    end subroutine append_nodes
 
    !> The highest node number of MODEL, with those of NODEAT.
-   pure integer function highest_number(model)
-      type(model_type), intent(in) :: model
+   pure integer function highest_number(mesh)
+      type(mesh_type), intent(in) :: mesh
 
-      highest_number = model%mesh%node_id(model%mesh%n_nodes)
-      if (allocated(model%mesh%placed)) highest_number = max(highest_number, maxval([0, model%mesh%placed%id]))
+      highest_number = mesh%node_id(mesh%n_nodes)
+      if (allocated(mesh%placed)) highest_number = max(highest_number, maxval([0, mesh%placed%id]))
    end function highest_number
 
    !> The NODES with the numbers ID, which an element, edge or interface element card names from data field FIRST on; 0, and an
    !! error, for a missing node. An ID of 0 is a field that is blank or could not be read; it gives 0 without an error.
-   subroutine find_nodes(deck, line, id, model, nodes, first)
+   subroutine find_nodes(deck, line, id, mesh, nodes, first)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line     !! of the card
       integer, intent(in)            :: id(:)
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       integer, intent(out)           :: nodes(:)
       integer, intent(in), optional  :: first    !! 3
       integer :: behind, k
@@ -104,7 +104,7 @@ contains
       if (present(first)) behind = first - 1
       do k = 1, size(id)
          if (id(k) == 0) cycle
-         nodes(k) = model%mesh%node_table%find(id(k))
+         nodes(k) = mesh%node_table%find(id(k))
          if (nodes(k) == 0) call deck%field_error(line, k + behind, 'there is no GRID '//integer_text(id(k)), noun='node')
       end do
    end subroutine find_nodes
@@ -112,59 +112,59 @@ contains
    !> Place nodes at the middle of the edges with a blank mid-side node: the node that another element names there, else a new node,
    !! numbered behind all others in the order of the elements. Errors: elements that share an edge but not its mid-side
    !! node; numbers beyond the largest integer.
-   subroutine fill_mid_sides(deck, model)
+   subroutine fill_mid_sides(deck, mesh)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       type(edge_list) :: edges
       real(wp), allocatable :: x(:, :)
       integer :: i, n, n_new, node
 
-      if (.not. any(is_second_order(model%mesh%element_kind))) return
-      call match_edges(model, edges)
-      call check_orders(deck, model, edges)
-      n = model%mesh%n_nodes
+      if (.not. any(is_second_order(mesh%element_kind))) return
+      call match_edges(mesh, edges)
+      call check_orders(deck, mesh, edges)
+      n = mesh%n_nodes
       n_new = 0
       do i = 1, edges%n
-         if (node_at(model, edges, i) /= blank_node) cycle
-         associate (mid_node => model%mesh%element_nodes(edges%place(i), edges%element(i)))
-            mid_node = node_at(model, edges, edges%namer(edges%first(i)))
+         if (node_at(mesh, edges, i) /= blank_node) cycle
+         associate (mid_node => mesh%element_nodes(edges%place(i), edges%element(i)))
+            mid_node = node_at(mesh, edges, edges%namer(edges%first(i)))
             if (mid_node /= blank_node) cycle
             n_new = n_new + 1
             mid_node = n + n_new
          end associate
       end do
-      model%mesh%n_filled = n_new
-      model%mesh%first_filled = n + 1
-      where (model%mesh%element_nodes == blank_node) model%mesh%element_nodes = 0 ! of edges with missing corners
+      mesh%n_filled = n_new
+      mesh%first_filled = n + 1
+      where (mesh%element_nodes == blank_node) mesh%element_nodes = 0 ! of edges with missing corners
       if (n_new == 0) return
-      if (highest_number(model) > huge(1) - n_new) then
+      if (highest_number(mesh) > huge(1) - n_new) then
          call deck%errors%add(0, 'the blank mid-side nodes get numbers above node '// &
-                              integer_text(highest_number(model))//', and their numbers would exceed 2147483647')
-         where (model%mesh%element_nodes > n) model%mesh%element_nodes = 0
+                              integer_text(highest_number(mesh))//', and their numbers would exceed 2147483647')
+         where (mesh%element_nodes > n) mesh%element_nodes = 0
          return
       end if
       allocate (x(3, n_new))
       do i = 1, edges%n
-         node = node_at(model, edges, i)
-         if (node > n) x(:, node - n) = 0.5_wp*(model%mesh%x(:, edges%ends(1, i)) + model%mesh%x(:, edges%ends(2, i)))
+         node = node_at(mesh, edges, i)
+         if (node > n) x(:, node - n) = 0.5_wp*(mesh%x(:, edges%ends(1, i)) + mesh%x(:, edges%ends(2, i)))
       end do
-      call append_nodes(model, x)
+      call append_nodes(mesh, x)
    end subroutine fill_mid_sides
 
    !> The EDGES of all elements, without edges with missing corners; the first between the same corners, and the one that names the
    !! mid-side node.
-   pure subroutine match_edges(model, edges)
-      type(model_type), intent(in) :: model
+   pure subroutine match_edges(mesh, edges)
+      type(mesh_type), intent(in) :: mesh
       type(edge_list), intent(out) :: edges
       integer, allocatable :: start(:), at(:)
       integer :: c, e, ends(2), i, k, node, total
 
-      total = sum(element_table(model%mesh%element_kind)%n_edges)
+      total = sum(element_table(mesh%element_kind)%n_edges)
       allocate (edges%ends(2, total), edges%element(total), edges%place(total))
-      do e = 1, model%mesh%n_elements
-         associate (kind => element_table(model%mesh%element_kind(e)))
+      do e = 1, mesh%n_elements
+         associate (kind => element_table(mesh%element_kind(e)))
             do k = 1, kind%n_edges
-               ends = model%mesh%element_nodes(kind%edges(:, k), e)
+               ends = mesh%element_nodes(kind%edges(:, k), e)
                if (any(ends == 0)) cycle ! reported already
                edges%n = edges%n + 1
                edges%ends(:, edges%n) = [minval(ends), maxval(ends)]
@@ -173,9 +173,9 @@ contains
             end do
          end associate
       end do
-      call list_owners(model%mesh%n_nodes, reshape(edges%ends(1, :edges%n), [1, edges%n]), start, at)
+      call list_owners(mesh%n_nodes, reshape(edges%ends(1, :edges%n), [1, edges%n]), start, at)
       allocate (edges%first(edges%n), edges%namer(edges%n))
-      do node = 1, model%mesh%n_nodes
+      do node = 1, mesh%n_nodes
          do i = start(node), start(node + 1) - 1
             c = at(i)
             edges%first(c) = c
@@ -198,25 +198,25 @@ contains
          integer, intent(in) :: i
 
          weight = 0
-         if (edges%place(i) > 0) weight = merge(2, 1, node_at(model, edges, i) > 0)
+         if (edges%place(i) > 0) weight = merge(2, 1, node_at(mesh, edges, i) > 0)
       end function weight
 
    end subroutine match_edges
 
    !> The mid-side node of edge I: 0 where it has none or the named node is missing, blank_node where it is blank.
-   pure integer function node_at(model, edges, i) result(node)
-      type(model_type), intent(in) :: model
+   pure integer function node_at(mesh, edges, i) result(node)
+      type(mesh_type), intent(in) :: mesh
       type(edge_list), intent(in)  :: edges
       integer, intent(in)          :: i
 
       node = 0
-      if (edges%place(i) > 0) node = model%mesh%element_nodes(edges%place(i), edges%element(i))
+      if (edges%place(i) > 0) node = mesh%element_nodes(edges%place(i), edges%element(i))
    end function node_at
 
    !> Error: elements at an edge with different mid-side nodes, or with and without one; each element is reported once.
-   subroutine check_orders(deck, model, edges)
+   subroutine check_orders(deck, mesh, edges)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       type(edge_list), intent(in)    :: edges
       integer :: i, last, node, other
       character(:), allocatable :: edge, element
@@ -227,55 +227,48 @@ contains
       do i = 1, edges%n
          other = edges%namer(edges%first(i))
          if (edges%element(i) == last .or. other == i) cycle
-         node = node_at(model, edges, i)
+         node = node_at(mesh, edges, i)
          if (edges%place(i) == 0 .and. edges%place(other) == 0) cycle
-         if (edges%place(i) > 0 .and. (node <= 0 .or. node == node_at(model, edges, other))) cycle
+         if (edges%place(i) > 0 .and. (node <= 0 .or. node == node_at(mesh, edges, other))) cycle
          last = edges%element(i)
-         element = 'element '//integer_text(model%mesh%element_id(last))
-         associate (a => model%mesh%node_id(edges%ends(1, i)), b => model%mesh%node_id(edges%ends(2, i)))
+         element = 'element '//integer_text(mesh%element_id(last))
+         associate (a => mesh%node_id(edges%ends(1, i)), b => mesh%node_id(edges%ends(2, i)))
             edge = 'the edge between nodes '//integer_text(a)//' and '//integer_text(b)//' with element '// &
-                   integer_text(model%mesh%element_id(edges%element(other)))
+                   integer_text(mesh%element_id(edges%element(other)))
          end associate
          if (edges%place(i) == 0) then
-            call deck%errors%add(model%mesh%element_line(last), element//' is linear, and shares '//edge// &
+            call deck%errors%add(mesh%element_line(last), element//' is linear, and shares '//edge// &
                ', which is of second order; expected both of one order, or '// &
                'bodies that do not share their nodes and a JOINT between them')
          else
-            call deck%errors%add(model%mesh%element_line(last), element//' has node '//integer_text(model%mesh%node_id(node))// &
-               ' at the middle of '//edge//', which has node '//integer_text(model%mesh%node_id(node_at(model, edges, other)))// &
+            call deck%errors%add(mesh%element_line(last), element//' has node '//integer_text(mesh%node_id(node))// &
+               ' at the middle of '//edge//', which has node '//integer_text(mesh%node_id(node_at(mesh, edges, other)))// &
                   ' there')
          end if
       end do
    end subroutine check_orders
 
    !> Append nodes for unknowns that are not displacements of points, one at each of POINTS: N_ELEMENTS of the ELEMENTS in turn
-   !! belong to each node, and components that are no unknowns are HELD. The number of these nodes is 0.
-   subroutine append_unknowns(model, points, n_elements, elements, held)
-      type(model_type), intent(inout) :: model
-      integer, intent(in)             :: points(:), n_elements(:), elements(:)
-      logical, intent(in)             :: held(:) !! (dimension)
+   !! belong to each node. The number of these nodes is 0.
+   subroutine append_unknowns(mesh, points, n_elements, elements)
+      type(mesh_type), intent(inout) :: mesh
+      integer, intent(in)            :: points(:), n_elements(:), elements(:)
       integer, allocatable :: none(:)
       integer :: k, n
 
-      n = model%mesh%n_nodes
+      n = mesh%n_nodes
       none = spread(0, 1, size(points))
-      model%mesh%n_nodes = n + size(points)
-      model%mesh%node_id = [model%mesh%node_id, none]
-      model%mesh%duplicate = [model%mesh%duplicate, none]
-      model%mesh%x = reshape([model%mesh%x, model%mesh%x(:, points)], [3, model%mesh%n_nodes])
-      model%mesh%elements_at = [model%mesh%elements_at, elements]
-      model%mesh%first_at = [model%mesh%first_at, none]
-      do k = n + 1, model%mesh%n_nodes
-         model%mesh%first_at(k + 1) = model%mesh%first_at(k) + n_elements(k - n)
+      mesh%n_nodes = n + size(points)
+      mesh%node_id = [mesh%node_id, none]
+      mesh%duplicate = [mesh%duplicate, none]
+      mesh%x = reshape([mesh%x, mesh%x(:, points)], [3, mesh%n_nodes])
+      mesh%elements_at = [mesh%elements_at, elements]
+      mesh%first_at = [mesh%first_at, none]
+      do k = n + 1, mesh%n_nodes
+         mesh%first_at(k + 1) = mesh%first_at(k) + n_elements(k - n)
       end do
-      if (allocated(model%mesh%rotation_of)) model%mesh%rotation_of = [model%mesh%rotation_of, none]
-      if (allocated(model%mesh%node_section)) model%mesh%node_section = [model%mesh%node_section, none]
-      if (allocated(model%freedoms%used)) model%freedoms%used = [model%freedoms%used, none == 0]
-      associate (d => size(held), added => spread(held, 2, size(points)))
-         if (allocated(model%freedoms%held)) model%freedoms%held = reshape([model%freedoms%held, added], [d, model%mesh%n_nodes])
-         if (allocated(model%freedoms%left_out)) model%freedoms%left_out = reshape([model%freedoms%left_out, added], [d, &
-            model%mesh%n_nodes])
-      end associate
+      if (allocated(mesh%rotation_of)) mesh%rotation_of = [mesh%rotation_of, none]
+      if (allocated(mesh%node_section)) mesh%node_section = [mesh%node_section, none]
    end subroutine append_unknowns
 
 end module node_build

@@ -5,7 +5,7 @@ module node_pairing
    use face_overlap, only: edge_lengths, face_frame, in_frame, make_frame, plane_points, seen_area, seen_face
    use kinds, only: wp
    use lists, only: distinct, id_table_type
-   use model_data, only: joint_cover, model_type, surface_type, whole_share
+   use model_data, only: joint_cover, mesh_type, surface_type, whole_share
    use mortar_integrals, only: face_part, fit_face, add_overlap, cover_integrals, own_face, interface_sums_type
    use spatial_search, only: spatial_search_type
    use surface_build, only: side_influence, side_name, surface_node_list
@@ -47,8 +47,8 @@ contains
    !> For every node of side 1 the coincident node of side 2, or the reason why there are no pairs. ASIDE is the largest offset of a
    !! partner across the normal, above MOST_ASIDE of the shortest edge at its node: the forces of such a pair have a moment that
    !! nothing balances.
-   subroutine pair_nodes(model, surface, side1, side2, tol, partner, fault, in_tolerance, aside)
-      type(model_type), intent(in)        :: model
+   subroutine pair_nodes(mesh, surface, side1, side2, tol, partner, fault, in_tolerance, aside)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)                 :: surface(2)   !! of the model
       type(surface_node_list), intent(in) :: side1, side2 !! their nodes
       real(wp), intent(in)                :: tol          !! 0: the default [length]
@@ -65,30 +65,30 @@ contains
       in_tolerance = .false.
       tolerance = tol
       if (tol <= 0.0_wp) then
-         associate (side => model%mesh%surfaces(surface(1)))
-            tolerance = pairing_reach*minval([(minval(edge_lengths(model%mesh%x(:, side%nodes(:side%corners(k), k)))), &
+         associate (side => mesh%surfaces(surface(1)))
+            tolerance = pairing_reach*minval([(minval(edge_lengths(mesh%x(:, side%nodes(:side%corners(k), k)))), &
                                                    k = 1, side%n)])
          end associate
       end if
-      call search%build(model%mesh%x(:, side2%node))
+      call search%build(mesh%x(:, side2%node))
       do k = 1, side1%n
-         call search%nearest(model%mesh%x(:, side1%node(k)), tolerance, found(k), distance)
+         call search%nearest(mesh%x(:, side1%node(k)), tolerance, found(k), distance)
       end do
       if (any(found == 0)) then
          worst = 0.0_wp
          worst_node = 0
          do k = 1, side1%n
             if (found(k) > 0) cycle
-            call search%nearest(model%mesh%x(:, side1%node(k)), huge(1.0_wp), nearest, distance)
+            call search%nearest(mesh%x(:, side1%node(k)), huge(1.0_wp), nearest, distance)
             if (distance <= worst) cycle
             worst = distance
             worst_node = side1%node(k)
          end do
          fault = 'the sides do not face each other node by node: '//plural(count(found == 0), 'node')//' of '// &
             integer_text(side1%n)//' of SIDE1 found no partner within '//real_text(tolerance)//'; the farthest is node '// &
-            integer_text(model%mesh%node_id(worst_node))//' at '
-         do k = 1, model%mesh%dimension
-            fault = fault//real_text(model%mesh%x(k, worst_node))//', '
+            integer_text(mesh%node_id(worst_node))//' at '
+         do k = 1, mesh%dimension
+            fault = fault//real_text(mesh%x(k, worst_node))//', '
          end do
          fault = fault//real_text(worst)//' away'
          return
@@ -104,16 +104,16 @@ contains
          fault = 'the sides do not face each other: at '//plural(turned, 'node')//' their normals are not opposite'
       else if (side2%n /= side1%n) then
          fault = 'SIDE2 has '//plural(side2%n, 'node')//', SIDE1 '//integer_text(side1%n)//': every node needs its partner'
-      else if (.not. same_order(model, surface, side1, partner)) then
+      else if (.not. same_order(mesh, surface, side1, partner)) then
          fault = 'mid-side nodes face corner nodes: one side is of second order, the other is not'
       else
-         call find_aside(model, model%mesh%surfaces(surface(1)), side1, partner, aside)
+         call find_aside(mesh, mesh%surfaces(surface(1)), side1, partner, aside)
       end if
    end subroutine pair_nodes
 
    !> The pair of SURFACE that stands farthest ASIDE: the offset of its nodes across the normal.
-   pure subroutine find_aside(model, surface, side, partner, aside)
-      type(model_type), intent(in)        :: model
+   pure subroutine find_aside(mesh, surface, side, partner, aside)
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(in)      :: surface
       type(surface_node_list), intent(in) :: side       !! its nodes
       integer, intent(in)                 :: partner(:) !! of these nodes
@@ -129,10 +129,10 @@ contains
          do k = 1, n
             at(k) = place%find(surface%nodes(k, s))
          end do
-         shortest(at(:n)) = min(shortest(at(:n)), minval(edge_lengths(model%mesh%x(:, surface%nodes(:surface%corners(s), s)))))
+         shortest(at(:n)) = min(shortest(at(:n)), minval(edge_lengths(mesh%x(:, surface%nodes(:surface%corners(s), s)))))
       end do
       do k = 1, side%n
-         offset = model%mesh%x(:, partner(k)) - model%mesh%x(:, side%node(k))
+         offset = mesh%x(:, partner(k)) - mesh%x(:, side%node(k))
          offset = offset - dot_product(offset, side%normal(:, k))*side%normal(:, k)
          distance = norm2(offset)
          if (distance <= most_aside*shortest(k)) cycle
@@ -144,8 +144,8 @@ contains
    end subroutine find_aside
 
    !> Whether corners have corners as partners, and mid-side nodes have mid-side nodes.
-   pure logical function same_order(model, surface, side1, partner)
-      type(model_type), intent(in)        :: model
+   pure logical function same_order(mesh, surface, side1, partner)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)                 :: surface(2)
       type(surface_node_list), intent(in) :: side1
       integer, intent(in)                 :: partner(:) !! of its nodes, all different
@@ -153,7 +153,7 @@ contains
       integer :: k, s
 
       do k = 1, 2
-         associate (side => model%mesh%surfaces(surface(k)))
+         associate (side => mesh%surfaces(surface(k)))
             call between(k)%build([(side%nodes(side%corners(s) + 1:side%n_nodes(s), s), s = 1, side%n)])
          end associate
       end do
@@ -161,8 +161,8 @@ contains
    end function same_order
 
    !> The mortar projection of the elements at the NODES of side 1, or the reason why there is none.
-   subroutine fit_side(model, surface, nodes, reach, sums, cover, partly, fault)
-      type(model_type), intent(in)             :: model
+   subroutine fit_side(mesh, surface, nodes, reach, sums, cover, partly, fault)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)                      :: surface(2) !! of the model
       type(surface_node_list), intent(in)      :: nodes      !! of side 1
       real(wp), intent(in)                     :: reach      !! of the search along the normal, 0: the default [length]
@@ -183,28 +183,28 @@ contains
       partly = .false.
       fault = ''
       call place%build(nodes%node)
-      call sums%start(nodes%n, model%mesh%n_nodes)
+      call sums%start(nodes%n, mesh%n_nodes)
       all_area = 0.0_wp
       own_parts = 0
       double = 0
       highest = twice
       farthest_reach = 0.0_wp
-      associate (side1 => model%mesh%surfaces(surface(1)), side2 => model%mesh%surfaces(surface(2)))
-         call list_opposite(model, side2, opposite)
-         call find_tilts(model, side1, opposite%own_tilt)
+      associate (side1 => mesh%surfaces(surface(1)), side2 => mesh%surfaces(surface(2)))
+         call list_opposite(mesh, side2, opposite)
+         call find_tilts(mesh, side1, opposite%own_tilt)
          do s = 1, side1%n
             n = side1%n_nodes(s)
-            call side_influence(model, side1, s, area, normal)
+            call side_influence(mesh, side1, s, area, normal)
             all_area = all_area + sum(area)
-            call cover_face(model, side1, s, side2, reach, opposite, face, integrals)
+            call cover_face(mesh, side1, s, side2, reach, opposite, face, integrals)
             farthest_reach = max(farthest_reach, face%reach)
             if (integrals%seen <= 0.0_wp) cycle
             share = integrals%seen/max(seen_area(face%seen), tiny(1.0_wp))
             if (share > highest) double = s
             highest = max(highest, share)
-            own_parts = own_parts + n - model%mesh%dimension + 1
+            own_parts = own_parts + n - mesh%dimension + 1
             cover%spacing(1) = cover%spacing(1) + seen_area(face%seen)
-            call fit_face(model%mesh%dimension, n, share >= whole_share, integrals, part)
+            call fit_face(mesh%dimension, n, share >= whole_share, integrals, part)
             do k = 1, n
                elements(k) = place%find(side1%nodes(k, s))
                if (share < whole_share) partly(elements(k)) = .true.
@@ -212,51 +212,51 @@ contains
             call sums%add_face(elements(:n), side1%nodes(:n, s), integrals%node, part)
             cover%share = cover%share + merge(1.0_wp, share, share >= whole_share)*sum(area)
             cover%farthest = max(cover%farthest, integrals%farthest)
-            cover%sagitta(1) = max(cover%sagitta(1), largest_sagitta(model%mesh%x(:, side1%nodes(:side1%corners(s), s)), &
+            cover%sagitta(1) = max(cover%sagitta(1), largest_sagitta(mesh%x(:, side1%nodes(:side1%corners(s), s)), &
                                                                      opposite%own_tilt(:, s)))
          end do
          do s = 1, side2%n
             if (opposite%covers(s)) cover%sagitta(2) = max(cover%sagitta(2), largest_sagitta( &
-               model%mesh%x(:, side2%nodes(:side2%corners(s), s)), opposite%tilt(:, s)))
+               mesh%x(:, side2%nodes(:side2%corners(s), s)), opposite%tilt(:, s)))
          end do
          ! coverage and mean sizes of the faces; faults
          call sums%finish()
          cover%share = cover%share/max(all_area, tiny(1.0_wp))
          cover%spacing(1) = cover%spacing(1)/max(1, own_parts)
          cover%spacing(2) = sum(opposite%area, mask=opposite%covers) &
-                            /max(1, sum(side2%n_nodes(:side2%n) - model%mesh%dimension + 1, mask=opposite%covers))
+                            /max(1, sum(side2%n_nodes(:side2%n) - mesh%dimension + 1, mask=opposite%covers))
          if (own_parts == 0) then
             fault = 'surface '//integer_text(side2%id)//' does not cover SIDE1: none of its faces is opposite to a face of '// &
                     'SIDE1 within '//real_text(farthest_reach)//' along the normal; the nearest nodes are '// &
-                    real_text(shortest_distance(model, nodes%node, nodes_of(side2)))//' apart. Mark the sides that face '// &
+                    real_text(shortest_distance(mesh, nodes%node, nodes_of(side2)))//' apart. Mark the sides that face '// &
                     'each other, or give a larger TOL'
          else if (double > 0) then
             fault = 'faces of surface '//integer_text(side2%id)//' lie behind each other and cover the '// &
-                    side_name(model, side1%nodes(:side1%corners(double), double))//' of SIDE1 '//real_text(highest)// &
+                    side_name(mesh, side1%nodes(:side1%corners(double), double))//' of SIDE1 '//real_text(highest)// &
                     ' times: mark only the nearer ones, or give a TOL below their distance'
          end if
       end associate
    end subroutine fit_side
 
    !> The shortest distance between two lists of nodes [length].
-   pure real(wp) function shortest_distance(model, nodes, others) result(shortest)
-      type(model_type), intent(in) :: model
+   pure real(wp) function shortest_distance(mesh, nodes, others) result(shortest)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: nodes(:), others(:)
       type(spatial_search_type) :: search
       real(wp) :: distance
       integer  :: found, k
 
       shortest = huge(1.0_wp)
-      call search%build(model%mesh%x(:, others))
+      call search%build(mesh%x(:, others))
       do k = 1, size(nodes)
-         call search%nearest(model%mesh%x(:, nodes(k)), shortest, found, distance)
+         call search%nearest(mesh%x(:, nodes(k)), shortest, found, distance)
          shortest = min(shortest, distance)
       end do
    end function shortest_distance
 
    !> The faces of SIDE2 for the search.
-   subroutine list_opposite(model, side2, opposite)
-      type(model_type), intent(in)      :: model
+   subroutine list_opposite(mesh, side2, opposite)
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(in)    :: side2
       type(opposite_faces), intent(out) :: opposite
       type(face_frame) :: frame
@@ -267,21 +267,21 @@ contains
       allocate (opposite%covers(side2%n), source=.false.)
       allocate (opposite%near(0))
       do s = 1, side2%n
-         associate (x => model%mesh%x(:, side2%nodes(:side2%n_nodes(s), s)))
+         associate (x => mesh%x(:, side2%nodes(:side2%n_nodes(s), s)))
             box(:, 1, s) = minval(x, dim=2)
             box(:, 2, s) = maxval(x, dim=2)
-            call make_frame(model%mesh%dimension, x, frame)
-            opposite%area(s) = seen_area(in_frame(model%mesh%dimension, x, frame))
+            call make_frame(mesh%dimension, x, frame)
+            opposite%area(s) = seen_area(in_frame(mesh%dimension, x, frame))
          end associate
          opposite%normal(:, s) = frame%axes(:, 3)
       end do
       call opposite%boxes%build(box(:, 1, :), box(:, 2, :))
-      call find_tilts(model, side2, opposite%tilt)
+      call find_tilts(mesh, side2, opposite%tilt)
    end subroutine list_opposite
 
    !> FACE S of SIDE1 in its own frame, and the INTEGRALS over the part of it that SIDE2 covers.
-   subroutine cover_face(model, side1, s, side2, reach, opposite, face, integrals)
-      type(model_type), intent(in)         :: model
+   subroutine cover_face(mesh, side1, s, side2, reach, opposite, face, integrals)
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(in)       :: side1, side2
       integer, intent(in)                  :: s
       real(wp), intent(in)                 :: reach
@@ -292,14 +292,14 @@ contains
       real(wp) :: low(3), high(3), before
       integer  :: d, i, n
 
-      associate (x => model%mesh%x(:, side1%nodes(:side1%n_nodes(s), s)))
-         call make_frame(model%mesh%dimension, x, face%frame)
-         face%seen = in_frame(model%mesh%dimension, x, face%frame)
+      associate (x => mesh%x(:, side1%nodes(:side1%n_nodes(s), s)))
+         call make_frame(mesh%dimension, x, face%frame)
+         face%seen = in_frame(mesh%dimension, x, face%frame)
          call bend(face%seen, opposite%own_tilt(:, s), [0.0_wp, 0.0_wp, 1.0_wp])
          face%reach = merge(reach, default_reach*maxval(edge_lengths(x(:, :side1%corners(s)))), reach > 0.0_wp)
       end associate
-      face%on_ring = model%mesh%axisymmetric
-      if (model%mesh%dimension == 2) face%thickness = model%mesh%properties(model%mesh%element_property(side1%element(s)))%thickness
+      face%on_ring = mesh%axisymmetric
+      if (mesh%dimension == 2) face%thickness = mesh%properties(mesh%element_property(side1%element(s)))%thickness
       do d = 1, 3
          associate (x => face%frame%centre(d) + matmul(face%frame%axes(d, :), face%seen%x(:, :face%seen%n)))
             low(d) = minval(x) - face%reach
@@ -312,7 +312,7 @@ contains
             if (dot_product(opposite%normal(:, f), face%frame%axes(:, 3)) > facing) cycle
             before = integrals%seen
             associate (nodes => side2%nodes(:side2%n_nodes(f), f))
-               other = in_frame(model%mesh%dimension, model%mesh%x(:, nodes), face%frame)
+               other = in_frame(mesh%dimension, mesh%x(:, nodes), face%frame)
                call bend(other, opposite%tilt(:, f), matmul(opposite%normal(:, f), face%frame%axes))
                call add_overlap(face, other, nodes, opposite%points, integrals)
             end associate

@@ -8,7 +8,7 @@ module pressure_loads
    use isoparametric, only: side_forces
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, is_shell, model_type
+   use model_data, only: corners_of, is_shell, mesh_type
    use node_coupling, only: add_section_share
    use surface_sides, only: side_corners
    use text_tools, only: integer_text, one_of
@@ -41,8 +41,8 @@ contains
 
    !> The FACE whose corners have the numbers ID, in either sense. There is none, and a PROBLEM, where the face is missing, or where
    !! bodies lie on both sides, because forces on its nodes would act on both.
-   subroutine find_face(model, id, face, problem)
-      type(model_type), intent(in)           :: model
+   subroutine find_face(mesh, id, face, problem)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)                    :: id(:)  !! 3 or 4 corners in cyclic order
       type(named_face), intent(out)          :: face
       character(:), allocatable, intent(out) :: problem
@@ -52,19 +52,19 @@ contains
 
       found = 0
       problem = ''
-      node = model%mesh%node_table%find(id(1))
+      node = mesh%node_table%find(id(1))
       do while (node > 0)
-         do i = model%mesh%first_at(node), model%mesh%first_at(node + 1) - 1
-            associate (e => model%mesh%elements_at(i))
-               do s = merge(0, 1, is_shell(model, e)), element_table(model%mesh%element_kind(e))%n_sides
-                  call compare_corners(model, e, s, id, tried)
+         do i = mesh%first_at(node), mesh%first_at(node + 1) - 1
+            associate (e => mesh%elements_at(i))
+               do s = merge(0, 1, is_shell(mesh, e)), element_table(mesh%element_kind(e))%n_sides
+                  call compare_corners(mesh, e, s, id, tried)
                   if (tried%element == 0) cycle
                   found = found + 1
                   face = tried
                end do
             end associate
          end do
-         node = model%mesh%duplicate(node)
+         node = mesh%duplicate(node)
       end do
       if (found == 1) return
       face = named_face()
@@ -77,16 +77,16 @@ contains
    end subroutine find_face
 
    !> Side S of element E if the nodes with the numbers ID, or their duplicates, are its corners in cyclic order, else none.
-   pure subroutine compare_corners(model, e, s, id, face)
-      type(model_type), intent(in)  :: model
+   pure subroutine compare_corners(mesh, e, s, id, face)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)           :: e, s, id(:)
       type(named_face), intent(out) :: face
       integer :: k, place(size(id))
       logical :: outward
 
-      associate (corners => side_corners(model, e, s))
+      associate (corners => side_corners(mesh, e, s))
          if (size(corners) /= size(id)) return
-         place = [(place_of(model, id(k), corners), k = 1, size(id))]
+         place = [(place_of(mesh, id(k), corners), k = 1, size(id))]
       end associate
       if (any(place == 0)) return
       outward = all(place == cshift([(k, k = 1, size(id))], place(1) - 1))
@@ -95,20 +95,20 @@ contains
    end subroutine compare_corners
 
    !> The place of the node with number ID, or of its duplicate, among CORNERS; 0: none.
-   pure integer function place_of(model, id, corners) result(place)
-      type(model_type), intent(in) :: model
+   pure integer function place_of(mesh, id, corners) result(place)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: id, corners(:)
 
       place = 0
-      associate (node => model%mesh%node_table%find(id))
-         if (node > 0) place = findloc(corners == node .or. corners == model%mesh%duplicate(node), .true., dim=1)
+      associate (node => mesh%node_table%find(id))
+         if (node > 0) place = findloc(corners == node .or. corners == mesh%duplicate(node), .true., dim=1)
       end associate
    end function place_of
 
    !> The sides that PLOAD4, PLOADE, PLOAD and PLOAD2 cards load, without cards in error.
-   subroutine find_pressed_sides(deck, model, pressed)
+   subroutine find_pressed_sides(deck, mesh, pressed)
       type(checked_deck), intent(in)               :: deck
-      type(model_type), intent(in)                 :: model
+      type(mesh_type), intent(in) :: mesh
       type(pressed_side), allocatable, intent(out) :: pressed(:)
       type(id_table_type) :: elements, faces
       type(pressed_list)  :: list
@@ -120,44 +120,44 @@ contains
       logical  :: names_shell
 
       allocate (list%side(size(deck%bulk%pressure)))
-      call elements%build(model%mesh%element_id)
-      call faces%build(pack(deck%bulk%element%id, is_face(model, deck%bulk%element)))
+      call elements%build(mesh%element_id)
+      call faces%build(pack(deck%bulk%element%id, is_face(mesh, deck%bulk%element)))
       do i = 1, size(deck%bulk%pressure)
          associate (card => deck%bulk%pressure(i))
-            call rectangular_axes(deck, model%mesh%systems, card%line, card%system, 'the pressure on a face has one direction', &
+            call rectangular_axes(deck, mesh%systems, card%line, card%system, 'the pressure on a face has one direction', &
                axes)
             new = pressed_side(card=i, direction=matmul(axes, card%direction/max(norm2(card%direction), tiny(1.0_wp))))
             if (card%kind == of_nodes) then
                if (any(card%corners(:3) == 0)) cycle ! reported already
-               call find_face(model, card%corners(:merge(4, 3, card%corners(4) > 0)), face, problem)
+               call find_face(mesh, card%corners(:merge(4, 3, card%corners(4) > 0)), face, problem)
                if (problem /= '') call deck%field_error(card%line, 'G1', problem)
                if (problem == '') call append(pressed_side(card=i, element=face%element, side=face%side, &
                                                            p=merge(-card%pressure, card%pressure, face%outward)), list)
                cycle
             else if (card%kind == of_marks) then
                do k = 1, size(card%ranges%first)
-                  call press_on_marked(deck, model, new, card%ranges%at(k), [card%ranges%first(k), card%ranges%last(k)], list)
+                  call press_on_marked(deck, mesh, new, card%ranges%at(k), [card%ranges%first(k), card%ranges%last(k)], list)
                end do
                cycle
             end if
             if (card%first == 0) cycle
             e = elements%find(card%first)
             names_shell = e > 0
-            if (names_shell) names_shell = is_shell(model, e)
+            if (names_shell) names_shell = is_shell(mesh, e)
             if (card%kind == of_face .and. (card%last > card%first .or. faces%find(card%first) > 0 .or. names_shell)) then
-               call press_on_marked(deck, model, new, 2, [card%first, card%last], list)
+               call press_on_marked(deck, mesh, new, 2, [card%first, card%last], list)
             else if (e == 0) then
                call deck%field_error(card%line, 'EID', 'there is no body element '//integer_text(card%first))
-            else if (element_table(model%mesh%element_kind(e))%dimension /= merge(3, 2, card%kind == of_face)) then
+            else if (element_table(mesh%element_kind(e))%dimension /= merge(3, 2, card%kind == of_face)) then
                call deck%field_error(card%line, 'EID', 'element '//integer_text(card%first)//' is a '// &
-                  trim(element_table(model%mesh%element_kind(e))%card)// &
+                  trim(element_table(mesh%element_kind(e))%card)// &
                   one_of(card%kind == of_face, ': PLOAD4 is for faces of solids', ': PLOADE is for plane edges'))
-            else if (any(corners_of(model, e) == 0)) then
+            else if (any(corners_of(mesh, e) == 0)) then
                cycle ! reported already
             else if (card%corners(1) == 0) then
                if (card%kind == of_face) call deck%field_error(card%line, 'G1', 'blank, expected a corner of the face')
             else
-               call press_on_side(deck, model, e, new, list)
+               call press_on_side(deck, mesh, e, new, list)
             end if
          end associate
       end do
@@ -177,9 +177,9 @@ contains
    !> The PLOAD4 or PLOAD2 of NEW on the shells with numbers from RANGE(1) to RANGE(2), and on the faces that elements with these
    !! numbers, in data field AT, mark. The pressure acts along the right-hand normals of these elements, or along the direction of
    !! the card.
-   subroutine press_on_marked(deck, model, new, at, range, pressed)
+   subroutine press_on_marked(deck, mesh, new, at, range, pressed)
       type(checked_deck), intent(in)    :: deck
-      type(model_type), intent(in)      :: model
+      type(mesh_type), intent(in) :: mesh
       type(pressed_side), intent(in)    :: new
       integer, intent(in)               :: at, range(2)
       type(pressed_list), intent(inout) :: pressed
@@ -193,9 +193,9 @@ contains
       is_normal = norm2(side%direction) <= 0.0_wp
       any_face = .false.
       associate (card => deck%bulk%pressure(new%card))
-         if (allocated(model%mesh%structural%place)) then
-            do e = 1, model%mesh%n_elements
-               if (model%mesh%element_id(e) < range(1) .or. model%mesh%element_id(e) > range(2) .or. .not. is_shell(model, e)) cycle
+         if (allocated(mesh%structural%place)) then
+            do e = 1, mesh%n_elements
+               if (mesh%element_id(e) < range(1) .or. mesh%element_id(e) > range(2) .or. .not. is_shell(mesh, e)) cycle
                any_face = .true.
                side%element = e
                side%p = merge(-card%pressure, card%pressure, is_normal)
@@ -210,9 +210,9 @@ contains
          do f = 1, size(deck%bulk%element)
             associate (face => deck%bulk%element(f))
                if (face%id < range(1) .or. face%id > range(2)) cycle
-               if (.not. is_face(model, face)) cycle
+               if (.not. is_face(mesh, face)) cycle
                any_face = .true.
-               call find_face(model, face%nodes(:element_table(face%kind)%n_corners), found, problem)
+               call find_face(mesh, face%nodes(:element_table(face%kind)%n_corners), found, problem)
                if (problem /= '') then
                   call deck%field_error(card%line, at, problem, called='EID')
                   cycle
@@ -249,9 +249,9 @@ contains
    end function lacks_corner
 
    !> The PLOAD4 or PLOADE of NEW, on the side of element E with the corners on the card. Error: there is no such side.
-   subroutine press_on_side(deck, model, e, new, pressed)
+   subroutine press_on_side(deck, mesh, e, new, pressed)
       type(checked_deck), intent(in)    :: deck
-      type(model_type), intent(in)      :: model
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)               :: e
       type(pressed_side), intent(inout) :: new
       type(pressed_list), intent(inout) :: pressed
@@ -260,11 +260,11 @@ contains
       logical :: fits
 
       new%element = e
-      associate (card => deck%bulk%pressure(new%card), kind => element_table(model%mesh%element_kind(e)))
+      associate (card => deck%bulk%pressure(new%card), kind => element_table(mesh%element_kind(e)))
          corner = 0
          do k = 1, 2
             if (card%corners(k) == 0) cycle
-            corner(k) = place_of(model, card%corners(k), model%mesh%element_nodes(:kind%n_corners, e))
+            corner(k) = place_of(mesh, card%corners(k), mesh%element_nodes(:kind%n_corners, e))
             if (corner(k) > 0) cycle
             call deck%field_error(card%line, one_of(k == 1, 'G1', one_of(card%kind == of_face, 'G34', 'G2')), 'node '// &
                integer_text(card%corners(k))//' is no corner of element '//integer_text(card%first))
@@ -314,35 +314,35 @@ contains
 
    !> Add to FORCE the nodal forces of FACTOR times the pressure on one side; a mid-side node has the mean of the adjacent corners.
    !! Source: side_forces.
-   pure subroutine add_pressure(model, pressed, factor, force)
-      type(model_type), intent(in)   :: model
+   pure subroutine add_pressure(mesh, pressed, factor, force)
+      type(mesh_type), intent(in) :: mesh
       type(pressed_side), intent(in) :: pressed
       real(wp), intent(in)           :: factor
       real(wp), intent(inout)        :: force(:, :)       !! (3, n_nodes) [force]
-      real(wp) :: f(model%mesh%dimension, max_side_nodes), p(max_side_nodes)
+      real(wp) :: f(mesh%dimension, max_side_nodes), p(max_side_nodes)
       integer  :: c, n, nodes(max_side_nodes)
 
-      associate (e => pressed%element, s => pressed%side, d => model%mesh%dimension, &
-                 kind => element_table(model%mesh%element_kind(pressed%element)), &
-                 property => model%mesh%properties(max(1, model%mesh%element_property(pressed%element))))
+      associate (e => pressed%element, s => pressed%side, d => mesh%dimension, &
+                 kind => element_table(mesh%element_kind(pressed%element)), &
+                 property => mesh%properties(max(1, mesh%element_property(pressed%element))))
          if (s == 0) then
             n = kind%n_nodes
-            nodes(:n) = corners_of(model, e)
+            nodes(:n) = corners_of(mesh, e)
             p(:n) = factor*pressed%p(:n)
          else
             n = kind%side_size(s)
-            nodes(:n) = model%mesh%element_nodes(kind%side_nodes(:n, s), e)
+            nodes(:n) = mesh%element_nodes(kind%side_nodes(:n, s), e)
             c = kind%side_corners(s)
             p(:c) = factor*pressed%p(:c)
             p(c + 1:2*c) = 0.5_wp*(p(:c) + cshift(p(:c), 1))
          end if
          if (norm2(pressed%direction) > 0.0_wp) then
-            call side_forces(property%state, property%thickness, model%mesh%x(:d, nodes(:n)), p(:n), f, pressed%direction(:d))
+            call side_forces(property%state, property%thickness, mesh%x(:d, nodes(:n)), p(:n), f, pressed%direction(:d))
          else
-            call side_forces(property%state, property%thickness, model%mesh%x(:d, nodes(:n)), p(:n), f)
+            call side_forces(property%state, property%thickness, mesh%x(:d, nodes(:n)), p(:n), f)
          end if
          force(:d, nodes(:n)) = force(:d, nodes(:n)) + f(:, :n)
-         call add_section_share(model, e, nodes(:n), f, force)
+         call add_section_share(mesh, e, nodes(:n), f, force)
       end associate
    end subroutine add_pressure
 

@@ -4,7 +4,7 @@ module pretension_section
    use deck_check, only: checked_deck
    use element_kinds, only: max_side_nodes
    use kinds, only: wp
-   use model_data, only: model_type, section_type
+   use model_data, only: mesh_type, section_type
    use node_build, only: append_unknowns
    use spring_build, only: find_stage
    use surface_build, only: find_surface, side_influence, surface_node_list, surface_nodes
@@ -19,80 +19,79 @@ module pretension_section
 contains
 
    !> Build the pretension sections of MODEL and append their nodes.
-   subroutine build_sections(deck, model)
+   subroutine build_sections(deck, mesh)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       integer, allocatable :: behind(:)
       integer :: e, i, k, n
 
       n = count(deck%bulk%bolt%surface > 0)
       if (n == 0) return
-      allocate (model%mesh%sections(n))
-      allocate (model%mesh%node_section(model%mesh%n_nodes), model%mesh%element_section(model%mesh%n_elements), source=0)
+      allocate (mesh%sections(n))
+      allocate (mesh%node_section(mesh%n_nodes), mesh%element_section(mesh%n_elements), source=0)
       k = 0
       do i = 1, size(deck%bulk%bolt)
          if (deck%bulk%bolt(i)%surface <= 0) cycle
          k = k + 1
-         call build_section(deck, deck%bulk%bolt(i), k, model)
+         call build_section(deck, deck%bulk%bolt(i), k, mesh)
       end do
-      if (any(model%mesh%sections%point == 0)) return ! there are errors
+      if (any(mesh%sections%point == 0)) return ! there are errors
       do k = 1, n ! the section nodes follow all others, with the elements behind the section
-         behind = pack([(e, e = 1, model%mesh%n_elements)], model%mesh%element_section == k)
-         call append_unknowns(model, [model%mesh%sections(k)%point], [size(behind)], behind, &
-                              [.false., spread(.true., 1, model%mesh%dimension - 1)])
-         model%mesh%sections(k)%node = model%mesh%n_nodes
+         behind = pack([(e, e = 1, mesh%n_elements)], mesh%element_section == k)
+         call append_unknowns(mesh, [mesh%sections(k)%point], [size(behind)], behind)
+         mesh%sections(k)%node = mesh%n_nodes
       end do
    end subroutine build_sections
 
    !> Section K from its CARD: its direction, and the elements behind it.
-   subroutine build_section(deck, card, k, model)
+   subroutine build_section(deck, card, k, mesh)
       type(checked_deck), intent(in)  :: deck
       type(bolt_card), intent(in)     :: card
       integer, intent(in)             :: k
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       type(surface_node_list) :: list
       real(wp), allocatable   :: centroid(:)
       character(:), allocatable :: fault
       real(wp) :: extent
       integer  :: i, s
 
-      model%mesh%sections(k)%bolt = card%id
-      model%mesh%sections(k)%surface = card%surface
-      model%mesh%sections(k)%preload = card%preload
-      call find_stage(deck, card, model%mesh%sections(k)%stage)
-      call find_surface(deck, card%line, 'PMARK', card%surface, model, s)
+      mesh%sections(k)%bolt = card%id
+      mesh%sections(k)%surface = card%surface
+      mesh%sections(k)%preload = card%preload
+      call find_stage(deck, card, mesh%sections(k)%stage)
+      call find_surface(deck, card%line, 'PMARK', card%surface, mesh, s)
       if (s == 0) return
-      if (model%mesh%surfaces(s)%n == 0) return ! reported already
+      if (mesh%surfaces(s)%n == 0) return ! reported already
       fault = ''
-      if (model%mesh%surfaces(s)%was_split) then
+      if (mesh%surfaces(s)%was_split) then
          fault = 'is split by a JOINT: a bolt is cut at a surface inside its body'
-      else if (any(model%mesh%surfaces(s)%other(:model%mesh%surfaces(s)%n) == 0)) then
+      else if (any(mesh%surfaces(s)%other(:mesh%surfaces(s)%n) == 0)) then
          fault = 'lies on the outside of a body: expected elements on both sides of it'
       else
-         call orient_as_first_side(model, s, model%mesh%sections(k))
-         if (model%mesh%sections(k)%area <= 0.0_wp) return ! a body without property: reported already
-         model%mesh%sections(k)%strength = &
-            model%mesh%properties(model%mesh%element_property(model%mesh%surfaces(s)%element(1)))%strength
-         call surface_nodes(model, model%mesh%surfaces(s), list)
-         allocate (centroid, source=matmul(model%mesh%x(:, list%node), list%area)/sum(list%area))
+         call orient_as_first_side(mesh, s, mesh%sections(k))
+         if (mesh%sections(k)%area <= 0.0_wp) return ! a body without property: reported already
+         mesh%sections(k)%strength = &
+            mesh%properties(mesh%element_property(mesh%surfaces(s)%element(1)))%strength
+         call surface_nodes(mesh, mesh%surfaces(s), list)
+         allocate (centroid, source=matmul(mesh%x(:, list%node), list%area)/sum(list%area))
          ! the surface must be plane, and in an axisymmetric model across the axis
-         if (model%mesh%axisymmetric .and. abs(model%mesh%sections(k)%direction(1)) > parallel_in_mesh) then
+         if (mesh%axisymmetric .and. abs(mesh%sections(k)%direction(1)) > parallel_in_mesh) then
             fault = 'is not across the axis: in an axisymmetric model a bolt is cut at a plane y = constant'
          else
-            extent = maxval([(norm2(model%mesh%x(:, list%node(i)) - centroid), i = 1, list%n)])
-            i = findloc([(abs(dot_product(model%mesh%x(:, list%node(i)) - centroid, &
-               model%mesh%sections(k)%direction)) > in_section*extent, &
+            extent = maxval([(norm2(mesh%x(:, list%node(i)) - centroid), i = 1, list%n)])
+            i = findloc([(abs(dot_product(mesh%x(:, list%node(i)) - centroid, &
+               mesh%sections(k)%direction)) > in_section*extent, &
                           i = 1, list%n)], .true., dim=1)
-            if (i > 0) fault = 'is not plane: node '//integer_text(model%mesh%node_id(list%node(i)))//' lies out of its mean plane'
+            if (i > 0) fault = 'is not plane: node '//integer_text(mesh%node_id(list%node(i)))//' lies out of its mean plane'
          end if
       end if
-      if (fault == '') call find_elements_behind(model, s, k, fault)
+      if (fault == '') call find_elements_behind(mesh, s, k, fault)
       if (fault /= '') call deck%field_error(card%line, 'PMARK', 'surface '//integer_text(card%surface)//' '//fault)
    end subroutine build_section
 
    !> Reverse the sides of surface S that face against the first one; the mean normal gives direction and area of SECTION.
-   pure subroutine orient_as_first_side(model, s, section)
-      type(model_type), intent(inout)   :: model
+   pure subroutine orient_as_first_side(mesh, s, section)
+      type(mesh_type), intent(inout) :: mesh
       integer, intent(in)               :: s
       type(section_type), intent(inout) :: section
       real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), of_side(3), total(3)
@@ -100,11 +99,11 @@ contains
 
       section%area = 0.0_wp
       total = 0.0_wp
-      do i = 1, model%mesh%surfaces(s)%n
-         call side_influence(model, model%mesh%surfaces(s), i, area, normal)
+      do i = 1, mesh%surfaces(s)%n
+         call side_influence(mesh, mesh%surfaces(s), i, area, normal)
          of_side = sum(normal, dim=2)
          if (dot_product(of_side, total) < 0.0_wp) then
-            call reverse_side(model%mesh%surfaces(s), i)
+            call reverse_side(mesh%surfaces(s), i)
             of_side = -of_side
          end if
          total = total + of_side
@@ -115,8 +114,8 @@ contains
 
    !> The elements behind section K, which is surface S: at each node the elements that are connected to the
    !! back of a side without crossing the surface.
-   subroutine find_elements_behind(model, s, k, fault)
-      type(model_type), intent(inout)        :: model
+   subroutine find_elements_behind(mesh, s, k, fault)
+      type(mesh_type), intent(inout) :: mesh
       integer, intent(in)                    :: s, k
       character(:), allocatable, intent(out) :: fault !! empty: none
       type(side_list)      :: at
@@ -124,25 +123,25 @@ contains
       integer :: i
 
       fault = ''
-      call list_sides(model%mesh%surfaces(s), at)
+      call list_sides(mesh%surfaces(s), at)
       do i = 1, at%n
          associate (node => at%node(i))
-            call elements_behind(model, s, at, i, behind)
+            call elements_behind(mesh, s, at, i, behind)
             if (size(behind) == 0) then
-               fault = 'ends inside the body at node '//integer_text(model%mesh%node_id(node))// &
+               fault = 'ends inside the body at node '//integer_text(mesh%node_id(node))// &
                        ': expected a section that cuts the whole body'
-            else if (model%mesh%node_section(node) > 0) then
-               fault = 'meets the section of BOLT '//integer_text(model%mesh%sections(model%mesh%node_section(node))%bolt)// &
-                       ' at node '//integer_text(model%mesh%node_id(node))
-            else if (any(model%mesh%element_section(behind) > 0 .and. model%mesh%element_section(behind) /= k)) then
-               fault = 'is within one element of the section of another BOLT, at node '//integer_text(model%mesh%node_id(node))
+            else if (mesh%node_section(node) > 0) then
+               fault = 'meets the section of BOLT '//integer_text(mesh%sections(mesh%node_section(node))%bolt)// &
+                       ' at node '//integer_text(mesh%node_id(node))
+            else if (any(mesh%element_section(behind) > 0 .and. mesh%element_section(behind) /= k)) then
+               fault = 'is within one element of the section of another BOLT, at node '//integer_text(mesh%node_id(node))
             end if
             if (fault /= '') return
-            model%mesh%node_section(node) = k
-            model%mesh%element_section(behind) = k
+            mesh%node_section(node) = k
+            mesh%element_section(behind) = k
          end associate
       end do
-      model%mesh%sections(k)%point = at%node(1)
+      mesh%sections(k)%point = at%node(1)
    end subroutine find_elements_behind
 
 end module pretension_section

@@ -8,7 +8,7 @@ module rigid_elements
    use deck_check, only: checked_deck
    use field_rules, only: has_component
    use kinds, only: wp
-   use model_data, only: model_type, n_rotations
+   use model_data, only: freedoms_type, mesh_type, n_rotations
    use numbers, only: by_rotation
    use shell_ties, only: add_ties, tie_type
    use support_build, only: check_sums, summed_sets
@@ -26,10 +26,11 @@ contains
 
    !> Couple MODEL by the rigid elements and equations of DECK; supports and displacement systems must be known.
    !! Errors: missing or split nodes, components that do not exist, and the errors of check_dependences.
-   subroutine build_dependents(deck, ties, model, expansions)
+   subroutine build_dependents(deck, ties, mesh, freedoms, expansions)
       type(checked_deck), intent(in)  :: deck
       type(tie_type), intent(in)      :: ties(:) !! from SHELLTO cards
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(inout) :: freedoms
       type(expansion_type), allocatable, intent(out) :: expansions(:) !! of rigid elements, for temperatures
       type(dependence_list) :: list
       integer, allocatable  :: active(:)  ! active sets of equations
@@ -43,36 +44,36 @@ contains
       call check_sums(deck, 'MPCADD', deck%bulk%equation_sum, deck%bulk%equation%set, 'MPC')
       allocate (active, source=summed_sets(deck%bulk%equation_sum, set))
       if (size(deck%rigid) + size(deck%bulk%equation) + size(ties) == 0) return
-      allocate (list%without(model%mesh%n_nodes), source=.false.)
+      allocate (list%without(mesh%n_nodes), source=.false.)
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
             if (card%is_mean .and. abs(card%alpha) > 0.0_wp .and. any(deck%control%stages%temperature%id > 0)) &
                call deck%field_error(card%line, card%alpha_at, 'not zero, and case control has TEMPERATURE(LOAD), but a mean '// &
                'motion has no thermal expansion; expected blank or zero', called='ALPHA')
-            if (card%is_mean) call add_mean(deck, card, model, list)
-            if (.not. card%is_mean) call add_rigid(deck, card, model, list)
+            if (card%is_mean) call add_mean(deck, card, mesh, freedoms, list)
+            if (.not. card%is_mean) call add_rigid(deck, card, mesh, freedoms, list)
          end associate
       end do
-      call add_ties(model, ties, list)
+      call add_ties(mesh, ties, list)
       do i = 1, size(deck%bulk%equation)
-         call add_equation(deck, deck%bulk%equation(i), any(active == deck%bulk%equation(i)%set), model, list)
+         call add_equation(deck, deck%bulk%equation(i), any(active == deck%bulk%equation(i)%set), mesh, freedoms, list)
       end do
-      model%freedoms%used = model%freedoms%used .or. list%without
+      freedoms%used = freedoms%used .or. list%without
       if (allocated(list%expansions)) call move_alloc(list%expansions, expansions)
       if (deck%errors%any() .or. list%n == 0) return
-      call check_dependences(deck, model, list)
-      do i = 1, n_rotations(model)
-         model%freedoms%used(model%mesh%rotations(i)%node) = .true.
-         if (.not. model%mesh%rotations(i)%of_element) list%without(model%mesh%rotations(i)%node) = .true.
+      call check_dependences(deck, mesh, freedoms, list)
+      do i = 1, n_rotations(mesh)
+         freedoms%used(mesh%rotations(i)%node) = .true.
+         if (.not. mesh%rotations(i)%of_element) list%without(mesh%rotations(i)%node) = .true.
       end do
-      if (.not. deck%errors%any()) call eliminate(list, model)
+      if (.not. deck%errors%any()) call eliminate(list, mesh, freedoms)
    end subroutine build_dependents
 
    !> The nodes of RBE2M and RBE3M from their surface. RBE3M uses the tributary areas as weights, so that a load on the reference
    !! node is distributed uniformly over the area. RBE2M excludes GN, which may lie on the surface.
-   subroutine name_surface_nodes(deck, model)
+   subroutine name_surface_nodes(deck, mesh)
       type(checked_deck), intent(inout) :: deck
-      type(model_type), intent(in)      :: model
+      type(mesh_type), intent(in) :: mesh
       type(surface_node_list) :: list
       logical, allocatable :: counts(:)
       integer :: i, surface
@@ -80,15 +81,15 @@ contains
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
             if (card%surface == 0) cycle
-            call find_surface(deck, card%line, 'PID', card%surface, model, surface)
+            call find_surface(deck, card%line, 'PID', card%surface, mesh, surface)
             if (surface == 0) cycle
-            call surface_nodes(model, model%mesh%surfaces(surface), list)
+            call surface_nodes(mesh, mesh%surfaces(surface), list)
             if (card%is_mean) then ! on second-order triangles only mid-side nodes have an area
                counts = abs(list%area) > zero_area*maxval(abs(list%area))
             else
-               counts = model%mesh%node_id(list%node) /= card%node
+               counts = mesh%node_id(list%node) /= card%node
             end if
-            card%nodes = pack(model%mesh%node_id(list%node), counts)
+            card%nodes = pack(mesh%node_id(list%node), counts)
             card%weight = pack(list%area, counts)
             card%at = spread(card%at(1), 1, size(card%nodes))
             card%directions = spread(card%directions(1), 1, size(card%nodes))
@@ -98,24 +99,25 @@ contains
 
    !> The constraint equations of an RBE2: components CM of its nodes follow the rigid-body motion of GN, {u} + theta x arm and
    !! theta.
-   subroutine add_rigid(deck, card, model, list)
+   subroutine add_rigid(deck, card, mesh, freedoms, list)
       type(checked_deck), intent(in)       :: deck
       type(rigid_card), intent(in)         :: card
-      type(model_type), intent(in)         :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       type(dependence_list), intent(inout) :: list
       type(component_place) :: own_place, place
       real(wp) :: direction(6), axes(3, 3), motion(6, 6)
       integer  :: c, digit, first, k, node, point
       logical  :: turns_others
 
-      call find_node(deck, card%line, card%node_at, card%node, model, list, point)
+      call find_node(deck, card%line, card%node_at, card%node, mesh, freedoms, list, point)
       turns_others = any([(has_component(card%components, c), c = 4, 6)]) .and. &
-                     any([(rotation_at(model, max(1, model%mesh%node_table%find(card%nodes(k)))) > 0, k = 1, size(card%nodes))])
-      if (no_displacement(model, card%components) .and. .not. turns_others) call deck%field_error(card%line, &
+                     any([(rotation_at(mesh, max(1, mesh%node_table%find(card%nodes(k)))) > 0, k = 1, size(card%nodes))])
+      if (no_displacement(mesh, card%components) .and. .not. turns_others) call deck%field_error(card%line, &
          card%components_at, 'contains no displacement of the nodes of this model; expected some of 1 to '// &
-         integer_text(model%mesh%dimension), called='CM')
+         integer_text(mesh%dimension), called='CM')
       do k = 1, size(card%nodes)
-         call find_node(deck, card%line, card%at(k), card%nodes(k), model, list, node)
+         call find_node(deck, card%line, card%at(k), card%nodes(k), mesh, freedoms, list, node)
          if (node == 0 .and. card%surface > 0) return ! one error for all nodes of the surface
          if (node == 0 .or. point == 0) cycle
          if (node == point) then
@@ -123,44 +125,45 @@ contains
                                   'expected other nodes that move with it', called='G')
             cycle
          end if
-         axes = node_axes(model, node)
+         axes = node_axes(mesh, node)
          do digit = 1, 6
-            direction = direction_of(model, point, digit)
-            motion(:3, digit) = direction(:3) + matmul(by_rotation(model%mesh%x(:, node) - model%mesh%x(:, point)), direction(4:))
+            direction = direction_of(mesh, point, digit)
+            motion(:3, digit) = direction(:3) + matmul(by_rotation(mesh%x(:, node) - mesh%x(:, point)), direction(4:))
             motion(4:, digit) = direction(4:)
          end do
          do c = 1, 6
-            own_place = place_of_component(model, node, c)
+            own_place = place_of_component(mesh, node, c)
             if (own_place%node == 0 .or. .not. has_component(card%components, c)) cycle
             call add_dependence(list, own_place, card%line, card%at(k))
             first = merge(0, 3, c <= 3) ! of a displacement, or of a rotation
             do digit = 1, 6
-               place = place_of_component(model, point, digit)
+               place = place_of_component(mesh, point, digit)
                if (place%node > 0) call add_term(list, place, dot_product(axes(:, c - first), motion(first + 1:first + 3, digit))* &
                                                  own_place%scale/place%scale)
             end do
             if (c <= 3) call add_expansion(list, [point, node], card%alpha* &
-               dot_product(axes(:, c), model%mesh%x(:, node) - model%mesh%x(:, point)), card%reference)
+               dot_product(axes(:, c), mesh%x(:, node) - mesh%x(:, point)), card%reference)
          end do
       end do
    end subroutine add_rigid
 
    !> The constraint equation of an MPC if its set is ACTIVE.
-   subroutine add_equation(deck, card, active, model, list)
+   subroutine add_equation(deck, card, active, mesh, freedoms, list)
       type(checked_deck), intent(in)       :: deck
       type(equation_card), intent(in)      :: card
       logical, intent(in)                  :: active
-      type(model_type), intent(in)         :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       type(dependence_list), intent(inout) :: list
       type(component_place) :: place(size(card%node))
       integer :: k, node
-      logical :: without(model%mesh%n_nodes)
+      logical :: without(mesh%n_nodes)
 
       without = list%without
       do k = 1, size(card%node)
-         call find_node(deck, card%line, card%at(k), card%node(k), model, list, node)
+         call find_node(deck, card%line, card%at(k), card%node(k), mesh, freedoms, list, node)
          if (node == 0 .or. card%component(k) == 0) cycle
-         place(k) = place_of_component(model, node, card%component(k))
+         place(k) = place_of_component(mesh, node, card%component(k))
          if (place(k)%node == 0) call deck%field_error(card%line, card%at(k) + 1, 'node '//integer_text(card%node(k))// &
             ' has no component '//integer_text(card%component(k)), called='C')
          if (k == 1 .or. place(k)%node == 0) cycle
@@ -176,72 +179,74 @@ contains
    end subroutine add_equation
 
    !> Whether COMPONENTS contain no displacement of MODEL.
-   pure logical function no_displacement(model, components)
-      type(model_type), intent(in) :: model
+   pure logical function no_displacement(mesh, components)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: components
       integer :: d
 
-      no_displacement = components > 0 .and. .not. any([(has_component(components, d), d = 1, model%mesh%dimension)])
+      no_displacement = components > 0 .and. .not. any([(has_component(components, d), d = 1, mesh%dimension)])
    end function no_displacement
 
    !> The NODE with the number ID in data field FIELD of the card on LINE; 0, and an error, for a missing node, or one that a joint
    !! split. A node that belongs to no element is noted in LIST.
-   subroutine find_node(deck, line, field, id, model, list, node)
+   subroutine find_node(deck, line, field, id, mesh, freedoms, list, node)
       type(checked_deck), intent(in)       :: deck
       integer, intent(in)                  :: line, field, id
-      type(model_type), intent(in)         :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       type(dependence_list), intent(inout) :: list
       integer, intent(out)                 :: node
 
       node = 0
       if (id == 0) return
-      node = model%mesh%node_table%find(id)
+      node = mesh%node_table%find(id)
       if (node == 0) then
          call deck%field_error(line, field, 'there is no GRID '//integer_text(id), called='G')
-      else if (model%mesh%duplicate(node) > 0) then
+      else if (mesh%duplicate(node) > 0) then
          call deck%field_error(line, field, 'node '//integer_text(id)//' is split into two nodes by a JOINT, so that it is '// &
             'ambiguous; expected other nodes, or bodies meshed apart', called='G')
          node = 0
       else
-         list%without(node) = list%without(node) .or. .not. model%freedoms%used(node)
+         list%without(node) = list%without(node) .or. .not. freedoms%used(node)
       end if
    end subroutine find_node
 
    !> The constraint equations of an RBE3: components REFC of its node are the weighted mean of those of its nodes.
-   subroutine add_mean(deck, card, model, list)
+   subroutine add_mean(deck, card, mesh, freedoms, list)
       type(checked_deck), intent(in)       :: deck
       type(rigid_card), intent(in)         :: card
-      type(model_type), intent(in)         :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       type(dependence_list), intent(inout) :: list
       real(wp) :: r(3, size(card%nodes)), axes(3, 3, size(card%nodes)), t(6, 3, size(card%nodes)), direction(6)
       integer  :: before, c, digit, i, nodes(size(card%nodes)), point
       logical  :: determined(6), used(3, size(card%nodes))
 
       before = list%n
-      call find_node(deck, card%line, card%node_at, card%node, model, list, point)
+      call find_node(deck, card%line, card%node_at, card%node, mesh, freedoms, list, point)
       do i = 1, size(card%nodes)
-         call find_node(deck, card%line, card%at(i), card%nodes(i), model, list, nodes(i))
+         call find_node(deck, card%line, card%at(i), card%nodes(i), mesh, freedoms, list, nodes(i))
          if (nodes(i) == 0 .and. card%surface > 0) return ! one error for all nodes of the surface
       end do
-      if (no_displacement(model, card%components) .and. .not. has_component(card%components, 6)) &
+      if (no_displacement(mesh, card%components) .and. .not. has_component(card%components, 6)) &
          call deck%field_error(card%line, 'REFC', 'contains no component of the nodes of this model')
-      call check_directions(deck, card, model)
+      call check_directions(deck, card, mesh)
       if (point == 0 .or. any(nodes == 0) .or. deck%errors%any()) return
       do i = 1, size(nodes)
-         r(:, i) = model%mesh%x(:, nodes(i)) - model%mesh%x(:, point)
-         axes(:, :, i) = node_axes(model, nodes(i))
-         used(:, i) = [(c <= model%mesh%dimension .and. has_component(card%directions(i), c), c = 1, 3)]
+         r(:, i) = mesh%x(:, nodes(i)) - mesh%x(:, point)
+         axes(:, :, i) = node_axes(mesh, nodes(i))
+         used(:, i) = [(c <= mesh%dimension .and. has_component(card%directions(i), c), c = 1, 3)]
       end do
-      if (model%mesh%axisymmetric) then ! from axial displacements only
+      if (mesh%axisymmetric) then ! from axial displacements only
          r = 0.0_wp
          axes([1, 3], :, :) = 0.0_wp
       end if
       call mean_motion(r, axes, used, card%weight, t, determined)
       do digit = 1, 6
          if (.not. has_component(card%components, digit)) cycle
-         associate (place => place_of_component(model, point, digit))
+         associate (place => place_of_component(mesh, point, digit))
             if (place%node == 0) cycle
-            direction = direction_of(model, point, digit)
+            direction = direction_of(mesh, point, digit)
             if (any(.not. determined .and. abs(direction) > zero_component_along)) then
                call deck%field_error(card%line, 'REFC', 'component '//integer_text(digit)//' of node '// &
                   integer_text(card%node)//' does not follow from the components C of these nodes; nodes on a line, for '// &
@@ -250,21 +255,21 @@ contains
             end if
             call add_dependence(list, place, card%line, card%node_at)
             do i = 1, size(nodes)
-               do c = 1, model%mesh%dimension
+               do c = 1, mesh%dimension
                   call add_term(list, component_place(nodes(i), c), place%scale*dot_product(direction, t(:, c, i)))
                end do
             end do
          end associate
       end do
-      if (allocated(card%um_nodes)) call exchange(deck, card, model, before + 1, list)
+      if (allocated(card%um_nodes)) call exchange(deck, card, mesh, before + 1, list)
    end subroutine add_mean
 
    !> UM of an RBE3: the named components depend instead of those of the equations of LIST from FIRST on, which are REFC.
    !! Errors: nodes or components that are not on the card, a number of components other than that of REFC, singular equations.
-   subroutine exchange(deck, card, model, first, list)
+   subroutine exchange(deck, card, mesh, first, list)
       type(checked_deck), intent(in)       :: deck
       type(rigid_card), intent(in)         :: card
-      type(model_type), intent(in)         :: model
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)                  :: first
       type(dependence_list), intent(inout) :: list
       type(component_place) :: places(6*size(card%um_nodes))
@@ -281,7 +286,7 @@ contains
          do digit = 1, 6
             if (.not. has_component(card%um_components(k), digit)) cycle
             n = n + 1
-            places(n) = place_of_component(model, model%mesh%node_table%find(card%um_nodes(k)), digit)
+            places(n) = place_of_component(mesh, mesh%node_table%find(card%um_nodes(k)), digit)
             at(n) = card%um_at(k)
             if (places(n)%node == 0) n = n - 1 ! out-of-plane components of a plane model
          end do
@@ -296,36 +301,36 @@ contains
    end subroutine exchange
 
    !> The displacement and rotation in global axes that component DIGIT of POINT measures.
-   pure function direction_of(model, point, digit) result(direction)
-      type(model_type), intent(in) :: model
+   pure function direction_of(mesh, point, digit) result(direction)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: point, digit
       real(wp) :: direction(6), axes(3, 3)
 
-      axes = node_axes(model, point)
-      if (model%mesh%dimension == 2) axes(:, 3) = third_axis(model, point)
+      axes = node_axes(mesh, point)
+      if (mesh%dimension == 2) axes(:, 3) = third_axis(mesh, point)
       direction = 0.0_wp
       if (digit <= 3) direction(:3) = axes(:, digit)
       if (digit > 3) direction(4:) = axes(:, digit - 3)
-      if (model%mesh%axisymmetric) direction([1, 3, 4, 5, 6]) = 0.0_wp
+      if (mesh%axisymmetric) direction([1, 3, 4, 5, 6]) = 0.0_wp
    end function direction_of
 
    !> Error: C without a displacement, because the mean is one of displacements. Rotations in C are ignored, as nodes of bodies have
    !! none; a rotation that a node has is an error.
-   subroutine check_directions(deck, card, model)
+   subroutine check_directions(deck, card, mesh)
       type(checked_deck), intent(in) :: deck
       type(rigid_card), intent(in)   :: card
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       type(component_place) :: place
       integer :: digit, i, node
       logical :: has_rotation
 
       do i = 1, size(card%nodes)
          if (card%directions(i) == 0) cycle ! reported already
-         node = model%mesh%node_table%find(card%nodes(i))
+         node = mesh%node_table%find(card%nodes(i))
          has_rotation = .false.
          do digit = 4, 6
             if (node == 0 .or. .not. has_component(card%directions(i), digit)) cycle
-            place = place_of_component(model, node, digit)
+            place = place_of_component(mesh, node, digit)
             has_rotation = has_rotation .or. place%node > 0
          end do
          if (has_rotation) then
@@ -333,7 +338,7 @@ contains
                ', are rotations too, which this node has; expected C of 1 to 3', &
                called='G')
             return
-         else if (no_displacement(model, card%directions(i))) then
+         else if (no_displacement(mesh, card%directions(i))) then
             call deck%field_error(card%line, card%at(i), 'its components C, '//integer_text(card%directions(i))// &
                ', contain no displacement of the nodes of this model', called='G')
             return

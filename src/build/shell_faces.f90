@@ -7,7 +7,7 @@ module shell_faces
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use kinds, only: wp
-   use model_data, only: corners_of, face_node_type, is_shell, model_type, surface_type
+   use model_data, only: corners_of, face_node_type, freedoms_type, is_shell, mesh_type, surface_type
    use node_build, only: append_nodes
    use node_coupling, only: couple_node, transformation, unknown_nodes
    use numbers, only: by_rotation, cross
@@ -24,9 +24,9 @@ module shell_faces
 contains
 
    !> Give the sides of shells in marked surfaces nodes of their own, and masses with an offset.
-   subroutine build_shell_faces(deck, model)
+   subroutine build_shell_faces(deck, mesh)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       type(face_node_type), allocatable :: faces(:)
       real(wp) :: axes(3, 3)
       integer  :: i, k, n
@@ -35,72 +35,72 @@ contains
       allocate (faces(0))
       do k = 1, size(deck%bulk%mass) ! the centre of mass of a CONM2 with an offset has a rigid lever from its node, as faces have
          associate (card => deck%bulk%mass(k))
-            n = model%mesh%node_table%find(card%node)
+            n = mesh%node_table%find(card%node)
             if (n == 0 .or. all(abs(card%offset) <= 0.0_wp)) cycle
-            call find_directions(deck, model%mesh%systems, card%line, card%system, model%mesh%x(:, n), axes, ok)
+            call find_directions(deck, mesh%systems, card%line, card%system, mesh%x(:, n), axes, ok)
             faces = [faces, face_node_type(point=n, lever=matmul(axes, card%offset))]
          end associate
       end do
-      if (allocated(model%mesh%structural%place)) then
-         do k = 1, size(model%mesh%surfaces)
-            associate (surface => model%mesh%surfaces(k))
-               if (.not. any([(is_shell(model, surface%element(n)), n = 1, surface%n)])) cycle
+      if (allocated(mesh%structural%place)) then
+         do k = 1, size(mesh%surfaces)
+            associate (surface => mesh%surfaces(k))
+               if (.not. any([(is_shell(mesh, surface%element(n)), n = 1, surface%n)])) cycle
                do n = 1, surface%n
                   if (surface%other(n) == 0) cycle
                   call deck%errors%add(surface%line(n), 'surface '//integer_text(surface%id)// &
                      ': a joint cannot lie on an edge between two shells; expected a free edge')
                   return
                end do
-               call offset_sides(model, surface, faces)
+               call offset_sides(mesh, surface, faces)
             end associate
          end do
       end if
       if (size(faces) == 0) return
       ! the nodes of the faces follow those of the deck, with the elements of the shell nodes, which give their material
-      n = model%mesh%n_nodes
+      n = mesh%n_nodes
       faces%node = [(n + k, k = 1, size(faces))]
-      model%mesh%elements_at = [model%mesh%elements_at, ((model%mesh%elements_at(i), i = model%mesh%first_at(faces(k)%point), &
-                                                model%mesh%first_at(faces(k)%point + 1) - 1), k = 1, size(faces))]
-      model%mesh%first_at = [model%mesh%first_at, spread(0, 1, size(faces))]
+      mesh%elements_at = [mesh%elements_at, ((mesh%elements_at(i), i = mesh%first_at(faces(k)%point), &
+                                                mesh%first_at(faces(k)%point + 1) - 1), k = 1, size(faces))]
+      mesh%first_at = [mesh%first_at, spread(0, 1, size(faces))]
       do k = 1, size(faces)
          associate (point => faces(k)%point)
-            model%mesh%first_at(n + k + 1) = model%mesh%first_at(n + k) + model%mesh%first_at(point + 1) - &
-               model%mesh%first_at(point)
+            mesh%first_at(n + k + 1) = mesh%first_at(n + k) + mesh%first_at(point + 1) - &
+               mesh%first_at(point)
          end associate
       end do
-      call append_nodes(model, model%mesh%x(:, faces%point) + reshape([(faces(k)%lever, k = 1, size(faces))], [3, size(faces)]))
-      model%mesh%face_of = [spread(0, 1, n), [(k, k = 1, size(faces))]]
-      call move_alloc(faces, model%mesh%faces)
+      call append_nodes(mesh, mesh%x(:, faces%point) + reshape([(faces(k)%lever, k = 1, size(faces))], [3, size(faces)]))
+      mesh%face_of = [spread(0, 1, n), [(k, k = 1, size(faces))]]
+      call move_alloc(faces, mesh%faces)
    end subroutine build_shell_faces
 
    !> Give the sides of SURFACE that belong to shells nodes among FACES; a shared node has the mean lever of its sides. The lines of the
    !! strips at a node count along UP, the normal of the first shell there, because the next shell may be numbered clockwise.
-   subroutine offset_sides(model, surface, faces)
-      type(model_type), intent(in)      :: model
+   subroutine offset_sides(mesh, surface, faces)
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(inout) :: surface
       type(face_node_type), allocatable, intent(inout) :: faces(:)
       type(face_node_type), allocatable :: added(:)
       integer, allocatable :: n_of(:), of_node(:, :)
       integer  :: c, i, line, n, nodes(4), row, s
-      real(wp) :: side, up(3, model%mesh%n_nodes)
+      real(wp) :: side, up(3, mesh%n_nodes)
       type(shell_frame) :: frame
 
       call cut_edges(surface)
-      allocate (added(4*surface%n), of_node(0:strips, model%mesh%n_nodes))
+      allocate (added(4*surface%n), of_node(0:strips, mesh%n_nodes))
       allocate (n_of(4*surface%n), source=0)
       of_node = 0
       up = 0.0_wp
       n = 0
       do s = 1, surface%n
-         if (.not. is_shell(model, surface%element(s))) cycle
+         if (.not. is_shell(mesh, surface%element(s))) cycle
          c = count(surface%nodes(:, s) > 0)
          row = merge(-surface%nodes(3, s), 0, c == 2)
          nodes(:c) = surface%nodes(:c, s)
-         associate (corners => corners_of(model, surface%element(s)), &
-                    law => model%mesh%structural%shells(model%mesh%structural%place(surface%element(s))))
-            frame = shell_frame_of(model%mesh%x(:, corners), law%offset)
-            side = sign(0.5_wp, dot_product(frame%axes(:, 3), cross(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1)), &
-                                                                     model%mesh%x(:, nodes(c)) - model%mesh%x(:, nodes(1)))))
+         associate (corners => corners_of(mesh, surface%element(s)), &
+                    law => mesh%structural%shells(mesh%structural%place(surface%element(s))))
+            frame = shell_frame_of(mesh%x(:, corners), law%offset)
+            side = sign(0.5_wp, dot_product(frame%axes(:, 3), cross(mesh%x(:, nodes(2)) - mesh%x(:, nodes(1)), &
+                                                                     mesh%x(:, nodes(c)) - mesh%x(:, nodes(1)))))
             do i = 1, c
                associate (t => law%thickness(findloc(corners, nodes(i), dim=1)))
                   if (c > 2) then
@@ -140,7 +140,7 @@ contains
          associate (face => of_node(line, node))
             added(face)%lever = added(face)%lever + lever
             n_of(face) = n_of(face) + 1
-            at = model%mesh%n_nodes + size(faces) + face
+            at = mesh%n_nodes + size(faces) + face
          end associate
       end subroutine take
 
@@ -171,35 +171,36 @@ contains
    end subroutine cut_edges
 
    !> Couple the face nodes to the nodes from which they stand off, or to the masters of these: u + theta x lever.
-   subroutine couple_shell_faces(model)
-      type(model_type), intent(inout) :: model
+   subroutine couple_shell_faces(mesh, freedoms)
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(inout) :: freedoms
       real(wp), allocatable :: t(:, :, :)
-      real(wp) :: w(model%mesh%dimension, model%mesh%dimension)
+      real(wp) :: w(mesh%dimension, mesh%dimension)
       integer  :: d, j, k
 
-      if (.not. allocated(model%mesh%faces)) return
-      d = model%mesh%dimension
-      if (.not. allocated(model%freedoms%left_out)) allocate (model%freedoms%left_out(model%mesh%dimension, model%mesh%n_nodes), &
+      if (.not. allocated(mesh%faces)) return
+      d = mesh%dimension
+      if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, mesh%n_nodes), &
          source=.false.)
-      do k = 1, size(model%mesh%faces)
-         associate (face => model%mesh%faces(k), &
-            rotation => model%mesh%rotations(model%mesh%rotation_of(model%mesh%faces(k)%point)), &
-                    lever => model%mesh%faces(k)%lever)
+      do k = 1, size(mesh%faces)
+         associate (face => mesh%faces(k), &
+            rotation => mesh%rotations(mesh%rotation_of(mesh%faces(k)%point)), &
+                    lever => mesh%faces(k)%lever)
             if (d == 3) w = by_rotation(lever)/rotation%arm
-            if (d == 2) w = sum(third_axis(model, face%point))/rotation%arm*reshape([-lever(2), lever(1), 0.0_wp, 0.0_wp], [2, 2])
-            associate (masters => unknown_nodes(model, [face%point, rotation%node]), &
-                       both => transformation(model, [face%point, rotation%node]))
+            if (d == 2) w = sum(third_axis(mesh, face%point))/rotation%arm*reshape([-lever(2), lever(1), 0.0_wp, 0.0_wp], [2, 2])
+            associate (masters => unknown_nodes(freedoms, [face%point, rotation%node]), &
+                       both => transformation(mesh, freedoms, [face%point, rotation%node]))
                allocate (t(d, d, size(masters)))
                do j = 1, size(masters)
                   associate (of_master => both(:, d*(j - 1) + 1:d*j))
                      t(:, :, j) = of_master(:d, :) + matmul(w, of_master(d + 1:, :))
                   end associate
                end do
-               call couple_node(model%freedoms%coupling, model%mesh%n_nodes, face%node, masters, t)
+               call couple_node(freedoms%coupling, mesh%n_nodes, face%node, masters, t)
                deallocate (t)
             end associate
-            model%freedoms%left_out(:, face%node) = .true.
-            model%freedoms%held(:, face%node) = .true.
+            freedoms%left_out(:, face%node) = .true.
+            freedoms%held(:, face%node) = .true.
          end associate
       end do
    end subroutine couple_shell_faces

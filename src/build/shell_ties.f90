@@ -10,7 +10,7 @@ module shell_ties
    use element_kinds, only: kind_tria3, kind_tria6, max_nodes
    use face_overlap, only: face_frame, find_point, in_frame, make_frame, map_point, seen_face
    use kinds, only: wp
-   use model_data, only: corners_of, is_shell, model_type, surface_type
+   use model_data, only: corners_of, is_shell, mesh_type, surface_type
    use numbers, only: identity
    use rigid_fit, only: mean_motion
    use shell_membrane, only: shell_frame, shell_frame_of
@@ -37,9 +37,9 @@ contains
 
    !> The TIES of all SHELLTO cards, before edges of shells are cut into strips. Errors: surfaces that are not an edge of shells and
    !! a face of solids, or whose distance exceeds the thickness of the shell.
-   subroutine find_ties(deck, model, ties)
+   subroutine find_ties(deck, mesh, ties)
       type(checked_deck), intent(in)           :: deck
-      type(model_type), intent(in)             :: model
+      type(mesh_type), intent(in) :: mesh
       type(tie_type), allocatable, intent(out) :: ties(:)
       integer :: edge, face, i, s
 
@@ -47,18 +47,18 @@ contains
       do i = 1, size(deck%bulk%tie)
          associate (card => deck%bulk%tie(i))
             if (any(card%surfaces == 0)) cycle ! reported already
-            call find_surface(deck, card%line, 'PID1', card%surfaces(1), model, edge)
-            call find_surface(deck, card%line, 'PID2', card%surfaces(2), model, face)
+            call find_surface(deck, card%line, 'PID1', card%surfaces(1), mesh, edge)
+            call find_surface(deck, card%line, 'PID2', card%surfaces(2), mesh, face)
             if (edge == 0 .or. face == 0) cycle
-            associate (side => model%mesh%surfaces(edge), base => model%mesh%surfaces(face))
-               if (any([(side%corners(s) /= 2 .or. .not. is_shell(model, side%element(s)), s = 1, side%n)])) then
+            associate (side => mesh%surfaces(edge), base => mesh%surfaces(face))
+               if (any([(side%corners(s) /= 2 .or. .not. is_shell(mesh, side%element(s)), s = 1, side%n)])) then
                   call deck%field_error(card%line, 'PID1', 'surface '//integer_text(side%id)//' is no edge of shells; '// &
                                         'expected CBAR or CROD on free edges of shells')
-               else if (any([(base%corners(s) == 2 .or. is_shell(model, base%element(s)), s = 1, base%n)])) then
+               else if (any([(base%corners(s) == 2 .or. is_shell(mesh, base%element(s)), s = 1, base%n)])) then
                   call deck%field_error(card%line, 'PID2', 'surface '//integer_text(base%id)//' is not of solids; '// &
                                         'expected CTRIA3 or CQUAD4 on faces of solids')
                else
-                  call tie(deck, model, card%line, side, base, ties)
+                  call tie(deck, mesh, card%line, side, base, ties)
                end if
             end associate
          end associate
@@ -66,9 +66,9 @@ contains
    end subroutine find_ties
 
    !> Add the ties of the nodes of the edge SIDE to the face BASE, for a card on LINE.
-   subroutine tie(deck, model, line, side, base, ties)
+   subroutine tie(deck, mesh, line, side, base, ties)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(in)    :: model
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)             :: line
       type(surface_type), intent(in)  :: side, base
       type(tie_type), allocatable, intent(inout) :: ties(:)
@@ -76,21 +76,21 @@ contains
       type(face_frame)  :: frames(base%n)
       type(shell_frame) :: frame
       real(wp) :: along(3), arms(3, 3), farthest, miss, t
-      integer  :: k, n, node, of_node(model%mesh%n_nodes), p, s
+      integer  :: k, n, node, of_node(mesh%n_nodes), p, s
 
       do s = 1, base%n
-         call make_frame(3, model%mesh%x(:, base%nodes(:base%n_nodes(s), s)), frames(s))
+         call make_frame(3, mesh%x(:, base%nodes(:base%n_nodes(s), s)), frames(s))
       end do
       allocate (added(2*side%n))
       of_node = 0
       n = 0
       do s = 1, side%n
-         associate (corners => corners_of(model, side%element(s)), &
-                    law => model%mesh%structural%shells(model%mesh%structural%place(side%element(s))))
-            frame = shell_frame_of(model%mesh%x(:, corners), law%offset)
+         associate (corners => corners_of(mesh, side%element(s)), &
+                    law => mesh%structural%shells(mesh%structural%place(side%element(s))))
+            frame = shell_frame_of(mesh%x(:, corners), law%offset)
             do k = 1, 2
                node = side%nodes(k, s)
-               along = model%mesh%x(:, side%nodes(3 - k, s)) - model%mesh%x(:, node)
+               along = mesh%x(:, side%nodes(3 - k, s)) - mesh%x(:, node)
                t = law%thickness(findloc(corners, node, dim=1))
                arms = spread(law%offset*frame%axes(:, 3), 2, 3)
                arms(:, 1:2) = arms(:, 1:2) + 0.5_wp*t*reshape([frame%axes(:, 3), -frame%axes(:, 3)], [3, 2])
@@ -102,11 +102,11 @@ contains
                end if
                farthest = 0.0_wp
                do p = 1, 3
-                  call attach_point(model, base, frames, arms(:, p), added(of_node(node)), miss)
+                  call attach_point(mesh, base, frames, arms(:, p), added(of_node(node)), miss)
                   farthest = max(farthest, miss)
                end do
                if (farthest <= t) cycle
-               call deck%field_error(line, 'PID1', 'node '//integer_text(model%mesh%node_id(node))//' of the edge lies '// &
+               call deck%field_error(line, 'PID1', 'node '//integer_text(mesh%node_id(node))//' of the edge lies '// &
                   real_text(farthest)//' from surface '//integer_text(base%id)//'; expected no more than the thickness of '// &
                   'the shell')
                return
@@ -117,8 +117,8 @@ contains
    end subroutine tie
 
    !> Add to TIE the point of BASE, whose sides have FRAMES, nearest to the position at ARM from its node; MISS is the distance.
-   pure subroutine attach_point(model, base, frames, arm, tie, miss)
-      type(model_type), intent(in)   :: model
+   pure subroutine attach_point(mesh, base, frames, arm, tie, miss)
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(in) :: base
       type(face_frame), intent(in)   :: frames(:)
       real(wp), intent(in)           :: arm(3)  !! [length]
@@ -135,10 +135,10 @@ contains
       tie%arm(:, tie%n) = arm
       do s = 1, base%n
          associate (nodes => base%nodes(:base%n_nodes(s), s))
-            size_of = norm2(model%mesh%x(:, nodes(1)) - frames(s)%centre)
-            place = matmul(model%mesh%x(:, tie%node) + arm - frames(s)%centre, frames(s)%axes)
+            size_of = norm2(mesh%x(:, nodes(1)) - frames(s)%centre)
+            place = matmul(mesh%x(:, tie%node) + arm - frames(s)%centre, frames(s)%axes)
             if (norm2(place) - 2.0_wp*size_of >= miss) cycle
-            face = in_frame(3, model%mesh%x(:, nodes), frames(s))
+            face = in_frame(3, mesh%x(:, nodes), frames(s))
             call find_point(face, place(:2), point, is_found)
             if (.not. is_found) cycle
             call map_point(face, point, share, there)
@@ -158,8 +158,8 @@ contains
    end subroutine attach_point
 
    !> The constraint equations of TIES, for all six components of their nodes.
-   subroutine add_ties(model, ties, list)
-      type(model_type), intent(in)         :: model
+   subroutine add_ties(mesh, ties, list)
+      type(mesh_type), intent(in) :: mesh
       type(tie_type), intent(in)           :: ties(:)
       type(dependence_list), intent(inout) :: list
       real(wp) :: axes(3, 3), directions(3, 3), row(3), t(6, 3, most_points)
@@ -171,15 +171,15 @@ contains
          associate (tie => ties(i), n => ties(i)%n)
             call mean_motion(tie%arm(:, :n), spread(identity, 3, n), spread(spread(.true., 1, 3), 2, n), spread(1.0_wp, 1, n), &
                              t(:, :, :n), determined)
-            axes = node_axes(model, tie%node)
+            axes = node_axes(mesh, tie%node)
             do digit = 1, 6
-               place = place_of_component(model, tie%node, digit)
+               place = place_of_component(mesh, tie%node, digit)
                call add_dependence(list, place, tie%line, 1)
                first = merge(0, 3, digit <= 3)
                do p = 1, n
                   row = place%scale*matmul(axes(:, digit - first), t(first + 1:first + 3, :, p))
                   do k = 1, count(tie%at(:, p) > 0)
-                     directions = node_axes(model, tie%at(k, p))
+                     directions = node_axes(mesh, tie%at(k, p))
                      do c = 1, 3
                         call add_term(list, component_place(tie%at(k, p), c), tie%share(k, p)*dot_product(row, directions(:, c)))
                      end do

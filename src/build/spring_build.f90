@@ -5,7 +5,7 @@ module spring_build
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use kinds, only: wp
-   use model_data, only: a_spring, bar_type, model_type
+   use model_data, only: a_spring, bar_type, mesh_type
    use model_kind, only: space_hint
    use node_build, only: find_nodes
    use numbers, only: cross, identity
@@ -31,14 +31,14 @@ contains
    end function is_bar
 
    !> Fill the bars of MODEL, and assign the BOLT cards of bars, with the stages that tighten them.
-   subroutine build_bars(deck, model)
+   subroutine build_bars(deck, mesh)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       type(prod_card) :: prod
       integer :: i, k, n, stage
       logical :: is_cut_beam
 
-      allocate (model%mesh%bars(size(deck%bulk%edge) + size(deck%bulk%conrod)))
+      allocate (mesh%bars(size(deck%bulk%edge) + size(deck%bulk%conrod)))
       n = 0
       do i = 1, size(deck%bulk%edge)
          associate (edge => deck%bulk%edge(i))
@@ -54,39 +54,39 @@ contains
                cycle
             end if
             n = n + 1
-            model%mesh%bars(n)%id = edge%id
-            call find_nodes(deck, edge%line, edge%nodes(:2), model, model%mesh%bars(n)%nodes)
-            call build_bar(deck, edge%line, prod, model, model%mesh%bars(n))
-            if (is_cut_beam) model%mesh%bars(n)%mass = 0.0_wp
+            mesh%bars(n)%id = edge%id
+            call find_nodes(deck, edge%line, edge%nodes(:2), mesh, mesh%bars(n)%nodes)
+            call build_bar(deck, edge%line, prod, mesh, mesh%bars(n))
+            if (is_cut_beam) mesh%bars(n)%mass = 0.0_wp
          end associate
       end do
       do i = 1, size(deck%bulk%conrod)
          associate (rod => deck%bulk%conrod(i))
             n = n + 1
-            model%mesh%bars(n)%id = rod%id
-            call find_nodes(deck, rod%line, rod%nodes, model, model%mesh%bars(n)%nodes, first=2)
-            call build_bar(deck, rod%line, rod%prod_card, model, model%mesh%bars(n))
+            mesh%bars(n)%id = rod%id
+            call find_nodes(deck, rod%line, rod%nodes, mesh, mesh%bars(n)%nodes, first=2)
+            call build_bar(deck, rod%line, rod%prod_card, mesh, mesh%bars(n))
          end associate
       end do
-      model%mesh%bars = model%mesh%bars(:n)
+      mesh%bars = mesh%bars(:n)
       do i = 1, size(deck%bulk%bolt)
          associate (card => deck%bulk%bolt(i))
             if (card%element == 0) cycle ! a solid bolt
-            k = findloc(model%mesh%bars%id, card%element, dim=1)
+            k = findloc(mesh%bars%id, card%element, dim=1)
             call find_stage(deck, card, stage)
             if (k == 0) call deck%field_error(card%line, 'EID', 'there is no CROD '//integer_text(card%element)// &
                                               ' with a PROD, nor a CONROD, CBAR or CBEAM')
             if (k == 0 .or. stage == 0) cycle
-            if (model%mesh%bars(k)%bolt > 0) then
+            if (mesh%bars(k)%bolt > 0) then
                call deck%field_error(card%line, 'EID', name_of_bar(deck, card%element)//' is BOLT '// &
-                  integer_text(model%mesh%bars(k)%bolt)// &
+                  integer_text(mesh%bars(k)%bolt)// &
                      ' already, and a bolt is tightened in one stage only; expected one BOLT '// &
                   'for each element, with the stage that tightens it last')
                cycle
             end if
-            model%mesh%bars(k)%bolt = card%id
-            model%mesh%bars(k)%preload = card%preload
-            model%mesh%bars(k)%stage = stage
+            mesh%bars(k)%bolt = card%id
+            mesh%bars(k)%preload = card%preload
+            mesh%bars(k)%stage = stage
          end associate
       end do
    end subroutine build_bars
@@ -107,11 +107,11 @@ contains
    end function name_of_bar
 
    !> The stiffness and mass of BAR with the section of PROD; its card is on LINE, its nodes are known.
-   subroutine build_bar(deck, line, prod, model, bar)
+   subroutine build_bar(deck, line, prod, mesh, bar)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line
       type(prod_card), intent(in)    :: prod
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       type(bar_type), intent(inout)  :: bar
       integer  :: material
       real(wp) :: along(3), length
@@ -122,7 +122,7 @@ contains
          return
       end if
       if (any(bar%nodes == 0)) return
-      along = model%mesh%x(:, bar%nodes(2)) - model%mesh%x(:, bar%nodes(1))
+      along = mesh%x(:, bar%nodes(2)) - mesh%x(:, bar%nodes(1))
       length = norm2(along)
       if (length <= 0.0_wp) then
          call deck%errors%add(line, 'bar '//integer_text(bar%id)//' has no length')
@@ -138,7 +138,7 @@ contains
       bar%expansion = deck%bulk%mat1(material)%alpha*length
       bar%reference = deck%bulk%mat1(material)%reference
       bar%damping = deck%bulk%mat1(material)%damping
-      if (model%mesh%axisymmetric .and. abs(bar%direction(1, 1)) > zero_cosine) call deck%errors%add(line, 'bar '// &
+      if (mesh%axisymmetric .and. abs(bar%direction(1, 1)) > zero_cosine) call deck%errors%add(line, 'bar '// &
          integer_text(bar%id)//': in an axisymmetric model bars stand along y; their area is that of all round the ring')
    end subroutine build_bar
 
@@ -154,9 +154,9 @@ contains
    end subroutine find_stage
 
    !> Append the springs to the bars of MODEL.
-   subroutine build_springs(deck, model)
+   subroutine build_springs(deck, mesh)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       type(bar_type), allocatable :: bars(:)
       real(wp) :: stiffness(6), damping
       integer  :: i, k, n
@@ -165,9 +165,9 @@ contains
          call deck%report_repeated('PELAS', pack(laws%id, .not. laws%is_bush), pack(laws%line, .not. laws%is_bush))
          call deck%report_repeated('PBUSH', pack(laws%id, laws%is_bush), pack(laws%line, laws%is_bush))
          if (size(cards) == 0) return
-         n = size(model%mesh%bars)
+         n = size(mesh%bars)
          allocate (bars(n + 6*size(cards)))
-         bars(:n) = model%mesh%bars
+         bars(:n) = mesh%bars
          do i = 1, size(cards)
             stiffness = [cards(i)%stiffness, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp] ! of a CELAS2
             damping = cards(i)%damping
@@ -179,19 +179,19 @@ contains
                call deck%field_error(cards(i)%line, 'PID', 'there is no '//one_of(cards(i)%is_bush, 'PBUSH', 'PELAS')//' '// &
                                      integer_text(cards(i)%property))
             end if
-            call build_spring(deck, cards(i), stiffness, damping, model, bars, n)
+            call build_spring(deck, cards(i), stiffness, damping, mesh, bars, n)
          end do
       end associate
-      model%mesh%bars = bars(:n)
+      mesh%bars = bars(:n)
    end subroutine build_springs
 
    !> Append the springs of one CARD to BARS(:N).
-   subroutine build_spring(deck, card, stiffness, damping, model, bars, n)
+   subroutine build_spring(deck, card, stiffness, damping, mesh, bars, n)
       type(checked_deck), intent(in)  :: deck
       type(spring_card), intent(in)   :: card
       real(wp), intent(in)            :: stiffness(6) !! of a CELAS the first [force/length], [moment]
       real(wp), intent(in)            :: damping      !! structural [-]
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(in) :: mesh
       type(bar_type), intent(inout)   :: bars(:)
       integer, intent(inout)          :: n
       real(wp) :: directions(3, 3), axes(3, 3)
@@ -199,8 +199,8 @@ contains
       logical  :: ok
 
       if (card%is_bush) then
-         call find_nodes(deck, card%line, card%nodes, model, nodes)
-         call find_axes(deck, card, model, nodes, stiffness, directions, ok)
+         call find_nodes(deck, card%line, card%nodes, mesh, nodes)
+         call find_axes(deck, card, mesh, nodes, stiffness, directions, ok)
          if (.not. ok) return
          do k = 1, 6
             if (stiffness(k) > 0.0_wp) call add(k, stiffness(k), spread(directions(:, modulo(k - 1, 3) + 1), 2, 2))
@@ -208,13 +208,13 @@ contains
          return
       end if
       do k = 1, 2
-         call find_nodes(deck, card%line, card%nodes(k:k), model, nodes(k:k), first=2*k + 1)
+         call find_nodes(deck, card%line, card%nodes(k:k), mesh, nodes(k:k), first=2*k + 1)
          directions(:, k) = 0.0_wp
          if (nodes(k) == 0) cycle
-         if (card%components(k) == 3 .and. model%mesh%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
-            'a plane model has no component 3'//space_hint(model))
-         if (all(card%components(k) /= [1, 2, model%mesh%dimension, 4, 5, 6])) return ! reported
-         axes = node_axes(model, nodes(k))
+         if (card%components(k) == 3 .and. mesh%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
+            'a plane model has no component 3'//space_hint(mesh))
+         if (all(card%components(k) /= [1, 2, mesh%dimension, 4, 5, 6])) return ! reported
+         axes = node_axes(mesh, nodes(k))
          directions(:, k) = axes(:, modulo(card%components(k) - 1, 3) + 1)
       end do
       k = merge(1, 2, card%nodes(1) > 0) ! the first node that is not the ground
@@ -238,21 +238,21 @@ contains
          ends = nodes
          along = axes
          if (component > 3) then
-            if (model%mesh%dimension == 2 .and. component /= 6) return ! no rotation in the plane
+            if (mesh%dimension == 2 .and. component /= 6) return ! no rotation in the plane
             along = 0.0_wp
             do end = 1, 2
                if (nodes(end) == 0) cycle
-               if (rotation_at(model, nodes(end)) == 0) then
+               if (rotation_at(mesh, nodes(end)) == 0) then
                   call deck%errors%add(card%line, 'spring '//integer_text(card%id)//': node '// &
-                     integer_text(model%mesh%node_id(nodes(end)))// &
+                     integer_text(mesh%node_id(nodes(end)))// &
                      ' has no rotations; expected a node of shells or beams, or the reference node of an RBE2, RBAR, or RBE3 '// &
                      'with rotations in REFC')
                   return
                end if
-               associate (rotation => model%mesh%rotations(rotation_at(model, nodes(end))))
+               associate (rotation => mesh%rotations(rotation_at(mesh, nodes(end))))
                   ends(end) = rotation%node
                   along(:, end) = axes(:, end)/rotation%arm
-                  if (model%mesh%dimension == 2) along(:, end) = [axes(3, end), 0.0_wp, 0.0_wp]/rotation%arm
+                  if (mesh%dimension == 2) along(:, end) = [axes(3, end), 0.0_wp, 0.0_wp]/rotation%arm
                end associate
             end do
             if (ends(2) == 0) along(:, 2) = along(:, 1)
@@ -260,7 +260,6 @@ contains
          n = n + 1
          bars(n) = bar_type(id=card%id, nodes=ends, kind=a_spring, axis=axis_names(component), stiffness=k_axis, damping=damping, &
                             direction=along)
-         model%freedoms%used(pack(ends, ends > 0)) = .true.
       end subroutine add
 
    end subroutine build_spring
@@ -268,10 +267,10 @@ contains
    !> The axes of a CBUSH at its first node: those of its system; without a system, the line between its nodes if it has K1 and K4
    !! alone, and global axes if the nodes coincide. Error: a force between nodes apart that have rotations has a lever; the springs
    !! of this program apply no moments to their nodes.
-   subroutine find_axes(deck, card, model, nodes, stiffness, directions, ok)
+   subroutine find_axes(deck, card, mesh, nodes, stiffness, directions, ok)
       type(checked_deck), intent(in) :: deck
       type(spring_card), intent(in)  :: card
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)            :: nodes(2)
       real(wp), intent(in)           :: stiffness(6)
       real(wp), intent(out)          :: directions(3, 3) !! columns, unit
@@ -283,10 +282,10 @@ contains
       ok = nodes(1) > 0 .and. (nodes(2) > 0 .or. card%nodes(2) == 0)
       if (.not. ok) return
       if (card%system > 0) then
-         call find_directions(deck, model%mesh%systems, card%line, card%system, model%mesh%x(:, nodes(1)), directions, ok, &
+         call find_directions(deck, mesh%systems, card%line, card%system, mesh%x(:, nodes(1)), directions, ok, &
             ['CID', 'GA '])
       else if (card%system < 0 .and. nodes(2) > 0) then
-         along = model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1))
+         along = mesh%x(:, nodes(2)) - mesh%x(:, nodes(1))
          if (norm2(along) <= 0.0_wp) return
          ok = all(stiffness([2, 3, 5, 6]) <= 0.0_wp)
          if (ok) directions(:, 1) = along/norm2(along)
@@ -295,15 +294,15 @@ contains
       end if
       if (.not. ok .or. nodes(2) == 0) return
       lever = 0.0_wp
-      do axis = 1, model%mesh%dimension
-         if (stiffness(axis) > 0.0_wp) lever = max(lever, norm2(cross(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1)), &
+      do axis = 1, mesh%dimension
+         if (stiffness(axis) > 0.0_wp) lever = max(lever, norm2(cross(mesh%x(:, nodes(2)) - mesh%x(:, nodes(1)), &
                                                                        directions(:, axis))))
       end do
       do end = 1, 2
-         if (rotation_at(model, nodes(end)) == 0) cycle
-         if (lever <= no_lever*model%mesh%rotations(rotation_at(model, nodes(end)))%arm) cycle
+         if (rotation_at(mesh, nodes(end)) == 0) cycle
+         if (lever <= no_lever*mesh%rotations(rotation_at(mesh, nodes(end)))%arm) cycle
          call deck%field_error(card%line, 'GB', 'a spring across the line from GA to GB gives node '// &
-            integer_text(model%mesh%node_id(nodes(end)))//' a moment, since the nodes are apart; expected nodes in one place, '// &
+            integer_text(mesh%node_id(nodes(end)))//' a moment, since the nodes are apart; expected nodes in one place, '// &
             'one of them tied to GA or GB by an RBAR')
          return
       end do

@@ -8,7 +8,7 @@ module structural_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, is_beam, is_shell, model_type, n_rotations, rotation_type
+   use model_data, only: corners_of, freedoms_type, is_beam, is_shell, mesh_type, n_rotations, rotation_type
    use node_build, only: append_unknowns
    use rod_torsion, only: add_twisted, leave_out_untwisted
    use shell_membrane, only: shell_law
@@ -34,113 +34,114 @@ contains
 
    !> Give a node of rotations, behind the nodes of the deck, to each node of shells and beams and each reference node of rigid
    !! elements. An axisymmetric model has none. Missing nodes are reported elsewhere.
-   subroutine build_rotations(deck, model)
+   subroutine build_rotations(deck, mesh)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       type(rotation_type), allocatable :: rotations(:)
       integer, allocatable :: elements(:), n_elements(:), points(:)
-      real(wp) :: square(model%mesh%n_nodes)
-      integer  :: count_of(model%mesh%n_nodes), e, i, k, n, node
+      real(wp) :: square(mesh%n_nodes)
+      integer  :: count_of(mesh%n_nodes), e, i, k, n, node
       logical  :: turns
 
-      if (model%mesh%axisymmetric) return
-      if (size(deck%rigid) == 0 .and. all(model%mesh%properties%state < shell) .and. all(model%mesh%bars%torsion <= 0.0_wp)) return
-      allocate (rotations(size(deck%rigid) + model%mesh%n_nodes))
-      allocate (model%mesh%rotation_of(model%mesh%n_nodes), source=0)
+      if (mesh%axisymmetric) return
+      if (size(deck%rigid) == 0 .and. all(mesh%properties%state < shell) .and. all(mesh%bars%torsion <= 0.0_wp)) return
+      allocate (rotations(size(deck%rigid) + mesh%n_nodes))
+      allocate (mesh%rotation_of(mesh%n_nodes), source=0)
       n = 0
       do i = 1, size(deck%rigid) ! reference nodes
          associate (card => deck%rigid(i))
-            node = model%mesh%node_table%find(card%node)
+            node = mesh%node_table%find(card%node)
             if (node == 0) cycle
-            turns = .not. card%is_mean .or. any([(has_component(card%components, k), k = merge(4, 6, model%mesh%dimension == 3), &
+            turns = .not. card%is_mean .or. any([(has_component(card%components, k), k = merge(4, 6, mesh%dimension == 3), &
                6)])
-            if (.not. turns .or. model%mesh%rotation_of(node) > 0) cycle
+            if (.not. turns .or. mesh%rotation_of(node) > 0) cycle
             n = n + 1
-            rotations(n) = rotation_type(point=node, arm=arm_of(model, node, card))
-            model%mesh%rotation_of(node) = n
+            rotations(n) = rotation_type(point=node, arm=arm_of(mesh, node, card))
+            mesh%rotation_of(node) = n
          end associate
       end do
       do i = 1, size(deck%rigid) ! an end of an RBAR without elements
          associate (card => deck%rigid(i))
             if (card%is_mean .or. card%surface > 0 .or. size(card%nodes) /= 1) cycle
             if (.not. any([(has_component(card%components, k), k = 4, 6)])) cycle
-            node = model%mesh%node_table%find(card%nodes(1))
-            if (node == 0 .or. model%mesh%node_table%find(card%node) == 0) cycle
-            if (model%mesh%rotation_of(node) > 0 .or. model%mesh%first_at(node + 1) > model%mesh%first_at(node)) cycle
+            node = mesh%node_table%find(card%nodes(1))
+            if (node == 0 .or. mesh%node_table%find(card%node) == 0) cycle
+            if (mesh%rotation_of(node) > 0 .or. mesh%first_at(node + 1) > mesh%first_at(node)) cycle
             n = n + 1
-            rotations(n) = rotation_type(point=node, arm=arm_of(model, model%mesh%node_table%find(card%node), card))
-            model%mesh%rotation_of(node) = n
+            rotations(n) = rotation_type(point=node, arm=arm_of(mesh, mesh%node_table%find(card%node), card))
+            mesh%rotation_of(node) = n
          end associate
       end do
       ! nodes of shells and beams; their arm is the root mean square of the distances to the other nodes of their elements
       square = 0.0_wp
       count_of = 0
-      do e = 1, model%mesh%n_elements
-         if (.not. has_rotations(model, e)) cycle
-         associate (nodes => corners_of(model, e))
+      do e = 1, mesh%n_elements
+         if (.not. has_rotations(mesh, e)) cycle
+         associate (nodes => corners_of(mesh, e))
             if (any(nodes == 0)) cycle ! reported already
             do i = 1, size(nodes)
-               square(nodes(i)) = square(nodes(i)) + sum((model%mesh%x(:, nodes) - spread(model%mesh%x(:, nodes(i)), 2, &
+               square(nodes(i)) = square(nodes(i)) + sum((mesh%x(:, nodes) - spread(mesh%x(:, nodes(i)), 2, &
                   size(nodes)))**2)
                count_of(nodes(i)) = count_of(nodes(i)) + size(nodes) - 1
             end do
          end associate
       end do
-      do node = 1, model%mesh%n_nodes
+      do node = 1, mesh%n_nodes
          if (count_of(node) == 0) cycle
-         if (model%mesh%rotation_of(node) == 0) then
+         if (mesh%rotation_of(node) == 0) then
             n = n + 1
-            model%mesh%rotation_of(node) = n
+            mesh%rotation_of(node) = n
             rotations(n) = rotation_type(point=node, arm=sqrt(square(node)/count_of(node)))
             if (.not. rotations(n)%arm > 0.0_wp) rotations(n)%arm = 1.0_wp
          end if
-         rotations(model%mesh%rotation_of(node))%of_element = .true.
+         rotations(mesh%rotation_of(node))%of_element = .true.
       end do
-      call add_twisted(deck, model, rotations, n)
+      call add_twisted(deck, mesh, rotations, n)
       if (n == 0) then
-         deallocate (model%mesh%rotation_of)
+         deallocate (mesh%rotation_of)
          return
       end if
-      model%mesh%rotations = rotations(:n)
-      ! a node for each of them, at its point, with the elements of the point if these have rotations; supports are not known yet
-      model%mesh%rotations%node = model%mesh%n_nodes + [(k, k = 1, n)]
+      mesh%rotations = rotations(:n)
+      ! a node for each of them, at its point, with the elements of the point if these have rotations
+      mesh%rotations%node = mesh%n_nodes + [(k, k = 1, n)]
       points = [(rotations(k)%point, k = 1, n)]
-      associate (first => model%mesh%first_at)
+      associate (first => mesh%first_at)
          n_elements = merge(first(points + 1) - first(points), 0, rotations(:n)%of_element)
-         elements = [(model%mesh%elements_at(first(points(k)):first(points(k)) + n_elements(k) - 1), k = 1, n)]
+         elements = [(mesh%elements_at(first(points(k)):first(points(k)) + n_elements(k) - 1), k = 1, n)]
       end associate
-      call append_unknowns(model, points, n_elements, elements, spread(.false., 1, model%mesh%dimension))
+      call append_unknowns(mesh, points, n_elements, elements)
    end subroutine build_rotations
 
    !> Whether element E is a shell or a beam, by its property.
-   pure logical function has_rotations(model, e)
-      type(model_type), intent(in) :: model
+   pure logical function has_rotations(mesh, e)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
 
       has_rotations = .false.
-      if (model%mesh%element_property(e) > 0) &
-         has_rotations = any(model%mesh%properties(model%mesh%element_property(e))%state == [shell, beam])
+      if (mesh%element_property(e) > 0) &
+         has_rotations = any(mesh%properties(mesh%element_property(e))%state == [shell, beam])
    end function has_rotations
 
    !> In the plane the node of rotations has one component, about z; at a node of rods alone, those that a rod twists.
-   subroutine leave_out_idle(model)
-      type(model_type), intent(inout) :: model
+   subroutine leave_out_idle(mesh, freedoms)
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(inout) :: freedoms
       integer :: k
 
-      if (model%mesh%dimension == 3) call leave_out_untwisted(model)
-      if (model%mesh%dimension == 3) return
-      do k = 1, n_rotations(model)
-         if (.not. model%mesh%rotations(k)%of_element) cycle
-         if (.not. allocated(model%freedoms%left_out)) allocate (model%freedoms%left_out(model%mesh%dimension, &
-            model%mesh%n_nodes), source=.false.)
-         model%freedoms%left_out(2, model%mesh%rotations(k)%node) = .true.
-         model%freedoms%held(2, model%mesh%rotations(k)%node) = .true.
+      if (mesh%dimension == 3) call leave_out_untwisted(mesh, freedoms)
+      if (mesh%dimension == 3) return
+      do k = 1, n_rotations(mesh)
+         if (.not. mesh%rotations(k)%of_element) cycle
+         if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, &
+            mesh%n_nodes), source=.false.)
+         freedoms%left_out(2, mesh%rotations(k)%node) = .true.
+         freedoms%held(2, mesh%rotations(k)%node) = .true.
       end do
    end subroutine leave_out_idle
 
    !> Root mean square of the distances of the nodes of CARD from POINT; 1 where this is zero [length].
-   pure real(wp) function arm_of(model, point, card) result(arm)
-      type(model_type), intent(in) :: model
+   pure real(wp) function arm_of(mesh, point, card) result(arm)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: point
       type(rigid_card), intent(in) :: card
       integer :: k, n, node
@@ -148,51 +149,51 @@ contains
       arm = 0.0_wp
       n = 0
       do k = 1, size(card%nodes)
-         node = model%mesh%node_table%find(card%nodes(k))
+         node = mesh%node_table%find(card%nodes(k))
          if (node == 0) cycle
          n = n + 1
-         arm = arm + sum((model%mesh%x(:, node) - model%mesh%x(:, point))**2)
+         arm = arm + sum((mesh%x(:, node) - mesh%x(:, point))**2)
       end do
       arm = sqrt(arm/max(n, 1))
       if (arm <= 0.0_wp) arm = 1.0_wp
    end function arm_of
 
    !> Build the shells of MODEL, and set the positions of its beams.
-   subroutine build_shells(deck, model)
+   subroutine build_shells(deck, mesh)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       type(shell_law), allocatable :: of_property(:)
       type(id_table_type) :: plates
       integer :: e, i, n(2)
 
       do i = 1, size(deck%bulk%plate)
          associate (card => deck%bulk%element(deck%bulk%plate(i)%element))
-            if (all(model%mesh%properties%id /= card%property .or. model%mesh%properties%state /= &
+            if (all(mesh%properties%id /= card%property .or. mesh%properties%state /= &
                shell)) call deck%field_error(card%line, &
                'ZOFFS', 'this and thicknesses at corners are for shells in a model of space; expected blanks')
          end associate
       end do
-      if (.not. any([(has_rotations(model, e), e = 1, model%mesh%n_elements)])) return
-      allocate (model%mesh%structural%place(model%mesh%n_elements), source=0)
-      allocate (of_property(size(model%mesh%properties)))
+      if (.not. any([(has_rotations(mesh, e), e = 1, mesh%n_elements)])) return
+      allocate (mesh%structural%place(mesh%n_elements), source=0)
+      allocate (of_property(size(mesh%properties)))
       do i = 1, size(deck%bulk%pshell)
-         if (model%mesh%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! they come first
+         if (mesh%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! they come first
       end do
       call plates%build([(deck%bulk%element(deck%bulk%plate(i)%element)%id, i = 1, size(deck%bulk%plate))])
       n = 0
-      do e = 1, model%mesh%n_elements
-         if (.not. has_rotations(model, e)) cycle
-         i = merge(2, 1, is_beam(model, e))
+      do e = 1, mesh%n_elements
+         if (.not. has_rotations(mesh, e)) cycle
+         i = merge(2, 1, is_beam(mesh, e))
          n(i) = n(i) + 1
-         model%mesh%structural%place(e) = n(i)
+         mesh%structural%place(e) = n(i)
       end do
-      allocate (model%mesh%structural%shells(n(1)), model%mesh%structural%beams(n(2)))
-      do e = 1, model%mesh%n_elements
-         if (.not. is_shell(model, e)) cycle
-         associate (law => model%mesh%structural%shells(model%mesh%structural%place(e)))
-            law = of_property(model%mesh%element_property(e))
+      allocate (mesh%structural%shells(n(1)), mesh%structural%beams(n(2)))
+      do e = 1, mesh%n_elements
+         if (.not. is_shell(mesh, e)) cycle
+         associate (law => mesh%structural%shells(mesh%structural%place(e)))
+            law = of_property(mesh%element_property(e))
             i = 0
-            if (size(deck%bulk%plate) > 0) i = plates%find(model%mesh%element_id(e))
+            if (size(deck%bulk%plate) > 0) i = plates%find(mesh%element_id(e))
             if (i == 0) cycle
             law%offset = deck%bulk%plate(i)%offset
             where (deck%bulk%plate(i)%thickness > 0.0_wp) law%thickness = deck%bulk%plate(i)%thickness
@@ -202,22 +203,22 @@ contains
 
    !> Find the edges between triangular shells, which their drilling rotations bow (shell_membrane), once shared surfaces are split:
    !! triangles lie on different sides of the edge, and no quadrilateral has it. Triangles on the same nodes lie on one side.
-   pure subroutine bow_edges(model)
-      type(model_type), intent(inout) :: model
+   pure subroutine bow_edges(mesh)
+      type(mesh_type), intent(inout) :: mesh
       integer :: b, e, i, k
 
-      do e = 1, model%mesh%n_elements
-         if (.not. is_shell(model, e)) cycle
-         if (size(corners_of(model, e)) /= 3) cycle
-         associate (nodes => model%mesh%element_nodes(:3, e), law => model%mesh%structural%shells(model%mesh%structural%place(e)))
+      do e = 1, mesh%n_elements
+         if (.not. is_shell(mesh, e)) cycle
+         if (size(corners_of(mesh, e)) /= 3) cycle
+         associate (nodes => mesh%element_nodes(:3, e), law => mesh%structural%shells(mesh%structural%place(e)))
             do i = 1, 3
                b = nodes(modulo(i, 3) + 1)
                law%bowed(i) = .false.
-               do k = model%mesh%first_at(nodes(i)), model%mesh%first_at(nodes(i) + 1) - 1
-                  associate (other => model%mesh%elements_at(k))
-                     if (.not. is_shell(model, other)) cycle
-                     if (all(corners_of(model, other) /= b)) cycle
-                     if (size(corners_of(model, other)) == 4) then
+               do k = mesh%first_at(nodes(i)), mesh%first_at(nodes(i) + 1) - 1
+                  associate (other => mesh%elements_at(k))
+                     if (.not. is_shell(mesh, other)) cycle
+                     if (all(corners_of(mesh, other) /= b)) cycle
+                     if (size(corners_of(mesh, other)) == 4) then
                         law%bowed(i) = .false.
                         exit
                      end if
@@ -235,9 +236,9 @@ contains
          integer, intent(in) :: e, a, b
          real(wp) :: inward(3)
 
-         associate (along => model%mesh%x(:, b) - model%mesh%x(:, a), centre => sum(model%mesh%x(:, model%mesh%element_nodes(:3, &
+         associate (along => mesh%x(:, b) - mesh%x(:, a), centre => sum(mesh%x(:, mesh%element_nodes(:3, &
             e)), dim=2)/3.0_wp)
-            inward = centre - model%mesh%x(:, a)
+            inward = centre - mesh%x(:, a)
             inward = inward - dot_product(inward, along)/max(dot_product(along, along), tiny(1.0_wp))*along
             inward = inward/max(norm2(inward), tiny(1.0_wp))
          end associate
@@ -246,23 +247,23 @@ contains
    end subroutine bow_edges
 
    !> Build the beams of MODEL; displacement systems must be known. Errors: a beam without length, or without plane 1.
-   subroutine build_beams(deck, model)
+   subroutine build_beams(deck, mesh)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       type(id_table_type) :: edges
       real(wp) :: x(3, 2)
       integer  :: c, e, end, k, other
 
-      if (.not. allocated(model%mesh%structural%beams)) return
-      if (size(model%mesh%structural%beams) == 0) return
+      if (.not. allocated(mesh%structural%beams)) return
+      if (size(mesh%structural%beams) == 0) return
       call edges%build(deck%bulk%edge%id)
-      do e = 1, model%mesh%n_elements
-         if (.not. is_beam(model, e)) cycle
-         if (any(model%mesh%element_nodes(:2, e) == 0)) cycle ! reported already
-         x = model%mesh%x(:, model%mesh%element_nodes(:2, e))
-         associate (card => deck%bulk%edge(edges%find(model%mesh%element_id(e))), &
-                    law => model%mesh%structural%beams(model%mesh%structural%place(e)), &
-                    property => model%mesh%properties(model%mesh%element_property(e)))
+      do e = 1, mesh%n_elements
+         if (.not. is_beam(mesh, e)) cycle
+         if (any(mesh%element_nodes(:2, e) == 0)) cycle ! reported already
+         x = mesh%x(:, mesh%element_nodes(:2, e))
+         associate (card => deck%bulk%edge(edges%find(mesh%element_id(e))), &
+                    law => mesh%structural%beams(mesh%structural%place(e)), &
+                    property => mesh%properties(mesh%element_property(e)))
             k = findloc(deck%bulk%beam_property%id, card%property, dim=1)
             law%beam_section = deck%bulk%beam_property(k)%section
             law%e = property%e
@@ -273,17 +274,17 @@ contains
             law%extra_mass = deck%bulk%parameters%mass_factor*deck%bulk%beam_property(k)%extra_mass
             law%released = [((has_component(card%pins(end), c), c = 1, 6), end = 1, 2)]
             do end = 1, 2
-               law%offset(:, end) = matmul(node_axes(model, model%mesh%element_nodes(end, e)), card%offset(:, end))
+               law%offset(:, end) = matmul(node_axes(mesh, mesh%element_nodes(end, e)), card%offset(:, end))
             end do
-            law%orientation = matmul(node_axes(model, model%mesh%element_nodes(1, e)), card%orientation)
+            law%orientation = matmul(node_axes(mesh, mesh%element_nodes(1, e)), card%orientation)
             if (card%nodes(3) > 0) then
-               other = model%mesh%node_table%find(card%nodes(3))
+               other = mesh%node_table%find(card%nodes(3))
                if (other == 0) then
                   call deck%field_error(card%line, 'X1', 'there is no GRID '//integer_text(card%nodes(3))// &
                                         ' to lie in plane 1, G0')
                   cycle
                end if
-               law%orientation = model%mesh%x(:, other) - x(:, 1)
+               law%orientation = mesh%x(:, other) - x(:, 1)
             end if
             if (law%is_cut .and. (any(abs(law%offset) > 0.0_wp) .or. any(law%released([1, 7])))) call deck%errors%add(card%line, &
                'beam '//integer_text(card%id)//' is a bolt; expected no offsets, and no pin along it')
@@ -292,7 +293,7 @@ contains
                cycle
             end if
             if (.not. norm2(law%orientation) > 0.0_wp) then
-               if (model%mesh%dimension == 3) then
+               if (mesh%dimension == 3) then
                   call deck%field_error(card%line, 'X1', &
                      'blank: where plane 1 of the beam lies is not given; expected a vector X1, X2, X3 or a node G0')
                   cycle

@@ -8,7 +8,8 @@ module support_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: first_not_below
-   use model_data, only: is_face_node, model_type, n_bars, n_points, stage_load_type, support_group
+   use model_data, only: freedoms_type, is_face_node, joints_type, mesh_type, n_bars, n_points, n_sections, stage_load_type, &
+      support_group
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
@@ -22,37 +23,43 @@ module support_build
 
 contains
 
-   !> The nodes with elements, and the components that the SPC set of case control and PS of GRID support.
-   subroutine build_supports(deck, model)
+   !> The nodes with elements, and the components that the SPC set of case control and PS of GRID support. Of the node of a pretension
+   !! section only the first component, the overlap, is an unknown.
+   subroutine build_supports(deck, mesh, joints, freedoms)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(in) :: mesh
+      type(joints_type), intent(in) :: joints
+      type(freedoms_type), intent(inout) :: freedoms
       integer, allocatable :: sets(:)
       integer :: i, set
 
-      allocate (model%freedoms%held(model%mesh%dimension, model%mesh%n_nodes), source=.false.)
-      allocate (model%freedoms%support_of(model%mesh%dimension, model%mesh%n_nodes), source=0)
-      allocate (model%freedoms%support_groups(0))
-      model%freedoms%used = model%mesh%first_at(2:) > model%mesh%first_at(:model%mesh%n_nodes)
-      do i = 1, size(model%joints%element)
-         model%freedoms%used(model%joints%element(i)%node) = .true.
+      allocate (freedoms%held(mesh%dimension, mesh%n_nodes), source=.false.)
+      allocate (freedoms%support_of(mesh%dimension, mesh%n_nodes), source=0)
+      allocate (freedoms%support_groups(0))
+      freedoms%used = mesh%first_at(2:) > mesh%first_at(:mesh%n_nodes)
+      do i = 1, size(joints%element)
+         freedoms%used(joints%element(i)%node) = .true.
       end do
-      do i = 1, n_bars(model)
-         model%freedoms%used(pack(model%mesh%bars(i)%nodes, model%mesh%bars(i)%nodes > 0)) = .true.
+      do i = 1, n_bars(mesh)
+         freedoms%used(pack(mesh%bars(i)%nodes, mesh%bars(i)%nodes > 0)) = .true.
+      end do
+      do i = 1, n_sections(mesh)
+         if (mesh%sections(i)%node > 0) freedoms%held(2:, mesh%sections(i)%node) = .true.
       end do
       do i = 1, size(deck%bulk%grid)
          if (deck%bulk%grid(i)%ps == 0) cycle
-         call open_group(support_group('GRID', 0, deck%bulk%grid(i)%line), model)
-         call hold(model, model%mesh%node_table%find(deck%bulk%grid(i)%id), deck%bulk%grid(i)%ps)
+         call open_group(support_group('GRID', 0, deck%bulk%grid(i)%line), freedoms)
+         call hold(mesh, freedoms, mesh%node_table%find(deck%bulk%grid(i)%id), deck%bulk%grid(i)%ps)
       end do
       set = 0
       if (size(deck%control%stages) > 0) set = deck%control%stages(1)%supports%id
       allocate (sets, source=support_sets(deck))
       do i = 1, size(deck%bulk%support)
          associate (card => deck%bulk%support(i), active => any(sets == deck%bulk%support(i)%set))
-            if (active .and. card%surface > 0) call open_group(support_group('SPCM', card%surface, card%line), model)
+            if (active .and. card%surface > 0) call open_group(support_group('SPCM', card%surface, card%line), freedoms)
             if (active .and. card%surface == 0) &
-               call open_group(support_group(card_name(deck%text%card_part(card%line)), card%set, card%line), model)
-            call apply_support(deck, card, active, model)
+               call open_group(support_group(card_name(deck%text%card_part(card%line)), card%set, card%line), freedoms)
+            call apply_support(deck, card, active, mesh, freedoms)
          end associate
       end do
       call check_sums(deck, 'SPCADD', deck%bulk%support_sum, deck%bulk%support%set, 'SPC, SPC1 or SPCM')
@@ -72,38 +79,39 @@ contains
    end function support_sets
 
    !> Check one support card, and apply it if its set is ACTIVE.
-   subroutine apply_support(deck, support, active, model)
+   subroutine apply_support(deck, support, active, mesh, freedoms)
       type(checked_deck), intent(in)  :: deck
       type(support_card), intent(in)  :: support
       logical, intent(in)             :: active
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(inout) :: freedoms
       integer, allocatable :: nodes(:)
       integer :: k, node, surface
       logical :: any_node
 
       if (support%surface > 0) then
-         call find_surface(deck, support%line, 'PID', support%surface, model, surface)
+         call find_surface(deck, support%line, 'PID', support%surface, mesh, surface)
          if (surface == 0 .or. .not. active) return
-         nodes = nodes_of(model%mesh%surfaces(surface))
+         nodes = nodes_of(mesh%surfaces(surface))
          do k = 1, size(nodes)
-            if (is_face_node(model, nodes(k))) nodes(k) = model%mesh%faces(model%mesh%face_of(nodes(k)))%point
-            call hold(model, nodes(k), support%components)
+            if (is_face_node(mesh, nodes(k))) nodes(k) = mesh%faces(mesh%face_of(nodes(k)))%point
+            call hold(mesh, freedoms, nodes(k), support%components)
          end do
          return
       end if
       do k = 1, size(support%first)
          if (support%first(k) == support%last(k)) then
-            node = model%mesh%node_table%find(support%first(k))
-            if (node > 0 .and. active) call hold(model, node, support%components)
+            node = mesh%node_table%find(support%first(k))
+            if (node > 0 .and. active) call hold(mesh, freedoms, node, support%components)
             cycle
          end if
          ! G1 THRU G2 means the nodes that exist, as in NASTRAN; at least one must exist
          any_node = support%last(k) < support%first(k) ! reported already
-         do node = first_not_below(model%mesh%node_id(:n_points(model)), support%first(k)), n_points(model)
+         do node = first_not_below(mesh%node_id(:n_points(mesh)), support%first(k)), n_points(mesh)
             ! lower: the last node
-            if (model%mesh%node_id(node) < support%first(k) .or. model%mesh%node_id(node) > support%last(k)) exit
+            if (mesh%node_id(node) < support%first(k) .or. mesh%node_id(node) > support%last(k)) exit
             any_node = .true.
-            if (active) call hold(model, node, support%components)
+            if (active) call hold(mesh, freedoms, node, support%components)
          end do
          if (.not. any_node) call deck%field_error(support%line, support%at(k), 'there is no GRID from '// &
             integer_text(support%first(k))//' to '//integer_text(support%last(k)), called='G')
@@ -111,45 +119,46 @@ contains
    end subroutine apply_support
 
    !> Hold COMPONENTS of NODE, rotations if it has any. Components that a node does not have (3 to 5 in the plane) are held anyway.
-   subroutine hold(model, node, components)
-      type(model_type), intent(inout) :: model
+   subroutine hold(mesh, freedoms, node, components)
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(inout) :: freedoms
       integer, intent(in)             :: node, components
       type(component_place) :: places(most_places)
       integer :: k
 
-      places = places_of(model, node, components)
+      places = places_of(mesh, node, components)
       do k = 1, count(places%node > 0)
-         model%freedoms%held(places(k)%d, places(k)%node) = .true.
-         associate (group => model%freedoms%support_of(places(k)%d, places(k)%node))
-            if (group == 0) group = size(model%freedoms%support_groups)
+         freedoms%held(places(k)%d, places(k)%node) = .true.
+         associate (group => freedoms%support_of(places(k)%d, places(k)%node))
+            if (group == 0) group = size(freedoms%support_groups)
          end associate
       end do
    end subroutine hold
 
    !> Open GROUP for the supports that follow; PS of GRID, and SPC cards of one set, join the last group of their kind.
-   subroutine open_group(group, model)
+   subroutine open_group(group, freedoms)
       type(support_group), intent(in) :: group
-      type(model_type), intent(inout) :: model
+      type(freedoms_type), intent(inout) :: freedoms
 
-      associate (groups => model%freedoms%support_groups)
+      associate (groups => freedoms%support_groups)
          if (size(groups) > 0 .and. any(group%kind == ['GRID', 'SPC '])) then
             if (groups(size(groups))%kind == group%kind .and. groups(size(groups))%id == group%id) return
          end if
       end associate
-      model%freedoms%support_groups = [model%freedoms%support_groups, group]
+      freedoms%support_groups = [freedoms%support_groups, group]
    end subroutine open_group
 
    !> Set the displacement of COMPONENTS of node ID in LOADS to SHARE of its former value plus VALUE.
-   pure subroutine move(model, id, components, share, value, loads)
-      type(model_type), intent(in)         :: model
+   pure subroutine move(mesh, id, components, share, value, loads)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)                  :: id, components
       real(wp), intent(in)                 :: share, value
       type(stage_load_type), intent(inout) :: loads
       type(component_place) :: places(most_places)
       integer :: k
 
-      if (.not. allocated(loads%moved)) allocate (loads%moved(model%mesh%dimension, model%mesh%n_nodes), source=0.0_wp)
-      places = places_of(model, model%mesh%node_table%find(id), components)
+      if (.not. allocated(loads%moved)) allocate (loads%moved(mesh%dimension, mesh%n_nodes), source=0.0_wp)
+      places = places_of(mesh, mesh%node_table%find(id), components)
       do k = 1, count(places%node > 0)
          associate (moved => loads%moved(places(k)%d, places(k)%node))
             moved = share*moved + value*places(k)%scale
@@ -159,9 +168,9 @@ contains
 
    !> Add D of SPC cards to LOADS, the end of a stage with load set SET and no displacements so far. A component that an SPCD of
    !! these loads names is left out.
-   subroutine keep_moved(deck, model, set, loads)
+   subroutine keep_moved(deck, mesh, set, loads)
       type(checked_deck), intent(in)       :: deck
-      type(model_type), intent(in)         :: model
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)                  :: set !! of case control, 0: none
       type(stage_load_type), intent(inout) :: loads
       integer, allocatable :: holding(:), sets(:)
@@ -172,7 +181,7 @@ contains
       do i = 1, size(deck%bulk%support)
          associate (card => deck%bulk%support(i))
             if (abs(card%value) > 0.0_wp .and. any(holding == card%set)) &
-               call move(model, card%first(1), card%components, 0.0_wp, card%value, loads)
+               call move(mesh, card%first(1), card%components, 0.0_wp, card%value, loads)
          end associate
       end do
       if (.not. allocated(loads%moved) .or. set == 0) return
@@ -181,15 +190,15 @@ contains
       if (k > 0) sets = deck%bulk%load(k)%sets
       do i = 1, size(deck%bulk%displacement)
          associate (card => deck%bulk%displacement(i))
-            if (any(sets == card%set)) call move(model, card%node, card%components, 0.0_wp, 0.0_wp, loads)
+            if (any(sets == card%set)) call move(mesh, card%node, card%components, 0.0_wp, 0.0_wp, loads)
          end associate
       end do
    end subroutine keep_moved
 
    !> Errors: D of a component that the node does not have, and two SPC cards with different D of a component.
-   subroutine check_kept(deck, model)
+   subroutine check_kept(deck, mesh)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       type(component_place) :: places(most_places)
       character(:), allocatable :: words
       integer, allocatable :: holding(:), by(:, :) ! the card that moves a component, 0: none
@@ -197,20 +206,20 @@ contains
 
       if (all(abs(deck%bulk%support%value) <= 0.0_wp)) return
       allocate (holding, source=support_sets(deck))
-      allocate (by(model%mesh%dimension, model%mesh%n_nodes), source=0)
+      allocate (by(mesh%dimension, mesh%n_nodes), source=0)
       words = ''
       do i = 1, size(deck%bulk%support)
          associate (card => deck%bulk%support(i))
             if (abs(card%value) <= 0.0_wp) cycle
-            node = model%mesh%node_table%find(card%first(1))
+            node = mesh%node_table%find(card%first(1))
             if (node == 0) cycle ! reported already
             do d = 1, 6
                if (.not. has_component(card%components, d)) cycle
-               places = places_of(model, node, d)
+               places = places_of(mesh, node, d)
                words = 'component '//integer_text(d)//' of node '//integer_text(card%first(1))
                if (places(1)%node == 0) then
                   call deck%field_error(card%line, card%at(1) + 1, words// &
-                     ' does not exist, so that D cannot move it; expected 1 to '//integer_text(model%mesh%dimension), called='C')
+                     ' does not exist, so that D cannot move it; expected 1 to '//integer_text(mesh%dimension), called='C')
                else if (any(holding == card%set)) then
                   other = by(places(1)%d, places(1)%node) ! a duplicate has the same components
                   by(places(1)%d, places(1)%node) = i
@@ -225,8 +234,8 @@ contains
    end subroutine check_kept
 
    !> The places of COMPONENTS of NODE, existing ones first, then places of node 0; for a split node also those of its duplicate.
-   pure function places_of(model, node, components) result(places)
-      type(model_type), intent(in) :: model
+   pure function places_of(mesh, node, components) result(places)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: node, components
       type(component_place) :: places(most_places)
       type(component_place) :: place
@@ -236,11 +245,11 @@ contains
       if (node == 0) return
       do d = 1, 6
          if (.not. has_component(components, d)) cycle
-         place = place_of_component(model, node, d)
+         place = place_of_component(mesh, node, d)
          if (place%node == 0) cycle
          n = n + 1
          places(n) = place
-         place%node = model%mesh%duplicate(place%node)
+         place%node = mesh%duplicate(place%node)
          if (place%node == 0) cycle
          n = n + 1
          places(n) = place

@@ -6,7 +6,7 @@ module surface_build
    use isoparametric, only: side_areas, side_forces
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
-   use model_data, only: is_shell, model_type, surface_type
+   use model_data, only: is_shell, mesh_type, surface_type
    use surface_sides, only: nodes_of, side_corners
    use text_tools, only: integer_text, one_of
    implicit none
@@ -25,20 +25,20 @@ module surface_build
 contains
 
    !> One surface per PMARK card, with the sides that name it.
-   subroutine build_surfaces(deck, sides, model)
+   subroutine build_surfaces(deck, sides, mesh)
       type(checked_deck), intent(in)  :: deck
       type(marked_side), intent(in)   :: sides(:)
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       type(id_table_type)  :: marks
       integer, allocatable :: surface(:), first(:), members(:), said(:) ! said: missing marks
       character(:), allocatable :: words
       integer :: i, k, most_nodes
 
       words = ''
-      most_nodes = 2*(model%mesh%dimension - 1)                     ! of a side
-      if (any(is_second_order(model%mesh%element_kind))) most_nodes = merge(3, max_side_nodes, model%mesh%dimension == 2)
+      most_nodes = 2*(mesh%dimension - 1)                     ! of a side
+      if (any(is_second_order(mesh%element_kind))) most_nodes = merge(3, max_side_nodes, mesh%dimension == 2)
       call marks%build(deck%bulk%pmark%id)
-      allocate (model%mesh%surfaces(size(deck%bulk%pmark)), surface(size(sides)), said(0))
+      allocate (mesh%surfaces(size(deck%bulk%pmark)), surface(size(sides)), said(0))
       do i = 1, size(sides)
          surface(i) = marks%find(sides(i)%property)
          if (surface(i) > 0 .or. sides(i)%property <= 0 .or. any(said == sides(i)%property)) cycle
@@ -54,21 +54,21 @@ contains
          end if
          said = [said, sides(i)%property]
       end do
-      call list_owners(size(model%mesh%surfaces), reshape(surface, [1, size(sides)]), first, members)
-      do k = 1, size(model%mesh%surfaces)
-         associate (marked => model%mesh%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
+      call list_owners(size(mesh%surfaces), reshape(surface, [1, size(sides)]), first, members)
+      do k = 1, size(mesh%surfaces)
+         associate (marked => mesh%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
             marked%id = card%id
             allocate (marked%nodes(most_nodes, n), source=0)
             allocate (marked%element(n), marked%other(n), marked%line(n), marked%corners(n), marked%n_nodes(n))
             do i = first(k), first(k + 1) - 1
                associate (side => sides(members(i)))
-                  if (all(side%nodes(:side%corners) > 0)) call add_side(deck, side, model, marked) ! else reported already
+                  if (all(side%nodes(:side%corners) > 0)) call add_side(deck, side, mesh, marked) ! else reported already
                end associate
             end do
-            call check_repeated(deck, model, marked)
+            call check_repeated(deck, mesh, marked)
             if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! a number given twice is reported elsewhere
             words = 'surface '//integer_text(card%id)//' has no '// &
-                    one_of(model%mesh%dimension == 3, 'face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD')// &
+                    one_of(mesh%dimension == 3, 'face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD')// &
                     ' or side of a block with this PID'
             if (any([(index(deck%text%files(i)%bytes(:min(200, len(deck%text%files(i)%bytes))), 'Created by Gmsh') > 0, &
                       i = 1, deck%text%n_files)])) words = words// &
@@ -79,23 +79,23 @@ contains
    end subroutine build_surfaces
 
    !> The SURFACE of MODEL with this ID, in FIELD of the card on LINE; 0, and an error, for a missing surface.
-   subroutine find_surface(deck, line, field, id, model, surface)
+   subroutine find_surface(deck, line, field, id, mesh, surface)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line, id
       character(*), intent(in)       :: field
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       integer, intent(out)           :: surface
 
-      surface = findloc(model%mesh%surfaces%id, id, dim=1)
+      surface = findloc(mesh%surfaces%id, id, dim=1)
       if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id))
    end subroutine find_surface
 
    !> Add SIDE to its surface, in the node order of its element. Of two elements the side belongs to the one with the order of the
    !! card; the other element is behind it.
-   subroutine add_side(deck, side, model, surface)
+   subroutine add_side(deck, side, mesh, surface)
       type(checked_deck), intent(in)    :: deck
       type(marked_side), intent(in)     :: side
-      type(model_type), intent(in)      :: model
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(inout) :: surface
       integer, allocatable :: side_nodes(:)
       integer :: at, owner, other, found, e, j, own_side
@@ -106,10 +106,10 @@ contains
       own_side = 0
       owner_same = .false.
       associate (nodes => side%nodes(:side%corners))
-         do j = model%mesh%first_at(nodes(1)), model%mesh%first_at(nodes(1) + 1) - 1
-            e = model%mesh%elements_at(j)
+         do j = mesh%first_at(nodes(1)), mesh%first_at(nodes(1) + 1) - 1
+            e = mesh%elements_at(j)
             if (e == owner) cycle ! a corner that is repeated on the card
-            call side_of_element(model, e, nodes, at, same_sense)
+            call side_of_element(mesh, e, nodes, at, same_sense)
             if (at < 0) cycle
             found = e
             if (owner == 0 .or. (same_sense .and. .not. owner_same)) then
@@ -121,17 +121,17 @@ contains
             if (found > 0) other = found
          end do
          if (owner == 0) then
-            call deck%errors%add(side%line, 'the '//side_name(model, nodes)//' is no side of a body element')
+            call deck%errors%add(side%line, 'the '//side_name(mesh, nodes)//' is no side of a body element')
             return
          end if
          side_nodes = nodes ! of the face of a shell on the marked side
       end associate
       if (own_side > 0) then
-         associate (kind => element_table(model%mesh%element_kind(owner)))
-            side_nodes = model%mesh%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner)
+         associate (kind => element_table(mesh%element_kind(owner)))
+            side_nodes = mesh%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner)
          end associate
          if (any(side_nodes == 0)) return ! reported already
-         call check_mark(deck, side, model, owner, side_nodes)
+         call check_mark(deck, side, mesh, owner, side_nodes)
       end if
       surface%n = surface%n + 1
       surface%line(surface%n) = side%line
@@ -144,15 +144,15 @@ contains
 
    !> Error: mid-side nodes of SIDE other than SIDE_NODES, those of the side of element E. Gmsh writes the mid-side node of an edge
    !! as X1 of a CBAR.
-   subroutine check_mark(deck, side, model, e, side_nodes)
+   subroutine check_mark(deck, side, mesh, e, side_nodes)
       type(checked_deck), intent(in) :: deck
       type(marked_side), intent(in)  :: side
       integer, intent(in)            :: e, side_nodes(:)
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       character(:), allocatable :: element
       integer :: a, b, k, m, mid, place
 
-      element = 'element '//integer_text(model%mesh%element_id(e))//', a '//trim(element_table(model%mesh%element_kind(e))%card)
+      element = 'element '//integer_text(mesh%element_id(e))//', a '//trim(element_table(mesh%element_kind(e))%card)
       m = side%corners
       if (size(side_nodes) == m .and. side%n_nodes > m) then
          if (m == 2) then
@@ -172,15 +172,15 @@ contains
          if (m == 2) place = 1
          mid = side_nodes(m + place)
          if (mid == side%nodes(m + k)) cycle
-         call deck%field_error(side%line, 2 + m + k, integer_text(model%mesh%node_id(side%nodes(m + k)))//', but '// &
-                               element//', has node '//integer_text(model%mesh%node_id(mid))//' at the middle of this edge')
+         call deck%field_error(side%line, 2 + m + k, integer_text(mesh%node_id(side%nodes(m + k)))//', but '// &
+                               element//', has node '//integer_text(mesh%node_id(mid))//' at the middle of this edge')
          return
       end do
    end subroutine check_mark
 
    !> Text that names a side by its nodes.
-   pure function side_name(model, nodes) result(words)
-      type(model_type), intent(in) :: model
+   pure function side_name(mesh, nodes) result(words)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: nodes(:)
       character(:), allocatable    :: words
       integer :: k
@@ -188,22 +188,22 @@ contains
       words = one_of(size(nodes) == 2, 'edge between nodes', 'face of nodes')
       do k = 1, size(nodes)
          if (k == size(nodes)) words = words//' and'
-         words = words//' '//integer_text(model%mesh%node_id(nodes(k)))
+         words = words//' '//integer_text(mesh%node_id(nodes(k)))
          if (k < size(nodes) - 1) words = words//','
       end do
    end function side_name
 
    !> The SIDE of element E with the corners NODES, in any order; 0: the face of a shell; -1: none. SAME_SENSE: NODES have the
    !! cyclic order of the element.
-   pure subroutine side_of_element(model, e, nodes, side, same_sense)
-      type(model_type), intent(in) :: model
+   pure subroutine side_of_element(mesh, e, nodes, side, same_sense)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e, nodes(:)
       integer, intent(out)         :: side
       logical, intent(out)         :: same_sense
       integer :: at, k
 
-      do side = merge(0, 1, is_shell(model, e)), element_table(model%mesh%element_kind(e))%n_sides
-         associate (corners => side_corners(model, e, side), n => size(nodes))
+      do side = merge(0, 1, is_shell(mesh, e)), element_table(mesh%element_kind(e))%n_sides
+         associate (corners => side_corners(mesh, e, side), n => size(nodes))
             if (size(corners) /= n) cycle
             if (any([(all(corners /= nodes(k)) .or. all(nodes /= corners(k)), k = 1, n)])) cycle
             at = findloc(corners, nodes(1), dim=1)
@@ -217,9 +217,9 @@ contains
    end subroutine side_of_element
 
    !> Error: a side that occurs twice in a surface, so that its area would count twice.
-   subroutine check_repeated(deck, model, surface)
+   subroutine check_repeated(deck, mesh, surface)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(in) :: surface
       integer, allocatable :: order(:), lowest(:)
       integer :: j, k, m
@@ -237,38 +237,38 @@ contains
                        corners_before => surface%nodes(:surface%corners(order(j)), order(j)))
                if (any([(all(corners_before /= corners(m)), m = 1, size(corners))])) cycle
                call deck%errors%add(max(surface%line(order(k)), surface%line(order(j))), 'surface '//integer_text(surface%id)// &
-                  ': the '//side_name(model, corners)//' is marked twice')
+                  ': the '//side_name(mesh, corners)//' is marked twice')
             end associate
          end do
       end do
    end subroutine check_repeated
 
    !> Tributary areas of the nodes of side S of SURFACE, a_i = integral of N_i over the side [length^2] (section 4.1).
-   pure subroutine side_influence(model, surface, s, area, normal)
-      type(model_type), intent(in)   :: model
+   pure subroutine side_influence(mesh, surface, s, area, normal)
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(in) :: surface
       integer, intent(in)            :: s
       real(wp), intent(out)          :: area(max_side_nodes)        !! 0 behind the last node
       real(wp), intent(out)          :: normal(3, max_side_nodes)   !! integral of N_i times the outward normal [length^2]
-      real(wp) :: force(model%mesh%dimension, max_side_nodes)
+      real(wp) :: force(mesh%dimension, max_side_nodes)
       integer  :: n
 
       area = 0.0_wp
       normal = 0.0_wp
       n = surface%n_nodes(s)
-      if (model%mesh%element_property(surface%element(s)) == 0) return ! reported already
-      associate (property => model%mesh%properties(model%mesh%element_property(surface%element(s))), &
-                 x => model%mesh%x(:model%mesh%dimension, surface%nodes(:n, s)))
+      if (mesh%element_property(surface%element(s)) == 0) return ! reported already
+      associate (property => mesh%properties(mesh%element_property(surface%element(s))), &
+                 x => mesh%x(:mesh%dimension, surface%nodes(:n, s)))
          call side_areas(property%state, property%thickness, x, area)
          call side_forces(property%state, property%thickness, x, spread(-1.0_wp, 1, n), force)
       end associate
-      normal(:model%mesh%dimension, :n) = force(:, :n)
+      normal(:mesh%dimension, :n) = force(:, :n)
    end subroutine side_influence
 
    !> The nodes of SURFACE with their tributary areas, summed over the sides at a node, and their normals, the mean of the sides
    !! weighted by area.
-   pure subroutine surface_nodes(model, surface, list)
-      type(model_type), intent(in)         :: model
+   pure subroutine surface_nodes(mesh, surface, list)
+      type(mesh_type), intent(in) :: mesh
       type(surface_type), intent(in)       :: surface
       type(surface_node_list), intent(out) :: list
       type(id_table_type) :: place
@@ -281,8 +281,8 @@ contains
       allocate (list%area(list%n), source=0.0_wp)
       allocate (list%normal(3, list%n), source=0.0_wp)
       do s = 1, surface%n
-         call side_influence(model, surface, s, area, normal)
-         if (model%mesh%dimension == 3 .and. surface%n_nodes(s) > surface%corners(s)) & ! that of a corner may be zero or reversed
+         call side_influence(mesh, surface, s, area, normal)
+         if (mesh%dimension == 3 .and. surface%n_nodes(s) > surface%corners(s)) & ! that of a corner may be zero or reversed
             normal = spread(sum(normal, dim=2), 2, max_side_nodes)
          do k = 1, surface%n_nodes(s)
             node = place%find(surface%nodes(k, s))

@@ -4,7 +4,7 @@ module surface_sides
    use deck_check, only: checked_deck
    use element_kinds, only: element_table
    use lists, only: distinct, id_table_type, join, list_owners, root_of
-   use model_data, only: model_type, surface_type
+   use model_data, only: mesh_type, surface_type
    use node_build, only: append_nodes
    use text_tools, only: integer_text
    implicit none
@@ -24,14 +24,14 @@ module surface_sides
 contains
 
    !> The corners of side S of element E, counter-clockwise as seen from outside; 0: the face of a shell along its normal.
-   pure function side_corners(model, e, s) result(nodes)
-      type(model_type), intent(in) :: model
+   pure function side_corners(mesh, e, s) result(nodes)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e, s
       integer, allocatable :: nodes(:)
 
-      associate (kind => element_table(model%mesh%element_kind(e)))
-         if (s == 0) nodes = model%mesh%element_nodes(:kind%n_nodes, e)
-         if (s > 0) nodes = model%mesh%element_nodes(kind%side_nodes(:kind%side_corners(s), s), e)
+      associate (kind => element_table(mesh%element_kind(e)))
+         if (s == 0) nodes = mesh%element_nodes(:kind%n_nodes, e)
+         if (s > 0) nodes = mesh%element_nodes(kind%side_nodes(:kind%side_corners(s), s), e)
       end associate
    end function side_corners
 
@@ -139,8 +139,8 @@ contains
 
    !> The elements BEHIND surface S at its node K: those connected to the back of a side at this node without crossing the
    !! surface. None if they are also connected to the front.
-   pure subroutine elements_behind(model, s, at, k, behind)
-      type(model_type), intent(in)      :: model
+   pure subroutine elements_behind(mesh, s, at, k, behind)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)               :: s
       type(side_list), intent(in)       :: at        !! its sides at its nodes
       integer, intent(in)               :: k
@@ -149,39 +149,39 @@ contains
       logical, allocatable :: in_front(:), at_back(:) ! sets of connected elements
       integer :: i, j
 
-      allocate (around, source=model%mesh%elements_at(model%mesh%first_at(at%node(k)):model%mesh%first_at(at%node(k) + 1) - 1))
+      allocate (around, source=mesh%elements_at(mesh%first_at(at%node(k)):mesh%first_at(at%node(k) + 1) - 1))
       allocate (in_front(size(around)), at_back(size(around)), source=.false.)
       allocate (parent, source=[(i, i=1, size(around))])
       do i = 1, size(around)
          do j = 1, i - 1
-            if (common_side(model, s, at, k, around(i), around(j))) call join(parent, i, j)
+            if (common_side(mesh, s, at, k, around(i), around(j))) call join(parent, i, j)
          end do
       end do
       do i = at%first(k), at%first(k + 1) - 1
-         in_front(root_of(parent, findloc(around, model%mesh%surfaces(s)%element(at%side(i)), dim=1))) = .true.
-         at_back(root_of(parent, findloc(around, model%mesh%surfaces(s)%other(at%side(i)), dim=1))) = .true.
+         in_front(root_of(parent, findloc(around, mesh%surfaces(s)%element(at%side(i)), dim=1))) = .true.
+         at_back(root_of(parent, findloc(around, mesh%surfaces(s)%other(at%side(i)), dim=1))) = .true.
       end do
       behind = [integer ::]
       if (.not. any(in_front .and. at_back)) behind = pack(around, [(at_back(root_of(parent, i)), i = 1, size(around))])
    end subroutine elements_behind
 
    !> Whether elements A and B share a side at node PLACE of surface S that does not belong to S.
-   pure logical function common_side(model, s, at, place, a, b)
-      type(model_type), intent(in) :: model
+   pure logical function common_side(mesh, s, at, place, a, b)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: s, place, a, b
       type(side_list), intent(in)  :: at
-      integer :: common(size(model%mesh%element_nodes, 1)), i, k, n
+      integer :: common(size(mesh%element_nodes, 1)), i, k, n
 
       n = 0
-      do k = 1, element_table(model%mesh%element_kind(a))%n_corners ! elements that share only an edge also share its mid-edge node
-         if (all(model%mesh%element_nodes(:, b) /= model%mesh%element_nodes(k, a))) cycle
+      do k = 1, element_table(mesh%element_kind(a))%n_corners ! elements that share only an edge also share its mid-edge node
+         if (all(mesh%element_nodes(:, b) /= mesh%element_nodes(k, a))) cycle
          n = n + 1
-         common(n) = model%mesh%element_nodes(k, a)
+         common(n) = mesh%element_nodes(k, a)
       end do
-      common_side = n >= model%mesh%dimension
+      common_side = n >= mesh%dimension
       do i = at%first(place), at%first(place + 1) - 1
          if (.not. common_side) return
-         associate (side => model%mesh%surfaces(s)%nodes(:model%mesh%surfaces(s)%corners(at%side(i)), at%side(i)))
+         associate (side => mesh%surfaces(s)%nodes(:mesh%surfaces(s)%corners(at%side(i)), at%side(i)))
             common_side = any([(all(side /= common(k)), k = 1, n)])
          end associate
       end do
@@ -189,69 +189,69 @@ contains
 
    !> Split the shared surfaces that JOINT cards name as SIDE1 without a SIDE2. The elements on the left of the
    !! edges, or inside the faces, keep the nodes; those behind get the duplicates, numbered from the highest node number on.
-   subroutine split_shared_surfaces(deck, model)
+   subroutine split_shared_surfaces(deck, mesh)
       type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(inout) :: mesh
       type(id_table_type)  :: surfaces
       type(side_list)      :: at
       integer, allocatable :: behind(:), element_nodes(:, :)
       integer, allocatable :: split(:) ! nodes with a duplicate
       integer :: j, k, n_duplicates, node, s
 
-      allocate (model%mesh%duplicate(model%mesh%n_nodes), source=0)
-      call surfaces%build(model%mesh%surfaces%id)
+      allocate (mesh%duplicate(mesh%n_nodes), source=0)
+      call surfaces%build(mesh%surfaces%id)
       n_duplicates = 0
       do j = 1, size(deck%bulk%joint)
          if (deck%bulk%joint(j)%sides(2) /= 0) cycle
          s = surfaces%find(deck%bulk%joint(j)%sides(1))
          if (s == 0) cycle
-         associate (surface => model%mesh%surfaces(s), line => deck%bulk%joint(j)%line, nodes => nodes_of(model%mesh%surfaces(s)))
+         associate (surface => mesh%surfaces(s), line => deck%bulk%joint(j)%line, nodes => nodes_of(mesh%surfaces(s)))
             if (.not. any(surface%other(:surface%n) > 0)) cycle
             if (any(surface%other(:surface%n) == 0)) then
                call deck%field_error(line, 'SIDE1', 'bodies lie on both sides of some '//merge('edges', 'faces', &
-                  model%mesh%dimension == 2)//' of surface '//integer_text(surface%id)//' and on one side of others')
+                  mesh%dimension == 2)//' of surface '//integer_text(surface%id)//' and on one side of others')
                cycle
             end if
-            if (any(model%mesh%duplicate(nodes) > 0)) then
-               node = nodes(findloc(model%mesh%duplicate(nodes) > 0, .true., dim=1))
+            if (any(mesh%duplicate(nodes) > 0)) then
+               node = nodes(findloc(mesh%duplicate(nodes) > 0, .true., dim=1))
                call deck%field_error(line, 'SIDE1', 'surface '//integer_text(surface%id)//' meets another surface that is '// &
-                  'split, at node '//integer_text(model%mesh%node_id(node))//': mesh the bodies apart there and give both '// &
+                  'split, at node '//integer_text(mesh%node_id(node))//': mesh the bodies apart there and give both '// &
                   'faces, SIDE1 and SIDE2')
                cycle
             end if
          end associate
          ! the elements behind the surface get duplicates of its nodes; the model keeps its nodes until all these elements are known
-         call list_sides(model%mesh%surfaces(s), at)
-         call orient_sides(model%mesh%surfaces(s), at)
-         allocate (element_nodes, source=model%mesh%element_nodes)
+         call list_sides(mesh%surfaces(s), at)
+         call orient_sides(mesh%surfaces(s), at)
+         allocate (element_nodes, source=mesh%element_nodes)
          do k = 1, at%n
-            call elements_behind(model, s, at, k, behind)
+            call elements_behind(mesh, s, at, k, behind)
             if (size(behind) == 0) cycle ! the edge of the surface inside a body is not split
             n_duplicates = n_duplicates + 1
-            model%mesh%duplicate(at%node(k)) = model%mesh%n_nodes + n_duplicates
-            where (element_nodes(:, behind) == at%node(k)) element_nodes(:, behind) = model%mesh%n_nodes + n_duplicates
+            mesh%duplicate(at%node(k)) = mesh%n_nodes + n_duplicates
+            where (element_nodes(:, behind) == at%node(k)) element_nodes(:, behind) = mesh%n_nodes + n_duplicates
          end do
-         call move_alloc(element_nodes, model%mesh%element_nodes)
-         model%mesh%surfaces(s)%other = 0
-         model%mesh%surfaces(s)%was_split = .true.
+         call move_alloc(element_nodes, mesh%element_nodes)
+         mesh%surfaces(s)%other = 0
+         mesh%surfaces(s)%was_split = .true.
       end do
       if (n_duplicates == 0) return
-      if (model%mesh%node_id(model%mesh%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, &
+      if (mesh%node_id(mesh%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, &
          'the doubled nodes of split surfaces '// &
-         'get numbers above node '//integer_text(model%mesh%node_id(model%mesh%n_nodes))// &
+         'get numbers above node '//integer_text(mesh%node_id(mesh%n_nodes))// &
          ', and their numbers would exceed 2147483647')
-      split = pack([(k, k = 1, model%mesh%n_nodes)], model%mesh%duplicate > 0)
-      split(model%mesh%duplicate(split) - model%mesh%n_nodes) = split ! in the order of the duplicates
-      call append_nodes(model, model%mesh%x(:, split))
-      call list_owners(model%mesh%n_nodes, model%mesh%element_nodes, model%mesh%first_at, model%mesh%elements_at)
-      do s = 1, size(model%mesh%surfaces) ! the sides of surfaces that were not split follow their elements
-         associate (surface => model%mesh%surfaces(s))
+      split = pack([(k, k = 1, mesh%n_nodes)], mesh%duplicate > 0)
+      split(mesh%duplicate(split) - mesh%n_nodes) = split ! in the order of the duplicates
+      call append_nodes(mesh, mesh%x(:, split))
+      call list_owners(mesh%n_nodes, mesh%element_nodes, mesh%first_at, mesh%elements_at)
+      do s = 1, size(mesh%surfaces) ! the sides of surfaces that were not split follow their elements
+         associate (surface => mesh%surfaces(s))
             if (.not. surface%was_split) then
                do j = 1, surface%n
                   do k = 1, surface%n_nodes(j)
-                     node = model%mesh%duplicate(surface%nodes(k, j))
+                     node = mesh%duplicate(surface%nodes(k, j))
                      if (node == 0) cycle
-                     if (any(model%mesh%element_nodes(:, surface%element(j)) == node)) surface%nodes(k, j) = node
+                     if (any(mesh%element_nodes(:, surface%element(j)) == node)) surface%nodes(k, j) = node
                   end do
                end do
             end if

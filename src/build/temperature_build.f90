@@ -7,8 +7,8 @@ module temperature_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: first_not_below
-   use model_data, only: a_bar, corners_of, is_shell, model_type, n_bars, n_points, stage_load_type, &
-                         temperature_type
+   use model_data, only: a_bar, corners_of, freedoms_type, history_type, is_shell, mesh_type, n_bars, n_points, &
+                          stage_load_type, temperature_type
    use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: least_misfit
    use unknowns, only: node_axes
@@ -21,21 +21,23 @@ contains
 
    !> The nodal temperatures of every stage that names a set of TEMP and TEMPD cards, in its load of MODEL; EXPANSIONS of rigid
    !! elements as movements of held components.
-   subroutine build_temperatures(deck, expansions, model)
+   subroutine build_temperatures(deck, expansions, mesh, freedoms, history)
       type(checked_deck), intent(in)  :: deck
       type(expansion_type), intent(in) :: expansions(:)
-      type(model_type), intent(inout) :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
+      type(history_type), intent(inout) :: history
       logical, allocatable :: given(:)
-      logical :: needs_one(model%mesh%n_nodes) ! nodes of bodies and bars
+      logical :: needs_one(mesh%n_nodes) ! nodes of bodies and bars
       integer :: before, i, k, s
 
-      call check_cards(deck, model)
+      call check_cards(deck, mesh)
       do s = 1, size(deck%control%stages)
          associate (reference => deck%control%stages(s)%temperature, stages => deck%control%stages)
             if (reference%id == 0) cycle
             before = findloc(stages(:s - 1)%temperature%id, reference%id, dim=1)
             if (before > 0) then
-               model%history%stages(s)%temperature = model%history%stages(before)%temperature
+               history%stages(s)%temperature = history%stages(before)%temperature
                cycle
             end if
             if (all(deck%bulk%temperature%set /= reference%id) .and. all(deck%bulk%plate_temperature%set /= reference%id)) then
@@ -43,43 +45,44 @@ contains
                                     integer_text(reference%id))
                cycle
             end if
-            if (all(abs(model%mesh%properties%alpha) <= 0.0_wp) .and. all(abs(model%mesh%bars%expansion) <= 0.0_wp) .and. &
+            if (all(abs(mesh%properties%alpha) <= 0.0_wp) .and. all(abs(mesh%bars%expansion) <= 0.0_wp) .and. &
                 size(expansions) == 0) then
                call deck%errors%add(reference%line, 'TEMPERATURE: nothing expands; give A on a MAT1')
                cycle
             end if
-            associate (temperature => model%history%stages(s)%temperature)
-               allocate (temperature%at(model%mesh%n_nodes), source=0.0_wp)
+            associate (temperature => history%stages(s)%temperature)
+               allocate (temperature%at(mesh%n_nodes), source=0.0_wp)
                temperature%reference_share = 1.0_wp
-               call fill_in(deck, model, reference%id, temperature%at, given)
-               call set_plate_temperatures(deck, model, reference%id, temperature, given)
+               call fill_in(deck, mesh, reference%id, temperature%at, given)
+               call set_plate_temperatures(deck, mesh, reference%id, temperature, given)
             end associate
             if (deck%errors%any()) cycle
-            needs_one = model%mesh%first_at(2:) > model%mesh%first_at(:model%mesh%n_nodes)
-            do i = 1, n_bars(model)
-               if (model%mesh%bars(i)%kind == a_bar) needs_one(model%mesh%bars(i)%nodes) = .true.
+            needs_one = mesh%first_at(2:) > mesh%first_at(:mesh%n_nodes)
+            do i = 1, n_bars(mesh)
+               if (mesh%bars(i)%kind == a_bar) needs_one(mesh%bars(i)%nodes) = .true.
             end do
             do k = 1, size(expansions)
                needs_one(expansions(k)%points) = .true.
             end do
-            i = findloc(needs_one(:n_points(model)) .and. .not. given(:n_points(model)), .true., dim=1)
-            if (i > 0) call deck%errors%add(reference%line, 'TEMPERATURE: node '//integer_text(model%mesh%node_id(i))// &
+            i = findloc(needs_one(:n_points(mesh)) .and. .not. given(:n_points(mesh)), .true., dim=1)
+            if (i > 0) call deck%errors%add(reference%line, 'TEMPERATURE: node '//integer_text(mesh%node_id(i))// &
                ' has no temperature in set '//integer_text(reference%id)//'; expected a TEMP of it, or a TEMPD')
          end associate
       end do
       if (deck%errors%any()) return
-      do s = 1, size(model%history%stages)
-         call expand(expansions, model%history%stages(s), model)
+      do s = 1, size(history%stages)
+         call expand(expansions, history%stages(s), mesh)
       end do
-      call deck%errors%warn(reference_words(deck, model))
-      call deck%errors%warn(squeeze_words(deck, model))
+      call deck%errors%warn(reference_words(deck, mesh, freedoms, history))
+      call deck%errors%warn(squeeze_words(deck, mesh, history))
    end subroutine build_temperatures
 
    !> A warning for the RBE2 that squeezes its nodes most, because the body at them expands otherwise than the element; '' where none
    !! does.
-   function squeeze_words(deck, model) result(words)
+   function squeeze_words(deck, mesh, history) result(words)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
+      type(history_type), intent(in) :: history
       character(:), allocatable      :: words
       real(wp) :: rise, strain, worst
       integer  :: at, e, i, k, n, node, s
@@ -93,13 +96,13 @@ contains
             strain = 0.0_wp
             e = 0
             do k = 1, size(card%nodes)
-               node = model%mesh%node_table%find(card%nodes(k))
-               if (model%mesh%first_at(node) == model%mesh%first_at(node + 1)) cycle
-               at = model%mesh%elements_at(model%mesh%first_at(node))
-               associate (property => model%mesh%properties(model%mesh%element_property(at)))
-                  do s = 1, size(model%history%stages)
-                     if (.not. allocated(model%history%stages(s)%temperature%at)) cycle
-                     rise = model%history%stages(s)%temperature%at(node)
+               node = mesh%node_table%find(card%nodes(k))
+               if (mesh%first_at(node) == mesh%first_at(node + 1)) cycle
+               at = mesh%elements_at(mesh%first_at(node))
+               associate (property => mesh%properties(mesh%element_property(at)))
+                  do s = 1, size(history%stages)
+                     if (.not. allocated(history%stages(s)%temperature%at)) cycle
+                     rise = history%stages(s)%temperature%at(node)
                      rise = property%alpha*(rise - property%reference) - card%alpha*(rise - card%reference)
                      if (abs(rise) <= abs(strain)) cycle
                      strain = rise
@@ -108,14 +111,14 @@ contains
                end associate
             end do
             if (e == 0) cycle
-            if (held_extent(model, card) <= 0.0_wp) cycle
+            if (held_extent(mesh, card) <= 0.0_wp) cycle
             if (abs(strain) > least_misfit) n = n + 1
             if (abs(strain) <= worst) cycle
             worst = abs(strain)
-            associate (property => model%mesh%properties(model%mesh%element_property(e)), expands => abs(card%alpha) > 0.0_wp)
-               words = 'RBE2 '//integer_text(card%id)//' holds nodes up to '//real_text(held_extent(model, card))// &
+            associate (property => mesh%properties(mesh%element_property(e)), expands => abs(card%alpha) > 0.0_wp)
+               words = 'RBE2 '//integer_text(card%id)//' holds nodes up to '//real_text(held_extent(mesh, card))// &
                        ' apart, where the warm body beside them would expand by '// &
-                       real_text(merge(abs(strain), strain, expands)*held_extent(model, card))// &
+                       real_text(merge(abs(strain), strain, expands)*held_extent(mesh, card))// &
                        one_of(expands, one_of(strain < 0.0_wp, ' less', ' more')//' than the RBE2', '')// &
                        ': a strain of '//real_text(strain)//', E times which is a stress of '//real_text(strain*property%e)//'; '
                if (expands) words = words//'its ALPHA '//real_text(card%alpha)//' and TREF '//real_text(card%reference)// &
@@ -128,32 +131,32 @@ contains
    end function squeeze_words
 
    !> The largest distance of the nodes of CARD along a direction in which it holds them [length].
-   pure real(wp) function held_extent(model, card) result(extent)
-      type(model_type), intent(in) :: model
+   pure real(wp) function held_extent(mesh, card) result(extent)
+      type(mesh_type), intent(in) :: mesh
       type(rigid_card), intent(in) :: card
       real(wp) :: axes(3, 3)
       integer  :: nodes(size(card%nodes)), c, k
 
-      nodes = [(model%mesh%node_table%find(card%nodes(k)), k = 1, size(nodes))]
-      axes = node_axes(model, nodes(1))
+      nodes = [(mesh%node_table%find(card%nodes(k)), k = 1, size(nodes))]
+      axes = node_axes(mesh, nodes(1))
       extent = 0.0_wp
-      do c = 1, model%mesh%dimension
+      do c = 1, mesh%dimension
          if (.not. has_component(card%components, c)) cycle
-         associate (along => matmul(axes(:, c), model%mesh%x(:, nodes)))
+         associate (along => matmul(axes(:, c), mesh%x(:, nodes)))
             extent = max(extent, maxval(along) - minval(along))
          end associate
       end do
    end function held_extent
 
    !> Move the components of EXPANSIONS by their growth at the temperatures of LOADS.
-   pure subroutine expand(expansions, loads, model)
+   pure subroutine expand(expansions, loads, mesh)
       type(expansion_type), intent(in)     :: expansions(:)
       type(stage_load_type), intent(inout) :: loads
-      type(model_type), intent(in)         :: model
+      type(mesh_type), intent(in) :: mesh
       integer :: k
 
       if (size(expansions) == 0 .or. .not. allocated(loads%temperature%at)) return
-      if (.not. allocated(loads%moved)) allocate (loads%moved(model%mesh%dimension, model%mesh%n_nodes), source=0.0_wp)
+      if (.not. allocated(loads%moved)) allocate (loads%moved(mesh%dimension, mesh%n_nodes), source=0.0_wp)
       do k = 1, size(expansions)
          associate (part => expansions(k))
             loads%moved(part%d, part%node) = part%growth*(0.5_wp*sum(loads%temperature%at(part%points)) - part%reference)
@@ -162,9 +165,11 @@ contains
    end subroutine expand
 
    !> A warning for the first MAT1 with expansion whose TREF is blank where a stage has temperatures; '' where there is none.
-   function reference_words(deck, model) result(words)
+   function reference_words(deck, mesh, freedoms, history) result(words)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
+      type(history_type), intent(in) :: history
       character(:), allocatable      :: words
       real(wp) :: highest, lowest
       integer  :: i, s
@@ -172,9 +177,9 @@ contains
       words = ''
       highest = -huge(1.0_wp)
       lowest = huge(1.0_wp)
-      do s = 1, size(model%history%stages)
-         if (.not. allocated(model%history%stages(s)%temperature%at)) cycle
-         associate (at => pack(model%history%stages(s)%temperature%at(:n_points(model)), model%freedoms%used(:n_points(model))))
+      do s = 1, size(history%stages)
+         if (.not. allocated(history%stages(s)%temperature%at)) cycle
+         associate (at => pack(history%stages(s)%temperature%at(:n_points(mesh)), freedoms%used(:n_points(mesh))))
             highest = max(highest, maxval(at))
             lowest = min(lowest, minval(at))
          end associate
@@ -187,14 +192,14 @@ contains
    end function reference_words
 
    !> Errors of TEMP and TEMPP1: missing nodes or shells, a node or shell named twice in a set; of TEMPD: two of one set.
-   subroutine check_cards(deck, model)
+   subroutine check_cards(deck, mesh)
       type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
+      type(mesh_type), intent(in) :: mesh
       integer :: i, k, node, twice
       integer, allocatable :: last(:)   ! (nodes) last card that named the node
       integer, allocatable :: set_of(:) ! (elements) set of the last TEMPP1 that named the element
 
-      allocate (last(model%mesh%n_nodes), source=0)
+      allocate (last(mesh%n_nodes), source=0)
       do i = 1, size(deck%bulk%temperature)
          associate (card => deck%bulk%temperature(i))
             if (card%is_default) then
@@ -205,7 +210,7 @@ contains
                cycle
             end if
             if (card%node == 0) cycle
-            node = model%mesh%node_table%find(card%node)
+            node = mesh%node_table%find(card%node)
             if (node == 0) then
                call deck%field_error(card%line, card%field, 'there is no GRID '//integer_text(card%node))
                cycle
@@ -219,19 +224,19 @@ contains
          end associate
       end do
 
-      allocate (set_of(model%mesh%n_elements), source=0)
+      allocate (set_of(mesh%n_elements), source=0)
       do i = 1, size(deck%bulk%plate_temperature)
          associate (card => deck%bulk%plate_temperature(i))
             do k = 1, size(card%ranges%first)
                if (card%ranges%first(k) == 0) cycle ! reported already
-               associate (named => plates_of(model, card%ranges%first(k), card%ranges%last(k)))
+               associate (named => plates_of(mesh, card%ranges%first(k), card%ranges%last(k)))
                   twice = findloc(set_of(named), card%set, dim=1)
                   if (size(named) == 0) then
                      call deck%field_error(card%line, card%ranges%at(k), 'there is no shell with this number; expected '// &
                                            'CQUAD4 or CTRIA3 with a PSHELL in a model of space', called='EID')
                   else if (twice > 0) then
                      call deck%field_error(card%line, card%ranges%at(k), 'element '// &
-                                           integer_text(model%mesh%element_id(named(twice)))//' has a TEMPP1 in set '// &
+                                           integer_text(mesh%element_id(named(twice)))//' has a TEMPP1 in set '// &
                                            integer_text(card%set)//' already', called='EID')
                   end if
                   set_of(named) = card%set
@@ -243,30 +248,30 @@ contains
 
    !> The temperatures AT all nodes in SET, and whether they are GIVEN: by TEMP, else by TEMPD. The duplicate of a node and the face
    !! node of a shell have the temperature of their node, an added mid-edge node has the mean of the ends.
-   subroutine fill_in(deck, model, set, at, given)
+   subroutine fill_in(deck, mesh, set, at, given)
       type(checked_deck), intent(in)    :: deck
-      type(model_type), intent(in)      :: model
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)               :: set
       real(wp), intent(inout)           :: at(:)
       logical, allocatable, intent(out) :: given(:)
-      logical :: is_filled(model%mesh%n_nodes)
+      logical :: is_filled(mesh%n_nodes)
       integer :: corners(2), e, i, k, node
 
-      allocate (given(model%mesh%n_nodes), source=.false.)
+      allocate (given(mesh%n_nodes), source=.false.)
       do i = 1, size(deck%bulk%temperature)
          associate (card => deck%bulk%temperature(i))
             if (card%is_default .or. card%set /= set) cycle
-            node = model%mesh%node_table%find(card%node)
+            node = mesh%node_table%find(card%node)
             if (node == 0) cycle
             at(node) = card%value
             given(node) = .true.
          end associate
       end do
       is_filled = .false.
-      is_filled(model%mesh%first_filled:model%mesh%first_filled + model%mesh%n_filled - 1) = .true.
-      do i = 1, n_points(model)
-         if (model%mesh%duplicate(i) == 0) cycle
-         associate (duplicate => model%mesh%duplicate(i))
+      is_filled(mesh%first_filled:mesh%first_filled + mesh%n_filled - 1) = .true.
+      do i = 1, n_points(mesh)
+         if (mesh%duplicate(i) == 0) cycle
+         associate (duplicate => mesh%duplicate(i))
             if (given(i) .and. .not. given(duplicate)) at(duplicate) = at(i)
             given(duplicate) = given(duplicate) .or. given(i)
             is_filled(duplicate) = is_filled(i)
@@ -277,8 +282,8 @@ contains
          where (.not. (given .or. is_filled)) at = deck%bulk%temperature(i)%value
          given = given .or. .not. is_filled
       end if
-      do e = 1, model%mesh%n_elements
-         associate (kind => element_table(model%mesh%element_kind(e)), nodes => corners_of(model, e))
+      do e = 1, mesh%n_elements
+         associate (kind => element_table(mesh%element_kind(e)), nodes => corners_of(mesh, e))
             do k = kind%n_corners + 1, kind%n_nodes
                if (any(nodes == 0)) exit
                corners = nodes(kind%edges(:, k - kind%n_corners))
@@ -288,9 +293,9 @@ contains
             end do
          end associate
       end do
-      if (.not. allocated(model%mesh%faces)) return
-      do k = 1, size(model%mesh%faces)
-         associate (face => model%mesh%faces(k))
+      if (.not. allocated(mesh%faces)) return
+      do k = 1, size(mesh%faces)
+         associate (face => mesh%faces(k))
             at(face%node) = at(face%point)
             given(face%node) = given(face%point)
          end associate
@@ -298,28 +303,28 @@ contains
    end subroutine fill_in
 
    !> The shells with numbers from FIRST to LAST.
-   pure function plates_of(model, first, last) result(named)
-      type(model_type), intent(in) :: model
+   pure function plates_of(mesh, first, last) result(named)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: first, last
       integer, allocatable :: named(:)
       integer :: e
 
-      associate (id => model%mesh%element_id, low => first_not_below(model%mesh%element_id, first), most => max(first, last))
+      associate (id => mesh%element_id, low => first_not_below(mesh%element_id, first), most => max(first, last))
          named = [(e, e = low, min(first_not_below(id, most), size(id)))]
          named = pack(named, id(named) >= first .and. id(named) <= most)
       end associate
-      named = pack(named, [(is_shell(model, named(e)), e = 1, size(named))])
+      named = pack(named, [(is_shell(mesh, named(e)), e = 1, size(named))])
    end function plates_of
 
    !> Temperatures of the shells of SET from TEMPP1. Nodes that have no other temperature get that of these shells, and are then
    !! GIVEN.
-   subroutine set_plate_temperatures(deck, model, set, temperature, given)
+   subroutine set_plate_temperatures(deck, mesh, set, temperature, given)
       type(checked_deck), intent(in)        :: deck
-      type(model_type), intent(in)          :: model
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)                   :: set
       type(temperature_type), intent(inout) :: temperature
       logical, intent(inout)                :: given(:)
-      integer :: card_of(model%mesh%n_elements), e, i, k, node
+      integer :: card_of(mesh%n_elements), e, i, k, node
 
       if (all(deck%bulk%plate_temperature%set /= set)) return
       card_of = 0
@@ -327,23 +332,23 @@ contains
          associate (card => deck%bulk%plate_temperature(i))
             if (card%set == set) then
                do k = 1, size(card%ranges%first)
-                  card_of(plates_of(model, card%ranges%first(k), card%ranges%last(k))) = i
+                  card_of(plates_of(mesh, card%ranges%first(k), card%ranges%last(k))) = i
                end do
             end if
          end associate
       end do
-      do node = 1, n_points(model)
-         associate (around => model%mesh%elements_at(model%mesh%first_at(node):model%mesh%first_at(node + 1) - 1))
+      do node = 1, n_points(mesh)
+         associate (around => mesh%elements_at(mesh%first_at(node):mesh%first_at(node + 1) - 1))
             if (given(node) .or. size(around) == 0 .or. any(card_of(around) == 0)) cycle
             temperature%at(node) = sum(deck%bulk%plate_temperature(card_of(around))%mean)/size(around)
             given(node) = .true.
          end associate
       end do
-      allocate (temperature%plate(5, size(model%mesh%structural%shells)), source=0.0_wp)
-      do e = 1, model%mesh%n_elements
+      allocate (temperature%plate(5, size(mesh%structural%shells)), source=0.0_wp)
+      do e = 1, mesh%n_elements
          if (card_of(e) == 0) cycle
-         associate (card => deck%bulk%plate_temperature(card_of(e)), nodes => corners_of(model, e), &
-                    place => model%mesh%structural%place(e))
+         associate (card => deck%bulk%plate_temperature(card_of(e)), nodes => corners_of(mesh, e), &
+                    place => mesh%structural%place(e))
             temperature%plate(:size(nodes), place) = card%mean - temperature%at(nodes)
             temperature%plate(5, place) = card%slope
          end associate

@@ -6,7 +6,7 @@ module unit_watch
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use kinds, only: wp
-   use model_data, only: model_type
+   use model_data, only: joints_type
    use normal_curve, only: loading_deflection
    use text_tools, only: integer_text, one_of, upper
    use tolerances, only: exactly_one, whole_power_of_ten
@@ -47,9 +47,9 @@ contains
 
    !> Add to the warnings of MODEL what contradicts UNITS of DECK, or all usual systems: the first MAT1 whose wave speed, or whose E
    !! where it has no RHO, is not that of a solid; the first JNORM whose faces approach too far; the first GRAV that is not gravity.
-   subroutine watch_units(deck, model, errors)
+   subroutine watch_units(deck, joints, errors)
       type(deck_type), intent(in)          :: deck
-      type(model_type), intent(in)         :: model
+      type(joints_type), intent(in) :: joints
       type(deck_error_list), intent(inout) :: errors !! gets the warnings
       logical  :: meant(4) ! systems that UNITS and the wave speeds allow
       real(wp) :: metre, newton, pascals
@@ -67,7 +67,7 @@ contains
       pascals = 0.0_wp
       if (metre > 0.0_wp) pascals = newton/metre**2
       call errors%warn(material_words(deck, meant, pascals))
-      call errors%warn(approach_words(deck, model, metre, newton))
+      call errors%warn(approach_words(deck, joints, metre, newton))
       call errors%warn(gravity_words(deck, meant))
    end subroutine watch_units
 
@@ -161,17 +161,17 @@ contains
 
    !> The first JNORM whose faces approach farther at 1 N/mm2 than those of any surface, or by a visible part of the joint at its
    !! first pressure; '' where there is none.
-   function approach_words(deck, model, metre, newton) result(words)
+   function approach_words(deck, joints, metre, newton) result(words)
       type(deck_type), intent(in)  :: deck
-      type(model_type), intent(in) :: model
+      type(joints_type), intent(in) :: joints
       real(wp), intent(in)         :: metre, newton !! of the units of length and force, 0: not known
       character(:), allocatable    :: words
       real(wp) :: approach, pressure
       integer  :: j
 
       words = ''
-      do j = 1, size(model%joints%list)
-         associate (joint => model%joints%list(j), law => model%joints%list(j)%law%normal)
+      do j = 1, size(joints%list)
+         associate (joint => joints%list(j), law => joints%list(j)%law%normal)
             if (.not. law%c > 0.0_wp) cycle
             words = 'joint '//integer_text(joint%id)//': c p^m of its JNORM is'
             if (metre > 0.0_wp .and. newton > 0.0_wp) then

@@ -5,7 +5,7 @@ module vibration_build
    use case_entries, only: limit_type, number_set, numbers_in_set
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: model_type, stage_load_type
+   use model_data, only: freedoms_type, mesh_type, stage_load_type
    use stage_plan, only: stage_plan_type, backbone_plan, merged, response_plan, vibration_plan_type
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text, one_of
@@ -19,9 +19,10 @@ contains
 
    !> Plan the vibration of the stages with MODES. A blank ND means the lowest mode, or with V2 all modes up to it, as in NASTRAN.
    !! Frequencies are not negative, so that V1 <= 0 is no limit.
-   subroutine plan_vibrations(deck, model, oscillating, plan)
+   subroutine plan_vibrations(deck, mesh, freedoms, oscillating, plan)
       type(checked_deck), intent(in)       :: deck
-      type(model_type), intent(in)         :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       type(stage_load_type), intent(in)    :: oscillating(:) !! (stages) the loads of DLOAD
       type(stage_plan_type), intent(inout) :: plan
       integer :: k, s, undamped
@@ -38,7 +39,7 @@ contains
             vibration%amplitude = asked%amplitude
             vibration%damping = deck%bulk%parameters%damping
             vibration%has_losses = vibration%amplitude > 0.0_wp .or. vibration%damping > 0.0_wp .or. &
-                                   any(model%mesh%properties%damping > 0.0_wp) .or. any(model%mesh%bars%damping > 0.0_wp)
+                                   any(mesh%properties%damping > 0.0_wp) .or. any(mesh%bars%damping > 0.0_wp)
             k = findloc(deck%bulk%eigrl%id, asked%modes%id, dim=1)
             if (k == 0) then
                call deck%errors%add(asked%modes%line, 'MODES: there is no EIGRL '//integer_text(asked%modes%id))
@@ -48,7 +49,7 @@ contains
                vibration%has_lowest = vibration%has_lowest .and. vibration%lowest > 0.0_wp
                if (.not. vibration%has_lowest) vibration%lowest = 0.0_wp
             end if
-            if (asked%backbone%id > 0) call plan_backbone(deck, model, asked, vibration)
+            if (asked%backbone%id > 0) call plan_backbone(deck, mesh, freedoms, asked, vibration)
             plan%has_backbones = plan%has_backbones .or. asked%backbone%id > 0
             if (asked%frequency%id == 0) cycle
             if (asked%damping%id == 0 .and. .not. vibration%has_losses .and. asked%frequency%line /= undamped) then
@@ -58,15 +59,16 @@ contains
             end if
             plan%has_responses = .true.
             allocate (vibration%response)
-            call plan_response(deck, model, asked, oscillating(s), vibration%response)
+            call plan_response(deck, mesh, freedoms, asked, oscillating(s), vibration%response)
          end associate
       end do
    end subroutine plan_vibrations
 
    !> BACKBONE of one stage, with ascending amplitudes.
-   subroutine plan_backbone(deck, model, asked, vibration)
+   subroutine plan_backbone(deck, mesh, freedoms, asked, vibration)
       type(checked_deck), intent(in)           :: deck
-      type(model_type), intent(in)             :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       type(vibration_entries_type), intent(in) :: asked
       type(vibration_plan_type), intent(inout) :: vibration
       type(backbone_plan) :: backbone
@@ -87,7 +89,7 @@ contains
             call deck%errors%add(card%line, 'JAMPL: mode '//integer_text(card%mode)//' is not among the '// &
                                  integer_text(vibration%most)//' lowest that EIGRL '//integer_text(vibration%id)//' asks for')
          if (card%node > 0) then
-            backbone%node = findloc(model%mesh%node_id == card%node .and. model%freedoms%used, .true., dim=1)
+            backbone%node = findloc(mesh%node_id == card%node .and. freedoms%used, .true., dim=1)
             if (backbone%node == 0 .and. .not. deck%errors%any()) call deck%errors%add(card%line, &
                'JAMPL: GID '//integer_text(card%node)//' is not a node of an element')
          end if
@@ -96,9 +98,10 @@ contains
    end subroutine plan_backbone
 
    !> FREQUENCY of one stage.
-   subroutine plan_response(deck, model, asked, load, response)
+   subroutine plan_response(deck, mesh, freedoms, asked, load, response)
       type(checked_deck), intent(in)           :: deck
-      type(model_type), intent(in)             :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       type(vibration_entries_type), intent(in) :: asked
       type(stage_load_type), intent(in)        :: load
       type(response_plan), intent(out)         :: response
@@ -122,7 +125,7 @@ contains
       if (size(response%frequencies) + size(response%spreads) == 0) call deck%errors%add(asked%frequency%line, &
          'FREQUENCY: there is no FREQ1, FREQ2 or FREQ4 with set '//integer_text(asked%frequency%id))
       response%is_structural = deck%bulk%parameters%is_structural
-      allocate (response%force(3, model%mesh%n_nodes), source=0.0_wp)
+      allocate (response%force(3, mesh%n_nodes), source=0.0_wp)
       do k = 1, load%n
          response%force(:, load%node(k)) = response%force(:, load%node(k)) + load%force(:, k)
       end do
@@ -134,17 +137,18 @@ contains
          if (k == 0) call deck%errors%add(asked%damping%line, 'SDAMPING: there is no TABDMP1 '//integer_text(asked%damping%id))
       end if
       if (.not. allocated(asked%response)) return
-      call find_limited_nodes(deck, model, 'RESPONSE', asked%response, are_named)
-      are_named = are_named .and. model%freedoms%used .and. model%mesh%node_id > 0
-      response%nodes = pack([(k, k = 1, model%mesh%n_nodes)], are_named)
+      call find_limited_nodes(deck, mesh, 'RESPONSE', asked%response, are_named)
+      are_named = are_named .and. freedoms%used .and. mesh%node_id > 0
+      response%nodes = pack([(k, k = 1, mesh%n_nodes)], are_named)
       if (size(response%nodes) == 0 .and. .not. deck%errors%any()) call deck%errors%add(asked%response(1)%line, &
          'RESPONSE: names no node of an element')
    end subroutine plan_response
 
    !> Set SHOWN of the limited stages of PLAN, and WATCHED of the stages with WATCH.
-   subroutine find_shown_nodes(deck, model, plan)
+   subroutine find_shown_nodes(deck, mesh, freedoms, plan)
       type(checked_deck), intent(in)       :: deck
-      type(model_type), intent(in)         :: model
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       type(stage_plan_type), intent(inout) :: plan
       logical, allocatable :: are_named(:)
       integer :: i, s
@@ -153,13 +157,13 @@ contains
          associate (given => deck%control%stages(s), stage => plan%stages(s))
             if (allocated(given%watch)) then
                plan%has_watched_nodes = .true.
-               call find_limited_nodes(deck, model, 'WATCH', given%watch, are_named)
-               stage%watched = pack([(i, i = 1, model%mesh%n_nodes)], are_named .and. model%freedoms%used &
-                  .and. model%mesh%node_id > 0)
+               call find_limited_nodes(deck, mesh, 'WATCH', given%watch, are_named)
+               stage%watched = pack([(i, i = 1, mesh%n_nodes)], are_named .and. freedoms%used &
+                  .and. mesh%node_id > 0)
                if (size(stage%watched) == 0) call deck%errors%add(given%watch(1)%line, 'WATCH: names no node of an element')
             end if
             if (.not. allocated(given%only)) cycle
-            call find_limited_nodes(deck, model, 'OUTPUT', given%only, stage%shown)
+            call find_limited_nodes(deck, mesh, 'OUTPUT', given%only, stage%shown)
             do i = 1, size(given%only)
                associate (only => given%only(i))
                   stage%shown_words = stage%shown_words//one_of(only%is_mark, ', ONLY PMARK', ', ONLY SET')//' '// &
@@ -171,20 +175,20 @@ contains
    end subroutine find_shown_nodes
 
    !> The nodes of MODEL that entry KEY of case control names by its LIMITS. Errors: missing sets and surfaces.
-   subroutine find_limited_nodes(deck, model, key, limits, are_named)
+   subroutine find_limited_nodes(deck, mesh, key, limits, are_named)
       type(checked_deck), intent(in)    :: deck
-      type(model_type), intent(in)      :: model
+      type(mesh_type), intent(in) :: mesh
       character(*), intent(in)          :: key
       type(limit_type), intent(in)      :: limits(:)
       logical, allocatable, intent(out) :: are_named(:) !! (n_nodes)
       integer :: at, i
 
-      allocate (are_named(model%mesh%n_nodes), source=.false.)
+      allocate (are_named(mesh%n_nodes), source=.false.)
       do i = 1, size(limits)
          associate (only => limits(i))
             if (only%is_mark) then
-               at = findloc(model%mesh%surfaces%id, only%id, dim=1)
-               if (at > 0) are_named(nodes_of(model%mesh%surfaces(at))) = .true.
+               at = findloc(mesh%surfaces%id, only%id, dim=1)
+               if (at > 0) are_named(nodes_of(mesh%surfaces(at))) = .true.
             else
                at = findloc(deck%control%sets%id, only%id, dim=1, back=.true.)
                if (at > 0) call add_set(deck%control%sets(at))
@@ -203,17 +207,17 @@ contains
          logical, allocatable :: are_in(:)
          integer :: at, i
 
-         allocate (numbers, source=model%mesh%node_id)
-         if (allocated(model%mesh%placed)) numbers = [numbers, model%mesh%placed%id]
+         allocate (numbers, source=mesh%node_id)
+         if (allocated(mesh%placed)) numbers = [numbers, mesh%placed%id]
          allocate (are_in(size(numbers)))
          call numbers_in_set(set, numbers, are_in, marks, deck%errors)
-         are_named = are_named .or. are_in(:model%mesh%n_nodes)
-         do i = model%mesh%n_nodes + 1, size(numbers)
-            if (are_in(i) .and. numbers(i) > 0) are_named(model%mesh%placed(i - model%mesh%n_nodes)%node) = .true.
+         are_named = are_named .or. are_in(:mesh%n_nodes)
+         do i = mesh%n_nodes + 1, size(numbers)
+            if (are_in(i) .and. numbers(i) > 0) are_named(mesh%placed(i - mesh%n_nodes)%node) = .true.
          end do
          do i = 1, size(marks)
-            at = findloc(model%mesh%surfaces%id, marks(i), dim=1)
-            if (at > 0) are_named(nodes_of(model%mesh%surfaces(at))) = .true.
+            at = findloc(mesh%surfaces%id, marks(i), dim=1)
+            if (at > 0) are_named(nodes_of(mesh%surfaces(at))) = .true.
             if (at == 0) call deck%errors%add(set%line, 'SET '//integer_text(set%id)//': there is no PMARK '// &
                                               integer_text(marks(i)))
          end do

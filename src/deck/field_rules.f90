@@ -127,7 +127,8 @@ contains
          return
       end if
       plain = text(:length)//c_null_char
-      if (i <= length) plain = text(:i - 1)//'E'//text(i + verify(text(i:i), '+-'):length)//c_null_char ! the letter may be D or none
+      ! the letter may be D or none
+      if (i <= length) plain = text(:i - 1)//'E'//text(i + verify(text(i:i), '+-'):length)//c_null_char
       value = strtod(plain, c_null_ptr)
       ok = ieee_is_finite(value) .and. .not. (abs(value) < tiny(value) .and. digits > 0)
    end subroutine parse_real

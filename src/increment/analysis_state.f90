@@ -143,10 +143,10 @@ contains
                 source=analysis%u)
       analysis%before = analysis%now
       analysis%after = analysis%now
-      allocate (analysis%rest_tension(n_bars(model)), source=0.0_wp)
-      allocate (analysis%is_locked(n_sections(model)), source=.false.)
-      allocate (analysis%is_elastic(n_bars(model)), source=.true.)
-      if (n_bars(model) > 0) analysis%is_elastic = model%mesh%bars%bolt == 0
+      allocate (analysis%rest_tension(n_bars(model%mesh)), source=0.0_wp)
+      allocate (analysis%is_locked(n_sections(model%mesh)), source=.false.)
+      allocate (analysis%is_elastic(n_bars(model%mesh)), source=.true.)
+      if (n_bars(model%mesh) > 0) analysis%is_elastic = model%mesh%bars%bolt == 0
       allocate (analysis%states(size(model%joints%element)), analysis%energy(size(model%joints%list)))
       allocate (analysis%record%iterations(16), analysis%record%slips(0))
       allocate (analysis%k(3, size(model%joints%element)), analysis%movement(3, size(model%joints%element)), source=0.0_wp)
@@ -165,7 +165,7 @@ contains
       integer :: i
 
       held = model%freedoms%held
-      do i = 1, n_sections(model)
+      do i = 1, n_sections(model%mesh)
          if (analysis%is_locked(i)) held(1, model%mesh%sections(i)%node) = .true.
       end do
    end function all_held

@@ -24,7 +24,7 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       integer :: i
 
-      do i = 1, n_bars(model)
+      do i = 1, n_bars(model%mesh)
          associate (bar => model%mesh%bars(i))
             if (bar%bolt == 0 .or. bar%stage /= analysis%stage) cycle
             analysis%is_elastic(i) = .true.
@@ -35,7 +35,7 @@ contains
             call add_bar(model, i, system)
          end associate
       end do
-      do i = 1, n_sections(model)
+      do i = 1, n_sections(model%mesh)
          associate (section => model%mesh%sections(i))
             if (section%stage /= analysis%stage) cycle
             analysis%is_locked(i) = .true.
@@ -55,11 +55,11 @@ contains
       integer :: i, stage
 
       do stage = 1, analysis%stage
-         do i = 1, n_bars(model)
+         do i = 1, n_bars(model%mesh)
             if (model%mesh%bars(i)%bolt == 0 .or. model%mesh%bars(i)%stage /= stage) cycle
             if (analysis%is_elastic(i)) call add_bar(model, i, system)
          end do
-         do i = 1, n_sections(model)
+         do i = 1, n_sections(model%mesh)
             if (model%mesh%sections(i)%stage /= stage) cycle
             if (analysis%is_locked(i)) call lock_unknown(model%mesh%sections(i)%node, 1, system)
          end do

@@ -92,7 +92,7 @@ contains
       do j = 1, size(model%joints%list)
          do end = 1, 2
             do i = model%joints%list(j)%first, model%joints%list(j)%last
-               equations = [system%number(:, unknown_nodes(model, nodes_of_end(model%joints%element(i), end)))]
+               equations = [system%number(:, unknown_nodes(model%freedoms, nodes_of_end(model%joints%element(i), end)))]
                equations = pack(equations, equations > 0)
                do k = 1, size(equations)
                   if (is_open(equations(k))) joints = [joints, equations(k)]

@@ -56,7 +56,7 @@ contains
          call check('the work done on joint '//integer_text(model%joints%list(i)%id), [analysis%energy(i)%put_in, &
                                                                 analysis%energy(i)%given_back, analysis%energy(i)%lost])
       end do
-      do i = 1, n_bars(model)
+      do i = 1, n_bars(model%mesh)
          call check('the tension of element '//integer_text(model%mesh%bars(i)%id), [analysis%rest_tension(i)])
       end do
       call check_nodes('the force out of balance', analysis%unbalanced, system%retained)

@@ -46,18 +46,18 @@ contains
             analysis%after%load(:, loads%node(i)) = analysis%after%load(:, loads%node(i)) + loads%force(:model%mesh%dimension, i)
          end do
       end associate
-      do i = 1, n_bars(model)
+      do i = 1, n_bars(model%mesh)
          if (model%mesh%bars(i)%stage == stage) analysis%rest_tension(i) = model%mesh%bars(i)%preload
          call add_axial_force(model, i, analysis%rest_tension(i), analysis%after%load)
       end do
       if (allocated(analysis%after%temperature%at)) then
          call add_thermal_forces(model, analysis%after%temperature, analysis%after%load)
-         do i = 1, n_bars(model)
+         do i = 1, n_bars(model%mesh)
             if (analysis%is_elastic(i)) &
                call add_axial_force(model, i, thermal_tension(model%mesh%bars(i), analysis%after%temperature), analysis%after%load)
          end do
       end if
-      do i = 1, n_sections(model)
+      do i = 1, n_sections(model%mesh)
          associate (section => model%mesh%sections(i))
             if (section%stage == stage) &
                analysis%after%load(1, section%node) = analysis%after%load(1, section%node) + section%preload

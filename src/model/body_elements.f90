@@ -6,7 +6,7 @@ module body_elements
    use element_mapping, only: element_law, make_element_law
    use isoparametric, only: stiffness, nodal_thermal_forces
    use kinds, only: wp
-   use model_data, only: corners_of, is_beam, is_shell, model_type, own_nodes, temperature_type
+   use model_data, only: corners_of, is_beam, is_shell, mesh_type, model_type, own_nodes, temperature_type
    use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, participating_nodes
    use shape_functions, only: shape_values
    use shell_element, only: shell_stiffness, shell_thermal_forces
@@ -44,16 +44,16 @@ contains
       real(wp), intent(inout)      :: k(:, :) !! dimension x participating nodes rows and columns are set
       real(wp) :: full(3*most_own, 3*most_own) ! between the nodal values of a shell or beam
 
-      if (is_beam(model, e)) then
+      if (is_beam(model%mesh, e)) then
          full(:12, :12) = beam_stiffness(model%mesh%structural%beams(model%mesh%structural%place(e)), model%mesh%x(:, &
-            corners_of(model, e)))
+            corners_of(model%mesh, e)))
          call between_own(model, e, full, k)
-      else if (is_shell(model, e)) then
-         call shell_stiffness(model%mesh%structural%shells(model%mesh%structural%place(e)), model%mesh%x(:, corners_of(model, &
+      else if (is_shell(model%mesh, e)) then
+         call shell_stiffness(model%mesh%structural%shells(model%mesh%structural%place(e)), model%mesh%x(:, corners_of(model%mesh, &
             e)), full)
          call between_own(model, e, full, k)
       else
-         call stiffness(law_of(model, e), model%mesh%x(:model%mesh%dimension, corners_of(model, e)), k)
+         call stiffness(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, corners_of(model%mesh, e)), k)
          call extend_stiffness(model, e, k)
       end if
    end subroutine element_stiffness
@@ -64,7 +64,7 @@ contains
       integer, intent(in)          :: e
       real(wp) :: x(model%mesh%dimension), n(max_nodes)
 
-      associate (nodes => corners_of(model, e), kind => element_table(model%mesh%element_kind(e)))
+      associate (nodes => corners_of(model%mesh, e), kind => element_table(model%mesh%element_kind(e)))
          if (kind%n_nodes == kind%n_corners) then
             x = sum(model%mesh%x(:model%mesh%dimension, nodes), dim=2)/size(nodes)
          else
@@ -84,15 +84,15 @@ contains
       real(wp) :: stress(n_stresses(model%mesh%properties(model%mesh%element_property(e))%state))
       real(wp) :: at_corners(max_stresses, 5, 1) ! of a shell in its mean plane, and at its centre
 
-      if (is_beam(model, e)) then
+      if (is_beam(model%mesh, e)) then
          stress = 0.0_wp
-      else if (is_shell(model, e)) then
+      else if (is_shell(model%mesh, e)) then
          associate (n => element_table(model%mesh%element_kind(e))%n_nodes)
-            call structural_stress(model, e, u(:, own_nodes(model, e)), temperature, [0.0_wp], at_corners(:, :n + 1, :))
+            call structural_stress(model, e, u(:, own_nodes(model%mesh, e)), temperature, [0.0_wp], at_corners(:, :n + 1, :))
             stress = at_corners(:, n + 1, 1)
          end associate
       else
-         call centre_stress(law_of(model, e), model%mesh%x(:model%mesh%dimension, corners_of(model, e)), &
+         call centre_stress(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, corners_of(model%mesh, e)), &
             corner_displacements(model, e, u), &
                             stress, element_rise(model, e, temperature))
       end if
@@ -106,7 +106,8 @@ contains
       type(temperature_type), intent(in) :: temperature
       real(wp), intent(inout)            :: stress(:, :) !! (components, nodes) [pressure], set here
 
-      call nodal_stress(law_of(model, e), model%mesh%x(:model%mesh%dimension, corners_of(model, e)), corner_displacements(model, &
+      call nodal_stress(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, corners_of(model%mesh, e)), &
+         corner_displacements(model, &
          e, u), &
                         stress, element_rise(model, e, temperature))
    end subroutine element_nodal_stress
@@ -124,18 +125,19 @@ contains
       at_node = 0.0_wp
       allocate (n_at(size(at_node, 2)), source=model%mesh%first_at(2:size(at_node, 2) + 1) - model%mesh%first_at(:size(at_node, 2)))
       do e = 1, model%mesh%n_elements ! shells and beams have separate tables
-         if (is_shell(model, e) .or. is_beam(model, e)) n_at(corners_of(model, e)) = n_at(corners_of(model, e)) - 1
+         if (is_shell(model%mesh, e) .or. is_beam(model%mesh, e)) n_at(corners_of(model%mesh, e)) = n_at(corners_of(model%mesh, &
+            e)) - 1
       end do
       allocate (shares(max_stresses, size(model%mesh%element_nodes, 1), min(block, model%mesh%n_elements)))
       do first = 1, model%mesh%n_elements, block
          last = min(model%mesh%n_elements, first + block - 1)
          !$omp parallel do schedule(dynamic, 128) default(shared) if(last - first > few)
          do e = first, last
-            if (.not. (is_shell(model, e) .or. is_beam(model, e))) call find_shares(e, shares(:, :, e - first + 1))
+            if (.not. (is_shell(model%mesh, e) .or. is_beam(model%mesh, e))) call find_shares(e, shares(:, :, e - first + 1))
          end do
          !$omp end parallel do
          do e = first, last
-            if (is_shell(model, e) .or. is_beam(model, e)) cycle
+            if (is_shell(model%mesh, e) .or. is_beam(model%mesh, e)) cycle
             do i = 1, element_table(model%mesh%element_kind(e))%n_nodes
                associate (node => model%mesh%element_nodes(i, e))
                   at_node(:, node) = at_node(:, node) + shares(:, i, e - first + 1)
@@ -153,7 +155,7 @@ contains
          real(wp) :: nodal(max_stresses, max_nodes), rise(max_nodes)
          integer  :: c, i
 
-         associate (nodes => corners_of(model, e))
+         associate (nodes => corners_of(model%mesh, e))
             c = n_stresses(model%mesh%properties(model%mesh%element_property(e))%state)
             rise(:size(nodes)) = element_rise(model, e, temperature)
             call element_nodal_stress(model, e, u, temperature, nodal(:c, :size(nodes)))
@@ -253,18 +255,18 @@ contains
       real(wp), intent(inout)            :: f(:, :) !! (dimension, nodes) [force], set here
       real(wp) :: nodal(3, most_own)                ! on the nodal values of a shell or beam
 
-      associate (rise => element_rise(model, e, temperature), x => model%mesh%x(:, corners_of(model, e)))
-         if (is_beam(model, e)) then
+      associate (rise => element_rise(model, e, temperature), x => model%mesh%x(:, corners_of(model%mesh, e)))
+         if (is_beam(model%mesh, e)) then
             associate (law => model%mesh%structural%beams(model%mesh%structural%place(e)))
                nodal(:, :4) = beam_nodal_forces(law, x, beam_thermal_load(law, sum(rise)/2))
             end associate
-            call onto_own(model, e, nodal, f)
-         else if (is_shell(model, e)) then
+            call onto_own(model%mesh, e, nodal, f)
+         else if (is_shell(model%mesh, e)) then
             call shell_thermal_forces(model%mesh%structural%shells(model%mesh%structural%place(e)), x, rise, &
                                       element_slope(model, e, temperature), nodal)
-            call onto_own(model, e, nodal, f)
+            call onto_own(model%mesh, e, nodal, f)
          else
-            call nodal_thermal_forces(law_of(model, e), x(:model%mesh%dimension, :), rise, f)
+            call nodal_thermal_forces(law_of(model%mesh, e), x(:model%mesh%dimension, :), rise, f)
          end if
       end associate
    end subroutine element_thermal_forces
@@ -278,21 +280,21 @@ contains
       integer  :: e
 
       do e = 1, model%mesh%n_elements
-         associate (nodes => own_nodes(model, e))
+         associate (nodes => own_nodes(model%mesh, e))
             call element_thermal_forces(model, e, temperature, nodal)
             f(:, nodes) = f(:, nodes) + nodal(:, :size(nodes))
-            call add_section_share(model, e, nodes, nodal, f)
+            call add_section_share(model%mesh, e, nodes, nodal, f)
          end associate
       end do
    end subroutine add_thermal_forces
 
    !> The law of element E: material, thickness and kind.
-   pure type(element_law) function law_of(model, e)
-      type(model_type), intent(in) :: model
+   pure type(element_law) function law_of(mesh, e)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
 
-      associate (property => model%mesh%properties(model%mesh%element_property(e)))
-         law_of = make_element_law(model%mesh%element_kind(e), property%state, property%e, property%nu, property%thickness, &
+      associate (property => mesh%properties(mesh%element_property(e)))
+         law_of = make_element_law(mesh%element_kind(e), property%state, property%e, property%nu, property%thickness, &
                                    property%incompatible, property%alpha)
       end associate
    end function law_of

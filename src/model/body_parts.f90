@@ -32,7 +32,7 @@ contains
       type(shown_type) :: shown
       integer :: e
 
-      shown%n_points = n_points(model)
+      shown%n_points = n_points(model%mesh)
       allocate (shown%elements, source=[(e, e = 1, model%mesh%n_elements)])
       shown%is_warm = has_temperatures(model)
    end function all_shown
@@ -71,7 +71,7 @@ contains
 
       has = .false.
       do k = 1, size(elements)
-         has(corners_of(model, elements(k))) = .true.
+         has(corners_of(model%mesh, elements(k))) = .true.
       end do
       nodes = pack([(i, i = 1, model%mesh%n_nodes)], has)
    end function nodes_of_elements
@@ -92,9 +92,9 @@ contains
       allocate (is_shown(model%mesh%n_nodes), is_needed(model%mesh%n_nodes), source=.false.)
       do e = 1, model%mesh%n_elements
          is_own(e) = max(owner(model%mesh%element_nodes(1, e)), 0) == r
-         if (is_own(e)) is_shown(corners_of(model, e)) = .true.
+         if (is_own(e)) is_shown(corners_of(model%mesh, e)) = .true.
       end do
-      do i = 1, n_points(model)
+      do i = 1, n_points(model%mesh)
          if (model%mesh%first_at(i + 1) == model%mesh%first_at(i)) is_shown(i) = max(owner(i), 0) == r
       end do
       is_part = is_own
@@ -112,7 +112,7 @@ contains
          part%mesh%node_id = model%mesh%node_id(nodes)
          part%mesh%element_id = model%mesh%element_id(elements)
          call list_owners(part%mesh%n_nodes, part%mesh%element_nodes, part%mesh%first_at, part%mesh%elements_at)
-         if (n_sections(model) > 0) then
+         if (n_sections(model%mesh) > 0) then
             part%mesh%element_section = model%mesh%element_section(elements)
             part%mesh%node_section = model%mesh%node_section(nodes)
             part%mesh%sections = model%mesh%sections

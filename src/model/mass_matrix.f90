@@ -8,7 +8,8 @@ module mass_matrix
    use isoparametric, only: lump, shape_products
    use kinds, only: wp
    use lists, only: list_owners
-   use model_data, only: bar_nodes, corners_of, is_beam, is_shell, model_type, n_bars, n_points, own_nodes, point_mass_type
+   use model_data, only: bar_nodes, corners_of, is_beam, is_shell, mesh_type, model_type, n_bars, n_points, own_nodes, &
+                          point_mass_type
    use node_coupling, only: between_unknowns, extend_stiffness, participating_nodes, onto_unknowns, section_node, &
                             unknown_nodes
    use numbers, only: identity
@@ -45,31 +46,31 @@ contains
    !> Mass between the own_nodes of element E (no beam), the same for every component of their displacements [force time^2/length].
    !! Of a shell: between its corners, and between its rotations the rotary inertia of the thickness, divided by the arms; the
    !! drilling rotation has this inertia too. Lumped mass has no rotary inertia.
-   pure subroutine scalar_mass(model, e, m)
-      type(model_type), intent(in) :: model
+   pure subroutine scalar_mass(mesh, e, m)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
       real(wp), intent(inout)      :: m(:, :) !! (nodes, nodes), set here
       integer :: i, n
 
-      n = element_table(model%mesh%element_kind(e))%n_nodes
-      associate (corners => corners_of(model, e), property => model%mesh%properties(model%mesh%element_property(e)))
-         if (is_shell(model, e)) then
-            associate (x => model%mesh%x(:, corners), t => model%mesh%structural%shells(model%mesh%structural%place(e))%thickness)
+      n = element_table(mesh%element_kind(e))%n_nodes
+      associate (corners => corners_of(mesh, e), property => mesh%properties(mesh%element_property(e)))
+         if (is_shell(mesh, e)) then
+            associate (x => mesh%x(:, corners), t => mesh%structural%shells(mesh%structural%place(e))%thickness)
                m(:2*n, :2*n) = 0.0_wp
                call shell_products(x, property%rho*t(:n) + property%extra_mass, m(:n, :n))
-               if (.not. model%mesh%lumped) call shell_products(x, property%rho*t(:n)**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
+               if (.not. mesh%lumped) call shell_products(x, property%rho*t(:n)**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
             end associate
             do i = n + 1, 2*n
-               associate (arm => model%mesh%rotations(model%mesh%rotation_of(corners(i - n)))%arm)
+               associate (arm => mesh%rotations(mesh%rotation_of(corners(i - n)))%arm)
                   m(i, n + 1:2*n) = m(i, n + 1:2*n)/arm
                   m(n + 1:2*n, i) = m(n + 1:2*n, i)/arm
                end associate
             end do
          else
-            call shape_products(law_of(model, e), model%mesh%x(:model%mesh%dimension, corners), m)
+            call shape_products(law_of(mesh, e), mesh%x(:mesh%dimension, corners), m)
             m(:n, :n) = property%rho*m(:n, :n)
          end if
-         if (model%mesh%lumped) call lump(m(:n, :n))
+         if (mesh%lumped) call lump(m(:n, :n))
       end associate
    end subroutine scalar_mass
 
@@ -81,14 +82,14 @@ contains
       real(wp) :: scalar(max_nodes, max_nodes)
       integer  :: c, d, n
 
-      if (is_beam(model, e)) then
+      if (is_beam(model%mesh, e)) then
          call between_own(model, e, beam_mass(model%mesh%structural%beams(model%mesh%structural%place(e)), &
-                                              model%mesh%x(:, corners_of(model, e)), model%mesh%lumped), m)
+                                              model%mesh%x(:, corners_of(model%mesh, e)), model%mesh%lumped), m)
          return
       end if
       d = model%mesh%dimension
-      n = size(own_nodes(model, e))
-      call scalar_mass(model, e, scalar)
+      n = size(own_nodes(model%mesh, e))
+      call scalar_mass(model%mesh, e, scalar)
       m(:d*n, :d*n) = 0.0_wp
       do c = 1, d
          m(c:d*n:d, c:d*n:d) = scalar(:n, :n)
@@ -110,18 +111,18 @@ contains
       allocate (full(max_section_dofs, max_section_dofs))
       call whole_mass(model, e, full)
       if (allocated(model%freedoms%coupling%of_node)) call onto_unknowns(model, participating_nodes(model, e), full)
-      n = model%mesh%dimension*size(unknown_nodes(model, participating_nodes(model, e)))
+      n = model%mesh%dimension*size(unknown_nodes(model%freedoms, participating_nodes(model, e)))
       k(:n, :n) = k(:n, :n) - shift*full(:n, :n)
    end subroutine coupled_dynamic_stiffness
 
    !> Mass between the two nodes of bar I, the same for every component [force time^2/length].
-   pure function bar_mass(model, i) result(m)
-      type(model_type), intent(in) :: model
+   pure function bar_mass(mesh, i) result(m)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: i
       real(wp) :: m(2, 2)
 
-      m = model%mesh%bars(i)%mass/6.0_wp*reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])
-      if (model%mesh%lumped) call lump(m)
+      m = mesh%bars(i)%mass/6.0_wp*reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])
+      if (mesh%lumped) call lump(m)
    end function bar_mass
 
    !> [m] of bar I between the unknowns of the unknown_nodes of its nodes.
@@ -135,7 +136,7 @@ contains
       d = model%mesh%dimension
       of_components = 0.0_wp
       do c = 1, d
-         of_components(c::d, c::d) = bar_mass(model, i)
+         of_components(c::d, c::d) = bar_mass(model%mesh, i)
       end do
       m = between_unknowns(model, bar_nodes(model%mesh%bars(i)), of_components)
    end function coupled_bar_mass
@@ -147,7 +148,7 @@ contains
       integer, allocatable :: nodes(:)
 
       nodes = [mass%node]
-      if (rotation_at(model, mass%node) > 0) nodes = [nodes, model%mesh%rotations(rotation_at(model, mass%node))%node]
+      if (rotation_at(model%mesh, mass%node) > 0) nodes = [nodes, model%mesh%rotations(rotation_at(model%mesh, mass%node))%node]
    end function mass_nodes
 
    !> The inertia of MASS with respect to the node of its rotations, whose components are rotations times an arm: in space about x,
@@ -157,7 +158,7 @@ contains
       type(point_mass_type), intent(in) :: mass
       real(wp) :: m(model%mesh%dimension, model%mesh%dimension)
 
-      associate (arm => model%mesh%rotations(rotation_at(model, mass%node))%arm)
+      associate (arm => model%mesh%rotations(rotation_at(model%mesh, mass%node))%arm)
          if (model%mesh%dimension == 3) then
             m = mass%inertia/arm**2
          else
@@ -195,19 +196,19 @@ contains
       mass%whole = pack([(e, e = 1, model%mesh%n_elements)], [(has_own_matrix(model, e), e = 1, model%mesh%n_elements)])
       do e = 1, model%mesh%n_elements
          if (has_own_matrix(model, e)) cycle
-         call scalar_mass(model, e, m)
-         call add(own_nodes(model, e), m)
+         call scalar_mass(model%mesh, e, m)
+         call add(own_nodes(model%mesh, e), m)
       end do
-      do i = 1, n_bars(model)
+      do i = 1, n_bars(model%mesh)
          associate (bar => model%mesh%bars(i))
-            if (bar%mass > 0.0_wp) call add(bar%nodes, bar_mass(model, i))
+            if (bar%mass > 0.0_wp) call add(bar%nodes, bar_mass(model%mesh, i))
          end associate
       end do
       mass%turning = [integer ::]
       do i = 1, n_masses(model)
          associate (node => model%mesh%masses(i)%node)
             call add([node], reshape([model%mesh%masses(i)%mass], [1, 1]))
-            if (rotation_at(model, node) > 0 .or. any(model%mesh%masses(i)%directed > 0.0_wp)) mass%turning = [mass%turning, i]
+            if (rotation_at(model%mesh, node) > 0 .or. any(model%mesh%masses(i)%directed > 0.0_wp)) mass%turning = [mass%turning, i]
          end associate
       end do
 
@@ -235,7 +236,7 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
 
-      has_own_matrix = section_node(model, e) > 0 .or. is_beam(model, e)
+      has_own_matrix = section_node(model%mesh, e) > 0 .or. is_beam(model%mesh, e)
    end function has_own_matrix
 
    !> The sparsity pattern: nodes are connected by an element or by a bar with mass; every node is connected to itself.
@@ -245,8 +246,8 @@ contains
       integer, allocatable :: ends(:, :), first_bar(:), bars_at(:), seen_by(:)
       integer :: e, i, k, n, node, pass
 
-      allocate (ends(2, n_bars(model)), source=0)
-      do i = 1, n_bars(model)
+      allocate (ends(2, n_bars(model%mesh)), source=0)
+      do i = 1, n_bars(model%mesh)
          if (model%mesh%bars(i)%mass > 0.0_wp) ends(:, i) = model%mesh%bars(i)%nodes
       end do
       call list_owners(model%mesh%n_nodes, ends, first_bar, bars_at)
@@ -260,7 +261,7 @@ contains
             do i = model%mesh%first_at(node), model%mesh%first_at(node + 1) - 1
                e = model%mesh%elements_at(i)
                if (has_own_matrix(model, e)) cycle
-               associate (nodes => own_nodes(model, e))
+               associate (nodes => own_nodes(model%mesh, e))
                   do k = 1, size(nodes)
                      call visit(nodes(k))
                   end do
@@ -319,8 +320,8 @@ contains
       do i = 1, size(mass%turning)
          associate (point => model%mesh%masses(mass%turning(i)))
             f(:, point%node) = f(:, point%node) + matmul(point%directed(:size(a, 1), :size(a, 1)), a(:, point%node))
-            if (rotation_at(model, point%node) == 0) cycle
-            associate (node => model%mesh%rotations(rotation_at(model, point%node))%node)
+            if (rotation_at(model%mesh, point%node) == 0) cycle
+            associate (node => model%mesh%rotations(rotation_at(model%mesh, point%node))%node)
                f(:, node) = f(:, node) + matmul(inertia_at_rotation(model, point), a(:, node))
             end associate
          end associate
@@ -341,11 +342,11 @@ contains
       integer  :: c, i
 
       x = 0.0_wp
-      x(:, :n_points(model)) = model%mesh%x(:, :n_points(model))
+      x(:, :n_points(model%mesh)) = model%mesh%x(:, :n_points(model%mesh))
       a = 0.0_wp
-      a(1, :n_points(model)) = 1.0_wp
+      a(1, :n_points(model%mesh)) = 1.0_wp
       call mass_times(model, mass, a, f)
-      total = sum(f(1, :n_points(model)))
+      total = sum(f(1, :n_points(model%mesh)))
       centre = 0.0_wp
       inertia = 0.0_wp
       if (.not. total > 0.0_wp) return
@@ -354,7 +355,7 @@ contains
       second = 0.0_wp
       do c = 1, model%mesh%dimension
          a = 0.0_wp
-         a(1, :n_points(model)) = x(c, :n_points(model)) - centre(c)
+         a(1, :n_points(model%mesh)) = x(c, :n_points(model%mesh)) - centre(c)
          call mass_times(model, mass, a, f)
          second(:, c) = matmul(x, f(1, :)) - centre*sum(f(1, :))
       end do

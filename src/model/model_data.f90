@@ -282,11 +282,11 @@ module model_data
 contains
 
    !> The number of bars.
-   pure integer function n_bars(model)
-      type(model_type), intent(in) :: model
+   pure integer function n_bars(mesh)
+      type(mesh_type), intent(in) :: mesh
 
       n_bars = 0
-      if (allocated(model%mesh%bars)) n_bars = size(model%mesh%bars)
+      if (allocated(mesh%bars)) n_bars = size(mesh%bars)
    end function n_bars
 
    !> The nodes of BAR, without the ground.
@@ -298,65 +298,66 @@ contains
    end function bar_nodes
 
    !> The number of pretension sections.
-   pure integer function n_sections(model)
-      type(model_type), intent(in) :: model
+   pure integer function n_sections(mesh)
+      type(mesh_type), intent(in) :: mesh
 
       n_sections = 0
-      if (allocated(model%mesh%sections)) n_sections = size(model%mesh%sections)
+      if (allocated(mesh%sections)) n_sections = size(mesh%sections)
    end function n_sections
 
    !> The number of points of the structure. The nodes of rotations and sections follow the points.
-   pure integer function n_points(model)
-      type(model_type), intent(in) :: model
+   pure integer function n_points(mesh)
+      type(mesh_type), intent(in) :: mesh
 
-      n_points = model%mesh%n_nodes - n_sections(model) - n_rotations(model)
+      n_points = mesh%n_nodes - n_sections(mesh) - n_rotations(mesh)
    end function n_points
 
    !> The kind of the unknowns of NODE. The nodes of rotations follow the points, the nodes of sections follow those.
-   pure integer function node_kind(model, node) result(kind)
-      type(model_type), intent(in) :: model
+   pure integer function node_kind(mesh, node) result(kind)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: node
 
       kind = a_point
-      if (node > n_points(model)) kind = a_rotation
-      if (node > n_points(model) + n_rotations(model)) kind = an_overlap
+      if (node > n_points(mesh)) kind = a_rotation
+      if (node > n_points(mesh) + n_rotations(mesh)) kind = an_overlap
    end function node_kind
 
    !> The position of NODE in its kind: itself for a point, else in model%mesh%rotations or model%mesh%sections.
-   pure integer function place_in_kind(model, node) result(place)
-      type(model_type), intent(in) :: model
+   pure integer function place_in_kind(mesh, node) result(place)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: node
 
       place = node
-      if (node_kind(model, node) /= a_point) place = place - n_points(model)
-      if (node_kind(model, node) == an_overlap) place = place - n_rotations(model)
+      if (node_kind(mesh, node) /= a_point) place = place - n_points(mesh)
+      if (node_kind(mesh, node) == an_overlap) place = place - n_rotations(mesh)
    end function place_in_kind
 
    !> The point to which the rotations NODE belong; a point gives itself.
-   pure integer function point_of(model, node) result(point)
-      type(model_type), intent(in) :: model
+   pure integer function point_of(mesh, node) result(point)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: node
 
       point = node
-      if (node_kind(model, node) == a_rotation) point = model%mesh%rotations(place_in_kind(model, node))%point
+      if (node_kind(mesh, node) == a_rotation) point = mesh%rotations(place_in_kind(mesh, node))%point
    end function point_of
 
    !> The number of nodes of rotations.
-   pure integer function n_rotations(model)
-      type(model_type), intent(in) :: model
+   pure integer function n_rotations(mesh)
+      type(mesh_type), intent(in) :: mesh
 
       n_rotations = 0
-      if (allocated(model%mesh%rotations)) n_rotations = size(model%mesh%rotations)
+      if (allocated(mesh%rotations)) n_rotations = size(mesh%rotations)
    end function n_rotations
 
    !> The components of NODE that are supported.
-   pure function supported(model, node) result(held)
-      type(model_type), intent(in) :: model
+   pure function supported(mesh, freedoms, node) result(held)
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       integer, intent(in)          :: node
-      logical :: held(model%mesh%dimension)
+      logical :: held(mesh%dimension)
 
-      held = model%freedoms%held(:, node)
-      if (allocated(model%freedoms%left_out)) held = held .and. .not. model%freedoms%left_out(:, node)
+      held = freedoms%held(:, node)
+      if (allocated(freedoms%left_out)) held = held .and. .not. freedoms%left_out(:, node)
    end function supported
 
    !> The number of the node that interface element I names for END 1 or 2: 0 for a rigid base, -1 where the end has several nodes.
@@ -369,51 +370,51 @@ contains
    end function joint_node_id
 
    !> The nodes of element E, corners first.
-   pure function corners_of(model, e) result(nodes)
-      type(model_type), intent(in) :: model
+   pure function corners_of(mesh, e) result(nodes)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
-      integer :: nodes(element_table(model%mesh%element_kind(e))%n_nodes)
+      integer :: nodes(element_table(mesh%element_kind(e))%n_nodes)
 
-      nodes = model%mesh%element_nodes(:size(nodes), e)
+      nodes = mesh%element_nodes(:size(nodes), e)
    end function corners_of
 
    !> Whether element E is a shell.
-   pure logical function is_shell(model, e)
-      type(model_type), intent(in) :: model
+   pure logical function is_shell(mesh, e)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
 
       is_shell = .false.
-      if (allocated(model%mesh%structural%place)) is_shell = model%mesh%structural%place(e) > 0 &
-         .and. model%mesh%element_kind(e) /= kind_edge2
+      if (allocated(mesh%structural%place)) is_shell = mesh%structural%place(e) > 0 &
+         .and. mesh%element_kind(e) /= kind_edge2
    end function is_shell
 
    !> Whether NODE is a face node of shells.
-   pure logical function is_face_node(model, node)
-      type(model_type), intent(in) :: model
+   pure logical function is_face_node(mesh, node)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: node
 
       is_face_node = .false.
-      if (.not. allocated(model%mesh%face_of)) return
-      if (node <= size(model%mesh%face_of)) is_face_node = model%mesh%face_of(node) > 0
+      if (.not. allocated(mesh%face_of)) return
+      if (node <= size(mesh%face_of)) is_face_node = mesh%face_of(node) > 0
    end function is_face_node
 
    !> Whether element E is a beam.
-   pure logical function is_beam(model, e)
-      type(model_type), intent(in) :: model
+   pure logical function is_beam(mesh, e)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
 
-      is_beam = model%mesh%element_kind(e) == kind_edge2
+      is_beam = mesh%element_kind(e) == kind_edge2
    end function is_beam
 
    !> The nodes of element E; for a shell or beam the nodes of their rotations follow.
-   pure function own_nodes(model, e) result(nodes)
-      type(model_type), intent(in) :: model
+   pure function own_nodes(mesh, e) result(nodes)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
       integer, allocatable :: nodes(:)
 
-      nodes = corners_of(model, e)
-      if (.not. allocated(model%mesh%structural%place)) return
-      if (model%mesh%structural%place(e) > 0) nodes = [nodes, model%mesh%rotations(model%mesh%rotation_of(nodes))%node]
+      nodes = corners_of(mesh, e)
+      if (.not. allocated(mesh%structural%place)) return
+      if (mesh%structural%place(e) > 0) nodes = [nodes, mesh%rotations(mesh%rotation_of(nodes))%node]
    end function own_nodes
 
 end module model_data

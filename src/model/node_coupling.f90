@@ -12,7 +12,7 @@ module node_coupling
    use element_kinds, only: element_table
    use interface_operator, only: interface_element
    use kinds, only: wp
-   use model_data, only: corners_of, model_type, n_sections, node_coupling_type, own_nodes
+   use model_data, only: corners_of, freedoms_type, mesh_type, model_type, n_sections, node_coupling_type, own_nodes
    use numbers, only: identity
    use tolerances, only: rounding_of_entries
    implicit none
@@ -25,25 +25,25 @@ module node_coupling
 contains
 
    !> The first and the last part of NODE in the coupling of MODEL; the last is < 0 where the node is not coupled.
-   pure function coupling_parts(model, node) result(parts)
-      type(model_type), intent(in) :: model
+   pure function coupling_parts(freedoms, node) result(parts)
+      type(freedoms_type), intent(in) :: freedoms
       integer, intent(in)          :: node
       integer :: parts(2)
 
       parts = [0, -1]
-      if (.not. allocated(model%freedoms%coupling%of_node)) return
-      associate (c => model%freedoms%coupling%of_node(node))
-         if (c > 0) parts = [model%freedoms%coupling%first(c), model%freedoms%coupling%first(c + 1) - 1]
+      if (.not. allocated(freedoms%coupling%of_node)) return
+      associate (c => freedoms%coupling%of_node(node))
+         if (c > 0) parts = [freedoms%coupling%first(c), freedoms%coupling%first(c + 1) - 1]
       end associate
    end function coupling_parts
 
    !> Whether any of NODES is coupled; a node 0 is skipped.
-   pure logical function is_coupled(model, nodes)
-      type(model_type), intent(in) :: model
+   pure logical function is_coupled(freedoms, nodes)
+      type(freedoms_type), intent(in) :: freedoms
       integer, intent(in)          :: nodes(:)
 
       is_coupled = .false.
-      if (allocated(model%freedoms%coupling%of_node)) is_coupled = any(model%freedoms%coupling%of_node(pack(nodes, nodes > 0)) > 0)
+      if (allocated(freedoms%coupling%of_node)) is_coupled = any(freedoms%coupling%of_node(pack(nodes, nodes > 0)) > 0)
    end function is_coupled
 
    !> Couple NODE: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes. An earlier coupling is replaced.
@@ -73,47 +73,48 @@ contains
    end subroutine couple_node
 
    !> The nodes whose unknowns determine NODES, each once: NODES themselves where none is coupled.
-   pure function unknown_nodes(model, nodes) result(unknown)
-      type(model_type), intent(in) :: model
+   pure function unknown_nodes(freedoms, nodes) result(unknown)
+      type(freedoms_type), intent(in) :: freedoms
       integer, intent(in)          :: nodes(:)
       integer, allocatable :: unknown(:)
       integer :: i, k
 
-      if (.not. is_coupled(model, nodes)) then
+      if (.not. is_coupled(freedoms, nodes)) then
          unknown = nodes
          return
       end if
       allocate (unknown(0))
       do i = 1, size(nodes)
-         associate (parts => coupling_parts(model, nodes(i)))
+         associate (parts => coupling_parts(freedoms, nodes(i)))
             if (parts(2) < 0 .and. all(unknown /= nodes(i))) unknown = [unknown, nodes(i)]
             do k = parts(1), parts(2)
-               if (all(unknown /= model%freedoms%coupling%node(k))) unknown = [unknown, model%freedoms%coupling%node(k)]
+               if (all(unknown /= freedoms%coupling%node(k))) unknown = [unknown, freedoms%coupling%node(k)]
             end do
          end associate
       end do
    end function unknown_nodes
 
    !> [T] of NODES: their displacements, components of node 1 first, from the unknowns of unknown_nodes in the same order.
-   pure function transformation(model, nodes) result(t)
-      type(model_type), intent(in) :: model
+   pure function transformation(mesh, freedoms, nodes) result(t)
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
       integer, intent(in)          :: nodes(:)
       real(wp), allocatable :: t(:, :)
       integer, allocatable  :: unknown(:)
       integer :: column, d, i, k
 
-      allocate (unknown, source=unknown_nodes(model, nodes))
-      d = model%mesh%dimension
+      allocate (unknown, source=unknown_nodes(freedoms, nodes))
+      d = mesh%dimension
       allocate (t(d*size(nodes), d*size(unknown)), source=0.0_wp)
       do i = 1, size(nodes)
-         associate (parts => coupling_parts(model, nodes(i)))
+         associate (parts => coupling_parts(freedoms, nodes(i)))
             if (parts(2) < 0) then
                column = d*(findloc(unknown, nodes(i), dim=1) - 1)
                t(d*(i - 1) + 1:d*i, column + 1:column + d) = identity(:d, :d)
             end if
             do k = parts(1), parts(2)
-               column = d*(findloc(unknown, model%freedoms%coupling%node(k), dim=1) - 1)
-               t(d*(i - 1) + 1:d*i, column + 1:column + d) = model%freedoms%coupling%t(:, :, k)
+               column = d*(findloc(unknown, freedoms%coupling%node(k), dim=1) - 1)
+               t(d*(i - 1) + 1:d*i, column + 1:column + d) = freedoms%coupling%t(:, :, k)
             end do
          end associate
       end do
@@ -128,8 +129,8 @@ contains
                                                       !! unknowns need more [force/length]
       real(wp), allocatable :: t(:, :), wider(:, :)
 
-      if (.not. is_coupled(model, nodes)) return
-      t = transformation(model, nodes)
+      if (.not. is_coupled(model%freedoms, nodes)) return
+      t = transformation(model%mesh, model%freedoms, nodes)
       associate (n => size(t, 1), m => size(t, 2))
          if (m > size(k, 1)) then
             allocate (wider(m, m))
@@ -151,7 +152,7 @@ contains
 
       q = k
       call onto_unknowns(model, nodes, q)
-      n = model%mesh%dimension*size(unknown_nodes(model, nodes))
+      n = model%mesh%dimension*size(unknown_nodes(model%freedoms, nodes))
       q = q(:n, :n)
    end function between_unknowns
 
@@ -165,7 +166,7 @@ contains
       u = q
       if (.not. allocated(model%freedoms%coupling%of_node)) return
       do i = 1, size(model%freedoms%coupling%of_node)
-         associate (coupling => model%freedoms%coupling, parts => coupling_parts(model, i))
+         associate (coupling => model%freedoms%coupling, parts => coupling_parts(model%freedoms, i))
             if (parts(2) >= 0) u(:, i) = 0.0_wp
             do k = parts(1), parts(2)
                u(:, i) = u(:, i) + matmul(coupling%t(:, :, k), q(:, coupling%node(k)))
@@ -182,8 +183,9 @@ contains
       real(wp), intent(in)         :: q(:, :)  !! (dimension, places) [length]
       real(wp) :: u(size(q, 1), size(nodes))
 
-      if (is_coupled(model, nodes)) then
-         u = reshape(matmul(transformation(model, nodes), pack(q(:, place(unknown_nodes(model, nodes))), .true.)), shape(u))
+      if (is_coupled(model%freedoms, nodes)) then
+         u = reshape(matmul(transformation(model%mesh, model%freedoms, nodes), pack(q(:, place(unknown_nodes(model%freedoms, &
+            nodes))), .true.)), shape(u))
       else
          u = q(:, place(nodes))
       end if
@@ -203,7 +205,7 @@ contains
             if (coupling%of_node(i) > 0) on_unknowns(:, i) = 0.0_wp
          end do
          do i = 1, size(coupling%of_node)
-            associate (parts => coupling_parts(model, i))
+            associate (parts => coupling_parts(model%freedoms, i))
                do k = parts(1), parts(2)
                   on_unknowns(:, coupling%node(k)) = on_unknowns(:, coupling%node(k)) + matmul(f(:, i), coupling%t(:, :, k))
                end do
@@ -222,7 +224,7 @@ contains
       held = merge(forces_on_unknowns(model, f), 0.0_wp, model%freedoms%held)
       if (.not. allocated(model%freedoms%coupling%of_node)) return
       do i = 1, size(model%freedoms%coupling%of_node)
-         associate (coupling => model%freedoms%coupling, parts => coupling_parts(model, i))
+         associate (coupling => model%freedoms%coupling, parts => coupling_parts(model%freedoms, i))
             do k = parts(1), parts(2)
                if (coupling%node(k) == i) held(:, i) = matmul(coupling%t(:, :, k), held(:, i))
             end do
@@ -241,9 +243,9 @@ contains
       d = model%mesh%dimension
       do i = 1, size(elements)
          associate (nodes => model%joints%element(i)%node)
-            if (.not. is_coupled(model, nodes)) cycle
-            t = transformation(model, nodes)
-            elements(i)%node = unknown_nodes(model, nodes)
+            if (.not. is_coupled(model%freedoms, nodes)) cycle
+            t = transformation(model%mesh, model%freedoms, nodes)
+            elements(i)%node = unknown_nodes(model%freedoms, nodes)
             allocate (elements(i)%map(d, d, size(elements(i)%node)), source=0.0_wp)
             do b = 1, size(elements(i)%node)
                do a = 1, size(nodes)
@@ -256,13 +258,13 @@ contains
    end subroutine list_on_unknowns
 
    !> The node of the section that element E touches from behind; 0: none.
-   pure integer function section_node(model, e) result(node)
-      type(model_type), intent(in) :: model
+   pure integer function section_node(mesh, e) result(node)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
 
       node = 0
-      if (n_sections(model) == 0) return
-      if (model%mesh%element_section(e) > 0) node = model%mesh%sections(model%mesh%element_section(e))%node
+      if (n_sections(mesh) == 0) return
+      if (mesh%element_section(e) > 0) node = mesh%sections(mesh%element_section(e))%node
    end function section_node
 
    !> The nodes whose displacements enter element E: its own nodes, and the node of a section that it touches from behind.
@@ -271,8 +273,8 @@ contains
       integer, intent(in)          :: e
       integer, allocatable :: nodes(:)
 
-      nodes = own_nodes(model, e)
-      if (section_node(model, e) > 0) nodes = [nodes, section_node(model, e)]
+      nodes = own_nodes(model%mesh, e)
+      if (section_node(model%mesh, e) > 0) nodes = [nodes, section_node(model%mesh, e)]
    end function participating_nodes
 
    !> The nodes whose unknowns element E couples.
@@ -281,7 +283,7 @@ contains
       integer, intent(in)          :: e
       integer, allocatable :: nodes(:)
 
-      nodes = unknown_nodes(model, participating_nodes(model, e))
+      nodes = unknown_nodes(model%freedoms, participating_nodes(model, e))
    end function coupled_nodes
 
    !> Displacements of the corners of element E: u, or u + g direction at a section that the element touches from behind.
@@ -292,9 +294,9 @@ contains
       real(wp) :: moved(model%mesh%dimension, element_table(model%mesh%element_kind(e))%n_nodes)
       integer  :: i
 
-      associate (corners => corners_of(model, e))
+      associate (corners => corners_of(model%mesh, e))
          moved = u(:, corners)
-         if (section_node(model, e) == 0) return
+         if (section_node(model%mesh, e) == 0) return
          associate (section => model%mesh%sections(model%mesh%element_section(e)))
             do i = 1, size(corners)
                if (model%mesh%node_section(corners(i)) == model%mesh%element_section(e)) &
@@ -313,9 +315,9 @@ contains
       real(wp) :: row(size(k, 1))
       integer  :: c, d, g, i, n
 
-      if (section_node(model, e) == 0) return
+      if (section_node(model%mesh, e) == 0) return
       d = model%mesh%dimension
-      associate (corners => corners_of(model, e), section => model%mesh%sections(model%mesh%element_section(e)))
+      associate (corners => corners_of(model%mesh, e), section => model%mesh%sections(model%mesh%element_section(e)))
          n = d*size(corners)
          g = n + 1
          k(g:n + d, :n + d) = 0.0_wp
@@ -338,18 +340,18 @@ contains
 
    !> Forces F on NODES of element E, already added to FORCE, also do work on the overlap of a section that the element touches from
    !! behind: add this work-equivalent force at the node of the section.
-   pure subroutine add_section_share(model, e, nodes, f, force)
-      type(model_type), intent(in) :: model
+   pure subroutine add_section_share(mesh, e, nodes, f, force)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e, nodes(:)
       real(wp), intent(in)         :: f(:, :)     !! (at least dimension, nodes) [force]
       real(wp), intent(inout)      :: force(:, :) !! (at least dimension, n_nodes)
       integer :: d, i
 
-      if (section_node(model, e) == 0) return
-      d = model%mesh%dimension
-      associate (section => model%mesh%sections(model%mesh%element_section(e)))
+      if (section_node(mesh, e) == 0) return
+      d = mesh%dimension
+      associate (section => mesh%sections(mesh%element_section(e)))
          do i = 1, size(nodes)
-            if (model%mesh%node_section(nodes(i)) == model%mesh%element_section(e)) &
+            if (mesh%node_section(nodes(i)) == mesh%element_section(e)) &
                force(1, section%node) = force(1, section%node) + dot_product(section%direction(:d), f(:d, i))
          end do
       end associate

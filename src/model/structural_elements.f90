@@ -4,7 +4,7 @@
 !! node, its second node is the ground.
 module structural_elements
    use kinds, only: wp
-   use model_data, only: a_spring, bar_nodes, bar_type, corners_of, model_type, temperature_type
+   use model_data, only: a_spring, bar_nodes, bar_type, corners_of, mesh_type, model_type, temperature_type
    use shell_element, only: shell_stresses
    use temperatures, only: element_rise, element_slope
    implicit none
@@ -19,18 +19,18 @@ contains
 
    !> T: the nodal values (3, 2 corners) of element E, as defined in shell_element and beam_element, due to a unit of each unknown
    !! of its own nodes (one column each), components of node 1 first.
-   pure function own_to_values(model, e) result(t)
-      type(model_type), intent(in) :: model
+   pure function own_to_values(mesh, e) result(t)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
       real(wp), allocatable :: t(:, :)            !! (6 corners, 2 dimension corners)
       integer :: c, d, i, m
 
-      d = model%mesh%dimension
-      associate (nodes => corners_of(model, e))
+      d = mesh%dimension
+      associate (nodes => corners_of(mesh, e))
          m = size(nodes)
          allocate (t(6*m, 2*d*m), source=0.0_wp)
          do i = 1, m
-            associate (arm => model%mesh%rotations(model%mesh%rotation_of(nodes(i)))%arm)
+            associate (arm => mesh%rotations(mesh%rotation_of(nodes(i)))%arm)
                do c = 1, d
                   t(3*(i - 1) + c, d*(i - 1) + c) = 1.0_wp
                   if (d == 3) t(3*(m + i - 1) + c, d*(m + i - 1) + c) = 1.0_wp/arm
@@ -48,19 +48,19 @@ contains
       real(wp), intent(in)         :: full(:, :)
       real(wp), intent(inout)      :: k(:, :) !! set here; one row and column per unknown
 
-      associate (t => own_to_values(model, e))
+      associate (t => own_to_values(model%mesh, e))
          k(:size(t, 2), :size(t, 2)) = matmul(matmul(transpose(t), full(:size(t, 1), :size(t, 1))), t)
       end associate
    end subroutine between_own
 
    !> Transform forces on the nodal values to forces F on the own nodes.
-   pure subroutine onto_own(model, e, nodal, f)
-      type(model_type), intent(in) :: model
+   pure subroutine onto_own(mesh, e, nodal, f)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
       real(wp), intent(in)         :: nodal(:, :) !! (3, 2 corners) [force], [force length]
       real(wp), intent(inout)      :: f(:, :)     !! (dimension, own nodes) [force], set here
 
-      associate (t => own_to_values(model, e), d => model%mesh%dimension)
+      associate (t => own_to_values(mesh, e), d => mesh%dimension)
          f(:d, :size(t, 2)/d) = reshape(matmul(reshape(nodal, [size(t, 1)]), t), [d, size(t, 2)/d])
       end associate
    end subroutine onto_own
@@ -72,7 +72,7 @@ contains
       real(wp), intent(in)         :: u(:, :)     !! (dimension, own nodes) [length]
       real(wp), allocatable :: values(:, :)
 
-      associate (t => own_to_values(model, e))
+      associate (t => own_to_values(model%mesh, e))
          values = reshape(matmul(t, reshape(u, [size(u)])), [3, size(u, 2)])
       end associate
    end function nodal_values
@@ -87,7 +87,8 @@ contains
       real(wp), intent(in)         :: z(:)        !! [length]
       real(wp), intent(out)        :: stress(:, :, :) !! (6, corners + 1, heights) [pressure]
 
-      call shell_stresses(model%mesh%structural%shells(model%mesh%structural%place(e)), model%mesh%x(:, corners_of(model, e)), &
+      call shell_stresses(model%mesh%structural%shells(model%mesh%structural%place(e)), model%mesh%x(:, corners_of(model%mesh, &
+         e)), &
                           nodal_values(model, e, u), element_rise(model, e, temperature), &
                           element_slope(model, e, temperature), z, stress)
    end subroutine structural_stress

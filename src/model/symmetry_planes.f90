@@ -47,7 +47,7 @@ contains
       logical, allocatable :: counts(:) ! nodes of elements
       integer :: i
 
-      allocate (counts, source=model%mesh%first_at(2:n_points(model) + 1) > model%mesh%first_at(:n_points(model)))
+      allocate (counts, source=model%mesh%first_at(2:n_points(model%mesh) + 1) > model%mesh%first_at(:n_points(model%mesh)))
       call find_candidates(model, counts, found)
       planes = pack(found%plane, found%spans)
       planes = pack(planes, [(is_held_plane(model, counts, planes(i)), i = 1, size(planes))])
@@ -70,9 +70,9 @@ contains
       near = on_symmetry_plane*maxval(maxval(outer, dim=2) - minval(outer, dim=2))
       do node = 1, size(counts)
          if (.not. counts(node)) cycle
-         held = supported(model, node)
+         held = supported(model%mesh, model%freedoms, node)
          if (.not. any(held)) cycle
-         axes = node_axes(model, node)
+         axes = node_axes(model%mesh, node)
          do d = 1, model%mesh%dimension
             if (.not. held(d) .or. (model%mesh%axisymmetric .and. abs(axes(1, d)) > one_direction)) cycle
             offset = dot_product(model%mesh%x(:, node), axes(:, d))
@@ -161,8 +161,8 @@ contains
          if (allocated(model%freedoms%left_out)) then
             if (all(model%freedoms%left_out(:, node))) cycle ! moves with other nodes
          end if
-         axes = node_axes(model, node)
-         held = supported(model, node)
+         axes = node_axes(model%mesh, node)
+         held = supported(model%mesh, model%freedoms, node)
          d = findloc([(held(k) .and. is_along(axes(:, k), plane%normal), k = 1, model%mesh%dimension)], .true., dim=1)
          if (d == 0) return
          do s = 1, size(model%history%stages)
@@ -188,8 +188,8 @@ contains
          if (.not. counts(node)) cycle
          if (.not. is_on(plane, model%mesh%x(:, node))) cycle
          n = n + 1
-         held = supported(model, node)
-         axes = node_axes(model, node)
+         held = supported(model%mesh, model%freedoms, node)
+         axes = node_axes(model%mesh, node)
          is_explained = .true.
          do d = 1, model%mesh%dimension
             if (.not. held(d) .or. (model%mesh%axisymmetric .and. abs(model%mesh%x(1, node)) <= plane%near .and. d == 1)) cycle
@@ -231,7 +231,7 @@ contains
 
       do k = 1, size(planes)
          n = 0
-         do node = 1, n_points(model)
+         do node = 1, n_points(model%mesh)
             if (model%mesh%first_at(node + 1) == model%mesh%first_at(node)) cycle
             if (is_on(planes(k), model%mesh%x(:, node))) n(part(node)) = n(part(node)) + 1
          end do

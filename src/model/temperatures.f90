@@ -19,10 +19,10 @@ contains
 
       rise = 0.0_wp
       if (.not. allocated(temperature%at)) return
-      rise = temperature%at(corners_of(model, e)) - temperature%reference_share* &
+      rise = temperature%at(corners_of(model%mesh, e)) - temperature%reference_share* &
              model%mesh%properties(model%mesh%element_property(e))%reference
       if (.not. allocated(temperature%plate)) return
-      if (is_shell(model, e)) rise = rise + temperature%plate(:size(rise), model%mesh%structural%place(e))
+      if (is_shell(model%mesh, e)) rise = rise + temperature%plate(:size(rise), model%mesh%structural%place(e))
    end function element_rise
 
    !> Gradient of T - TREF over the thickness of shell E [temperature/length].

@@ -4,7 +4,7 @@
 module unknowns
    use coordinate_systems, only: directions_at
    use kinds, only: wp
-   use model_data, only: a_point, a_rotation, an_overlap, model_type, node_kind, place_in_kind, point_of
+   use model_data, only: a_point, a_rotation, an_overlap, mesh_type, model_type, node_kind, place_in_kind, point_of
    use numbers, only: cross, identity
    use text_tools, only: integer_text, one_of
    implicit none
@@ -33,7 +33,7 @@ contains
          words = 'no stiffness holds '//owner//' together at its section'
       else
          words = owner//' has no stiffness '// &
-                 one_of(node_kind(model, node) == a_rotation, 'against', 'in')//' '//direction
+                 one_of(node_kind(model%mesh, node) == a_rotation, 'against', 'in')//' '//direction
       end if
    end function what_is_loose
 
@@ -59,12 +59,12 @@ contains
       logical :: is_rotation
 
       direction = ''
-      if (node_kind(model, node) == an_overlap) then
-         owner = 'BOLT '//integer_text(model%mesh%sections(place_in_kind(model, node))%bolt)
+      if (node_kind(model%mesh, node) == an_overlap) then
+         owner = 'BOLT '//integer_text(model%mesh%sections(place_in_kind(model%mesh, node))%bolt)
          return
       end if
-      is_rotation = node_kind(model, node) == a_rotation
-      point = point_of(model, node)
+      is_rotation = node_kind(model%mesh, node) == a_rotation
+      point = point_of(model%mesh, node)
       owner = 'node '//integer_text(model%mesh%node_id(point))
       system = 0
       if (allocated(model%mesh%node_system)) system = model%mesh%node_system(point)
@@ -110,80 +110,80 @@ contains
 
       d = model%mesh%dimension
       q = 0.0_wp
-      select case (node_kind(model, node))
+      select case (node_kind(model%mesh, node))
       case (a_point)
-         axes = node_axes(model, node)
+         axes = node_axes(model%mesh, node)
          q = matmul(transpose(axes(:d, :d)), motions_at(model%mesh%x(:d, node)))
       case (a_rotation)
-         associate (arm => model%mesh%rotations(place_in_kind(model, node))%arm)
+         associate (arm => model%mesh%rotations(place_in_kind(model%mesh, node))%arm)
             if (d == 2) then
-               q(rotation_component(model, 6), 3) = arm ! about z, whatever the system CD
+               q(rotation_component(model%mesh, 6), 3) = arm ! about z, whatever the system CD
             else
-               q(:, 4:) = arm*transpose(node_axes(model, point_of(model, node)))
+               q(:, 4:) = arm*transpose(node_axes(model%mesh, point_of(model%mesh, node)))
             end if
          end associate
       end select
    end function motions_of
 
    !> The position of POINT in the rotations of MODEL; 0: it has none.
-   pure integer function rotation_at(model, point) result(rotation)
-      type(model_type), intent(in) :: model
+   pure integer function rotation_at(mesh, point) result(rotation)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: point
 
       rotation = 0
-      if (.not. allocated(model%mesh%rotation_of)) return
-      if (point <= size(model%mesh%rotation_of)) rotation = model%mesh%rotation_of(point)
+      if (.not. allocated(mesh%rotation_of)) return
+      if (point <= size(mesh%rotation_of)) rotation = mesh%rotation_of(point)
    end function rotation_at
 
    !> The position of rotation DIGIT, 4 to 6 in NASTRAN, among the components of a node of rotations; 0: it does not exist in the
    !! plane.
-   pure integer function rotation_component(model, digit) result(d)
-      type(model_type), intent(in) :: model
+   pure integer function rotation_component(mesh, digit) result(d)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: digit
 
       d = digit - 3
-      if (model%mesh%dimension == 2) d = merge(1, 0, digit == 6)
+      if (mesh%dimension == 2) d = merge(1, 0, digit == 6)
    end function rotation_component
 
    !> The place of component DIGIT, 1 to 6, of POINT.
-   pure function place_of_component(model, point, digit) result(place)
-      type(model_type), intent(in) :: model
+   pure function place_of_component(mesh, point, digit) result(place)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: point, digit
       type(component_place) :: place
       integer :: rotation
 
       if (digit <= 3) then
-         if (digit <= model%mesh%dimension) place = component_place(point, digit, 1.0_wp)
+         if (digit <= mesh%dimension) place = component_place(point, digit, 1.0_wp)
          return
       end if
-      rotation = rotation_at(model, point)
-      if (rotation == 0 .or. rotation_component(model, digit) == 0) return
-      place = component_place(model%mesh%rotations(rotation)%node, rotation_component(model, digit), &
-         model%mesh%rotations(rotation)%arm)
+      rotation = rotation_at(mesh, point)
+      if (rotation == 0 .or. rotation_component(mesh, digit) == 0) return
+      place = component_place(mesh%rotations(rotation)%node, rotation_component(mesh, digit), &
+         mesh%rotations(rotation)%arm)
       ! the z axis of the node may point along -z
-      if (model%mesh%dimension == 2) place%scale = place%scale*sum(third_axis(model, point))
+      if (mesh%dimension == 2) place%scale = place%scale*sum(third_axis(mesh, point))
    end function place_of_component
 
    !> The third direction of NODE of a plane model, along z or -z.
-   pure function third_axis(model, node) result(axis)
-      type(model_type), intent(in) :: model
+   pure function third_axis(mesh, node) result(axis)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: node
       real(wp) :: axis(3), axes(3, 3)
 
-      axes = node_axes(model, node)
+      axes = node_axes(mesh, node)
       axis = [0.0_wp, 0.0_wp, sign(1.0_wp, axes(3, 3))]
    end function third_axis
 
    !> The directions of the components of NODE in global axes, columns: those of its system CD.
-   pure function node_axes(model, node) result(axes)
-      type(model_type), intent(in) :: model
+   pure function node_axes(mesh, node) result(axes)
+      type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: node
       real(wp) :: axes(3, 3)
       logical  :: ok
 
       axes = identity
-      if (.not. allocated(model%mesh%node_system)) return
-      if (model%mesh%node_system(node) > 0) call directions_at(model%mesh%systems(model%mesh%node_system(node)), model%mesh%x(:, &
+      if (.not. allocated(mesh%node_system)) return
+      if (mesh%node_system(node) > 0) call directions_at(mesh%systems(mesh%node_system(node)), mesh%x(:, &
          node), axes, ok)
    end function node_axes
 

@@ -53,7 +53,7 @@ contains
       call MatSetOption(stiffness%matrix, MAT_SPD_ETERNAL, PETSC_TRUE, code)
       do e = 1, subdomain%model%mesh%n_elements
          call coupled_stiffness(subdomain%model, e, k)
-         associate (nodes => corners_of(subdomain%model, e))
+         associate (nodes => corners_of(subdomain%model%mesh, e))
             n = d*size(nodes)
             call add_blocks(subdomain%block(nodes), subdomain%held(:, nodes), k(:n, :n), stiffness)
          end associate

@@ -115,8 +115,8 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
 
-      is_entangled = section_node(model, e) > 0 .or. is_shell(model, e) .or. is_beam(model, e)
-      if (.not. is_entangled) is_entangled = is_coupled(model, corners_of(model, e))
+      is_entangled = section_node(model%mesh, e) > 0 .or. is_shell(model%mesh, e) .or. is_beam(model%mesh, e)
+      if (.not. is_entangled) is_entangled = is_coupled(model%freedoms, corners_of(model%mesh, e))
    end function is_entangled
 
    !> Send SUBDOMAIN from rank 0 to process R.
@@ -170,10 +170,10 @@ contains
          do i = 1, size(elements)
             call pair(elements(i)%node)
          end do
-         do i = 1, n_bars(model)
-            call pair(unknown_nodes(model, bar_nodes(model%mesh%bars(i))))
+         do i = 1, n_bars(model%mesh)
+            call pair(unknown_nodes(model%freedoms, bar_nodes(model%mesh%bars(i))))
          end do
-         do i = 1, n_sections(model)
+         do i = 1, n_sections(model%mesh)
             associate (node => model%mesh%sections(i)%node)
                do k = graph%first(node), graph%first(node + 1) - 1
                   call pair([node, graph%neighbours(k)])

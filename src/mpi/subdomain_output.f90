@@ -54,7 +54,7 @@ contains
       call pass_part(r, own%model)
       associate (part => own%model, shown => own%shown)
          if (rank == 0) then
-            n = n_sections(part)
+            n = n_sections(part%mesh)
             n_shown = size(shown%elements)
          end if
          call pass(r, shown%n_points, shown%is_warm, n_shown, n)

@@ -44,13 +44,14 @@ contains
       logical  :: has_bodies
       integer  :: m, node
 
-      list = pack([(node, node = 1, n_points(model))], [(model%freedoms%used(node) .and. shows(page, [node]), node = 1, &
-         n_points(model))])
+      list = pack([(node, node = 1, n_points(model%mesh))], [(model%freedoms%used(node) .and. shows(page, [node]), node = 1, &
+         n_points(model%mesh))])
       call list_vectors(page, model, [character(22) :: 'DISPLACEMENTS OF NODES', 'U.', page%labels%length], list, &
-                        analysis%all_u(:, list), spread(page_zero*maxval(abs(analysis%all_u(:, :n_points(model)))), 1, size(list)))
+                        analysis%all_u(:, list), spread(page_zero*maxval(abs(analysis%all_u(:, :n_points(model%mesh)))), 1, &
+                           size(list)))
       m = merge(3, 1, model%mesh%dimension == 3)
       associate (rotations => model%mesh%rotations)
-         if (n_rotations(model) > 0) call list_vectors(page, model, &
+         if (n_rotations(model%mesh) > 0) call list_vectors(page, model, &
             [character(28) :: 'ROTATIONS OF REFERENCE NODES', 'THETA .', 'RADIANS'], rotations%point, &
             analysis%all_u(:m, rotations%node)/spread(rotations%arm, 1, m), page_zero*maxval(abs(analysis%all_u))/rotations%arm, &
             turns=.true.)
@@ -63,13 +64,13 @@ contains
          call list_beams(page, model, analysis)
       end if
       if (asked%stress .and. any(is_second_order(model%mesh%element_kind))) then ! stresses at nodes, averaged over their elements
-         allocate (stress(max_stresses, n_points(model)))
+         allocate (stress(max_stresses, n_points(model%mesh)))
          call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
          floor = page_zero*maxval(abs(stress))
          shown = shown_stresses(model)
          call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
                           [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')], page%file)
-         do node = 1, n_points(model)
+         do node = 1, n_points(model%mesh)
             if (model%mesh%first_at(node + 1) == model%mesh%first_at(node) .or. .not. shows(page, [node])) cycle
             call table%put('NODE', model%mesh%node_id(node))
             call table%put(stress_names(model), stress(shown, node), floor)
@@ -108,7 +109,7 @@ contains
       allocate (system(size(nodes)), source=0)
       if (page%along_cd) then
          do i = 1, size(nodes)
-            directions = node_axes(model, nodes(i))
+            directions = node_axes(model%mesh, nodes(i))
             along(:, i) = matmul(along(:, i), directions(first:last, first:last))
             if (allocated(model%mesh%node_system)) system(i) = model%mesh%node_system(nodes(i))
             if (system(i) > 0) system(i) = model%mesh%systems(system(i))%id
@@ -178,7 +179,7 @@ contains
       n = size(stress_names(model))
       !$omp parallel do schedule(dynamic, piece) default(shared) if(model%mesh%n_elements > few)
       do e = 1, model%mesh%n_elements
-         if (is_shell(model, e) .or. is_beam(model, e)) cycle
+         if (is_shell(model%mesh, e) .or. is_beam(model%mesh, e)) cycle
          stress(:n_stresses(model%mesh%properties(model%mesh%element_property(e))%state), e) = &
             element_stress(model, e, analysis%all_u, analysis%now%temperature)
          centre(:, e) = element_centre(model, e)
@@ -188,8 +189,8 @@ contains
       call table%start('STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
                        [column('ELEMENT', 'i11'), column('CENTRE '//axes(:model%mesh%dimension), 'es13.5'), &
                         column(stress_names(model), 'es13.5')], page%file)
-      list = pack([(e, e = 1, model%mesh%n_elements)], [(shows(page, corners_of(model, e)) .and. &
-                  .not. (is_shell(model, e) .or. is_beam(model, e)), e = 1, model%mesh%n_elements)])
+      list = pack([(e, e = 1, model%mesh%n_elements)], [(shows(page, corners_of(model%mesh, e)) .and. &
+                  .not. (is_shell(model%mesh, e) .or. is_beam(model%mesh, e)), e = 1, model%mesh%n_elements)])
       allocate (values(model%mesh%dimension + n, size(list)))
       values(:model%mesh%dimension, :) = clean(centre(:, list))
       values(model%mesh%dimension + 1:, :) = clean(stress(:n, list), floor)
@@ -260,8 +261,9 @@ contains
          call table%print_row(page%file)
       end do
       ! support moments, where any rotation is supported
-      list = pack([(i, i = 1, n_rotations(model))], [(any(supported(model, model%mesh%rotations(i)%node)), i = 1, &
-         n_rotations(model))])
+      list = pack([(i, i = 1, n_rotations(model%mesh))], [(any(supported(model%mesh, model%freedoms, &
+         model%mesh%rotations(i)%node)), i = 1, &
+         n_rotations(model%mesh))])
       if (size(list) == 0) return
       m = merge(3, 1, model%mesh%dimension == 3)
       associate (rotations => model%mesh%rotations(list))
@@ -296,7 +298,7 @@ contains
          do i = 1, n ! 12Y, or 900RZ for a rotation of node 900, whose rows hold moments over its arm
             associate (node => condensed%node(i), d => condensed%direction(i))
                k = 0
-               if (n_rotations(model) > 0) k = findloc(model%mesh%rotations%node, node, dim=1)
+               if (n_rotations(model%mesh) > 0) k = findloc(model%mesh%rotations%node, node, dim=1)
                if (k == 0) names(i) = integer_text(model%mesh%node_id(node))//axes(d)
                if (k == 0) cycle
                names(i) = integer_text(model%mesh%node_id(model%mesh%rotations(k)%point))//'R'//axes(merge(d, 3, &

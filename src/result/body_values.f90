@@ -39,7 +39,7 @@ contains
       integer :: e, node
 
       ! the largest displacement
-      allocate (size_of(n_points(model)))
+      allocate (size_of(n_points(model%mesh)))
       do node = 1, size(size_of)
          size_of(node) = norm2(analysis%all_u(:, node))
       end do
@@ -49,7 +49,7 @@ contains
       if (model%mesh%n_elements == 0) return
 
       ! the largest von Mises stress at a node
-      allocate (at_node(max_stresses, n_points(model)))
+      allocate (at_node(max_stresses, n_points(model%mesh)))
       call node_stresses(model, analysis%all_u, analysis%now%temperature, at_node)
       allocate (structural(size(size_of)), at_ends(model%mesh%n_elements))
       call node_peaks(model, analysis%all_u, analysis%now%temperature, structural, at_ends, analysis)

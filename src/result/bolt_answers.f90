@@ -106,7 +106,7 @@ contains
 
       d = model%mesh%dimension
       s = findloc(model%mesh%surfaces%id, section%surface, dim=1)
-      call surface_nodes(model, model%mesh%surfaces(s), list)
+      call surface_nodes(model%mesh, model%mesh%surfaces(s), list)
       centroid = 0.0_wp
       do i = 1, list%n
          centroid = centroid + list%area(i)*model%mesh%x(:, list%node(i))/sum(list%area)
@@ -116,7 +116,7 @@ contains
          e = model%mesh%elements_at(j)
          call element_stiffness(model, e, k)
          call element_thermal_forces(model, e, temperature, thermal(:d, :))
-         associate (nodes => corners_of(model, e))
+         associate (nodes => corners_of(model%mesh, e))
             n = d*size(nodes)
             p(:n) = matmul(k(:n, :n), reshape(corner_displacements(model, e, u), [n]))
             do i = 1, size(nodes)

@@ -41,13 +41,13 @@ contains
       real(wp) :: span(2)
       integer  :: i, n
 
-      n = n_sections(model)
-      if (n_bars(model) > 0) n = n + count(model%mesh%bars%bolt > 0)
+      n = n_sections(model%mesh)
+      if (n_bars(model%mesh) > 0) n = n + count(model%mesh%bars%bolt > 0)
       allocate (bolts(n))
       if (n > 0) call start_passages(model, cuts, passages)
       allocate (crossing(passages%n, n), source=0)
       n = 0
-      do i = 1, n_bars(model)
+      do i = 1, n_bars(model%mesh)
          associate (bar => model%mesh%bars(i))
             if (bar%bolt == 0) cycle
             n = n + 1
@@ -58,7 +58,7 @@ contains
             call find_own_joint(model, span, passages, bolts(n), crossing(:, n))
          end associate
       end do
-      do i = 1, n_sections(model)
+      do i = 1, n_sections(model%mesh)
          n = n + 1
          call place_section(model, planes, i, bolts(n), span)
          call find_own_joint(model, span, passages, bolts(n), crossing(:, n))
@@ -80,7 +80,7 @@ contains
 
       associate (section => model%mesh%sections(i))
          s = findloc(model%mesh%surfaces%id, section%surface, dim=1)
-         call surface_nodes(model, model%mesh%surfaces(s), list)
+         call surface_nodes(model%mesh, model%mesh%surfaces(s), list)
          bolt = bolt_place(id=section%bolt, section=i, stage=section%stage, direction=section%direction, area=section%area, &
                            strength=section%strength, cut=planes_along(model, planes, list%node, section%direction))
          centroid = 0.0_wp
@@ -93,7 +93,7 @@ contains
             radius = max(radius, norm2(model%mesh%x(:, list%node(s)) - bolt%point))
          end do
          span = 0.0_wp
-         do node = 1, n_points(model)
+         do node = 1, n_points(model%mesh)
             if (model%freedoms%part(node) /= model%freedoms%part(section%point)) cycle
             if (distance(bolt, model%mesh%x(:, node)) > radius*(1.0_wp + beside_bolt)) cycle
             along = dot_product(model%mesh%x(:, node) - bolt%point, bolt%direction)

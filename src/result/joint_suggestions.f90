@@ -40,9 +40,9 @@ contains
       logical  :: is_new(2)
       real(wp) :: reach
 
-      call list_bodies(model, body, bodies)
-      call list_outer_sides(model, body, sides)
-      call find_facing(model, sides, pairs, sees)
+      call list_bodies(model%mesh, body, bodies)
+      call list_outer_sides(model%mesh, body, sides)
+      call find_facing(model%mesh, sides, pairs, sees)
       call find_marks(model, sides, mark)
       associate (bulk => deck%bulk)
          next%element = 1 + maxval([0, model%mesh%element_id, bulk%edge%id, bulk%element%id, bulk%rigid%id, &

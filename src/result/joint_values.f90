@@ -63,7 +63,7 @@ contains
                     states => analysis%states(model%joints%list(j)%first:model%joints%list(j)%last))
             of_joint%total = find_resultant(model, analysis, joint)
             of_joint%has_applied = joint%determinate
-            if (joint%determinate) of_joint%applied = carried_resultant(model, joint, now)
+            if (joint%determinate) of_joint%applied = carried_resultant(model%mesh, model%freedoms, joint, now)
             of_joint%n_open = count(states%normal%branch == branch_open)
             of_joint%slipping = count(states%slips)
             of_joint%contact = above(1.0_wp - sum(model%joints%element(joint%first:joint%last)%area, &
@@ -125,7 +125,7 @@ contains
       call find_planes(model, planes)
       allocate (cuts(size(model%joints%list)))
       if (size(planes) == 0) return
-      call number_parts(model, .false., part, n_parts)
+      call number_parts(model%mesh, model%freedoms, .false., part, n_parts)
       allocate (of_part, source=parts_cut(model, planes, part, n_parts))
       allocate (all_cut(size(planes)))
       do j = 1, size(cuts)

@@ -12,8 +12,7 @@ module listing_opening
    use interface_operator, only: named_node
    use joint_sides, only: is_coarser
    use kinds, only: long, wp
-   use model_data, only: a_spring, model_type, n_bars, n_points, n_rotations, n_sections, supported, &
-                         whole_share
+   use model_data, only: a_spring, model_type, n_bars, n_points, n_rotations, n_sections, supported, whole_share
    use normal_curve, only: normal_tangent
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
    use output_file, only: output_file_type
@@ -72,7 +71,8 @@ contains
                                   column('   LABEL', 'a')], page%file)
       do s = 1, size(plan%stages)
          associate (stage => plan%stages(s), loads => model%history%stages(s))
-            total = sum(loads%force(:, :loads%n), dim=2, mask=spread(loads%node(:loads%n) <= n_points(model), 1, 3)) ! no moments
+            ! no moments
+            total = sum(loads%force(:, :loads%n), dim=2, mask=spread(loads%node(:loads%n) <= n_points(model%mesh), 1, 3))
             largest = max(0.0_wp, maxval(abs(loads%force(:, :loads%n))))
             call table%put([character(10) :: 'STAGE', 'INCREMENTS'], [stage%id, size(stage%fractions)])
             call table%put([character(11) :: 'FIRST SHARE', 'LAST SHARE'], stage%fractions([1, size(stage%fractions)]))
@@ -162,7 +162,7 @@ contains
       integer :: i, k, m
 
       call heading(file, 'MODEL SUMMARY')
-      call count_line(file, 'NODES', int(n_points(model), long))
+      call count_line(file, 'NODES', int(n_points(model%mesh), long))
       if (.not. all(model%freedoms%used)) &
          call count_line(file, '   OF THESE WITHOUT AN ELEMENT, LEFT OUT', count(.not. model%freedoms%used, kind=long))
       if (model%mesh%n_filled > 0) call count_line(file, '   OF THESE MADE AT THE MIDDLE OF EDGES', int(model%mesh%n_filled, long))
@@ -187,14 +187,15 @@ contains
          end associate
       end do
       associate (n_springs => count(model%mesh%bars%kind == a_spring, kind=long))
-         if (n_bars(model) > n_springs) call count_line(file, 'BARS, BOLTS INCLUDED', n_bars(model) - n_springs)
+         if (n_bars(model%mesh) > n_springs) call count_line(file, 'BARS, BOLTS INCLUDED', n_bars(model%mesh) - n_springs)
          if (n_springs > 0) call count_line(file, 'SPRINGS, ONE A DIRECTION', n_springs)
       end associate
-      if (n_sections(model) > 0) call count_line(file, 'SOLID BOLTS', size(model%mesh%sections, kind=long))
+      if (n_sections(model%mesh) > 0) call count_line(file, 'SOLID BOLTS', size(model%mesh%sections, kind=long))
       call count_line(file, 'JOINTS', size(model%joints%list, kind=long))
       call count_line(file, 'INTERFACE ELEMENTS', size(model%joints%element, kind=long))
       call count_line(file, 'SUPPORTED COMPONENTS', &
-                      sum([(count(supported(model, i), kind=long), i = 1, n_points(model) + n_rotations(model))]))
+                      sum([(count(supported(model%mesh, model%freedoms, i), kind=long), i = 1, n_points(model%mesh) + &
+                         n_rotations(model%mesh))]))
       if (size(deck%bulk%rigid) > 0) call count_line(file, 'RIGID ELEMENTS', size(deck%bulk%rigid, kind=long))
       if (allocated(model%freedoms%left_out)) call count_line(file, 'COMPONENTS DEPENDENT OR IDLE', &
          count(model%freedoms%left_out, kind=long))
@@ -254,7 +255,7 @@ contains
       integer :: body(model%mesh%n_elements), d, i
 
       d = model%mesh%dimension
-      call list_bodies(model, body, bodies)
+      call list_bodies(model%mesh, body, bodies)
       if (size(bodies) > 1) call table%start('BODIES', &
          [column('BODY', 'i11'), column([character(8) :: 'ELEMENTS', 'NODES'], 'i11'), &
           column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i13'), &

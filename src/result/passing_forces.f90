@@ -44,7 +44,7 @@ contains
       integer, allocatable :: nodes(:), pairs(:, :)
       integer :: bodies(2), end, i, j, candidate(3)
 
-      call number_parts(model, .false., passages%part, passages%base)
+      call number_parts(model%mesh, model%freedoms, .false., passages%part, passages%base)
       passages%base = passages%base + 1
       allocate (passages%of_element(size(model%joints%element)), passages%sense(size(model%joints%element)), source=1)
       allocate (pairs(3, 0))
@@ -126,18 +126,18 @@ contains
       grounded = .false.
       grounded(passages%base) = .true.
       if (.not. model%freedoms%floats) then
-         do node = 1, n_points(model)
+         do node = 1, n_points(model%mesh)
             if (grounded(passages%part(node))) cycle
-            held = supported(model, node)
+            held = supported(model%mesh, model%freedoms, node)
             if (.not. any(held)) cycle
-            axes = node_axes(model, node)
+            axes = node_axes(model%mesh, node)
             do d = 1, model%mesh%dimension
                if (held(d)) call ground(node, axes(:, d))
             end do
          end do
       end if
-      do i = 1, n_bars(model)
-         if (model%mesh%bars(i)%nodes(2) == 0 .and. node_kind(model, model%mesh%bars(i)%nodes(1)) == a_point) &
+      do i = 1, n_bars(model%mesh)
+         if (model%mesh%bars(i)%nodes(2) == 0 .and. node_kind(model%mesh, model%mesh%bars(i)%nodes(1)) == a_point) &
             call ground(model%mesh%bars(i)%nodes(1), model%mesh%bars(i)%direction(:, 1))
       end do
 
@@ -202,7 +202,7 @@ contains
       force = 0.0_wp
       associate (loads => model%history%stages(stage))
          do i = 1, loads%n
-            if (node_kind(model, loads%node(i)) == a_point) &
+            if (node_kind(model%mesh, loads%node(i)) == a_point) &
                force = force + passages%side(passages%part(loads%node(i)), k)*loads%force(:, i)
          end do
       end associate

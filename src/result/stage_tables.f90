@@ -284,13 +284,13 @@ contains
                          column('AXIS', 'a6'), force, longer])
       end associate
       floors = page_zero*[page%largest_force, maxval(abs(analysis%u))]
-      do i = 1, n_bars(model)
+      do i = 1, n_bars(model%mesh)
          associate (bar => model%mesh%bars(i), &
                     values => clean([bar_tension(model, analysis, i), elongation_now(model, analysis, i)], floors))
             if (bar%kind == a_spring) then
                id = 0
                do k = 1, size(bar_nodes(bar))
-                  id(k) = model%mesh%node_id(point_of(model, bar%nodes(k)))
+                  id(k) = model%mesh%node_id(point_of(model%mesh, bar%nodes(k)))
                end do
                if (bar%ground_first) id = id([2, 1])
                call springs%put('INCR', analysis%increment)
@@ -323,7 +323,7 @@ contains
          [column('INCR', 'i6'), column([character(7) :: 'BOLT', 'SURFACE'], 'i11'), column('FORCE', 'es37.5', page%labels%force), &
           column('SHORTENED BY', 'es15.5', page%labels%length), column('', 'a', key='state')])
       floors = page_zero*[page%largest_force, maxval(abs(analysis%u))]
-      do i = 1, n_sections(model)
+      do i = 1, n_sections(model%mesh)
          associate (section => model%mesh%sections(i))
             call table%put([character(7) :: 'INCR', 'BOLT', 'SURFACE'], [analysis%increment, section%bolt, section%surface])
             call table%put('FORCE', section_tension(model, analysis, i), floors(1))

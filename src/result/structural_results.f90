@@ -36,8 +36,8 @@ contains
       real(wp), intent(out)              :: stress(max_stresses, 5, 2) !! (component, corner, face) [pressure]
 
       stress = 0.0_wp
-      associate (n => size(corners_of(model, e)) + 1)
-         call structural_stress(model, e, u(:, own_nodes(model, e)), temperature, &
+      associate (n => size(corners_of(model%mesh, e)) + 1)
+         call structural_stress(model, e, u(:, own_nodes(model%mesh, e)), temperature, &
                                 model%mesh%properties(model%mesh%element_property(e))%fibre, stress(:, :n, :))
       end associate
    end subroutine face_stresses
@@ -53,8 +53,8 @@ contains
       associate (place => model%mesh%structural%place(e), now => analysis%now%temperature)
          load = beam_thermal_load(model%mesh%structural%beams(place), sum(element_rise(model, e, now))/2.0_wp)
          load = load + analysis%fraction*of_stage(analysis%stage) + (1.0_wp - analysis%fraction)*of_stage(analysis%stage - 1)
-         s = beam_end_forces(model%mesh%structural%beams(place), model%mesh%x(:, corners_of(model, e)), &
-                             nodal_values(model, e, analysis%all_u(:, own_nodes(model, e))), load)
+         s = beam_end_forces(model%mesh%structural%beams(place), model%mesh%x(:, corners_of(model%mesh, e)), &
+                             nodal_values(model, e, analysis%all_u(:, own_nodes(model%mesh, e))), load)
       end associate
       forces = reshape([-s(:6), s(7:)], [6, 2])
       if (model%mesh%structural%beams(model%mesh%structural%place(e))%is_cut) forces(1, :) = bar_tension(model, analysis, &
@@ -116,14 +116,14 @@ contains
       if (.not. allocated(model%mesh%structural%place)) return
       allocate (stress(max_stresses, 5, 2, size(model%mesh%structural%shells)), normal(3, size(model%mesh%structural%shells)))
       do e = 1, model%mesh%n_elements
-         if (is_shell(model, e)) then
-            associate (of_face => stress(:, :, :, model%mesh%structural%place(e)), n => size(corners_of(model, e)))
+         if (is_shell(model%mesh, e)) then
+            associate (of_face => stress(:, :, :, model%mesh%structural%place(e)), n => size(corners_of(model%mesh, e)))
                call face_stresses(model, e, u, temperature, of_face)
-               frame = shell_frame_of(model%mesh%x(:, corners_of(model, e)), 0.0_wp)
+               frame = shell_frame_of(model%mesh%x(:, corners_of(model%mesh, e)), 0.0_wp)
                normal(:, model%mesh%structural%place(e)) = frame%axes(:, 3)
                at_centre(e) = max(von_mises(of_face(:, n + 1, 1)), von_mises(of_face(:, n + 1, 2)))
             end associate
-         else if (is_beam(model, e) .and. present(analysis)) then
+         else if (is_beam(model%mesh, e) .and. present(analysis)) then
             forces = end_forces(model, analysis, e)
             do end = 1, 2
                largest = maxval(abs(section_stresses(model%mesh%structural%beams(model%mesh%structural%place(e)), forces(:, end))))
@@ -133,7 +133,7 @@ contains
             end do
          end if
       end do
-      do node = 1, n_points(model)
+      do node = 1, n_points(model%mesh)
          call average(node)
       end do
 
@@ -146,15 +146,15 @@ contains
          integer  :: corner, f, i, j, n
 
          do i = model%mesh%first_at(node), model%mesh%first_at(node + 1) - 1
-            if (.not. is_shell(model, model%mesh%elements_at(i))) cycle
+            if (.not. is_shell(model%mesh, model%mesh%elements_at(i))) cycle
             total = 0.0_wp
             n = 0
             do j = model%mesh%first_at(node), model%mesh%first_at(node + 1) - 1
-               if (.not. is_shell(model, model%mesh%elements_at(j))) cycle
+               if (.not. is_shell(model%mesh, model%mesh%elements_at(j))) cycle
                associate (first => model%mesh%structural%place(model%mesh%elements_at(i)), &
                           other => model%mesh%structural%place(model%mesh%elements_at(j)))
                   if (abs(dot_product(normal(:, first), normal(:, other))) < one_plate) cycle
-                  corner = findloc(corners_of(model, model%mesh%elements_at(j)), node, dim=1)
+                  corner = findloc(corners_of(model%mesh, model%mesh%elements_at(j)), node, dim=1)
                   if (corner == 0) cycle
                   n = n + 1
                   do f = 1, 2 ! for a reversed shell the faces change places
@@ -185,16 +185,16 @@ contains
       if (size(model%mesh%structural%shells) == 0) return
       allocate (centre(max_stresses, 2, size(model%mesh%structural%shells)))
       do e = 1, model%mesh%n_elements
-         if (.not. is_shell(model, e)) cycle
+         if (.not. is_shell(model%mesh, e)) cycle
          call face_stresses(model, e, analysis%all_u, analysis%now%temperature, stress)
-         centre(:, :, model%mesh%structural%place(e)) = stress(:, size(corners_of(model, e)) + 1, :)
+         centre(:, :, model%mesh%structural%place(e)) = stress(:, size(corners_of(model%mesh, e)) + 1, :)
       end do
       floor = page_zero*maxval(abs(centre))
       call table%start('STRESSES AT THE FACES OF SHELLS, AT THEIR CENTRES'//page%now//in_units(page%labels%pressure), &
          [column('ELEMENT', 'i11'), column('HEIGHT', 'es13.5'), column(stresses, 'es13.5')], page%file)
       do e = 1, model%mesh%n_elements
-         if (.not. is_shell(model, e)) cycle
-         if (.not. shows(page, corners_of(model, e))) cycle
+         if (.not. is_shell(model%mesh, e)) cycle
+         if (.not. shows(page, corners_of(model%mesh, e))) cycle
          associate (of_element => centre(:, :, model%mesh%structural%place(e)), &
                     fibre => model%mesh%properties(model%mesh%element_property(e))%fibre)
             do f = 1, 2
@@ -225,12 +225,12 @@ contains
       thickness = 0.0_wp
       allocate (force(8, 5, size(model%mesh%structural%shells)), source=0.0_wp)
       do e = 1, model%mesh%n_elements
-         if (.not. is_shell(model, e)) cycle
-         associate (nodes => corners_of(model, e))
+         if (.not. is_shell(model%mesh, e)) cycle
+         associate (nodes => corners_of(model%mesh, e))
             frame = shell_frame_of(model%mesh%x(:, nodes), 0.0_wp)
-            axes = joint_axes(model, frame%axes(:, 3))
+            axes = joint_axes(model%mesh, frame%axes(:, 3))
             call shell_forces(model%mesh%structural%shells(model%mesh%structural%place(e)), model%mesh%x(:, nodes), &
-                              nodal_values(model, e, analysis%all_u(:, own_nodes(model, e))), &
+                              nodal_values(model, e, analysis%all_u(:, own_nodes(model%mesh, e))), &
                               element_rise(model, e, analysis%now%temperature), &
                               element_slope(model, e, analysis%now%temperature), axes(:, 1), &
                               force(:, :size(nodes) + 1, model%mesh%structural%place(e)))
@@ -243,8 +243,8 @@ contains
                        table_columns(shell_table, page%labels, model))
       if (is_listed) call table%print_head(page%file)
       do e = 1, model%mesh%n_elements
-         if (.not. is_shell(model, e)) cycle
-         associate (nodes => corners_of(model, e), n => size(corners_of(model, e)))
+         if (.not. is_shell(model%mesh, e)) cycle
+         associate (nodes => corners_of(model%mesh, e), n => size(corners_of(model%mesh, e)))
             if (.not. shows(page, nodes)) cycle
             do i = 1, n + 1
                node = 0
@@ -284,7 +284,7 @@ contains
       if (size(model%mesh%structural%beams) == 0) return
       allocate (forces(6, 2, size(model%mesh%structural%beams)), stress(5, 2, size(model%mesh%structural%beams)))
       do e = 1, model%mesh%n_elements
-         if (.not. is_beam(model, e)) cycle
+         if (.not. is_beam(model%mesh, e)) cycle
          associate (place => model%mesh%structural%place(e))
             forces(:, :, place) = end_forces(model, analysis, e)
             do end = 1, 2
@@ -299,8 +299,8 @@ contains
       call stresses%start('STRESSES IN BEAMS, AT BOTH ENDS'//page%now//in_units(page%labels%pressure), &
          [column('ELEMENT', 'i11'), column('NODE', 'i11'), column(points, 'es13.5')])
       do e = 1, model%mesh%n_elements
-         if (.not. is_beam(model, e)) cycle
-         if (.not. shows(page, corners_of(model, e))) cycle
+         if (.not. is_beam(model%mesh, e)) cycle
+         if (.not. shows(page, corners_of(model%mesh, e))) cycle
          associate (place => model%mesh%structural%place(e))
             do end = 1, 2
                call table%put('ELEMENT', model%mesh%element_id(e))

@@ -57,18 +57,19 @@ contains
       integer  :: i
 
       allocate (balance%held, source=-held_forces(model, analysis%all_unbalanced))
-      balance%supported = pack([(i, i = 1, n_points(model))], &
-                               [(any(supported(model, i)) .and. model%freedoms%used(i), i = 1, n_points(model))])
+      balance%supported = pack([(i, i = 1, n_points(model%mesh))], &
+                               [(any(supported(model%mesh, model%freedoms, i)) .and. model%freedoms%used(i), i = 1, &
+                                  n_points(model%mesh))])
       allocate (balance%force(model%mesh%dimension, balance_left), source=0.0_wp)
-      balance%force(:, balance_loads) = sum(analysis%now%load(:, :n_points(model)), dim=2)
+      balance%force(:, balance_loads) = sum(analysis%now%load(:, :n_points(model%mesh)), dim=2)
       balance%force(:, balance_supports) = sum(balance%held(:, balance%supported), dim=2)
       do i = 1, size(model%joints%element)
          if (named_node(model%joints%element(i), 2) /= 0) cycle
          force = element_force(model%joints%element(i), analysis%states(i))
          balance%force(:, balance_bases) = balance%force(:, balance_bases) - force(:model%mesh%dimension)
       end do
-      do i = 1, n_bars(model)
-         if (model%mesh%bars(i)%nodes(2) > 0 .or. node_kind(model, model%mesh%bars(i)%nodes(1)) /= a_point) cycle
+      do i = 1, n_bars(model%mesh)
+         if (model%mesh%bars(i)%nodes(2) > 0 .or. node_kind(model%mesh, model%mesh%bars(i)%nodes(1)) /= a_point) cycle
          balance%force(:, balance_springs) = balance%force(:, balance_springs) + &
                                              bar_tension(model, analysis, i)*model%mesh%bars(i)%direction(:model%mesh%dimension, 1)
       end do
@@ -98,7 +99,7 @@ contains
       answer%parts(last)%kind = 'SPRINGS'
       allocate (on_unknowns, source=forces_on_unknowns(model, analysis%all_unbalanced))
       do node = 1, size(model%freedoms%support_of, 2)
-         associate (groups => model%freedoms%support_of(:, node), coupled => coupling_parts(model, node))
+         associate (groups => model%freedoms%support_of(:, node), coupled => coupling_parts(model%freedoms, node))
             do d = 1, model%mesh%dimension
                g = groups(d)
                if (g == 0 .or. any(groups(:d - 1) == g) .or. .not. model%freedoms%used(node)) cycle
@@ -116,10 +117,10 @@ contains
                                                       -element_force(element, analysis%states(i)))
          end associate
       end do
-      do i = 1, n_bars(model)
+      do i = 1, n_bars(model%mesh)
          associate (bar => model%mesh%bars(i), part => answer%parts(last))
             if (bar%nodes(2) > 0) cycle
-            if (node_kind(model, bar%nodes(1)) == a_rotation) then
+            if (node_kind(model%mesh, bar%nodes(1)) == a_rotation) then
                part%nodes = part%nodes + 1
                part%centre = part%centre + model%mesh%x(:, bar%nodes(1))
             end if
@@ -130,7 +131,7 @@ contains
 
       ! the loads, and the sum of the reactions
       answer%loads%kind = 'LOADS'
-      do node = 1, n_points(model) + n_rotations(model)
+      do node = 1, n_points(model%mesh) + n_rotations(model%mesh)
          if (any(abs(analysis%now%load(:, node)) > 0.0_wp)) call act_on(model, node, analysis%now%load(:, node), answer%loads)
       end do
       answer%total%kind = 'ALL'
@@ -155,11 +156,11 @@ contains
       real(wp), intent(in)               :: force(:) !! (dimension)
       type(reaction_type), intent(inout) :: part
 
-      if (node_kind(model, node) /= a_rotation) then
+      if (node_kind(model%mesh, node) /= a_rotation) then
          call act(part, model%mesh%x(:, node), force)
          return
       end if
-      associate (arm => model%mesh%rotations(place_in_kind(model, node))%arm)
+      associate (arm => model%mesh%rotations(place_in_kind(model%mesh, node))%arm)
          if (model%mesh%dimension == 3) part%moment = part%moment + force*arm
          if (model%mesh%dimension == 2) part%moment(3) = part%moment(3) + force(1)*arm
       end associate
@@ -195,7 +196,7 @@ contains
       end if
       floor = zero_remainder*largest_force
       part%force = above(part%force, floor)
-      floor = floor*maxval(abs(model%mesh%x(:, :n_points(model))))
+      floor = floor*maxval(abs(model%mesh%x(:, :n_points(model%mesh))))
       part%moment = above(part%moment, floor)
       part%about_centre = above(part%about_centre, floor)
    end subroutine complete_part

@@ -80,8 +80,8 @@ contains
       if (.not. allocated(model%mesh%structural%place)) return
       allocate (thickness(n), at_face(n, 2), source=0.0_wp) ! at the centres of both faces of shells; zero for other elements
       do i = 1, n
-         if (.not. is_shell(model, shown%elements(i))) cycle
-         k = size(corners_of(model, shown%elements(i)))
+         if (.not. is_shell(model%mesh, shown%elements(i))) cycle
+         k = size(corners_of(model%mesh, shown%elements(i)))
          call face_stresses(model, shown%elements(i), u, temperature, stress)
          at_face(i, :) = [(von_mises(stress(:, k + 1, f)), f = 1, 2)]
          thickness(i) = sum(model%mesh%structural%shells(model%mesh%structural%place(shown%elements(i)))%thickness(:k))/k
@@ -124,7 +124,7 @@ contains
       allocate (ends(size(shown%elements)), types(size(shown%elements)))
       n = 0
       do i = 1, size(ends)
-         associate (nodes => corners_of(model, shown%elements(i)), &
+         associate (nodes => corners_of(model%mesh, shown%elements(i)), &
             kind => element_table(model%mesh%element_kind(shown%elements(i))))
             connected(n + 1:n + size(nodes)) = nodes(kind%vtk_nodes(:size(nodes)))
             n = n + size(nodes)

@@ -194,9 +194,9 @@ contains
       if (results%name == '' .or. model%mesh%n_elements == 0) return
       call begin_part(results, stage, '.modes.vtu', real(stage, wp), of_modes, grid)
       call write_mesh(grid, model, all_shown(model))
-      allocate (u(3, n_points(model)), source=0.0_wp)
+      allocate (u(3, n_points(model%mesh)), source=0.0_wp)
       do k = 1, size(modes%modes)
-         u(:model%mesh%dimension, :) = modes%modes(k)%u(:, :n_points(model))
+         u(:model%mesh%dimension, :) = modes%modes(k)%u(:, :n_points(model%mesh))
          call grid%add(point_data, 'mode '//integer_text(modes%n_before + k)//', frequency '// &
                        real_text(modes%modes(k)%frequency), u)
       end do

@@ -71,13 +71,13 @@ contains
       d = model%mesh%dimension
       now = state_at_end(model, analysis)
       change = now%u - before%u
-      largest = maxval(abs(change(:, :n_points(model))))
+      largest = maxval(abs(change(:, :n_points(model%mesh))))
       ! change over the stage of the loads of the deck, without preloads and moments [force]
-      allocate (load(3, n_points(model)), source=0.0_wp)
+      allocate (load(3, n_points(model%mesh)), source=0.0_wp)
       do s = max(1, analysis%stage - 1), analysis%stage
          associate (loads => model%history%stages(s))
             do k = 1, loads%n
-               if (node_kind(model, loads%node(k)) == a_point) load(:, loads%node(k)) = load(:, loads%node(k)) + &
+               if (node_kind(model%mesh, loads%node(k)) == a_point) load(:, loads%node(k)) = load(:, loads%node(k)) + &
                   merge(1, -1, s == analysis%stage)*analysis%fraction*loads%force(:, k)
             end do
          end associate
@@ -119,7 +119,7 @@ contains
       real(wp) :: work(3), all_amounts
 
       ! the bodies
-      call find_bodies(model, body, n_bodies)
+      call find_bodies(model%mesh, body, n_bodies)
       allocate (parts(n_bodies))
       allocate (of_node(model%mesh%n_nodes), source=0)
       parts%kind = 'BODY'
@@ -130,7 +130,7 @@ contains
             part%first = min(part%first, model%mesh%element_id(e))
             part%last = max(part%last, model%mesh%element_id(e))
          end associate
-         of_node(corners_of(model, e)) = body(e)
+         of_node(corners_of(model%mesh, e)) = body(e)
          if (allocated(model%mesh%element_section)) then
             if (model%mesh%element_section(e) > 0) of_node(model%mesh%sections(model%mesh%element_section(e))%node) = body(e)
          end if
@@ -154,8 +154,8 @@ contains
       n_joints = size(model%joints%list)
       parts = [parts, [(compliance_share('JOINT', model%joints%list(i)%id), i = 1, n_joints)], &
                [(compliance_share(merge('SPRING', 'BAR   ', model%mesh%bars(i)%kind == a_spring), model%mesh%bars(i)%id), &
-                 i = 1, n_bars(model))]]
-      do i = 1, n_bars(model)
+                 i = 1, n_bars(model%mesh))]]
+      do i = 1, n_bars(model%mesh)
          if (model%mesh%bars(i)%bolt > 0) parts(n_bodies + n_joints + i) = compliance_share('BOLT', model%mesh%bars(i)%bolt)
       end do
       do i = 1, size(model%joints%element)
@@ -164,7 +164,7 @@ contains
             part%share = part%share + [work(3), work(1) + work(2)]
          end associate
       end do
-      do i = 1, n_bars(model)
+      do i = 1, n_bars(model%mesh)
          parts(n_bodies + n_joints + i)%share(1) = 0.5_wp*(now%tension(i) - before%tension(i))* &
                                                    bar_elongation(model%mesh%bars(i), change(:, bar_nodes(model%mesh%bars(i))))
       end do
@@ -186,7 +186,7 @@ contains
       type(watch_state), intent(out) :: before
 
       allocate (before%u(model%mesh%dimension, model%mesh%n_nodes), before%force(3, size(model%joints%element)), &
-                before%movement(3, size(model%joints%element)), before%tension(n_bars(model)), source=0.0_wp)
+                before%movement(3, size(model%joints%element)), before%tension(n_bars(model%mesh)), source=0.0_wp)
    end subroutine start_watched
 
    !> The structure at the end of the completed stage.
@@ -201,7 +201,7 @@ contains
       do i = 1, size(model%joints%element)
          now%force(:, i) = [analysis%states(i)%shear%tau*model%joints%element(i)%area, analysis%states(i)%normal%sumf]
       end do
-      allocate (now%tension, source=[(bar_tension(model, analysis, i), i = 1, n_bars(model))])
+      allocate (now%tension, source=[(bar_tension(model, analysis, i), i = 1, n_bars(model%mesh))])
    end function state_at_end
 
    subroutine record_watched(stream, state)

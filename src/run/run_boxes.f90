@@ -185,7 +185,7 @@ contains
       if (is_over(run)) return
       call build_model(deck, model, plan, run%errors)
       loose = ''
-      if (.not. run%errors%any()) loose = loose_words(model)
+      if (.not. run%errors%any()) loose = loose_words(model%mesh, model%joints, model%freedoms)
       if (run%errors%any()) then
          run%ending = has_errors
       else if (run%suggests) then

@@ -296,7 +296,7 @@ contains
             call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, run%errors)
          case (was_checked)
             call say_of_deck(run, deck, model)
-            call write_bytes(1, name//': no errors; '//plural(n_points(model), 'node')//', '// &
+            call write_bytes(1, name//': no errors; '//plural(n_points(model%mesh), 'node')//', '// &
                              plural(model%mesh%n_elements, 'body element')//', '// &
                              plural(size(model%joints%element), 'interface element')//', '//plural(size(plan%stages), 'stage')// &
                              new_line('a'), ok)

@@ -74,17 +74,17 @@ contains
       call system%form_bodies(model, fault)
       call system%report_fault(model, fault, '', failure)
       if (failure%raised) return
-      do i = 1, n_bars(model)
+      do i = 1, n_bars(model%mesh)
          if (model%mesh%bars(i)%bolt == 0) call add_bar(model, i, system)
       end do
       if (.not. abs(system%shift) > 0.0_wp) return
-      do i = 1, n_bars(model) ! - sigma [m] of bars, and of masses at nodes
+      do i = 1, n_bars(model%mesh) ! - sigma [m] of bars, and of masses at nodes
          if (.not. model%mesh%bars(i)%mass > 0.0_wp) cycle
-         call system%add_to_bodies([system%number(:, unknown_nodes(model, bar_nodes(model%mesh%bars(i))))], &
+         call system%add_to_bodies([system%number(:, unknown_nodes(model%freedoms, bar_nodes(model%mesh%bars(i))))], &
                                    -system%shift*coupled_bar_mass(model, i))
       end do
       do i = 1, n_masses(model)
-         call system%add_to_bodies([system%number(:, unknown_nodes(model, mass_nodes(model, model%mesh%masses(i))))], &
+         call system%add_to_bodies([system%number(:, unknown_nodes(model%freedoms, mass_nodes(model, model%mesh%masses(i))))], &
                                    -system%shift*coupled_point_mass(model, model%mesh%masses(i)))
       end do
    end subroutine form_body_stiffness
@@ -95,7 +95,7 @@ contains
       integer, intent(in)                   :: i
       class(equation_system), intent(inout) :: system
 
-      call system%add_to_bodies([system%number(:, unknown_nodes(model, bar_nodes(model%mesh%bars(i))))], &
+      call system%add_to_bodies([system%number(:, unknown_nodes(model%freedoms, bar_nodes(model%mesh%bars(i))))], &
                                 between_unknowns(model, bar_nodes(model%mesh%bars(i)), bar_stiffness(model, i)))
       system%stiffest = max(system%stiffest, model%mesh%bars(i)%stiffness)
       call system%forget_factors()

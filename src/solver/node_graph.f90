@@ -41,13 +41,13 @@ contains
          do node = 1, graph%n
             graph%first(node) = n + 1
             mark(node) = node
-            if (.not. is_face_node(model, node)) then ! a face has no unknowns
+            if (.not. is_face_node(model%mesh, node)) then ! a face has no unknowns
                do i = model%mesh%first_at(node), model%mesh%first_at(node + 1) - 1
                   e = model%mesh%elements_at(i)
                   do k = 1, size(model%mesh%element_nodes, 1)
                      call visit(model%mesh%element_nodes(k, e))
                   end do
-                  call visit(section_node(model, e))
+                  call visit(section_node(model%mesh, e))
                   call visit_rotations(e)
                end do
             end if
@@ -70,7 +70,7 @@ contains
 
          if (.not. allocated(model%mesh%structural%place)) return
          if (model%mesh%structural%place(e) == 0) return
-         do j = 1, size(corners_of(model, e))
+         do j = 1, size(corners_of(model%mesh, e))
             call visit(model%mesh%rotations(model%mesh%rotation_of(model%mesh%element_nodes(j, e)))%node)
          end do
       end subroutine visit_rotations
@@ -96,17 +96,17 @@ contains
       integer, allocatable :: wider(:, :)
       integer :: e, i, n
 
-      allocate (joined(2, size(model%joints%element) + n_bars(model)), source=0)
+      allocate (joined(2, size(model%joints%element) + n_bars(model%mesh)), source=0)
       n = 0
       do i = 1, size(model%joints%element)
-         call join(unknown_nodes(model, model%joints%element(i)%node))
+         call join(unknown_nodes(model%freedoms, model%joints%element(i)%node))
       end do
-      do i = 1, n_bars(model)
-         call join(unknown_nodes(model, bar_nodes(model%mesh%bars(i))))
+      do i = 1, n_bars(model%mesh)
+         call join(unknown_nodes(model%freedoms, bar_nodes(model%mesh%bars(i))))
       end do
       if (with_masses) then
          do i = 1, n_masses(model)
-            call join(unknown_nodes(model, mass_nodes(model, model%mesh%masses(i))))
+            call join(unknown_nodes(model%freedoms, mass_nodes(model, model%mesh%masses(i))))
          end do
       end if
       if (.not. (with_bodies .and. allocated(model%freedoms%coupling%of_node))) return

@@ -60,7 +60,7 @@ contains
       call list_joined(model, graph%with_masses, .false., joined)
       allocate (self%in_joint(model%mesh%n_nodes), source=.false.)
       self%in_joint(pack(joined, joined > 0)) = .true.
-      if (n_sections(model) > 0) self%in_joint(model%mesh%sections%node) = .true.
+      if (n_sections(model%mesh) > 0) self%in_joint(model%mesh%sections%node) = .true.
       call choose_layout(graph, order, weight, self%in_joint, self%factorisations, self%layout, self%way)
       ! elements of refactored fronts are kept entry by entry with two indices, in number as for a regular mesh
       self%bytes = 8.0_wp*self%layout%most_entries + 16.0_wp*(0.5_wp*model%mesh%dimension*3**model%mesh%dimension*sum(weight))

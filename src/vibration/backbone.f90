@@ -82,7 +82,7 @@ contains
          else if (modes%modes(k)%is_rigid) then
             found%problem = 'THE MODE HAS NO STRAIN'
          else
-            moved = sqrt(sum(modes%modes(k)%u(:, :n_points(model))**2, dim=1)/modes%modes(k)%mass)
+            moved = sqrt(sum(modes%modes(k)%u(:, :n_points(model%mesh))**2, dim=1)/modes%modes(k)%mass)
             found%omega_squared = modes%modes(k)%lambda
             found%node = wanted%node
             if (found%node == 0) found%node = findloc(moved >= (1.0_wp - largest_to_rounding)*maxval(moved), .true., dim=1)

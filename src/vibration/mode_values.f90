@@ -175,7 +175,7 @@ contains
       end do
       do d = 1, model%mesh%dimension                                       ! g(d, m) = u^T [m] e_d
          e = 0.0_wp
-         e(d, :n_points(model)) = 1.0_wp
+         e(d, :n_points(model%mesh)) = 1.0_wp
          call mass_times(model, structure%mass, e, of_mass)
          do m = 1, n
             g(d, m) = sum(u(:, :, m)*of_mass)
@@ -252,7 +252,7 @@ contains
       if (plan%unit_mass) then
          factor = 1.0_wp/sqrt(mode%mass)
       else
-         factor = 1.0_wp/maxval(abs(mode%u(:, :n_points(model))))
+         factor = 1.0_wp/maxval(abs(mode%u(:, :n_points(model%mesh))))
       end if
       mode%u = factor*mode%u
       mode%mass = factor**2*mode%mass
@@ -280,7 +280,7 @@ contains
       real(wp) :: movement(3), lost, factor
       integer  :: i
 
-      factor = plan%amplitude/sqrt(maxval(sum(mode%u(:, :n_points(model))**2, dim=1)))
+      factor = plan%amplitude/sqrt(maxval(sum(mode%u(:, :n_points(model%mesh))**2, dim=1)))
       lost = 0.0_wp
       do i = 1, size(model%joints%element)
          associate (state => analysis%states(i), law => model%joints%list(model%joints%element(i)%joint)%law)
@@ -326,9 +326,9 @@ contains
 
       d = model%mesh%dimension
       f = 0.0_wp
-      call find_bodies(model, body, n_bodies)
+      call find_bodies(model%mesh, body, n_bodies)
       do m = 1, size(energies)
-         allocate (energies(m)%body(n_bodies), energies(m)%bar(n_bars(model)), energies(m)%normal(size(model%joints%list)), &
+         allocate (energies(m)%body(n_bodies), energies(m)%bar(n_bars(model%mesh)), energies(m)%normal(size(model%joints%list)), &
                    energies(m)%shear(size(model%joints%list)), source=0.0_wp)
       end do
       do e = 1, model%mesh%n_elements
@@ -346,7 +346,7 @@ contains
          end do
       end do
       do m = 1, size(energies)
-         do i = 1, n_bars(model)
+         do i = 1, n_bars(model%mesh)
             if (.not. structure%is_elastic(i)) cycle
             associate (bar => model%mesh%bars(i))
                tension = bar%stiffness*bar_elongation(bar, u(:, bar_nodes(bar), m))

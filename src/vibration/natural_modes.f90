@@ -59,8 +59,8 @@ contains
       logical :: free(model%mesh%dimension)
       integer :: i
 
-      do i = 1, model%mesh%n_nodes - n_sections(model)
-         free = supported(model, i)
+      do i = 1, model%mesh%n_nodes - n_sections(model%mesh)
+         free = supported(model%mesh, model%freedoms, i)
          if (model%mesh%axisymmetric) free(1) = free(1) .and. abs(model%mesh%x(1, i)) > 0.0_wp
          model%freedoms%held(:, i) = model%freedoms%held(:, i) .and. .not. free
       end do
@@ -83,8 +83,9 @@ contains
             model%joints%element(i)%area, &
                                                    analysis%states(i), on_loading)
       end do
-      structure%is_elastic = [(model%mesh%bars(i)%bolt == 0 .or. model%mesh%bars(i)%stage <= analysis%stage, i = 1, n_bars(model))]
-      structure%is_locked = [(model%mesh%sections(i)%stage <= analysis%stage, i = 1, n_sections(model))]
+      structure%is_elastic = [(model%mesh%bars(i)%bolt == 0 .or. model%mesh%bars(i)%stage <= analysis%stage, i = 1, &
+         n_bars(model%mesh))]
+      structure%is_locked = [(model%mesh%sections(i)%stage <= analysis%stage, i = 1, n_sections(model%mesh))]
       call form_mass(model, structure%mass)
       call start_equations(model, structure%started, failure, &
                            merge(solver_skyline, solver_tree, system%description%name == 'SKYLINE'), factorisations=1, shift=0.0_wp)
@@ -105,7 +106,7 @@ contains
       system%shift = shift
       call form_body_stiffness(model, system, failure)
       if (failure%raised) return
-      do i = 1, n_bars(model)
+      do i = 1, n_bars(model%mesh)
          if (model%mesh%bars(i)%bolt > 0 .and. structure%is_elastic(i)) call add_bar(model, i, system)
       end do
       call hold_bolts(model, structure, system)
@@ -119,7 +120,7 @@ contains
       class(equation_system), intent(inout) :: system
       integer :: i
 
-      do i = 1, n_sections(model)
+      do i = 1, n_sections(model%mesh)
          if (structure%is_locked(i)) call lock_unknown(model%mesh%sections(i)%node, 1, system)
       end do
    end subroutine hold_bolts
@@ -319,7 +320,7 @@ contains
       end if
 
       ! the square of the frequency of a wave through the structure: E/rho over its size^2
-      associate (x => model%mesh%x(:, :n_points(model)))
+      associate (x => model%mesh%x(:, :n_points(model%mesh)))
          extent = norm2(maxval(x, dim=2) - minval(x, dim=2))
       end associate
       scale = 0.0_wp
@@ -369,7 +370,7 @@ contains
       largest = 0.0_wp
       do i = 1, system%n
          associate (node => system%node(i))
-            if (node_kind(model, node) /= a_point) cycle
+            if (node_kind(model%mesh, node) /= a_point) cycle
             do k = structure%mass%first(node), structure%mass%first(node + 1) - 1
                if (structure%mass%column(k) /= node .or. .not. structure%mass%value(k) > 0.0_wp) cycle
                largest = max(largest, system%diagonal(i)/structure%mass%value(k))

@@ -34,14 +34,15 @@ contains
       allocate (k(model%mesh%dimension*model%mesh%n_nodes, model%mesh%dimension*model%mesh%n_nodes), source=0.0_wp)
       do e = 1, model%mesh%n_elements
          call coupled_stiffness(model, e, k_e)
-         call add(rows_of(model, corners_of(model, e)), k_e)
+         call add(rows_of(model, corners_of(model%mesh, e)), k_e)
       end do
-      do i = 1, n_bars(model)
+      do i = 1, n_bars(model%mesh)
          if (model%mesh%bars(i)%bolt > 0) cycle
          associate (d => model%mesh%dimension, bar => model%mesh%bars(i))
             end_directions(:d) = bar%direction(:d, 1)
             end_directions(d + 1:) = -bar%direction(:d, 2)
-            call add(rows_of(model, bar%nodes), bar%stiffness*matmul(reshape(end_directions, [2*d, 1]), reshape(end_directions, [1, 2*d])))
+            call add(rows_of(model, bar%nodes), bar%stiffness*matmul(reshape(end_directions, [2*d, 1]), reshape(end_directions, &
+               [1, 2*d])))
          end associate
       end do
 
@@ -69,8 +70,8 @@ contains
 
       allocate (m(model%mesh%dimension*model%mesh%n_nodes, model%mesh%dimension*model%mesh%n_nodes), source=0.0_wp)
       do e = 1, model%mesh%n_elements
-         associate (corners => corners_of(model, e))
-            call shape_products(law_of(model, e), model%mesh%x(:model%mesh%dimension, corners), m_e)
+         associate (corners => corners_of(model%mesh, e))
+            call shape_products(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, corners), m_e)
             associate (n => size(corners))
                m_e(:n, :n) = model%mesh%properties(model%mesh%element_property(e))%rho*m_e(:n, :n)
                if (model%mesh%lumped) call lump(m_e(:n, :n))
@@ -78,7 +79,7 @@ contains
             call add(corners, m_e)
          end associate
       end do
-      do i = 1, n_bars(model)
+      do i = 1, n_bars(model%mesh)
          m_e(:2, :2) = reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])*model%mesh%bars(i)%mass/6.0_wp
          if (model%mesh%lumped) m_e(:2, :2) = reshape([3.0_wp, 0.0_wp, 0.0_wp, 3.0_wp], [2, 2])*model%mesh%bars(i)%mass/6.0_wp
          if (model%mesh%bars(i)%mass > 0.0_wp) call add(model%mesh%bars(i)%nodes, m_e)

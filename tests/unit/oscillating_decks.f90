@@ -35,7 +35,8 @@ contains
          here = integer_text(i)
          if (i > 1) before = integer_text(1000 + i)//',4.,'//integer_text(i - 1)//',1,'//here//',1'
          if (i == 1) before = '1001,4.,1,1'
-         lines = lines//'GRID,'//here//',,'//here//'.,0.,0.,,2;CELAS2,'//before//';CONM2,'//integer_text(2000 + i)//','//here//',,.25;'
+         lines = lines//'GRID,'//here//',,'//here//'.,0.,0.,,2;CELAS2,'//before//';CONM2,'//integer_text(2000 + i)//','//here// &
+            ',,.25;'
       end do
       lines = lines//'FORCE,10,'//here//',,1.,1.;ENDDATA'
    end function chain_deck
