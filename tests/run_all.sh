@@ -69,6 +69,7 @@ everything_so_far
 part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
 part 'modules use what stands to the left' tests/source/folders.sh src/README.md src
 part 'Fortran that every compiler takes' tests/source/compilers.sh src tests
+part 'components in the restart file' tests/source/components.sh src
 part 'the tour of the source' tests/source/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 part 'the tools of make mutants and make coverage' tests/source/selftest.sh

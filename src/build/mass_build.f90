@@ -89,7 +89,7 @@ contains
       do i = 1, size(deck%bulk%mass)
          associate (card => deck%bulk%mass(i), node => mesh%node_table%find(deck%bulk%mass(i)%node))
             if (node == 0) cycle
-            if (.not. freedoms%used(node)) call deck%field_error(card%line, trim(merge('G1', 'G ', card%component > 0)), 'node '// &
+            if (.not. freedoms%used(node)) call deck%field_error(card%line, one_of(card%component > 0, 'G1', 'G'), 'node '// &
                                                                  integer_text(card%node)//' belongs to no element')
          end associate
       end do
