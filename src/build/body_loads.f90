@@ -215,8 +215,7 @@ contains
          end associate
       end do
       do k = 1, size(mesh%masses)
-         associate (point => mesh%masses(k), acceleration => acceleration_at(field, mesh%x(:, &
-            mesh%masses(k)%node)))
+         associate (point => mesh%masses(k), acceleration => acceleration_at(field, mesh%x(:, mesh%masses(k)%node)))
             force(:, point%node) = force(:, point%node) + point%mass*acceleration + matmul(point%directed, acceleration)
          end associate
       end do
@@ -293,8 +292,7 @@ contains
       associate (place => mesh%structural%place(e), d => mesh%dimension)
          if (.not. allocated(loads%beam)) allocate (loads%beam(12, size(mesh%structural%beams)), source=0.0_wp)
          loads%beam(:, place) = loads%beam(:, place) + f
-         call onto_own(mesh, e, beam_nodal_forces(mesh%structural%beams(place), mesh%x(:, corners_of(mesh, e)), &
-            f), nodal)
+         call onto_own(mesh, e, beam_nodal_forces(mesh%structural%beams(place), mesh%x(:, corners_of(mesh, e)), f), nodal)
          associate (nodes => own_nodes(mesh, e))
             force(:d, nodes) = force(:d, nodes) + nodal
          end associate

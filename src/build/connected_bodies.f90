@@ -33,7 +33,7 @@ contains
       end do
    end subroutine find_bodies
 
-   !> Number the connected parts in MODEL.
+   !> Number the connected parts in the model.
    pure subroutine find_parts(mesh, freedoms, with_bolts)
       type(mesh_type), intent(in) :: mesh
       type(freedoms_type), intent(inout) :: freedoms
@@ -61,8 +61,7 @@ contains
       call join_elements(mesh, with_bolts, parent)
       do k = 1, n_bars(mesh)
          if (mesh%bars(k)%nodes(2) == 0) cycle ! the ground
-         if (with_bolts .or. mesh%bars(k)%bolt == 0) call join(parent, mesh%bars(k)%nodes(1), &
-            mesh%bars(k)%nodes(2))
+         if (with_bolts .or. mesh%bars(k)%bolt == 0) call join(parent, mesh%bars(k)%nodes(1), mesh%bars(k)%nodes(2))
       end do
       call join_coupled(mesh, freedoms, parent)
       allocate (part(mesh%n_nodes), source=0)

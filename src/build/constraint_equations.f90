@@ -107,8 +107,7 @@ contains
             else
                of(item%d, item%node) = i
                if (freedoms%held(item%d, item%node)) words = ' is supported by '//support_name(deck, freedoms, item%node, &
-                  item%d)// &
-                                                          ' too; a component is either dependent or supported'
+                  item%d)//' too; a component is either dependent or supported'
             end if
             if (words /= '') call name_once(i, component_text(mesh, item%node, item%d)//words)
          end associate

@@ -80,8 +80,7 @@ contains
                associate (other => frames(owners(i)))
                   if (dot_product(other%axes(:, 3), face_normal) < smooth) cycle
                   normal = normal + weight_at(mesh, surface, owners(i), at)*other%axes(:, 3)
-                  if (dot_product(other%centre - mesh%x(:, at), along) < -level_tangent*norm2(other%centre - &
-                     mesh%x(:, at))) &
+                  if (dot_product(other%centre - mesh%x(:, at), along) < -level_tangent*norm2(other%centre - mesh%x(:, at))) &
                      goes_on = .true.
                end associate
             end do

@@ -68,8 +68,7 @@ contains
             grounded = .false.
             grounded(root_of(group, base)) = .true.
             do k = 1, freedoms%n_parts
-               if (any(held(:, k) .and. abs(joint%normal(:mesh%dimension)) > zero_cosine)) grounded(root_of(group, k)) = &
-                  .true.
+               if (any(held(:, k) .and. abs(joint%normal(:mesh%dimension)) > zero_cosine)) grounded(root_of(group, k)) = .true.
             end do
             do i = 1, n_points(mesh) ! coupled nodes: held in a direction that is not perpendicular to the normal
                associate (parts => coupling_parts(freedoms, i))
@@ -157,8 +156,7 @@ contains
          node = loads%node(i)
          if (node_kind(mesh, node) == an_overlap) then ! the pair of forces of a pretension section
             associate (section => mesh%sections(place_in_kind(mesh, node)))
-               if (joint%carries(freedoms%part(node))) resultant = resultant + normal_part(loads%force(1, &
-                  i)*section%direction)
+               if (joint%carries(freedoms%part(node))) resultant = resultant + normal_part(loads%force(1, i)*section%direction)
                if (joint%carries(freedoms%part(section%point))) &
                   resultant = resultant - normal_part(loads%force(1, i)*section%direction)
             end associate

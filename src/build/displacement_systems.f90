@@ -150,7 +150,7 @@ contains
       axes = systems(system)%axes
    end subroutine rectangular_axes
 
-   !> Couple the nodes of MODEL that have a CD, and their duplicates, to unknowns along its directions; in space the rotations
+   !> Couple the nodes of the model that have a CD, and their duplicates, to unknowns along its directions; in space the rotations
    !! of these nodes too are about these directions. Errors: no such system; a node on the axis of a cylindrical or spherical one;
    !! directions out of the plane of a plane model.
    subroutine find_node_systems(deck, mesh)

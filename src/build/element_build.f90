@@ -117,8 +117,7 @@ contains
          e = size(bodies) + i
          associate (edge => deck%bulk%edge(beams(i)))
             call find_nodes(deck, edge%line, edge%nodes(:2), mesh, nodes(:2, e))
-            property(e) = findloc(mesh%properties%id == edge%property .and. mesh%properties%state == beam, .true., &
-               dim=1)
+            property(e) = findloc(mesh%properties%id == edge%property .and. mesh%properties%state == beam, .true., dim=1)
          end associate
       end do
       call sorted_order(mesh%element_id, order)

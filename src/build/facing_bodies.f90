@@ -266,7 +266,7 @@ contains
       if (.not. lies_over) distance = huge(1.0_wp)
    end function distance_over
 
-   !> Text that lists the unsupported bodies of MODEL; '' where elements, bars, rigid elements and joints (open or closed) connect
+   !> Text that lists the unsupported bodies; '' where elements, bars, rigid elements and joints (open or closed) connect
    !! every body to a support, a rigid base or a grounded spring.
    function loose_words(mesh, joints, freedoms) result(words)
       type(mesh_type), intent(in) :: mesh

@@ -19,7 +19,7 @@ module free_structure
 
 contains
 
-   !> Support the structure of MODEL if it has no supports and some stage has MODES(FREE): all components of a node with rotations,
+   !> Support the structure if it has no supports and some stage has MODES(FREE): all components of a node with rotations,
    !! else 3, 2 and 1 components of three distant nodes of the largest body. Dependent nodes and nodes with CD are skipped.
    subroutine hold_free_structure(deck, mesh, joints, freedoms)
       type(checked_deck), intent(in)  :: deck

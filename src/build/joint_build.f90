@@ -122,7 +122,7 @@ contains
       end do
    end subroutine find_modulus
 
-   !> Build the joints and interface elements of MODEL. CJOINT cards with the same PJOINT form one joint.
+   !> Build the joints and interface elements of the model. CJOINT cards with the same PJOINT form one joint.
    subroutine build_joints(deck, mesh, joints)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(in) :: mesh
@@ -162,8 +162,7 @@ contains
       end associate
       joints%element = joints%element(:n)
       do j = 1, size(joints%list)
-         associate (joint => joints%list(j), &
-            elements => joints%element(joints%list(j)%first:joints%list(j)%last))
+         associate (joint => joints%list(j), elements => joints%element(joints%list(j)%first:joints%list(j)%last))
             joint%area = 0.0_wp
             joint%normal = 0.0_wp
             do i = 1, size(elements)
@@ -231,8 +230,7 @@ contains
          if (surface(1) == 0 .or. (surface(2) == 0 .and. card%sides(2) /= 0)) return
          if (any(mesh%surfaces(pack(surface, surface > 0))%n == 0)) return
          shared = .false. ! whether bodies lie on both sides of any part of a surface
-         if (surface(2) > 0) shared = [(any(mesh%surfaces(surface(k))%other(:mesh%surfaces(surface(k))%n) > 0), k = &
-            1, 2)]
+         if (surface(2) > 0) shared = [(any(mesh%surfaces(surface(k))%other(:mesh%surfaces(surface(k))%n) > 0), k = 1, 2)]
          if (shared(2)) then
             call deck%field_error(card%line, 'SIDE2', 'bodies lie on both sides of surface '//integer_text(card%sides(2)))
          else if (shared(1)) then

@@ -209,7 +209,7 @@ contains
       cross = a(1)*b(2) - a(2)*b(1)
    end function cross
 
-   !> Give the interface elements of MODEL their gaps.
+   !> Give the interface elements of the model their gaps.
    subroutine build_gaps(deck, mesh, joints)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(in) :: mesh

@@ -23,7 +23,7 @@ module joint_sides
 contains
 
    !> The elements between two sides: pairs if every node has a partner that faces it along the normal and the card does not request
-   !! a projection; the coverage of projected sides is stored in joint J of MODEL. FIT = NO makes pairs whose nodes stand aside, too.
+   !! a projection; the coverage of projected sides is stored in joint J. FIT = NO makes pairs whose nodes stand aside, too.
    !! SURFACE(2) = 0: the elements between a surface and its duplicate, if the surface was split, or a rigid base.
    subroutine join_sides(deck, j, mesh, joints, surface, elements)
       type(checked_deck), intent(in)                       :: deck

@@ -123,10 +123,8 @@ contains
       if (.not. allocated(freedoms%left_out)) return
       parts = coupling_parts(freedoms, node)
       do d = 1, mesh%dimension
-         if (.not. freedoms%left_out(d, node) .or. abs(dot_product(axes(:, d), force)) <= &
-            zero_component_along*norm2(force)) cycle
-         if (any([(abs(matmul(axes(:mesh%dimension, d), freedoms%coupling%t(:, :, k))) > 0.0_wp, k = parts(1), &
-            parts(2))])) cycle
+         if (.not. freedoms%left_out(d, node) .or. abs(dot_product(axes(:, d), force)) <= zero_component_along*norm2(force)) cycle
+         if (any([(abs(matmul(axes(:mesh%dimension, d), freedoms%coupling%t(:, :, k))) > 0.0_wp, k = parts(1), parts(2))])) cycle
          digit = d
          if (card%is_moment) digit = findloc([(rotation_component(mesh, digit), digit = 1, 6)], d, dim=1)
          call deck%field_error(card%line, 'G', 'component '//integer_text(digit)//' of node '//integer_text(card%node)// &

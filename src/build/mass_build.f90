@@ -14,8 +14,8 @@ module mass_build
 
 contains
 
-   !> Fill the nodal masses of MODEL, times PARAM WTMASS, and set lumped or consistent element masses. A CONM2 with an offset has its mass at a node of its own, at the offset, and its inertia about its
-   !! centre of mass.
+   !> Fill the nodal masses of the model, times PARAM WTMASS, and set lumped or consistent element masses. A CONM2 with an offset has
+   !! its mass at a node of its own, at the offset, and its inertia about its centre of mass.
    subroutine build_masses(deck, mesh)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(inout) :: mesh
@@ -126,8 +126,7 @@ contains
       line = deck%control%stages(i)%vibration%modes%line
       allocate (has_mass(freedoms%n_parts), source=.false.)
       do e = 1, mesh%n_elements
-         if (mesh%properties(mesh%element_property(e))%rho > 0.0_wp) &
-            has_mass(freedoms%part(mesh%element_nodes(1, e))) = .true.
+         if (mesh%properties(mesh%element_property(e))%rho > 0.0_wp) has_mass(freedoms%part(mesh%element_nodes(1, e))) = .true.
       end do
       do i = 1, size(mesh%masses)
          associate (mass => mesh%masses(i))

@@ -25,7 +25,7 @@ module mesh_build
 
 contains
 
-   !> Build the mesh of MODEL; SIDES are the marked sides.
+   !> Build the mesh of the model; SIDES are the marked sides.
    subroutine build_mesh(deck, mesh, sides)
       type(checked_deck), intent(inout) :: deck
       type(mesh_type), intent(inout) :: mesh
@@ -61,8 +61,7 @@ contains
       allocate (states(0:size(mesh%properties)), source=0) ! 0: a property in error
       states(1:) = mesh%properties%state
       ring = findloc(states(mesh%element_property), axisymmetric, dim=1)
-      other = findloc(states(mesh%element_property) > 0 .and. states(mesh%element_property) /= axisymmetric, .true., &
-         dim=1)
+      other = findloc(states(mesh%element_property) > 0 .and. states(mesh%element_property) /= axisymmetric, .true., dim=1)
       mesh%axisymmetric = ring > 0
       if (min(ring, other) > 0) call deck%errors%add(mesh%element_line(max(ring, other)), 'element '// &
          integer_text(mesh%element_id(max(ring, other)))//': PAXIS and PSHELL cannot be mixed in one model')
@@ -133,8 +132,7 @@ contains
                end do
             end if
             do k = 1, size(mesh%placed)
-               if (mesh%placed(k)%surface == card%surface &
-                  .and. mesh%placed(k)%node > 0) is_meant(mesh%placed(k)%node) = .true.
+               if (mesh%placed(k)%surface == card%surface .and. mesh%placed(k)%node > 0) is_meant(mesh%placed(k)%node) = .true.
             end do
             if (.not. any(is_meant)) then
                call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%surface)//' has no nodes; '// &

@@ -61,7 +61,7 @@ contains
       call mesh%node_table%build(mesh%node_id)
    end subroutine build_nodes
 
-   !> Append nodes at X to MODEL, numbered from the highest number on, and enter them in the table of numbers. Numbers stop at the
+   !> Append nodes at X, numbered from the highest number on, and enter them in the table of numbers. Numbers stop at the
    !! largest integer.
    subroutine append_nodes(mesh, x)
       type(mesh_type), intent(inout) :: mesh
@@ -80,7 +80,7 @@ contains
       end associate
    end subroutine append_nodes
 
-   !> The highest node number of MODEL, with those of NODEAT.
+   !> The highest node number of the model, with those of NODEAT.
    pure integer function highest_number(mesh)
       type(mesh_type), intent(in) :: mesh
 
@@ -242,8 +242,7 @@ contains
                'bodies that do not share their nodes and a JOINT between them')
          else
             call deck%errors%add(mesh%element_line(last), element//' has node '//integer_text(mesh%node_id(node))// &
-               ' at the middle of '//edge//', which has node '//integer_text(mesh%node_id(node_at(mesh, edges, other)))// &
-                  ' there')
+               ' at the middle of '//edge//', which has node '//integer_text(mesh%node_id(node_at(mesh, edges, other)))//' there')
          end if
       end do
    end subroutine check_orders

@@ -124,8 +124,7 @@ contains
       call faces%build(pack(deck%bulk%element%id, is_face(mesh, deck%bulk%element)))
       do i = 1, size(deck%bulk%pressure)
          associate (card => deck%bulk%pressure(i))
-            call rectangular_axes(deck, mesh%systems, card%line, card%system, 'the pressure on a face has one direction', &
-               axes)
+            call rectangular_axes(deck, mesh%systems, card%line, card%system, 'the pressure on a face has one direction', axes)
             new = pressed_side(card=i, direction=matmul(axes, card%direction/max(norm2(card%direction), tiny(1.0_wp))))
             if (card%kind == of_nodes) then
                if (any(card%corners(:3) == 0)) cycle ! reported already

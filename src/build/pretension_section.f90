@@ -18,7 +18,7 @@ module pretension_section
 
 contains
 
-   !> Build the pretension sections of MODEL and append their nodes.
+   !> Build the pretension sections of the model and append their nodes.
    subroutine build_sections(deck, mesh)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(inout) :: mesh
@@ -70,8 +70,7 @@ contains
       else
          call orient_as_first_side(mesh, s, mesh%sections(k))
          if (mesh%sections(k)%area <= 0.0_wp) return ! a body without property: reported already
-         mesh%sections(k)%strength = &
-            mesh%properties(mesh%element_property(mesh%surfaces(s)%element(1)))%strength
+         mesh%sections(k)%strength = mesh%properties(mesh%element_property(mesh%surfaces(s)%element(1)))%strength
          call surface_nodes(mesh, mesh%surfaces(s), list)
          allocate (centroid, source=matmul(mesh%x(:, list%node), list%area)/sum(list%area))
          ! the surface must be plane, and in an axisymmetric model across the axis
@@ -79,8 +78,7 @@ contains
             fault = 'is not across the axis: in an axisymmetric model a bolt is cut at a plane y = constant'
          else
             extent = maxval([(norm2(mesh%x(:, list%node(i)) - centroid), i = 1, list%n)])
-            i = findloc([(abs(dot_product(mesh%x(:, list%node(i)) - centroid, &
-               mesh%sections(k)%direction)) > in_section*extent, &
+            i = findloc([(abs(dot_product(mesh%x(:, list%node(i)) - centroid, mesh%sections(k)%direction)) > in_section*extent, &
                           i = 1, list%n)], .true., dim=1)
             if (i > 0) fault = 'is not plane: node '//integer_text(mesh%node_id(list%node(i)))//' lies out of its mean plane'
          end if

@@ -24,7 +24,7 @@ module rigid_elements
 
 contains
 
-   !> Couple MODEL by the rigid elements and equations of DECK; supports and displacement systems must be known.
+   !> Couple the model by the rigid elements and equations of DECK; supports and displacement systems must be known.
    !! Errors: missing or split nodes, components that do not exist, and the errors of check_dependences.
    subroutine build_dependents(deck, ties, mesh, freedoms, expansions)
       type(checked_deck), intent(in)  :: deck
@@ -178,7 +178,7 @@ contains
       end do
    end subroutine add_equation
 
-   !> Whether COMPONENTS contain no displacement of MODEL.
+   !> Whether COMPONENTS contain no displacement of the model.
    pure logical function no_displacement(mesh, components)
       type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: components

@@ -124,8 +124,7 @@ contains
                k = k - spread(k(:, c), 2, 3)*spread(k(c, :), 1, 3)/k(c, c)
             end do
             if (.not. any(free)) cycle
-            if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, &
-               mesh%n_nodes), source=.false.)
+            if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, mesh%n_nodes), source=.false.)
             freedoms%left_out(:, node) = freedoms%left_out(:, node) .or. free
             freedoms%held(:, node) = freedoms%held(:, node) .or. free
          end associate

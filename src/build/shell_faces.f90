@@ -64,8 +64,7 @@ contains
       mesh%first_at = [mesh%first_at, spread(0, 1, size(faces))]
       do k = 1, size(faces)
          associate (point => faces(k)%point)
-            mesh%first_at(n + k + 1) = mesh%first_at(n + k) + mesh%first_at(point + 1) - &
-               mesh%first_at(point)
+            mesh%first_at(n + k + 1) = mesh%first_at(n + k) + mesh%first_at(point + 1) - mesh%first_at(point)
          end associate
       end do
       call append_nodes(mesh, mesh%x(:, faces%point) + reshape([(faces(k)%lever, k = 1, size(faces))], [3, size(faces)]))
@@ -180,11 +179,9 @@ contains
 
       if (.not. allocated(mesh%faces)) return
       d = mesh%dimension
-      if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, mesh%n_nodes), &
-         source=.false.)
+      if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, mesh%n_nodes), source=.false.)
       do k = 1, size(mesh%faces)
-         associate (face => mesh%faces(k), &
-            rotation => mesh%rotations(mesh%rotation_of(mesh%faces(k)%point)), &
+         associate (face => mesh%faces(k), rotation => mesh%rotations(mesh%rotation_of(mesh%faces(k)%point)), &
                     lever => mesh%faces(k)%lever)
             if (d == 3) w = by_rotation(lever)/rotation%arm
             if (d == 2) w = sum(third_axis(mesh, face%point))/rotation%arm*reshape([-lever(2), lever(1), 0.0_wp, 0.0_wp], [2, 2])

@@ -30,7 +30,7 @@ contains
       is_bar = edge%kind == edge_crod .and. edge%property > 0 .and. any(deck%bulk%prod%id == edge%property)
    end function is_bar
 
-   !> Fill the bars of MODEL, and assign the BOLT cards of bars, with the stages that tighten them.
+   !> Fill the bars of the model, and assign the BOLT cards of bars, with the stages that tighten them.
    subroutine build_bars(deck, mesh)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(inout) :: mesh
@@ -79,8 +79,7 @@ contains
             if (k == 0 .or. stage == 0) cycle
             if (mesh%bars(k)%bolt > 0) then
                call deck%field_error(card%line, 'EID', name_of_bar(deck, card%element)//' is BOLT '// &
-                  integer_text(mesh%bars(k)%bolt)// &
-                     ' already, and a bolt is tightened in one stage only; expected one BOLT '// &
+                  integer_text(mesh%bars(k)%bolt)//' already, and a bolt is tightened in one stage only; expected one BOLT '// &
                   'for each element, with the stage that tightens it last')
                cycle
             end if
@@ -153,7 +152,7 @@ contains
          'there is no SUBCASE '//integer_text(card%stage))
    end subroutine find_stage
 
-   !> Append the springs to the bars of MODEL.
+   !> Append the springs to the bars of the model.
    subroutine build_springs(deck, mesh)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(inout) :: mesh
@@ -282,8 +281,7 @@ contains
       ok = nodes(1) > 0 .and. (nodes(2) > 0 .or. card%nodes(2) == 0)
       if (.not. ok) return
       if (card%system > 0) then
-         call find_directions(deck, mesh%systems, card%line, card%system, mesh%x(:, nodes(1)), directions, ok, &
-            ['CID', 'GA '])
+         call find_directions(deck, mesh%systems, card%line, card%system, mesh%x(:, nodes(1)), directions, ok, ['CID', 'GA '])
       else if (card%system < 0 .and. nodes(2) > 0) then
          along = mesh%x(:, nodes(2)) - mesh%x(:, nodes(1))
          if (norm2(along) <= 0.0_wp) return

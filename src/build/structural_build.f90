@@ -52,8 +52,7 @@ contains
          associate (card => deck%rigid(i))
             node = mesh%node_table%find(card%node)
             if (node == 0) cycle
-            turns = .not. card%is_mean .or. any([(has_component(card%components, k), k = merge(4, 6, mesh%dimension == 3), &
-               6)])
+            turns = .not. card%is_mean .or. any([(has_component(card%components, k), k = merge(4, 6, mesh%dimension == 3), 6)])
             if (.not. turns .or. mesh%rotation_of(node) > 0) cycle
             n = n + 1
             rotations(n) = rotation_type(point=node, arm=arm_of(mesh, node, card))
@@ -80,8 +79,7 @@ contains
          associate (nodes => corners_of(mesh, e))
             if (any(nodes == 0)) cycle ! reported already
             do i = 1, size(nodes)
-               square(nodes(i)) = square(nodes(i)) + sum((mesh%x(:, nodes) - spread(mesh%x(:, nodes(i)), 2, &
-                  size(nodes)))**2)
+               square(nodes(i)) = square(nodes(i)) + sum((mesh%x(:, nodes) - spread(mesh%x(:, nodes(i)), 2, size(nodes)))**2)
                count_of(nodes(i)) = count_of(nodes(i)) + size(nodes) - 1
             end do
          end associate
@@ -132,8 +130,7 @@ contains
       if (mesh%dimension == 3) return
       do k = 1, n_rotations(mesh)
          if (.not. mesh%rotations(k)%of_element) cycle
-         if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, &
-            mesh%n_nodes), source=.false.)
+         if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, mesh%n_nodes), source=.false.)
          freedoms%left_out(2, mesh%rotations(k)%node) = .true.
          freedoms%held(2, mesh%rotations(k)%node) = .true.
       end do
@@ -158,7 +155,7 @@ contains
       if (arm <= 0.0_wp) arm = 1.0_wp
    end function arm_of
 
-   !> Build the shells of MODEL, and set the positions of its beams.
+   !> Build the shells of the model, and set the positions of its beams.
    subroutine build_shells(deck, mesh)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(inout) :: mesh
@@ -168,8 +165,7 @@ contains
 
       do i = 1, size(deck%bulk%plate)
          associate (card => deck%bulk%element(deck%bulk%plate(i)%element))
-            if (all(mesh%properties%id /= card%property .or. mesh%properties%state /= &
-               shell)) call deck%field_error(card%line, &
+            if (all(mesh%properties%id /= card%property .or. mesh%properties%state /= shell)) call deck%field_error(card%line, &
                'ZOFFS', 'this and thicknesses at corners are for shells in a model of space; expected blanks')
          end associate
       end do
@@ -236,8 +232,7 @@ contains
          integer, intent(in) :: e, a, b
          real(wp) :: inward(3)
 
-         associate (along => mesh%x(:, b) - mesh%x(:, a), centre => sum(mesh%x(:, mesh%element_nodes(:3, &
-            e)), dim=2)/3.0_wp)
+         associate (along => mesh%x(:, b) - mesh%x(:, a), centre => sum(mesh%x(:, mesh%element_nodes(:3, e)), dim=2)/3.0_wp)
             inward = centre - mesh%x(:, a)
             inward = inward - dot_product(inward, along)/max(dot_product(along, along), tiny(1.0_wp))*along
             inward = inward/max(norm2(inward), tiny(1.0_wp))
@@ -246,7 +241,7 @@ contains
 
    end subroutine bow_edges
 
-   !> Build the beams of MODEL; displacement systems must be known. Errors: a beam without length, or without plane 1.
+   !> Build the beams of the model; displacement systems must be known. Errors: a beam without length, or without plane 1.
    subroutine build_beams(deck, mesh)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(inout) :: mesh

@@ -78,7 +78,7 @@ contains
       end do
    end subroutine build_surfaces
 
-   !> The SURFACE of MODEL with this ID, in FIELD of the card on LINE; 0, and an error, for a missing surface.
+   !> The SURFACE of the model with this ID, in FIELD of the card on LINE; 0, and an error, for a missing surface.
    subroutine find_surface(deck, line, field, id, mesh, surface)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line, id

@@ -236,8 +236,7 @@ contains
          mesh%surfaces(s)%was_split = .true.
       end do
       if (n_duplicates == 0) return
-      if (mesh%node_id(mesh%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, &
-         'the doubled nodes of split surfaces '// &
+      if (mesh%node_id(mesh%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, 'the doubled nodes of split surfaces '// &
          'get numbers above node '//integer_text(mesh%node_id(mesh%n_nodes))// &
          ', and their numbers would exceed 2147483647')
       split = pack([(k, k = 1, mesh%n_nodes)], mesh%duplicate > 0)

@@ -19,7 +19,7 @@ module temperature_build
 
 contains
 
-   !> The nodal temperatures of every stage that names a set of TEMP and TEMPD cards, in its load of MODEL; EXPANSIONS of rigid
+   !> The nodal temperatures of every stage that names a set of TEMP and TEMPD cards, in its load of the model; EXPANSIONS of rigid
    !! elements as movements of held components.
    subroutine build_temperatures(deck, expansions, mesh, freedoms, history)
       type(checked_deck), intent(in)  :: deck

@@ -45,7 +45,7 @@ module unit_watch
 
 contains
 
-   !> Add to the warnings of MODEL what contradicts UNITS of DECK, or all usual systems: the first MAT1 whose wave speed, or whose E
+   !> Warn of what contradicts UNITS of DECK, or all usual systems: the first MAT1 whose wave speed, or whose E
    !! where it has no RHO, is not that of a solid; the first JNORM whose faces approach too far; the first GRAV that is not gravity.
    subroutine watch_units(deck, joints, errors)
       type(deck_type), intent(in)          :: deck

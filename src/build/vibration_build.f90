@@ -158,8 +158,7 @@ contains
             if (allocated(given%watch)) then
                plan%has_watched_nodes = .true.
                call find_limited_nodes(deck, mesh, 'WATCH', given%watch, are_named)
-               stage%watched = pack([(i, i = 1, mesh%n_nodes)], are_named .and. freedoms%used &
-                  .and. mesh%node_id > 0)
+               stage%watched = pack([(i, i = 1, mesh%n_nodes)], are_named .and. freedoms%used .and. mesh%node_id > 0)
                if (size(stage%watched) == 0) call deck%errors%add(given%watch(1)%line, 'WATCH: names no node of an element')
             end if
             if (.not. allocated(given%only)) cycle
@@ -174,7 +173,7 @@ contains
       end do
    end subroutine find_shown_nodes
 
-   !> The nodes of MODEL that entry KEY of case control names by its LIMITS. Errors: missing sets and surfaces.
+   !> The nodes of the model that entry KEY of case control names by its LIMITS. Errors: missing sets and surfaces.
    subroutine find_limited_nodes(deck, mesh, key, limits, are_named)
       type(checked_deck), intent(in)    :: deck
       type(mesh_type), intent(in) :: mesh

@@ -73,8 +73,7 @@ contains
       integer, intent(in)             :: i
 
       elongation = bar_elongation(model%mesh%bars(i), displacements_at(model, bar_nodes(model%mesh%bars(i)), &
-         analysis%retained_index, &
-                                                                 analysis%u))
+         analysis%retained_index, analysis%u))
    end function elongation_now
 
    !> Present overlap g at the pretension section of solid bolt I [length].

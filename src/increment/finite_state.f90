@@ -48,8 +48,7 @@ contains
             at = findloc(is_measure(values), .false., dim=1)
             if (at > 0) call check('the '//trim(nouns(count(at > last_of) + 1))//' of interface element '// &
                                    integer_text(model%joints%element(i)%id)//' at node '//integer_text(joint_node_id(model, i, &
-                                      1)), &
-                                   values(at:at))
+                                      1)), values(at:at))
          end associate
       end do
       do i = 1, size(model%joints%list)

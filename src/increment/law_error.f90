@@ -36,8 +36,7 @@ contains
       if (.not. allocated(analysis%exact)) return
       do i = 1, size(model%joints%element)
          call follow_element(model%joints%list(model%joints%element(i)%joint)%law, model%joints%element(i)%area, &
-            analysis%exact(i), &
-                             analysis%movement(:, i), after, tangent)
+            analysis%exact(i), analysis%movement(:, i), after, tangent)
          call rest_when_open(after, analysis%movement(:, i))
          analysis%exact(i) = after
       end do

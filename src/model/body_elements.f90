@@ -93,8 +93,7 @@ contains
          end associate
       else
          call centre_stress(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, corners_of(model%mesh, e)), &
-            corner_displacements(model, e, u), &
-                            stress, element_rise(model, e, temperature))
+            corner_displacements(model, e, u), stress, element_rise(model, e, temperature))
       end if
    end function element_stress
 
@@ -107,9 +106,7 @@ contains
       real(wp), intent(inout)            :: stress(:, :) !! (components, nodes) [pressure], set here
 
       call nodal_stress(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, corners_of(model%mesh, e)), &
-         corner_displacements(model, &
-         e, u), &
-                        stress, element_rise(model, e, temperature))
+         corner_displacements(model, e, u), stress, element_rise(model, e, temperature))
    end subroutine element_nodal_stress
 
    !> Nodal stresses with the components of whole_stress: the mean over the elements at a node; 0 at a node without elements.

@@ -384,8 +384,7 @@ contains
       integer, intent(in)          :: e
 
       is_shell = .false.
-      if (allocated(mesh%structural%place)) is_shell = mesh%structural%place(e) > 0 &
-         .and. mesh%element_kind(e) /= kind_edge2
+      if (allocated(mesh%structural%place)) is_shell = mesh%structural%place(e) > 0 .and. mesh%element_kind(e) /= kind_edge2
    end function is_shell
 
    !> Whether NODE is a face node of shells.

@@ -24,7 +24,7 @@ module node_coupling
 
 contains
 
-   !> The first and the last part of NODE in the coupling of MODEL; the last is < 0 where the node is not coupled.
+   !> The first and the last part of NODE in the coupling of the model; the last is < 0 where the node is not coupled.
    pure function coupling_parts(freedoms, node) result(parts)
       type(freedoms_type), intent(in) :: freedoms
       integer, intent(in)          :: node

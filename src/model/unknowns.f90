@@ -125,7 +125,7 @@ contains
       end select
    end function motions_of
 
-   !> The position of POINT in the rotations of MODEL; 0: it has none.
+   !> The position of POINT in the rotations of the model; 0: it has none.
    pure integer function rotation_at(mesh, point) result(rotation)
       type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: point
@@ -158,8 +158,7 @@ contains
       end if
       rotation = rotation_at(mesh, point)
       if (rotation == 0 .or. rotation_component(mesh, digit) == 0) return
-      place = component_place(mesh%rotations(rotation)%node, rotation_component(mesh, digit), &
-         mesh%rotations(rotation)%arm)
+      place = component_place(mesh%rotations(rotation)%node, rotation_component(mesh, digit), mesh%rotations(rotation)%arm)
       ! the z axis of the node may point along -z
       if (mesh%dimension == 2) place%scale = place%scale*sum(third_axis(mesh, point))
    end function place_of_component
@@ -183,8 +182,7 @@ contains
 
       axes = identity
       if (.not. allocated(mesh%node_system)) return
-      if (mesh%node_system(node) > 0) call directions_at(mesh%systems(mesh%node_system(node)), mesh%x(:, &
-         node), axes, ok)
+      if (mesh%node_system(node) > 0) call directions_at(mesh%systems(mesh%node_system(node)), mesh%x(:, node), axes, ok)
    end function node_axes
 
 end module unknowns

@@ -262,8 +262,7 @@ contains
       end do
       ! support moments, where any rotation is supported
       list = pack([(i, i = 1, n_rotations(model%mesh))], [(any(supported(model%mesh, model%freedoms, &
-         model%mesh%rotations(i)%node)), i = 1, &
-         n_rotations(model%mesh))])
+         model%mesh%rotations(i)%node)), i = 1, n_rotations(model%mesh))])
       if (size(list) == 0) return
       m = merge(3, 1, model%mesh%dimension == 3)
       associate (rotations => model%mesh%rotations(list))

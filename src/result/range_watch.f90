@@ -190,8 +190,7 @@ contains
 
       words = ''
       if (model%mesh%n_elements > 0 .and. all(model%mesh%element_kind == kind_tetra4)) words = &
-         'all bodies are of linear tetrahedra, on '// &
-         'usual meshes 10 to 35 % too stiff in bending: mesh with second order'
+         'all bodies are of linear tetrahedra, on '//'usual meshes 10 to 35 % too stiff in bending: mesh with second order'
    end function tetra_words
 
    !> Number the shear laws by the first direction of a joint with that law, and note those with a wide gap.
@@ -320,8 +319,7 @@ contains
             if (law == 0) cycle
             if (watch%soft_unloading(law)) cycle
             associate (curves => model%joints%list(model%joints%element(i)%joint)%law%shear(k), &
-               state => analysis%states(i)%shear(k), &
-                       p => max(0.0_wp, analysis%states(i)%normal%pressure))
+               state => analysis%states(i)%shear(k), p => max(0.0_wp, analysis%states(i)%normal%pressure))
                if (state%branch /= branch_unload .or. cubic_slope(curves%unload, state%d_r, p) >= &
                    (1.0_wp - equal_slopes)*cubic_slope(curves%load, state%d_r, p)) cycle
                watch%soft_unloading(law) = .true.
@@ -342,8 +340,7 @@ contains
                call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(place)//': E_U = '//real_text(law%e_u)//' OF JOINT '// &
                   integer_text(model%joints%list(j)%id)//' IS BELOW THE LOADING SLOPE '//real_text(slope)//' AT P = '// &
-                     real_text(p)// &
-                  one_of(p/law%e_u > loading_deflection(law, max(p, 0.0_wp)), ': NEGATIVE SET', ''))
+                     real_text(p)//one_of(p/law%e_u > loading_deflection(law, max(p, 0.0_wp)), ': NEGATIVE SET', ''))
             end associate
          end associate
       end do

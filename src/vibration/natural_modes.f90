@@ -80,8 +80,7 @@ contains
       allocate (structure%k(3, size(model%joints%element)))
       do i = 1, size(model%joints%element)
          structure%k(:, i) = oscillation_stiffness(model%joints%list(model%joints%element(i)%joint)%law, &
-            model%joints%element(i)%area, &
-                                                   analysis%states(i), on_loading)
+            model%joints%element(i)%area, analysis%states(i), on_loading)
       end do
       structure%is_elastic = [(model%mesh%bars(i)%bolt == 0 .or. model%mesh%bars(i)%stage <= analysis%stage, i = 1, &
          n_bars(model%mesh))]
