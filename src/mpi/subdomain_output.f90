@@ -59,12 +59,13 @@ contains
          end if
          call pass(r, shown%n_points, shown%is_warm, n_shown, n)
          if (rank /= 0) then
-            allocate (shown%elements(n_shown), part%node_id(part%n_nodes), part%element_id(part%n_elements))
-            call list_owners(part%n_nodes, part%element_nodes, part%first_at, part%elements_at)
-            if (n > 0) allocate (part%element_section(part%n_elements), part%node_section(part%n_nodes), part%sections(n))
+            allocate (shown%elements(n_shown), part%mesh%node_id(part%mesh%n_nodes), part%mesh%element_id(part%mesh%n_elements))
+            call list_owners(part%mesh%n_nodes, part%mesh%element_nodes, part%mesh%first_at, part%mesh%elements_at)
+            if (n > 0) allocate (part%mesh%element_section(part%mesh%n_elements), part%mesh%node_section(part%mesh%n_nodes), &
+               part%mesh%sections(n))
          end if
-         call pass(r, shown%elements, part%node_id, part%element_id)
-         if (n > 0) call pass(r, part%element_section, part%node_section, part%sections)
+         call pass(r, shown%elements, part%mesh%node_id, part%mesh%element_id)
+         if (n > 0) call pass(r, part%mesh%element_section, part%mesh%node_section, part%mesh%sections)
       end associate
    end subroutine pass_piece
 

@@ -277,8 +277,9 @@ measure_mpi() {
 
 # The model $2 by PETSC on $1 processes: its figures, and the steps of its first solution and of all on the average.
 run_processes() {
-   local TIMEFORMAT=$'user %3U\nsystem %3S'
-   { time PETSC_OPTIONS="${PETSC_OPTIONS-} -jointfem_ksp_converged_reason" mpirun -q --oversubscribe -n "$1" "${program}_mpi" \
+   local quiet=-q TIMEFORMAT=$'user %3U\nsystem %3S'
+   mpirun -q --version > /dev/null 2>&1 || quiet= # Open MPI 5 has no such option
+   { time PETSC_OPTIONS="${PETSC_OPTIONS-} -jointfem_ksp_converged_reason" mpirun $quiet --oversubscribe -n "$1" "${program}_mpi" \
       --times -q --threads 1 -o "$work" "$work/$2.bdf" > "$work/said" 2>&1; } 2> "$work/clock" ||
       { cat "$work/said" >&2; fail "$2 on $1 processes failed"; }
    { figures "$work/$2.bdf"; of_listing "$work/$2.out"; cat "$work/clock"

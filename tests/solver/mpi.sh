@@ -34,11 +34,13 @@ folders_of_decks() {
 }
 
 # on_processes N FOLDER DECK...: results into FOLDER; more processes than cores take turns
+export quiet=-q # without the remarks of mpirun; Open MPI 5 has no such option
+mpirun -q --version > /dev/null 2>&1 || quiet=
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 OMPI_MCA_mpi_yield_when_idle=1
 on_processes() {
    local n=$1 folder=$2
    shift 2
-   timeout 900 mpirun -q --oversubscribe -n "$n" "$distributed" -q -o "$folder" "$@" < /dev/null
+   timeout 900 mpirun $quiet --oversubscribe -n "$n" "$distributed" -q -o "$folder" "$@" < /dev/null
 }
 
 # compare_ways ORIGINAL WAY... -- NAME...: $work/decks/SOLVER/NAME.bdf by every WAY, `SOLVER PROCESSES`, all decks in one run of the program;

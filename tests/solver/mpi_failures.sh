@@ -31,7 +31,7 @@ check() {
 # start DECK FIRST: a run on two processes in the background, the numbers of the processes in pid0 and pid1; rank 1 begins with the
 # command FIRST of the shell
 start() {
-   timeout 60 mpirun -q --oversubscribe -n 1 sh -c "echo \$\$ > $work/pid0; exec $distributed -q -o $work $1" : \
+   timeout 60 mpirun $quiet --oversubscribe -n 1 sh -c "echo \$\$ > $work/pid0; exec $distributed -q -o $work $1" : \
       -n 1 sh -c "echo \$\$ > $work/pid1; $2; exec $distributed" > "$work/said" 2>&1 &
    job=$!
 }
@@ -73,7 +73,7 @@ unset OMPI_MCA_btl
 
 # ------------------------------------------------------------------ no memory for one of them
 # How much of the address space rank 1 has when it waits for orders: rank 0 waits for a deck that does not come
-{ sleep 60 & echo $! > "$work/pid2"; wait; } | timeout 60 mpirun -q --oversubscribe -n 1 "$distributed" -q - : \
+{ sleep 60 & echo $! > "$work/pid2"; wait; } | timeout 60 mpirun $quiet --oversubscribe -n 1 "$distributed" -q - : \
    -n 1 sh -c "echo \$\$ > $work/pid1; exec $distributed" > "$work/said" 2>&1 &
 size=0 before=-1
 for ((i = 0; i < 20; i++)); do
