@@ -45,12 +45,12 @@ contains
       real(wp) :: full(3*most_own, 3*most_own) ! between the nodal values of a shell or beam
 
       if (is_beam(model%mesh, e)) then
-         full(:12, :12) = beam_stiffness(model%mesh%structural%beams(model%mesh%structural%place(e)), model%mesh%x(:, &
-            corners_of(model%mesh, e)))
+         full(:12, :12) = beam_stiffness(model%mesh%structural%beams(model%mesh%structural%place(e)), &
+                                         model%mesh%x(:, corners_of(model%mesh, e)))
          call between_own(model, e, full, k)
       else if (is_shell(model%mesh, e)) then
-         call shell_stiffness(model%mesh%structural%shells(model%mesh%structural%place(e)), model%mesh%x(:, corners_of(model%mesh, &
-            e)), full)
+         call shell_stiffness(model%mesh%structural%shells(model%mesh%structural%place(e)), &
+                              model%mesh%x(:, corners_of(model%mesh, e)), full)
          call between_own(model, e, full, k)
       else
          call stiffness(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, corners_of(model%mesh, e)), k)
@@ -122,8 +122,8 @@ contains
       at_node = 0.0_wp
       allocate (n_at(size(at_node, 2)), source=model%mesh%first_at(2:size(at_node, 2) + 1) - model%mesh%first_at(:size(at_node, 2)))
       do e = 1, model%mesh%n_elements ! shells and beams have separate tables
-         if (is_shell(model%mesh, e) .or. is_beam(model%mesh, e)) n_at(corners_of(model%mesh, e)) = n_at(corners_of(model%mesh, &
-            e)) - 1
+         if (is_shell(model%mesh, e) .or. is_beam(model%mesh, e)) &
+            n_at(corners_of(model%mesh, e)) = n_at(corners_of(model%mesh, e)) - 1
       end do
       allocate (shares(max_stresses, size(model%mesh%element_nodes, 1), min(block, model%mesh%n_elements)))
       do first = 1, model%mesh%n_elements, block

@@ -337,8 +337,8 @@ contains
       real(wp), intent(out)              :: total      !! [force time^2/length]
       real(wp), intent(out)              :: centre(3)  !! [length]
       real(wp), intent(out)              :: inertia(6) !! [force time^2 length]
-      real(wp) :: a(model%mesh%dimension, model%mesh%n_nodes), f(model%mesh%dimension, model%mesh%n_nodes), second(3, 3), x(3, &
-         model%mesh%n_nodes)
+      real(wp) :: a(model%mesh%dimension, model%mesh%n_nodes), f(model%mesh%dimension, model%mesh%n_nodes)
+      real(wp) :: second(3, 3), x(3, model%mesh%n_nodes)
       integer  :: c, i
 
       x = 0.0_wp

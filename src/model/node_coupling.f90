@@ -184,8 +184,8 @@ contains
       real(wp) :: u(size(q, 1), size(nodes))
 
       if (is_coupled(model%freedoms, nodes)) then
-         u = reshape(matmul(transformation(model%mesh, model%freedoms, nodes), pack(q(:, place(unknown_nodes(model%freedoms, &
-            nodes))), .true.)), shape(u))
+         u = reshape(matmul(transformation(model%mesh, model%freedoms, nodes), &
+                            pack(q(:, place(unknown_nodes(model%freedoms, nodes))), .true.)), shape(u))
       else
          u = q(:, place(nodes))
       end if

@@ -87,8 +87,9 @@ contains
       real(wp), intent(in)         :: z(:)        !! [length]
       real(wp), intent(out)        :: stress(:, :, :) !! (6, corners + 1, heights) [pressure]
 
-      call shell_stresses(model%mesh%structural%shells(model%mesh%structural%place(e)), model%mesh%x(:, corners_of(model%mesh, &
-         e)), nodal_values(model, e, u), element_rise(model, e, temperature), element_slope(model, e, temperature), z, stress)
+      call shell_stresses(model%mesh%structural%shells(model%mesh%structural%place(e)), &
+                          model%mesh%x(:, corners_of(model%mesh, e)), nodal_values(model, e, u), &
+                          element_rise(model, e, temperature), element_slope(model, e, temperature), z, stress)
    end subroutine structural_stress
 
    !> Elongation of BAR under the displacements U of its bar_nodes [length].
