@@ -61,19 +61,46 @@ contains
       call plan_stages(deck, plan, errors)
       call make_mesh(checked, model%mesh, ties, is_whole)
       if (.not. is_whole) return
-      call make_joints(checked, model%mesh, model%joints)
-      call make_freedoms(checked, model%mesh, model%joints, ties, model%freedoms, expansions)
-      call make_history(checked, model%mesh, model%freedoms, expansions, model%history, oscillating)
-      call find_shown_nodes(checked, model%mesh, model%freedoms, plan)
-      call plan_vibrations(checked, model%mesh, model%freedoms, oscillating, plan)
-      if (.not. any(model%freedoms%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
-      if (errors%any()) return
-      call find_start(checked, plan, model%mesh, model%history, model%joints, model%freedoms)
-      call errors%warn(repeated_words(model%mesh))
-      call errors%warn(crack_words(model%mesh, model%joints, model%freedoms))
-      call watch_units(deck, model%joints, errors)
+      ! a part exists from the block on in which it is made: an exchanged call does not compile
+      associate (mesh => model%mesh)
+         block
+            type(joints_type) :: joints
+            call make_joints(checked, mesh, joints)
+            block
+               type(freedoms_type) :: freedoms
+               call make_freedoms(checked, mesh, joints, ties, freedoms, expansions)
+               block
+                  type(history_type) :: history
+                  call make_history(checked, mesh, freedoms, expansions, history, oscillating)
+                  call find_shown_nodes(checked, mesh, freedoms, plan)
+                  call plan_vibrations(checked, mesh, freedoms, oscillating, plan)
+                  if (.not. any(freedoms%used)) &
+                     call errors%add(0, 'nothing to solve: expected body elements or interface elements')
+                  if (errors%any()) return
+                  call find_start(checked, plan, mesh, history, joints, freedoms)
+                  call errors%warn(repeated_words(mesh))
+                  call errors%warn(crack_words(mesh, joints, freedoms))
+                  call watch_units(deck, joints, errors)
+                  call take_parts(joints, freedoms, history, model)
+               end block
+            end block
+         end block
+      end associate
       if (allocated(errors%warnings)) call move_alloc(errors%warnings, model%warnings)
    end subroutine build_model
+
+   !> Move the parts into MODEL; a copy of the joints would take time.
+   subroutine take_parts(joints, freedoms, history, model)
+      type(joints_type), intent(inout)  :: joints
+      type(freedoms_type), intent(in)   :: freedoms
+      type(history_type), intent(inout) :: history
+      type(model_type), intent(inout)   :: model
+
+      call move_alloc(joints%list, model%joints%list)
+      call move_alloc(joints%element, model%joints%element)
+      call move_alloc(history%stages, model%history%stages)
+      model%freedoms = freedoms
+   end subroutine take_parts
 
    !> Make the MESH: points with duplicates at split surfaces, mid-side and face nodes, elements and their laws, surfaces, bars and springs,
    !! masses, and the nodes of rotations and of pretension sections. TIES belong to the constraint equations. IS_WHOLE is false where an
