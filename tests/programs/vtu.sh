@@ -26,7 +26,7 @@ rm -rf "$work/sample" "$work/full"
 mkdir "$work/sample" "$work/full"
 sample=$work/vtu_sample
 if ${FC:-gfortran} -O2 -std=f2018 -Wall -Wextra -Werror -fno-backtrace -J"$work/object" -o "$sample" \
-   src/base/{kinds,c_library,incomplete_results,text_tools,checksum,restart_stream}.f90 src/result/{output_file,vtu_file}.f90 "$here/vtu_sample.f90"
+   src/base/{kinds,c_library,incomplete_results,tolerances,text_tools,checksum,restart_stream}.f90 src/result/{output_file,vtu_file}.f90 "$here/vtu_sample.f90"
 then pass; else fail 'vtu_sample.f90 does not compile'; finish; fi
 
 "$sample" "$work/sample"
