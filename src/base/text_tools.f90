@@ -260,7 +260,7 @@ contains
       if (allocated(texts)) n = size(texts)
       allocate (longer(n + 1))
       do i = 1, n
-         longer(i)%words = texts(i)%words
+         call move_alloc(texts(i)%words, longer(i)%words)
       end do
       longer(n + 1)%words = words
       call move_alloc(longer, texts)

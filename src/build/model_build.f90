@@ -61,7 +61,7 @@ contains
       call plan_stages(deck, plan, errors)
       call make_mesh(checked, model%mesh, ties, is_whole)
       if (.not. is_whole) return
-      ! a part exists from the block on in which it is made: an exchanged call does not compile
+      ! each part is declared in the block in which it is made, so that calls in another order do not compile
       associate (mesh => model%mesh)
          block
             type(joints_type) :: joints

@@ -9,24 +9,19 @@
 !!    call table%put('R'//axes, reaction)
 !!    call table%print_row(file, csv_file)
 !!
-!! A cell is put by the key of its column: the name in the CSV file, else the heading, unless the column gives another key. A key that
-!! the table lacks, that is put twice, or that a row lacks, ends the program: it is an error of the program that any run of the table
-!! shows. Values of a column without a heading are written only to the CSV file, those of a column without a name only to the
+!! A cell is put by the key of its column: the name in the CSV file, else the heading, unless the column gives another key. The program
+!! ends where a key is unknown, is put twice, or is missing in a row: any run that prints the table shows such an error. Values of a column without a heading are written only to the CSV file, those of a column without a name only to the
 !! listing. A table of a whole stage keeps the values of its rows until they are printed.
 module table_writer
-   use kinds, only: long, wp
+   use kinds, only: wp
    use output_file, only: output_file_type
    use page_lines, only: heading, in_form, page_width
    use restart_stream, only: restart_stream_type
-   use table_cell, only: across, cell_type, empty, in_words, missing, real_number, record_cells, whole
+   use table_cell, only: across, cell_type, empty, in_words, missing, real_number, record_rows, row_type, set_words, whole
    use table_column, only: column_type
    use text_tools, only: clean, csv_line_type, fitted_text, integer_width, short_width, write_integer, write_short
    implicit none
    private
-
-   type :: row_type
-      type(cell_type), allocatable :: cells(:) ! (columns), or one across all columns
-   end type row_type
 
    type, public :: table_type
       private
@@ -42,7 +37,7 @@ module table_writer
       procedure :: is_empty
       procedure :: start
       procedure :: print_head
-      generic   :: put => put_integer, put_real, put_text, put_integers, put_reals, put_texts
+      generic   :: put => put_integer, put_real, put_text, put_integers, put_reals
       procedure :: leave_rest
       procedure :: fault_of_row
       procedure :: print_row
@@ -50,7 +45,7 @@ module table_writer
       procedure :: keep_line
       procedure :: print_kept
       procedure :: record
-      procedure, private :: put_integer, put_real, put_text, put_integers, put_reals, put_texts
+      procedure, private :: put_integer, put_real, put_text, put_integers, put_reals
    end type table_type
 
 contains
@@ -70,7 +65,7 @@ contains
    end function is_empty
 
    !> Begin a table of these COLUMNS; write its head into FILE if present. TITLE is empty where other words precede the headings.
-   !! Rows that are kept stay: they come from a restart file.
+   !! Rows that a restart file has brought stay.
    subroutine start(self, title, columns, file)
       class(table_type), intent(inout)         :: self
       character(*), intent(in)                 :: title
@@ -190,7 +185,7 @@ contains
       integer :: at
 
       call find_cell(self, key, in_words, at, where)
-      self%cells(at)%words = words
+      call set_words(words, self%cells(at))
    end subroutine put_text
 
    subroutine put_integers(self, keys, values, where)
@@ -223,16 +218,6 @@ contains
          call self%put_real(keys(i), values(i), floor, is_there)
       end do
    end subroutine put_reals
-
-   subroutine put_texts(self, keys, words)
-      class(table_type), intent(inout) :: self
-      character(*), intent(in)         :: keys(:), words(:) !! (keys)
-      integer :: i
-
-      do i = 1, size(keys)
-         call self%put_text(keys(i), words(i))
-      end do
-   end subroutine put_texts
 
    !> Leave all other cells of the row empty.
    pure subroutine leave_rest(self)
@@ -318,8 +303,9 @@ contains
       class(table_type), intent(in) :: self
       character(:), allocatable :: fault
 
+      if (all(self%cells%kind /= missing)) return
       fault = self%fault_of_row()
-      if (fault /= '') error stop fault
+      error stop fault
    end subroutine require_all
 
    !> Print the row into FILE, and into the CSV file if open; the next row begins.
@@ -357,7 +343,7 @@ contains
       call make_room(self)
       allocate (self%kept(self%n_kept)%cells(1))
       self%kept(self%n_kept)%cells(1)%kind = across
-      self%kept(self%n_kept)%cells(1)%words = line
+      call set_words(line, self%kept(self%n_kept)%cells(1))
    end subroutine keep_line
 
    !> Make room for one more row.
@@ -367,9 +353,9 @@ contains
       type(row_type), allocatable :: longer(:)
       integer :: i
 
-      if (.not. allocated(self%kept)) allocate (self%kept(first_rows))
+      if (.not. allocated(self%kept)) allocate (self%kept(0))
       if (self%n_kept == size(self%kept)) then
-         allocate (longer(2*self%n_kept))
+         allocate (longer(max(first_rows, 2*self%n_kept)))
          do i = 1, self%n_kept
             call move_alloc(self%kept(i)%cells, longer(i)%cells)
          end do
@@ -397,34 +383,12 @@ contains
    subroutine record(self, stream)
       class(table_type), intent(inout)         :: self
       type(restart_stream_type), intent(inout) :: stream
-      type(cell_type), allocatable :: all_cells(:)
-      integer, allocatable :: counts(:) ! cells of each row
-      integer :: i, first, n
 
-      n = self%n_kept
       call stream%part('table_type', 1)
-      call stream%extent('n_kept', n, 4)
-      allocate (counts(n), source=0)
-      if (stream%writes) counts = [(size(self%kept(i)%cells), i = 1, n)]
-      call stream%item('kept', counts)
-      first = 0
-      allocate (all_cells(merge(sum(counts), 0, stream%writes)))
-      do i = 1, merge(n, 0, stream%writes)
-         all_cells(first + 1:first + counts(i)) = self%kept(i)%cells
-         first = first + counts(i)
-      end do
-      call record_cells(stream, all_cells)
+      call record_rows(stream, self%n_kept, self%kept)
       if (stream%writes) return
-      self%n_kept = 0
       if (allocated(self%columns)) deallocate (self%columns)
-      if (any(counts < 0) .or. sum(int(counts, long)) /= size(all_cells)) call stream%fail('its rows have no cells')
-      if (allocated(stream%fault)) return
-      first = 0
-      do i = 1, n
-         call make_room(self)
-         self%kept(self%n_kept)%cells = all_cells(first + 1:first + counts(i))
-         first = first + counts(i)
-      end do
+      if (allocated(self%cells)) deallocate (self%cells)
    end subroutine record
 
 end module table_writer

@@ -180,7 +180,7 @@ contains
       if (is_over(run)) return
       call keep_memory()
       call enter(run, phase_build)
-      if (run%check_only) call check_buffers(run%failure) ! constraint equations and projections call LAPACK
+      call check_buffers(run%failure) ! constraint equations and projections call LAPACK
       if (.not. (run%check_only .or. run%errors%any())) call check_model_size(deck, run%failure)
       if (is_over(run)) return
       call build_model(deck, model, plan, run%errors)

@@ -39,7 +39,6 @@ contains
       character(:), allocatable :: words
       real(wp) :: nodes, share
 
-      call check_buffers(failure)
       if (failure%raised) return
       nodes = size(deck%bulk%grid) + sum(nodes_of_block(deck%bulk%block))
       call shortage('the nodes of the model need at least', node_bytes*nodes, words, share)
