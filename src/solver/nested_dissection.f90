@@ -9,7 +9,7 @@
 !! Source of the coarse graph: heavy-edge matching, Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998) 359-392, section 3.1.
 !! METIS 5.1: Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998) 359-392.
 module nested_dissection
-   use, intrinsic :: iso_c_binding, only: c_int32_t, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_funptr, c_int, c_int32_t, c_null_funptr, c_null_ptr, c_ptr
    use lists, only: list_owners
    use node_graph, only: node_graph_type, part_of_graph
    implicit none
@@ -53,7 +53,16 @@ module nested_dissection
          type(c_ptr), value              :: weights, sizes, link_weights, shares, imbalance, options
          integer(c_int32_t), intent(out) :: cut, part(*)
       end function metis_part_kway
+
+      !> The action at SIGNAL from now on, until it comes once; gives the previous action. A name of glibc.
+      type(c_funptr) function c_sysv_signal(signal, handler) bind(c, name='sysv_signal')
+         import :: c_funptr, c_int
+         integer(c_int), value :: signal
+         type(c_funptr), value :: handler
+      end function c_sysv_signal
    end interface
+
+   integer(c_int), parameter :: sigterm = 15 ! of Linux
 
    integer, parameter :: large = 20000      ! nodes from which on a graph is coarsened
    integer, parameter :: flat = 10          ! average number of neighbours up to which a mesh is taken as plane
@@ -334,5 +343,15 @@ contains
       end function is_below
 
    end subroutine thin_separators
+
+   !> Called by METIS in place of the routine of the C library. METIS sets handlers of its own for its errors while it works: at SIGTERM
+   !! it would give up the order, and the program would go on. The handler of the program stays for SIGTERM.
+   type(c_funptr) function metis_signal(signal, handler) bind(c, name='__sysv_signal') result(before)
+      integer(c_int), value :: signal
+      type(c_funptr), value :: handler
+
+      before = c_null_funptr
+      if (signal /= sigterm) before = c_sysv_signal(signal, handler)
+   end function metis_signal
 
 end module nested_dissection

@@ -80,6 +80,22 @@ for signal in INT TERM HUP; do
 done
 if grep -q 'long.bdf: interrupted; nothing of this run is kept' "$work/stderr"; then pass; else fail 'a run that is interrupted says what is kept'; fi
 holds results 'a run that is interrupted leaves no file, and those of a killed one alone' $killed
+# while METIS orders the equations, which has handlers of its own; timeout sends the signal twice
+sed 's/ 100     60 / 900     600/' long.bdf > large.bdf
+fresh ordering
+for seconds in 0.1 0.15 0.2 0.25 0.3; do
+   "$program" -o ordering large.bdf >"$work/stdout" 2>"$work/stderr" &
+   runner=$!
+   for ((i = 0; i < 600; i++)); do
+      [ -n "$(find ordering -name '*.part')" ] && break
+      sleep 0.02
+   done
+   sleep $seconds
+   kill -s TERM $runner; kill -s TERM $runner 2>/dev/null
+   { wait $runner; status=$?; } 2>/dev/null
+   check "a run that has got SIGTERM $seconds s behind the start of its results" 143
+   holds ordering "a run that has got SIGTERM $seconds s behind the start of its results"
+done
 sed 's/^SPC = 1/RESTART = 1\n&/' long.bdf > keeps.bdf
 timeout --preserve-status -s INT 1.5 "$program" -o results keeps.bdf >"$work/stdout" 2>"$work/stderr"; status=$?
 check 'an interrupted run that has a restart file' 130
