@@ -28,11 +28,18 @@ check() {
    find "$work" -type f ! -name '*.bdf' -delete
 }
 
-# start DECK FIRST: a run on two processes in the background, the numbers of the processes in pid0 and pid1; rank 1 begins with the
-# command FIRST of the shell
+# on_two FIRST ARGUMENT...: a run on two processes, their numbers in pid0 and pid1; rank 1 begins with the command FIRST of the shell.
+# One command for both: mpirun of Open MPI 5.0.7 crashes where each has its own
+on_two() {
+   local first=$1
+   shift
+   timeout 60 mpirun $quiet --oversubscribe -n 2 sh -c "echo \$\$ > $work/pid\$OMPI_COMM_WORLD_RANK
+      if [ \$OMPI_COMM_WORLD_RANK = 1 ]; then $first; fi; exec $distributed $*"
+}
+
+# start DECK FIRST: DECK in the background
 start() {
-   timeout 60 mpirun $quiet --oversubscribe -n 1 sh -c "echo \$\$ > $work/pid0; exec $distributed -q -o $work $1" : \
-      -n 1 sh -c "echo \$\$ > $work/pid1; $2; exec $distributed" > "$work/said" 2>&1 &
+   on_two "$2" -q -o "$work" "$1" > "$work/said" 2>&1 &
    job=$!
 }
 
@@ -73,8 +80,7 @@ unset OMPI_MCA_btl
 
 # ------------------------------------------------------------------ no memory for one of them
 # How much of the address space rank 1 has when it waits for orders: rank 0 waits for a deck that does not come
-{ sleep 60 & echo $! > "$work/pid2"; wait; } | timeout 60 mpirun $quiet --oversubscribe -n 1 "$distributed" -q - : \
-   -n 1 sh -c "echo \$\$ > $work/pid1; exec $distributed" > "$work/said" 2>&1 &
+{ sleep 60 & echo $! > "$work/pid2"; wait; } | on_two : -q - > "$work/said" 2>&1 &
 size=0 before=-1
 for ((i = 0; i < 20; i++)); do
    sleep 0.5
