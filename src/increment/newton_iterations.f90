@@ -3,6 +3,7 @@
 module newton_iterations
    use analysis_state, only: analysis_type, force_noise, free_norm, iteration_record, record_iteration
    use equations, only: equation_system, forces_in_bodies, solve_coupled_again, solve_equations
+   use given_limits, only: falls_back, give_first_limits, is_exact, minimise, renew_limits, take_exact_laws
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: model_type
@@ -18,6 +19,7 @@ module newton_iterations
    public :: iterate, tolerance_of
 
    integer, parameter  :: most_corrections = 5
+   integer, parameter  :: quick = 5                    ! iterations along straight laws that must leave less than WORTH_WHILE
    integer, parameter  :: patience = 8                 ! iterations that must leave less than the same number before them
    real(wp), parameter :: progress = 0.9_wp            ! of it: the required reduction
    real(wp), parameter :: half = 0.5_wp                ! of the residual of the load: a guess that leaves more is poor
@@ -46,13 +48,14 @@ contains
       attempt%displacement_scale = max(maxval(abs(analysis%now%moved)), maxval(abs(analysis%u)))
       attempt%load_size = analysis%tolerance/analysis%load_tolerance ! the largest so far
       guessed = present(from)
+      if (attempt%with_limits) call give_first_limits(analysis, attempt)
       allocate (now)
       if (guessed) then
          attempt%moves = .false.
          attempt%move = 0.0_wp
-         call evaluate_at(model, system, attempt%load, analysis, from, now)
+         call evaluate_at(model, system, attempt, analysis, from, now)
       else
-         call evaluate_at(model, system, attempt%load, analysis, analysis%u, now)
+         call evaluate_at(model, system, attempt, analysis, analysis%u, now)
       end if
       allocate (next, source=now)
       if (attempt%growth > 0.0_wp) then
@@ -64,11 +67,12 @@ contains
          if (.not. guessed) return
       end if
       do
+         if (attempt%with_limits) call renew_limits(model, system, analysis, attempt, now)
          call judge(model, system, analysis, attempt, now)
          if (attempt%converged .or. attempt%ends) exit
-         if (attempt%iteration == 0) call laws_at(model, system, now, laws)
+         if (attempt%iteration == 0 .or. attempt%with_limits) call laws_at(model, system, now, laws)
          if (attempt%iteration == 0 .and. .not. guessed) then
-            call first_laws(model, now, analysis%increment <= 1 .and. .not. attempt%searches, laws)
+            call first_laws(model, now, analysis%increment <= 1, laws)
          else
             call choose_sides(model, laws)
          end if
@@ -77,18 +81,19 @@ contains
          call find_direction(model, residual, analysis, system, attempt, laws, direction)
          if (attempt%trouble%raised) exit
          moves = attempt%moves
-         call advance(model, system, analysis, attempt, now, direction, attempt%searches, next)
+         call advance(model, system, analysis, attempt, now, direction, .false., next)
          attempt%gain = 1.0_wp
-         if (.not. moves) call correct(model, system, analysis, attempt, now, next)
+         if (.not. (moves .or. allocated(attempt%seen))) call correct(model, system, analysis, attempt, now, next)
          call note_iteration(now, next, analysis, attempt)
          if (.not. next%size < huge(1.0_wp)) exit
-         if (attempt%searches) then
-            call laws_at(model, system, next, laws)
-         else
-            call next_laws(model, system, analysis, next, free_norm(residual, analysis%held), attempt, laws)
-         end if
-         call swap(now, next)
          attempt%iteration = attempt%iteration + 1
+         print '(a,2l2,2i4,3es12.3,2i6)', 'IT', &
+            attempt%with_limits, allocated(attempt%seen), attempt%iteration, attempt%n_limits, now%size, next%size, &
+            attempt%step, count(next%states%slips), loose_joint(model, next%states)
+         if (falls_back(model, system, analysis, attempt, now, next)) cycle
+         if (.not. attempt%with_limits) &
+            call next_laws(model, system, analysis, next, free_norm(residual, analysis%held), attempt, laws)
+         call swap(now, next)
       end do
 
       ! for the message about an attempt that fails
@@ -101,6 +106,7 @@ contains
       if (attempt%seats) analysis%tolerance = analysis%load_tolerance*attempt%load_size
       if (.not. attempt%converged) return
 
+      if (allocated(attempt%seen)) call take_exact_laws(model, system, analysis, attempt, now)
       if (now%size > max(far_below_tol*analysis%tolerance, attempt%noise)) call refine(model, system, analysis, attempt, now, next)
       call commit(model, system, now, analysis)
    end subroutine iterate
@@ -117,12 +123,16 @@ contains
       logical, intent(in)                :: searches
       type(trial_type), intent(inout)    :: next
 
+      if (allocated(attempt%seen) .and. .not. attempt%moves) then
+         call minimise(model, system, analysis, attempt, now, direction, next)
+         return
+      end if
       if (searches .and. .not. attempt%moves) then
-         call search(model, system, attempt%load, analysis, now, direction, next, attempt%step)
+         call search(model, system, attempt, analysis, now, direction, next)
          return
       end if
       attempt%step = 1.0_wp
-      call evaluate_at(model, system, attempt%load, analysis, now%u + direction, next)
+      call evaluate_at(model, system, attempt, analysis, now%u + direction, next)
       if (.not. attempt%moves) return
       attempt%moves = .false.
       attempt%move = 0.0_wp
@@ -152,7 +162,7 @@ contains
       first = next%size/now%size
       attempt%gain = first**2
       enough = max(half*far_below_tol*analysis%tolerance, attempt%noise)
-      if (attempt%searches .or. first > worth_while .or. next%size <= enough .or. any(changes(now, next))) return
+      if (first > worth_while .or. next%size <= enough .or. any(changes(now, next))) return
       allocate (corrected, source=next)
       do i = 1, most_corrections
          attempt%tolerance = max(half*first, 0.1_wp*enough/next%size, finest_direction)
@@ -164,7 +174,7 @@ contains
                                  digits=min(direction_digits, ceiling(-log10(attempt%tolerance))))
          end if
          if (attempt%trouble%raised) return
-         call evaluate_at(model, system, attempt%load, analysis, next%u + direction, corrected)
+         call evaluate_at(model, system, attempt, analysis, next%u + direction, corrected)
          if (.not. corrected%size < next%size) exit
          call swap(corrected, next)
          if (next%size > worth_while*corrected%size .or. next%size <= enough) exit
@@ -208,15 +218,18 @@ contains
          if (attempt%largest_noise > max(10.0_wp*noise, 0.1_wp*analysis%tolerance)) then
             ! summed from step to step, these forces have an error that after a distant trial is no longer small: compute them anew
             call forces_in_bodies(system, now%u, now%body)
-            call evaluate(model, system, attempt%load, analysis, now)
+            call evaluate(model, system, attempt, analysis, now)
             attempt%largest_noise = noise
          end if
          rounding = rounding_of_forces*system%stiffest*attempt%displacement_scale*sqrt(real(size(analysis%now%load), wp))
          attempt%carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*attempt%displacement_scale
          attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= most_rounding_of_forces*load_size
-         attempt%converged = .not. attempt%moves .and. (attempt%converged .or. (attempt%carried .and. now%size <= rounding))
+         attempt%converged = attempt%converged .or. (attempt%carried .and. now%size <= rounding)
+         attempt%converged = attempt%converged .and. is_exact(attempt) .and. .not. attempt%moves
          attempt%sizes(n) = merge(huge(1.0_wp), now%size, attempt%moves)
          attempt%ends = n == most_iterations .or. leads_nowhere(attempt%sizes(:n))
+         if (.not. attempt%with_limits) &
+            attempt%ends = attempt%ends .or. is_slow(attempt%sizes(:n), loose_joint(model, now%states) > 0)
          if (attempt%ends) attempt%converged = attempt%converged .or. &
                                                now%size <= idle*max(attempt%seat_force, analysis%loose_force)
          attempt%ends = attempt%ends .or. (noise > load_size .and. .not. (attempt%carried .or. attempt%moves))
@@ -258,6 +271,20 @@ contains
       if (leads_nowhere) leads_nowhere = minval(sizes(n - patience + 1:)) > &
                                          progress*minval(sizes(n - 2*patience + 1:n - patience))
    end function leads_nowhere
+
+   !> Whether the last iterations with residuals SIZES have left more than WORTH_WHILE of the least before them, or, where a joint
+   !! is loose, three of them more than half.
+   pure logical function is_slow(sizes, is_loose)
+      real(wp), intent(in) :: sizes(:) !! [force]
+      logical, intent(in)  :: is_loose
+      integer :: n
+
+      n = size(sizes)
+      is_slow = is_loose .and. n > 4
+      if (is_slow) is_slow = minval(sizes(n - 2:)) > half*sizes(n - 3)
+      if (is_slow .or. n <= quick + 1) return
+      is_slow = minval(sizes(n - quick + 1:)) > worth_while*minval(sizes(:n - quick))
+   end function is_slow
 
    !> One iteration more from the converged NOW. It squares the residual that TOL has left, so that the state does not depend on
    !! the path of the iterations, which rounding influences. It is accepted where it reduces the residual.

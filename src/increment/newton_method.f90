@@ -253,14 +253,14 @@ contains
       attempt%load = analysis%now%condensed_load - left*analysis%change
       if (attempt%seats) analysis%states%normal%gap = merge((1.0_wp - left)*model%joints%element%gap, model%joints%element%gap, &
                                                             model%joints%element%gap < 0.0_wp)
-      do i = merge(0, 1, attempt%growth > 0.0_wp), 3
+      do i = merge(0, 1, attempt%growth > 0.0_wp), 2
          if (i > 0) attempt%growth = 0.0_wp
          attempt%moves = analysis%moves
          attempt%move = merge(analysis%now%moved(:, system%retained) - left*analysis%move - analysis%u, 0.0_wp, &
                               system%number(:, system%retained) == 0)
-         attempt%searches = i > 1
-         attempt%settled = i == 2
-         attempt%floats = i == 3
+         attempt%with_limits = i == 2
+         if (allocated(attempt%seen)) deallocate (attempt%seen)
+         attempt%settled = .false.
          attempt%iteration = 0
          attempt%gain = 1.0_wp
          attempt%n_slow = 0
@@ -270,7 +270,7 @@ contains
          attempt%converged = .false.
          attempt%trouble = none
          call iterate(model, system, analysis, attempt, from)
-         if (attempt%converged .or. (i == 2 .and. .not. attempt%slides)) exit
+         if (attempt%converged) exit
       end do
    end subroutine try_part
 

@@ -5,10 +5,11 @@ module newton_trial
    use equations, only: equation_system, forces_in_bodies
    use equation_solver, only: failure_type
    use interface_operator, only: joint_movement
-   use joint_laws, only: element_state, follow_element, rest_when_open
+   use joint_laws, only: element_state, follow_element, joint_law, rest_when_open
    use joint_work, only: work_along
    use kinds, only: wp
    use model_data, only: model_type
+   use normal_stiffness, only: normal_state
    use tolerances, only: tight_direction
    implicit none
    private
@@ -30,7 +31,7 @@ module newton_trial
       real(wp) :: growth = 0.0_wp                 !! ratio to the last increment of the stage, 0: not its continuation
       logical  :: seats = .false.                 !! interference at rest without load
       real(wp) :: seat_force = 0.0_wp             !! then the reference force: p_av on the pressed elements [force]
-      logical  :: searches = .false.              !! line search along the tangents of the laws themselves
+      logical  :: with_limits = .false.           !! friction by a sequence of given limits
       ! the course of the iterations
       integer  :: iteration = 0
       real(wp) :: sizes(0:most_iterations) = 0.0_wp !! residuals [force]
@@ -40,7 +41,6 @@ module newton_trial
       real(wp) :: length = 0.0_wp                 !! of the last direction [length]
       logical  :: coupled = .false.               !! the last direction was that of a coupled system
       logical  :: settled = .false.               !! no element has begun or stopped slipping in the last iteration
-      logical  :: floats = .false.                !! only friction holds a body, which stays held
       integer  :: n_slow = 0                      !! iterations that did not halve the residual
       integer, allocatable :: flips(:)            !! changes of branch of each interface element
       real(wp) :: load_size = 0.0_wp              !! reference force of the residuals [force]
@@ -48,6 +48,12 @@ module newton_trial
       real(wp) :: largest_noise = 0.0_wp          !! its largest value since these forces were computed [force]
       real(wp) :: displacement_scale = 0.0_wp     !! of the supports or anything, at the beginning [length]
       logical  :: carried = .false.               !! bodies only move with supports, and no force acts
+      ! ... with given limits
+      type(normal_state), allocatable :: seen(:)  !! that the shear laws and friction see; unallocated: those of the trial
+      logical  :: sees_own = .false.              !! SEEN is that of the trial
+      logical  :: sticks = .false.                !! nothing slips
+      real(wp) :: to_solve = 0.0_wp               !! residual of the first trial under the present limits [force]
+      integer  :: n_limits = 0                    !! limits given so far
       ! the outcome
       logical  :: converged = .false.
       logical  :: ends = .false.                  !! no further iteration
@@ -82,30 +88,38 @@ contains
    end subroutine swap
 
    !> Joint states and residual of TRIAL, whose displacements and body forces are set.
-   subroutine evaluate(model, system, load, analysis, trial)
+   subroutine evaluate(model, system, attempt, analysis, trial)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
-      real(wp), intent(in)               :: load(:, :)
+      type(attempt_type), intent(in)     :: attempt
       type(analysis_type), intent(in)    :: analysis
       type(trial_type), intent(inout)    :: trial
+      type(joint_law) :: law
       integer :: i
 
       do i = 1, size(system%interface)
-         associate (element => system%interface(i))
-            call follow_element(model%joints%list(element%joint)%law, element%area, analysis%states(i), &
-                                joint_movement(element, trial%u), trial%states(i), trial%tangent(:, :, i))
+         associate (element => system%interface(i), state => trial%states(i), tangent => trial%tangent(:, :, i))
+            if (allocated(attempt%seen)) then
+               law = model%joints%list(element%joint)%law
+               law%has_friction = law%has_friction .and. .not. attempt%sticks
+               call follow_element(law, element%area, analysis%states(i), joint_movement(element, trial%u), state, tangent, &
+                                   attempt%seen(i))
+            else
+               call follow_element(model%joints%list(element%joint)%law, element%area, analysis%states(i), &
+                                   joint_movement(element, trial%u), state, tangent)
+            end if
          end associate
       end do
-      trial%residual = load - trial%body
+      trial%residual = attempt%load - trial%body
       call subtract_joint_forces(system%interface, trial%states, trial%residual)
       trial%size = free_norm(trial%residual, analysis%held)
    end subroutine evaluate
 
    !> Put TRIAL at the displacements U.
-   subroutine evaluate_at(model, system, load, analysis, u, trial)
+   subroutine evaluate_at(model, system, attempt, analysis, u, trial)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
-      real(wp), intent(in)               :: load(:, :)
+      type(attempt_type), intent(in)     :: attempt
       type(analysis_type), intent(in)    :: analysis
       real(wp), intent(in)               :: u(:, :)
       type(trial_type), intent(inout)    :: trial
@@ -117,61 +131,60 @@ contains
       end if
       trial%u = u
       call forces_in_bodies(system, trial%u, trial%body)
-      call evaluate(model, system, load, analysis, trial)
+      call evaluate(model, system, attempt, analysis, trial)
    end subroutine evaluate_at
 
    !> Line search: the step along DIRECTION at which the work of the unbalanced forces on it (almost) vanishes. The step is
    !! extended while that work falls slowly: secants of an initial pressure far above the real one are too stiff. If the work
    !! neither changes sign nor falls, the path has a kink: the step is halved until the forces fall.
-   subroutine search(model, system, load, analysis, now, direction, next, step)
+   subroutine search(model, system, attempt, analysis, now, direction, next)
       type(model_type), intent(in)      :: model
       class(equation_system), intent(in) :: system
-      real(wp), intent(in)              :: load(:, :)
+      type(attempt_type), intent(inout) :: attempt     !! its STEP is the result
       type(analysis_type), intent(in)   :: analysis
       type(trial_type), intent(in)      :: now
       real(wp), intent(in)              :: direction(:, :)
       type(trial_type), intent(inout)   :: next
-      real(wp), intent(out)             :: step
       real(wp), allocatable :: body(:, :)
       real(wp) :: g_0, g, bracket(2), g_there(2), least
-      integer  :: attempt, side
+      integer  :: i, side
       logical  :: lengthens, halves
 
       allocate (body, mold=direction)
       call forces_in_bodies(system, direction, body)
       g_0 = sum(now%residual*direction, mask=.not. analysis%held) ! the work of the unbalanced forces on DIRECTION
-      step = 1.0_wp
-      call try(step, g)
+      attempt%step = 1.0_wp
+      call try(attempt%step, g)
       if (next%size <= 0.5_wp*now%size .or. abs(g) <= enough*abs(g_0)) return
       bracket = [0.0_wp, 1.0_wp]
       g_there = [g_0, g]
       lengthens = hardly_falls(g)
-      do attempt = 1, 12
+      do i = 1, 12
          halves = .not. lengthens .and. (g_there(1) > 0.0_wp .eqv. g_there(2) > 0.0_wp)
          least = next%size
          if (lengthens) then
             bracket(1) = bracket(2)
             g_there(1) = g_there(2)
-            step = min(longest*bracket(2), bracket(2)*g_0/(g_0 - g_there(2)))
+            attempt%step = min(longest*bracket(2), bracket(2)*g_0/(g_0 - g_there(2)))
          else if (halves) then
-            step = 0.5_wp*step
+            attempt%step = 0.5_wp*attempt%step
          else
-            step = (bracket(1)*g_there(2) - bracket(2)*g_there(1))/(g_there(2) - g_there(1))
+            attempt%step = (bracket(1)*g_there(2) - bracket(2)*g_there(1))/(g_there(2) - g_there(1))
             associate (margin => 0.05_wp*(bracket(2) - bracket(1)))
-               step = min(max(step, bracket(1) + margin), bracket(2) - margin)
+               attempt%step = min(max(attempt%step, bracket(1) + margin), bracket(2) - margin)
             end associate
          end if
-         call try(step, g)
+         call try(attempt%step, g)
          if (lengthens .and. .not. next%size < least) then
-            step = bracket(1)
-            call try(step, g)
+            attempt%step = bracket(1)
+            call try(attempt%step, g)
             return
          end if
          if (abs(g) <= 0.5_wp*abs(g_0) .or. next%size <= 0.5_wp*now%size) return
-         if (halves .and. next%size <= (1.0_wp - 0.1_wp*step)*now%size) return
+         if (halves .and. next%size <= (1.0_wp - 0.1_wp*attempt%step)*now%size) return
          lengthens = lengthens .and. hardly_falls(g)
          side = merge(1, 2, g_there(1)*g > 0.0_wp .and. g_there(1)*g_there(2) <= 0.0_wp)
-         bracket(side) = step
+         bracket(side) = attempt%step
          g_there(side) = g
       end do
 
@@ -191,7 +204,7 @@ contains
 
          next%u = now%u + alpha*direction
          next%body = now%body + alpha*body
-         call evaluate(model, system, load, analysis, next)
+         call evaluate(model, system, attempt, analysis, next)
          g_alpha = -sign(sqrt(huge(1.0_wp)), g_0)          ! far too long a step
          if (next%size < huge(1.0_wp)) g_alpha = sum(next%residual*direction, mask=.not. analysis%held)
       end subroutine try

@@ -209,7 +209,7 @@ contains
 
       allocate (matrix(3, 3, size(laws)), rest(3, 3, size(laws)), source=0.0_wp)
       is_loose = loose_joint(model, laws%state) > 0
-      holds = is_loose .and. (attempt%floats .or. .not. attempt%settled)
+      holds = is_loose .and. .not. (attempt%settled .or. attempt%with_limits)
       do
          do i = 1, size(laws)
             associate (tangent => laws(i)%tangent, elastic => laws(i)%elastic)
@@ -237,8 +237,7 @@ contains
             call solve_equations(model, system, residual, direction, attempt%trouble, moved=attempt%move, &
                                  digits=direction_digits)
          end if
-         if (holds .or. .not. is_loose .or. .not. norm2(direction) > far*attempt%length) exit
-         attempt%floats = .true.
+         if (holds .or. .not. is_loose .or. attempt%with_limits .or. .not. norm2(direction) > far*attempt%length) exit
          holds = .true.
       end do
       do i = 1, size(laws)

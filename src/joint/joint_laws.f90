@@ -156,14 +156,17 @@ contains
    end function friction_excess
 
    !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb
-   !! friction as a return to the limit, or along the way where the element TURNS.
-   pure subroutine follow_element(law, area, before, movement, after, tangent)
+   !! friction as a return to the limit, or along the way where the element TURNS. With SEEN the shear laws and friction see that
+   !! normal state and not AFTER's: then the forces are monotone functions of the movement, and the tangent is symmetric.
+   pure subroutine follow_element(law, area, before, movement, after, tangent, seen)
       type(joint_law), intent(in)      :: law
       real(wp), intent(in)             :: area
       type(element_state), intent(in)  :: before
       real(wp), intent(in)             :: movement(3)   !! total movement of end 1 relative to end 2 [length]
       type(element_state), intent(out) :: after
       real(wp), intent(out)            :: tangent(3, 3) !! d (forces x, y, z)/d movement [force/length], not symmetric
+      type(normal_state), intent(in), optional :: seen  !! with the lambda_before of BEFORE
+      type(normal_state) :: normal ! for the laws along x and y
       real(wp) :: by_delta(2), by_p(2), slope, work, limit, size_of_tau, along(2), share, share_by_lambda
       real(wp) :: slipped(2), by_limit(2), by_trial(2, 2)
       integer  :: i
@@ -173,26 +176,32 @@ contains
       call follow_normal(law%normal, area, before%normal, movement(3) - before%normal%gap, after%normal, slope, work)
       after%slips = .false.
       tangent(3, 3) = slope*area
-      if (after%normal%branch == branch_open) then
+      normal = after%normal
+      if (present(seen)) then
+         normal = seen
+         slope = 0.0_wp
+      end if
+      if (normal%branch == branch_open) then
          after%shear%tau = 0.0_wp
          return
       end if
       share = 1.0_wp
       share_by_lambda = 0.0_wp
       if (before%normal%branch == branch_open) then
-         share = closed_share(after%normal)
+         share = closed_share(normal)
          after%origin = movement(:2) - share*(movement(:2) - before%origin)
-         share_by_lambda = (1.0_wp - share)/max(after%normal%lambda - before%normal%lambda, tiny(1.0_wp))
+         if (.not. present(seen)) share_by_lambda = (1.0_wp - share)/max(normal%lambda - before%normal%lambda, tiny(1.0_wp))
       end if
       do i = 1, 2
          call follow_shear(law%shear(i), before%shear(i), movement(i) - after%origin(i), &
-                           [before%normal%pressure, after%normal%pressure], after%shear(i), by_delta(i), by_p(i), work)
+                           [before%normal%pressure, normal%pressure], after%shear(i), by_delta(i), by_p(i), work)
          tangent(i, i) = area*by_delta(i)*share
          tangent(i, 3) = area*by_p(i)*slope + area*by_delta(i)*(movement(i) - before%origin(i))*share_by_lambda
       end do
-      after%slips = exceeds_limit(law, after, slip_margin)
+      limit = friction_limit(law, normal%pressure)
+      after%slips = .false.
+      if (law%has_friction) after%slips = norm2(after%shear%tau) > limit*(1.0_wp + slip_margin)
       if (.not. after%slips) return
-      limit = friction_limit(law, after%normal%pressure)
       if (before%turns) then
          call turn_slip(before%shear%tau, after%shear%tau - before%shear%tau, &
                         [friction_limit(law, before%normal%pressure), limit], slipped, by_trial, by_limit)
@@ -206,9 +215,9 @@ contains
                                               matmul(spread(along, 1, 1), tangent(:2, :2))))
          tangent(:2, 3) = limit/size_of_tau*(tangent(:2, 3) - along*dot_product(along, tangent(:2, 3))) + law%mu*slope*area*along
       end if
-      after%shear%slid = after%shear%slid + slid_from(law%shear, after%normal%pressure, after%shear, slipped)
+      after%shear%slid = after%shear%slid + slid_from(law%shear, normal%pressure, after%shear, slipped)
       after%shear%tau = slipped
-      call stand_at_limit(law%shear, max(0.0_wp, after%normal%pressure), after%shear)
+      call stand_at_limit(law%shear, max(0.0_wp, normal%pressure), after%shear)
    end subroutine follow_element
 
    !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves at the DEFLECTION: p(lambda)/lambda, P(d)/d under this p and cut to

@@ -1,0 +1,163 @@
+!> Coulomb friction as a sequence of problems with given limits, for increments on which straight laws do not lead quickly to
+!! equilibrium.
+!! With given limits of friction, and given pressures for the shear laws, the force of every joint is a monotone function of its
+!! movement: the equilibrium is the minimum of a convex energy, which Newton's method with a line search finds. The pressures of that
+!! equilibrium give new limits, and so on. At first nothing slips. From the second equilibrium on the full tangents, which know that
+!! the limit grows with the pressure, try to finish; where one of them leaves more than a tenth of the residual, new limits follow.
+!! Where the limits are those of the trial itself, its equilibrium is that of the exact laws: the answer is the same.
+!! Source: P. D. Panagiotopoulos, Ing.-Arch. 44 (1975) 421-432; N. Kikuchi, J. T. Oden, Contact Problems in Elasticity, SIAM 1988.
+module given_limits
+   use analysis_state, only: analysis_type
+   use equations, only: equation_system, forces_in_bodies
+   use kinds, only: wp
+   use model_data, only: model_type
+   use newton_trial, only: attempt_type, evaluate, trial_type
+   use normal_stiffness, only: branch_load
+   use tolerances, only: pressure_floor
+   implicit none
+   private
+
+   public :: give_first_limits, renew_limits, take_exact_laws, falls_back, is_exact, minimise
+
+   real(wp), parameter :: solved = 1.0e-2_wp   ! of the residual with the first trial under given limits: time for new limits
+   real(wp), parameter :: below_tol = 0.1_wp   ! of the tolerance: likewise
+   real(wp), parameter :: converges = 0.1_wp   ! of the residual: an iteration of the exact laws that leaves more does not converge
+   real(wp), parameter :: close = 0.2_wp       ! of the work of the first unbalanced forces: what a line search may leave
+   real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
+   integer, parameter  :: most_trials = 20     ! of a line search
+   integer, parameter  :: settled = 2          ! limits after which the exact laws try to finish
+
+contains
+
+   !> The normal states that the laws along x and y see first: those of the start, under which nothing slips. An element that has never
+   !! been pressed has the pressure of Eq. (9).
+   subroutine give_first_limits(analysis, attempt)
+      type(analysis_type), intent(in)   :: analysis
+      type(attempt_type), intent(inout) :: attempt
+
+      attempt%seen = analysis%states%normal
+      where (attempt%seen%branch == branch_load .and. attempt%seen%pressure <= pressure_floor*attempt%seen%p_av) &
+         attempt%seen%pressure = attempt%seen%p_av
+      attempt%sticks = .true.
+      attempt%n_limits = 0
+      attempt%sees_own = .false.
+      attempt%to_solve = 0.0_wp
+   end subroutine give_first_limits
+
+   !> Take the limits of the trial NOW where it is almost in equilibrium under the present ones; after some of them, the exact laws.
+   subroutine renew_limits(model, system, analysis, attempt, now)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(attempt_type), intent(inout)  :: attempt
+      type(trial_type), intent(inout)    :: now
+
+      attempt%sees_own = .false.
+      if (.not. allocated(attempt%seen)) return
+      if (attempt%sticks .and. .not. attempt%moves) attempt%to_solve = max(attempt%to_solve, now%size)
+      if (attempt%moves .or. now%size > max(solved*attempt%to_solve, below_tol*analysis%tolerance)) return
+      if (attempt%n_limits >= settled) then
+         call take_exact_laws(model, system, analysis, attempt, now)
+      else
+         call give_limits(model, system, analysis, attempt, now)
+      end if
+   end subroutine renew_limits
+
+   !> The limits of the trial NOW itself.
+   subroutine give_limits(model, system, analysis, attempt, now)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(attempt_type), intent(inout)  :: attempt
+      type(trial_type), intent(inout)    :: now
+
+      attempt%seen = now%states%normal
+      attempt%sticks = .false.
+      attempt%sees_own = .true.
+      attempt%n_limits = attempt%n_limits + 1
+      call evaluate(model, system, attempt, analysis, now)
+      attempt%to_solve = now%size
+   end subroutine give_limits
+
+   !> Let the laws see the trial NOW itself.
+   subroutine take_exact_laws(model, system, analysis, attempt, now)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(attempt_type), intent(inout)  :: attempt
+      type(trial_type), intent(inout)    :: now
+
+      deallocate (attempt%seen)
+      call evaluate(model, system, attempt, analysis, now)
+   end subroutine take_exact_laws
+
+   !> The step along DIRECTION from NOW to NEXT at which the energy under the given limits is (almost) least: where the work of the
+   !! unbalanced forces on DIRECTION, which falls all the way, has fallen to CLOSE of the first. Where it has not after many
+   !! extensions, the body moves without end.
+   subroutine minimise(model, system, analysis, attempt, now, direction, next)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(attempt_type), intent(inout)  :: attempt         !! its STEP is the result
+      type(trial_type), intent(in)       :: now
+      real(wp), intent(in)               :: direction(:, :) !! (dimension, retained) [length]
+      type(trial_type), intent(inout)    :: next
+      real(wp), allocatable :: body(:, :)
+      real(wp) :: first, work, low(2), high(2) ! steps and the works there
+      integer  :: i
+
+      allocate (body, mold=direction)
+      call forces_in_bodies(system, direction, body)
+      first = sum(now%residual*direction, mask=.not. analysis%held)
+      low = [0.0_wp, first]
+      high = [-1.0_wp, 0.0_wp]
+      attempt%step = 1.0_wp
+      do i = 1, most_trials
+         next%u = now%u + attempt%step*direction
+         next%body = now%body + attempt%step*body
+         call evaluate(model, system, attempt, analysis, next)
+         work = -huge(1.0_wp)**0.25_wp
+         if (next%size < huge(1.0_wp)) work = sum(next%residual*direction, mask=.not. analysis%held)
+         if (abs(work) <= close*abs(first) .or. .not. first > 0.0_wp) return
+         if (work > 0.0_wp) then
+            low = [attempt%step, work]
+         else
+            high = [attempt%step, work]
+         end if
+         if (high(1) < 0.0_wp) then ! beyond it
+            attempt%step = longest*low(1)
+            if (work < first) attempt%step = min(attempt%step, low(1)*first/(first - work))
+            attempt%step = max(attempt%step, 2.0_wp*low(1))
+         else
+            attempt%step = (low(1)*high(2) - high(1)*low(2))/(high(2) - low(2))
+            associate (margin => 0.1_wp*(high(1) - low(1)))
+               attempt%step = min(max(attempt%step, low(1) + margin), high(1) - margin)
+            end associate
+         end if
+      end do
+   end subroutine minimise
+
+   !> Whether an iteration of the exact laws from NOW to NEXT does not converge. New limits at NOW follow then.
+   logical function falls_back(model, system, analysis, attempt, now, next)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(attempt_type), intent(inout)  :: attempt
+      type(trial_type), intent(inout)    :: now
+      type(trial_type), intent(in)       :: next
+
+      falls_back = attempt%with_limits .and. .not. allocated(attempt%seen)
+      if (falls_back) falls_back = .not. next%size <= max(converges*now%size, analysis%tolerance)
+      if (.not. falls_back) return
+      call give_limits(model, system, analysis, attempt, now)
+      attempt%n_limits = settled - 1 ! two problems more before the exact laws try again
+   end function falls_back
+
+   !> Whether the trial of ATTEMPT follows the exact laws.
+   pure logical function is_exact(attempt)
+      type(attempt_type), intent(in) :: attempt
+
+      is_exact = .not. allocated(attempt%seen) .or. attempt%sees_own
+   end function is_exact
+
+end module given_limits
