@@ -1,22 +1,17 @@
-!> The pressure of the first increment of each joint, Eq. (9): from the user, from statics, or a guess.
-!! Statics determines it where no other support or joint takes part of the load. The guess is for methods whose result does not
-!! depend on it.
+!> The joints whose normal resultant statics alone determines, because no other support or joint takes part of the load, and that
+!! resultant.
 module determinate_joints
-   use deck_errors, only: deck_error_list
    use interface_operator, only: nodes_of_end
    use kinds, only: wp
    use lists, only: join, root_of, distinct
-   use load_build, only: add_force
-   use model_data, only: a_point, an_overlap, freedoms_type, history_type, joint_type, joints_type, mesh_type, n_bars, &
+   use model_data, only: a_point, an_overlap, freedoms_type, joint_type, joints_type, mesh_type, n_bars, &
                           n_points, n_sections, node_kind, place_in_kind, stage_load_type, supported
    use node_coupling, only: coupling_parts, is_coupled
-   use normal_curve, only: loading_pressure
-   use text_tools, only: integer_text, real_text
-   use tolerances, only: equal_gaps, pressure_of_no_load, same_direction, zero_cosine, zero_resultant
+   use tolerances, only: same_direction, zero_cosine
    implicit none
    private
 
-   public :: find_determinate_joints, carried_resultant, find_first_pressures
+   public :: find_determinate_joints, carried_resultant, parts_at
 
 contains
 
@@ -175,123 +170,5 @@ contains
       end function normal_part
 
    end function carried_resultant
-
-   !> p_av of every joint: P0 of the user, else the resultant of the first increment (FIRST_SHARE of the load of the first stage)
-   !! over A_int. Where neither gives a compression the pressure is guessed; where a guess is not allowed, the deck is in error.
-   subroutine find_first_pressures(first_share, guess_will_do, mesh, joints, freedoms, history, errors)
-      real(wp), intent(in)                 :: first_share
-      logical, intent(in)                  :: guess_will_do !! the result of the method does not depend on the guess
-      type(mesh_type), intent(in) :: mesh
-      type(joints_type), intent(inout) :: joints
-      type(freedoms_type), intent(in) :: freedoms
-      type(history_type), intent(in) :: history
-      type(deck_error_list), intent(inout) :: errors
-      type(stage_load_type) :: loads ! of the first stage, with the preloads of the bolts that this stage tightens
-      real(wp) :: area, first, last, resultant, total
-      integer  :: i, j
-
-      loads = history%stages(1)
-      do i = 1, n_bars(mesh)
-         associate (bar => mesh%bars(i))
-            if (bar%stage /= 1) cycle
-            call add_force(bar%nodes(1), bar%preload*bar%direction(:, 1), loads)
-            call add_force(bar%nodes(2), -bar%preload*bar%direction(:, 2), loads)
-         end associate
-      end do
-      do i = 1, n_sections(mesh)
-         associate (section => mesh%sections(i))
-            if (section%stage == 1) call add_force(section%node, [section%preload, 0.0_wp, 0.0_wp], loads)
-         end associate
-      end do
-      total = sum(norm2(loads%force(:, :loads%n), dim=1))
-      do j = 1, size(joints%list)
-         if (joints%list(j)%determinate) call orient_by_load(mesh, joints, freedoms, history, loads, j)
-         associate (joint => joints%list(j))
-            resultant = 0.0_wp
-            if (joint%determinate) resultant = first_share*carried_resultant(mesh, freedoms, joint, loads)
-            if (joint%p0 > 0.0_wp) then
-               joint%p_av = joint%p0
-            else if (guess_will_do .and. (.not. joint%determinate .or. resultant <= zero_resultant*first_share*total)) then
-               joint%p_av = guessed_pressure(mesh, joints, history, joint)
-            else if (.not. joint%determinate) then
-               call errors%add(joint%line, 'joint '//integer_text(joint%id)//' does not carry all the load (supports or '// &
-                  'other joints take a share), so the pressure of the first increment is not known: give P0 on its PJOINT')
-            else if (resultant <= zero_resultant*first_share*total) then
-               call errors%add(joint%line, 'the first increment does not press joint '//integer_text(joint%id)// &
-                  ' (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')
-            else ! over A_int; with gaps, over the area that is closed at first; where none is, over the area that closes first
-               associate (elements => joints%element(joint%first:joint%last))
-                  area = joint%area
-                  first = minval(elements%gap)
-                  last = maxval(elements%gap)
-                  if (last > max(0.0_wp, first)) &
-                     area = sum(elements%area, mask=elements%gap <= max(0.0_wp, first) + equal_gaps*(last - first))
-               end associate
-               joint%p_av = resultant/area
-            end if
-         end associate
-      end do
-   end subroutine find_first_pressures
-
-   !> Reverse the normals of joint J, and the y axes, so that the axes stay right-handed, where the first stage that loads the joint
-   !! opens it and none of its nodes belongs to a body: then only the load shows which sense of the normal closes the joint.
-   pure subroutine orient_by_load(mesh, joints, freedoms, history, first_loads, j)
-      type(mesh_type), intent(in) :: mesh
-      type(joints_type), intent(inout) :: joints
-      type(freedoms_type), intent(in) :: freedoms
-      type(history_type), intent(in) :: history
-      type(stage_load_type), intent(in) :: first_loads !! of the first stage, with its bolts
-      integer, intent(in)               :: j
-      real(wp) :: resultant
-      integer  :: i, s
-
-      associate (joint => joints%list(j))
-         resultant = carried_resultant(mesh, freedoms, joint, first_loads)
-         do s = 2, size(history%stages)
-            if (abs(resultant) > 0.0_wp) exit
-            resultant = carried_resultant(mesh, freedoms, joint, history%stages(s))
-         end do
-         if (.not. resultant < 0.0_wp) return
-         do i = joint%first, joint%last
-            associate (nodes => joints%element(i)%node)
-               if (any(mesh%first_at(nodes + 1) > mesh%first_at(nodes))) return
-            end associate
-         end do
-         joint%normal = -joint%normal
-         do i = joint%first, joint%last
-            associate (element => joints%element(i))
-               element%axes(:, 2:3) = -element%axes(:, 2:3)
-               if (joint%gap_kind == 'TRUE') element%gap = -element%gap ! a distance along the normal
-            end associate
-         end do
-      end associate
-   end subroutine orient_by_load
-
-   !> A guess of the pressure in JOINT: the largest total load of a stage over the joint area, or the pressure that its law gives
-   !! for the largest prescribed displacement or interference; where none of these exists, a small fraction of the modulus of the
-   !! bodies.
-   pure real(wp) function guessed_pressure(mesh, joints, history, joint) result(p)
-      type(mesh_type), intent(in) :: mesh
-      type(joints_type), intent(in) :: joints
-      type(history_type), intent(in) :: history
-      type(joint_type), intent(in) :: joint
-      real(wp) :: force, moved
-      integer  :: s
-
-      force = 0.0_wp
-      if (n_bars(mesh) > 0) force = force + sum(abs(mesh%bars%preload))
-      if (n_sections(mesh) > 0) force = force + sum(abs(mesh%sections%preload))
-      moved = max(0.0_wp, -minval(joints%element(joint%first:joint%last)%gap))
-      do s = 1, size(history%stages)
-         associate (loads => history%stages(s))
-            force = max(force, sum(norm2(loads%force(:, :loads%n), dim=1)))
-            if (allocated(loads%moved)) moved = max(moved, maxval(abs(loads%moved)))
-         end associate
-      end do
-      p = force/joint%area
-      if (p <= 0.0_wp) p = loading_pressure(joint%law%normal, moved)
-      if (p <= 0.0_wp) p = pressure_of_no_load*maxval(mesh%properties%e)
-      if (p <= 0.0_wp) p = 1.0_wp ! nothing indicates the units
-   end function guessed_pressure
 
 end module determinate_joints

@@ -7,7 +7,8 @@ module model_build
    use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
-   use determinate_joints, only: find_determinate_joints, find_first_pressures
+   use determinate_joints, only: find_determinate_joints
+   use first_pressures, only: find_first_pressures
    use displacement_systems, only: couple_node_systems, find_node_systems
    use element_build, only: marked_side
    use free_structure, only: check_balance, hold_free_structure

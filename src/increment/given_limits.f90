@@ -118,7 +118,7 @@ contains
          call evaluate(model, system, attempt, analysis, next)
          work = -huge(1.0_wp)**0.25_wp
          if (next%size < huge(1.0_wp)) work = sum(next%residual*direction, mask=.not. analysis%held)
-         if (abs(work) <= close*abs(first) .or. .not. first > 0.0_wp) return
+         if (next%size <= 0.5_wp*now%size .or. abs(work) <= close*abs(first) .or. .not. first > 0.0_wp) return
          if (work > 0.0_wp) then
             low = [attempt%step, work]
          else

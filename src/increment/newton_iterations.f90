@@ -70,7 +70,8 @@ contains
          if (attempt%with_limits) call renew_limits(model, system, analysis, attempt, now)
          call judge(model, system, analysis, attempt, now)
          if (attempt%converged .or. attempt%ends) exit
-         if (attempt%iteration == 0 .or. attempt%with_limits) call laws_at(model, system, now, laws)
+         if (attempt%iteration == 0 .or. (attempt%with_limits .and. (.not. allocated(attempt%seen) .or. attempt%sees_own))) call &
+               laws_at(model, system, now, laws)
          if (attempt%iteration == 0 .and. .not. guessed) then
             call first_laws(model, now, analysis%increment <= 1, laws)
          else
@@ -91,7 +92,7 @@ contains
             attempt%with_limits, allocated(attempt%seen), attempt%iteration, attempt%n_limits, now%size, next%size, &
             attempt%step, count(next%states%slips), loose_joint(model, next%states)
          if (falls_back(model, system, analysis, attempt, now, next)) cycle
-         if (.not. attempt%with_limits) &
+         if (.not. attempt%with_limits .or. allocated(attempt%seen)) &
             call next_laws(model, system, analysis, next, free_norm(residual, analysis%held), attempt, laws)
          call swap(now, next)
       end do

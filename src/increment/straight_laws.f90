@@ -113,6 +113,7 @@ contains
       real(wp), intent(in)               :: unbalanced
       type(attempt_type), intent(inout)  :: attempt
       type(straight_law), intent(inout)  :: laws(:)
+      type(joint_law) :: law
       real(wp) :: force(3), movement(3), rho(3), shift(3), softer, true_force(3)
       integer  :: i
       logical  :: slipped
@@ -126,8 +127,9 @@ contains
       softer = 1.0_wp
       if (attempt%n_slow > 0) softer = merge(10.0_wp, 0.1_wp, modulo(attempt%n_slow, 2) == 1)
       do i = 1, size(laws)
-         associate (straight => laws(i), area => model%joints%element(i)%area, &
-            law => model%joints%list(model%joints%element(i)%joint)%law)
+         law = model%joints%list(model%joints%element(i)%joint)%law
+         if (allocated(attempt%seen)) law%has_friction = law%has_friction .and. .not. attempt%sticks
+         associate (straight => laws(i), area => model%joints%element(i)%area)
             movement = joint_movement(system%interface(i), now%u)
             force = straight%force + matmul(straight%tangent, movement - straight%point)
             true_force = force_of(area, now%states(i))
@@ -135,14 +137,22 @@ contains
             if (norm2(true_force - force) > right*norm2(true_force)) then
                rho = straight%rho*softer*straight%elastic
                rho = max(min(rho, most*unbalanced/max(abs(movement - straight%point), tiny(1.0_wp))), tiny(1.0_wp))
-               shift = point_of_rest(law, area, analysis%states(i), movement, force, rho) - movement
+               if (allocated(attempt%seen)) then
+                  shift = point_of_rest(law, area, analysis%states(i), movement, force, rho, attempt%seen(i)) - movement
+               else
+                  shift = point_of_rest(law, area, analysis%states(i), movement, force, rho) - movement
+               end if
                if (.not. norm2(shift) < farthest) shift = 0.0_wp ! no point of rest: the law at the movement serves
                if (dot_product(shift, straight%shift) > 0.0_wp) straight%rho = max(0.25_wp*straight%rho, least_rho)
                if (dot_product(shift, straight%shift) < 0.0_wp) straight%rho = min(4.0_wp*straight%rho, 1.0_wp)
                movement = movement + shift
             end if
             slipped = straight%state%slips
-            call follow_element(law, area, analysis%states(i), movement, straight%state, straight%tangent)
+            if (allocated(attempt%seen)) then
+               call follow_element(law, area, analysis%states(i), movement, straight%state, straight%tangent, attempt%seen(i))
+            else
+               call follow_element(law, area, analysis%states(i), movement, straight%state, straight%tangent)
+            end if
             straight%point = movement
             straight%shift = shift
             straight%force = force_of(area, straight%state)
@@ -263,13 +273,14 @@ contains
    !! slope -RHO through MOVEMENT and FORCE of its straight law. The normal direction is independent of the others and comes
    !! first; then, by Newton's method within bounds, each shear direction, whose force increases with the movement. A slipping
    !! element stays at its point if it slips there in the same direction.
-   function point_of_rest(law, area, before, movement, force, rho) result(point)
+   function point_of_rest(law, area, before, movement, force, rho, seen) result(point)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area        !! a_i [length^2]
       type(element_state), intent(in) :: before      !! in equilibrium
       real(wp), intent(in)            :: movement(3) !! [length]
       real(wp), intent(in)            :: force(3)    !! [force]
       real(wp), intent(in)            :: rho(3)      !! > 0 [force/length]
+      type(normal_state), intent(in), optional :: seen !! as in follow_element
       real(wp) :: point(3)
       type(normal_state) :: normal
       real(wp) :: bounds(2), excess, goal(3), limit, slope, start, t(2), there(2), work
@@ -279,6 +290,7 @@ contains
       point = movement
       point(3) = before%normal%gap + normal_rest(law%normal, area, before%normal, goal(3) - rho(3)*before%normal%gap, rho(3))
       call follow_normal(law%normal, area, before%normal, point(3) - before%normal%gap, normal, slope, work)
+      if (present(seen)) normal = seen
       if (normal%branch == branch_open .or. before%normal%branch == branch_open) return
       t = 0.0_wp
       there = 0.0_wp
