@@ -17,7 +17,7 @@ module given_limits
    implicit none
    private
 
-   public :: give_first_limits, renew_limits, take_exact_laws, falls_back, is_exact, minimise
+   public :: give_first_limits, renew_limits, take_exact_laws, falls_back, is_exact, minimise, moves_on
 
    real(wp), parameter :: solved = 1.0e-2_wp   ! of the residual with the first trial under given limits: time for new limits
    real(wp), parameter :: below_tol = 0.1_wp   ! of the tolerance: likewise
@@ -25,6 +25,7 @@ module given_limits
    real(wp), parameter :: close = 0.2_wp       ! of the work of the first unbalanced forces: what a line search may leave
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
    integer, parameter  :: most_trials = 20     ! of a line search
+   integer, parameter  :: patience = 25        ! iterations in which a problem is solved
    integer, parameter  :: settled = 2          ! limits after which the exact laws try to finish
 
 contains
@@ -42,6 +43,7 @@ contains
       attempt%n_limits = 0
       attempt%sees_own = .false.
       attempt%to_solve = 0.0_wp
+      attempt%since = 0
    end subroutine give_first_limits
 
    !> Take the limits of the trial NOW where it is almost in equilibrium under the present ones; after some of them, the exact laws.
@@ -77,6 +79,7 @@ contains
       attempt%n_limits = attempt%n_limits + 1
       call evaluate(model, system, attempt, analysis, now)
       attempt%to_solve = now%size
+      attempt%since = attempt%iteration
    end subroutine give_limits
 
    !> Let the laws see the trial NOW itself.
@@ -118,7 +121,8 @@ contains
          call evaluate(model, system, attempt, analysis, next)
          work = -huge(1.0_wp)**0.25_wp
          if (next%size < huge(1.0_wp)) work = sum(next%residual*direction, mask=.not. analysis%held)
-         if (next%size <= 0.5_wp*now%size .or. abs(work) <= close*abs(first) .or. .not. first > 0.0_wp) return
+         if (next%size <= 0.5_wp*now%size .or. abs(work) <= close*abs(first)) return
+         if (.not. first > 0.0_wp) exit
          if (work > 0.0_wp) then
             low = [attempt%step, work]
          else
@@ -135,6 +139,9 @@ contains
             end associate
          end if
       end do
+      if (first > 0.0_wp) return
+      next = now ! the energy does not fall along this direction
+      attempt%step = 0.0_wp
    end subroutine minimise
 
    !> Whether an iteration of the exact laws from NOW to NEXT does not converge. New limits at NOW follow then.
@@ -152,6 +159,13 @@ contains
       call give_limits(model, system, analysis, attempt, now)
       attempt%n_limits = settled - 1 ! two problems more before the exact laws try again
    end function falls_back
+
+   !> Whether the body moves on under the present limits: many iterations have not solved their problem.
+   pure logical function moves_on(attempt)
+      type(attempt_type), intent(in) :: attempt
+
+      moves_on = attempt%iteration - attempt%since > patience
+   end function moves_on
 
    !> Whether the trial of ATTEMPT follows the exact laws.
    pure logical function is_exact(attempt)

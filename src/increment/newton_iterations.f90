@@ -3,7 +3,7 @@
 module newton_iterations
    use analysis_state, only: analysis_type, force_noise, free_norm, iteration_record, record_iteration
    use equations, only: equation_system, forces_in_bodies, solve_coupled_again, solve_equations
-   use given_limits, only: falls_back, give_first_limits, is_exact, minimise, renew_limits, take_exact_laws
+   use given_limits, only: falls_back, give_first_limits, is_exact, minimise, moves_on, renew_limits, take_exact_laws
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: model_type
@@ -19,7 +19,7 @@ module newton_iterations
    public :: iterate, tolerance_of
 
    integer, parameter  :: most_corrections = 5
-   integer, parameter  :: quick = 5                    ! iterations along straight laws that must leave less than WORTH_WHILE
+   integer, parameter  :: quick = 8                    ! iterations along straight laws that must leave less than WORTH_WHILE
    integer, parameter  :: patience = 8                 ! iterations that must leave less than the same number before them
    real(wp), parameter :: progress = 0.9_wp            ! of it: the required reduction
    real(wp), parameter :: half = 0.5_wp                ! of the residual of the load: a guess that leaves more is poor
@@ -42,7 +42,7 @@ contains
       type(straight_law), allocatable :: laws(:)
       real(wp), allocatable :: direction(:, :), residual(:, :)
       integer :: at
-      logical :: guessed, moves
+      logical :: anew, guessed, moves
 
       allocate (direction, mold=analysis%u)
       attempt%displacement_scale = max(maxval(abs(analysis%now%moved)), maxval(abs(analysis%u)))
@@ -70,8 +70,9 @@ contains
          if (attempt%with_limits) call renew_limits(model, system, analysis, attempt, now)
          call judge(model, system, analysis, attempt, now)
          if (attempt%converged .or. attempt%ends) exit
-         if (attempt%iteration == 0 .or. (attempt%with_limits .and. (.not. allocated(attempt%seen) .or. attempt%sees_own))) call &
-               laws_at(model, system, now, laws)
+         anew = attempt%iteration == 0
+         if (attempt%with_limits) anew = anew .or. is_exact(attempt) .or. attempt%step < 1.0_wp
+         if (anew) call laws_at(model, system, now, laws)
          if (attempt%iteration == 0 .and. .not. guessed) then
             call first_laws(model, now, analysis%increment <= 1, laws)
          else
@@ -228,9 +229,13 @@ contains
          attempt%converged = attempt%converged .or. (attempt%carried .and. now%size <= rounding)
          attempt%converged = attempt%converged .and. is_exact(attempt) .and. .not. attempt%moves
          attempt%sizes(n) = merge(huge(1.0_wp), now%size, attempt%moves)
-         attempt%ends = n == most_iterations .or. leads_nowhere(attempt%sizes(:n))
-         if (.not. attempt%with_limits) &
-            attempt%ends = attempt%ends .or. is_slow(attempt%sizes(:n), loose_joint(model, now%states) > 0)
+         attempt%ends = n == most_iterations
+         if (attempt%with_limits) then
+            attempt%ends = attempt%ends .or. moves_on(attempt)
+         else
+            attempt%ends = attempt%ends .or. leads_nowhere(attempt%sizes(:n)) .or. &
+                           is_slow(attempt%sizes(:n), loose_joint(model, now%states) > 0)
+         end if
          if (attempt%ends) attempt%converged = attempt%converged .or. &
                                                now%size <= idle*max(attempt%seat_force, analysis%loose_force)
          attempt%ends = attempt%ends .or. (noise > load_size .and. .not. (attempt%carried .or. attempt%moves))
@@ -274,7 +279,7 @@ contains
    end function leads_nowhere
 
    !> Whether the last iterations with residuals SIZES have left more than WORTH_WHILE of the least before them, or, where a joint
-   !! is loose, three of them more than half.
+   !! is loose, three of them.
    pure logical function is_slow(sizes, is_loose)
       real(wp), intent(in) :: sizes(:) !! [force]
       logical, intent(in)  :: is_loose
@@ -282,9 +287,9 @@ contains
 
       n = size(sizes)
       is_slow = is_loose .and. n > 4
-      if (is_slow) is_slow = minval(sizes(n - 2:)) > half*sizes(n - 3)
+      if (is_slow) is_slow = minval(sizes(n - 2:)) > worth_while*sizes(n - 3)
       if (is_slow .or. n <= quick + 1) return
-      is_slow = minval(sizes(n - quick + 1:)) > worth_while*minval(sizes(:n - quick))
+      is_slow = minval(sizes(n - quick + 1:)) > worth_while*sizes(n - quick)
    end function is_slow
 
    !> One iteration more from the converged NOW. It squares the residual that TOL has left, so that the state does not depend on

@@ -54,6 +54,7 @@ module newton_trial
       logical  :: sticks = .false.                !! nothing slips
       real(wp) :: to_solve = 0.0_wp               !! residual of the first trial under the present limits [force]
       integer  :: n_limits = 0                    !! limits given so far
+      integer  :: since = 0                       !! iteration at which the present ones were given
       ! the outcome
       logical  :: converged = .false.
       logical  :: ends = .false.                  !! no further iteration

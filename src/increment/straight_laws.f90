@@ -12,10 +12,10 @@
 module straight_laws
    use analysis_state, only: analysis_type
    use equations, only: equation_system, form_structure_stiffness, solve_coupled, solve_equations
-   use interface_operator, only: add_force, joint_movement
+   use interface_operator, only: add_force, joint_movement, nodes_of_end
    use joint_laws, only: element_state, follow_element, force_of, friction_limit, is_apart, joint_law, stiffness_at_rest
    use kinds, only: wp
-   use model_data, only: model_type
+   use model_data, only: model_type, n_points
    use newton_trial, only: attempt_type, trial_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_law, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, follow_normal, normal_state
@@ -77,15 +77,17 @@ contains
       logical, intent(in)               :: elastic
       type(straight_law), intent(inout) :: laws(:)
       integer :: d, i
-      logical :: is_first, closes, unloads
+      logical :: is_first, closes, unloads, rests(model%freedoms%n_parts + 1)
 
+      rests = parts_at_rest(model, now%states)
       do i = 1, size(model%joints%element)
          associate (element => model%joints%element(i), joint => model%joints%list(model%joints%element(i)%joint), &
                     state => now%states(i)%normal, tangent => laws(i)%tangent, k => laws(i)%elastic)
             is_first = abs(state%lambda_a) <= 0.0_wp .and. abs(element%gap) <= 0.0_wp
             closes = is_apart(now%states(i))
             if (closes) closes = all(now%states(joint%first:joint%last)%normal%pressure <= &
-                                     pressure_floor*now%states(joint%first:joint%last)%normal%p_av)
+                                     pressure_floor*now%states(joint%first:joint%last)%normal%p_av) .and. &
+                                 .not. (rests(part_at(model, i, 1)) .and. rests(part_at(model, i, 2)))
             unloads = elastic .and. state%branch /= branch_open
             if (is_first .or. closes) then
                tangent(3, 3) = k(3)
@@ -102,6 +104,37 @@ contains
          end associate
       end do
    end subroutine first_laws
+
+   !> Which parts supports hold or an interface element presses; the rigid base is behind the last part.
+   pure function parts_at_rest(model, states) result(rests)
+      type(model_type), intent(in)    :: model
+      type(element_state), intent(in) :: states(:)
+      logical :: rests(model%freedoms%n_parts + 1)
+      integer :: end, i, node
+
+      rests = .false.
+      rests(size(rests)) = .true.
+      do node = 1, n_points(model%mesh)
+         if (any(model%freedoms%held(:, node))) rests(model%freedoms%part(node)) = .true.
+      end do
+      do i = 1, size(states)
+         if (states(i)%normal%pressure <= pressure_floor*states(i)%normal%p_av) cycle
+         do end = 1, 2
+            rests(part_at(model, i, end)) = .true.
+         end do
+      end do
+   end function parts_at_rest
+
+   !> The part of the first node of END 1 or 2 of interface element I, or the rigid base.
+   pure integer function part_at(model, i, end) result(part)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i, end
+
+      part = model%freedoms%n_parts + 1
+      associate (nodes => nodes_of_end(model%joints%element(i), end))
+         if (size(nodes) > 0) part = model%freedoms%part(nodes(1))
+      end associate
+   end function part_at
 
    !> The straight laws for the next iteration, from the result NOW of the last ones with the residual UNBALANCED [force].
    !! Iterations that cycle get another rho.
