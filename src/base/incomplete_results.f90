@@ -38,6 +38,7 @@ module incomplete_results
 
    logical, volatile        :: is_changing = .false. ! NAMES is about to change
    integer(c_int), volatile :: interrupt = 0         ! signal that came during the change
+   logical, volatile        :: is_ending = .false.   ! a thread ends the run; a signal that comes twice may reach two
 
    integer(c_int), parameter :: status_of_library = 1, status_unsolved = 3
    integer(c_int), parameter :: sigsegv = 11, enomem = 12 ! of Linux
@@ -242,7 +243,8 @@ contains
       logical :: ok
 
       interrupt = signal
-      if (is_changing) return
+      if (is_changing .or. is_ending) return
+      is_ending = .true.
       call keep_finished()
       call remove_incomplete()
       if (allocated(last_words)) then

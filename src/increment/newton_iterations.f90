@@ -89,9 +89,6 @@ contains
          call note_iteration(now, next, analysis, attempt)
          if (.not. next%size < huge(1.0_wp)) exit
          attempt%iteration = attempt%iteration + 1
-         print '(a,2l2,2i4,3es12.3,2i6)', 'IT', &
-            attempt%with_limits, allocated(attempt%seen), attempt%iteration, attempt%n_limits, now%size, next%size, &
-            attempt%step, count(next%states%slips), loose_joint(model, next%states)
          if (falls_back(model, system, analysis, attempt, now, next)) cycle
          if (.not. attempt%with_limits .or. allocated(attempt%seen)) &
             call next_laws(model, system, analysis, next, free_norm(residual, analysis%held), attempt, laws)

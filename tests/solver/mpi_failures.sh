@@ -72,10 +72,16 @@ check 'pieces: rank 0 is killed' '[1-9][0-9]*' '' '*.part'
 # ------------------------------------------------------------------ no room for the piece of one of them
 # A limit on the size of files stands for the full disk, as in tests/programs/vtu.sh; memory that processes share would be such a file
 export OMPI_MCA_btl=self,tcp
-start "$work/pieces.bdf" "trap '' XFSZ; ulimit -f 100"
-ended
-# listing and tables stay: a ParaView file that fails loses no other result
-check 'rank 1 has 100 kB for its piece' 4 'the files for ParaView cannot be written: ' '*.[oc]*'
+on_two : -q -o "$work" "$work/pieces.bdf" > "$work/said" 2>&1 && can_send=yes || can_send=
+find "$work" -type f ! -name '*.bdf' -delete
+if [ $can_send ]; then
+   start "$work/pieces.bdf" "trap '' XFSZ; ulimit -f 100"
+   ended
+   # listing and tables stay: a ParaView file that fails loses no other result
+   check 'rank 1 has 100 kB for its piece' 4 'the files for ParaView cannot be written: ' '*.[oc]*'
+else
+   echo 'skipped: a process without room for its piece: processes cannot send to each other by TCP here'
+fi
 unset OMPI_MCA_btl
 
 # ------------------------------------------------------------------ no memory for one of them
@@ -93,7 +99,7 @@ kill "$(cat "$work/pid2")"
 wait
 find "$work" -type f ! -name '*.bdf' -delete
 for way in gamg mumps; do
-   for more in 20 150; do # MiB: less than BLAS takes, and not enough for the equations besides
+   for more in 20 80; do # MiB: less than BLAS takes, and not enough for the equations besides
       start "$work/$way.bdf" "ulimit -v $((size + 1024*more))"
       ended
       check "$way: rank 1 has $more MiB" 3 'permitted memory|process 1 need about [0-9]+ MiB, and'
