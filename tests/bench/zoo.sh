@@ -1,0 +1,181 @@
+#!/usr/bin/env bash
+# A zoo of machines (folder zoo): a geometry for Gmsh, which must be installed, and a piece of a deck each. Makes their decks and runs
+# them by NEWTON, one after the other. Nothing but the program's listing is read.
+#
+#    zoo.sh PROGRAM WORK [MACHINE...]
+#
+# PROGRAM    bin/jointfem; - makes the decks only
+# WORK       folder of meshes, decks and results; WORK/table holds the table that is printed
+# MACHINE    lathe, wedges, ...: all if nothing is said
+#
+# Five stages: bolts and weight, then a force along x, along y, along z, then back to bolts and weight. A variant is MU_SURFACES_ORDER_INCREMENTS:
+#
+# MU          0.08, 0.15, 0.3, or another coefficient of friction
+# SURFACES    book: of input/surfaces, ways scraped, bolted faces ground; stiff: c/100, the shear 100 times as stiff
+# ORDER       1, 2: of the elements
+# INCREMENTS  free: no INCR; one: INCR of one increment; ten
+#
+# VARIANTS="0.08_stiff_1_ten ..." runs these; FULL=yes all of MU, SURFACES, ORDER with free and ten. Without either: 0.15_book_2_free, and
+# of some machines more. LIMIT (60) is the seconds after which a run is stopped. SCALE (1) multiplies the sizes of all elements. THREADS (1).
+#
+# A line of the table: machine, variant, nodes, exit status (ends, stopped at LIMIT), increments, iterations: all, on average, most in an
+# increment; divided: increments that needed parts; left: largest unbalanced force of a stage over the largest force of the model; seconds.
+# Below it what went wrong: the message, where, warnings of increments that did not converge. Status 1 where a run does not end.
+set -u
+export LC_ALL=C OPENBLAS_NUM_THREADS=1
+[ $# -ge 2 ] || { sed -n 's/^#    zoo.sh/usage: zoo.sh/p' "$0" >&2; exit 1; }
+here=$(cd "$(dirname "$0")" && pwd)
+program=$1 work=$2
+shift 2
+all='lathe wedges motor vflat cross_slide knee gantry spindle dovetail rotary taper rings lap pipe'
+[ $# -gt 0 ] || set -- $all
+mkdir -p "$work"
+surfaces=$here/../../input/surfaces/mm_n
+
+variants() {
+   local mu surface order incr
+   if [ -n "${VARIANTS:-}" ]; then echo "$VARIANTS"; return; fi
+   if [ "${FULL:-no}" = yes ]; then
+      for order in 2 1; do for surface in book stiff; do for mu in 0.08 0.15 0.3; do for incr in free ten; do
+         echo "${mu}_${surface}_${order}_$incr"
+      done; done; done; done
+      return
+   fi
+   echo 0.15_book_2_free
+   case $1 in
+   lathe)  echo 0.08_book_2_free 0.3_book_2_free 0.15_stiff_2_free 0.15_book_1_free 0.15_book_2_ten ;;
+   wedges|motor|vflat|cross_slide) echo 0.15_stiff_2_free 0.08_book_1_ten ;;
+   esac
+}
+
+# JNORM and JSHEAR of the file $2 of input/surfaces under the number $1, stiff if $3 says so; without the range of the tests.
+law() {
+   awk -v id="$1" -v stiff="$3" '
+      function real(text) { if (text ~ /[0-9.][-+][0-9]/ && text !~ /[eE]/) sub(/[-+][0-9]+$/, "E&", text); return text + 0 }
+      BEGIN { f = stiff == "stiff" ? 100 : 1 }
+      $1 == "JNORM"  { printf "JNORM,%d,%.6E,%s%s\n", id, real($3)/f, $4, f == 100 ? ",2.0E+6" : "" }
+      $1 == "JSHEAR" { printf "JSHEAR,%d,%.6E,%.6E\n", id, real($3)*f, real($4)*f }' "$surfaces/$2.bdf"
+}
+
+mesh() {
+   local machine=$1 order=$2 out=$work/$1_$2_mesh.bdf
+   [ "$out" -nt "$here/zoo/$machine.geo" ] && [ "$out" -nt "$here/zoo/parts.geo" ] && return
+   gmsh -3 -order "$order" -format bdf -setnumber Mesh.SaveElementTagType 2 -setnumber Mesh.BdfFieldFormat 0 -setnumber scale "${SCALE:-1}" \
+      -o "$out.part.bdf" "$here/zoo/$machine.geo" > "$work/$machine.log" 2>&1
+   if grep -m 5 '^Error' "$work/$machine.log" >&2 || [ ! -s "$out.part.bdf" ]; then
+      echo "zoo.sh: no mesh of $machine: see $work/$machine.log" >&2
+      exit 1
+   fi
+   mv "$out.part.bdf" "$out"
+}
+
+deck() {
+   local machine=$1 mu surface order incr words
+   IFS=_ read -r mu surface order incr <<< "$2"
+   mesh "$machine" "$order" || exit 1
+   case $incr in
+   free) words= ;;
+   one)  words='INCR = 1' ;;
+   ten)  words='INCR = 2' ;;
+   *)    echo "zoo.sh: increments are free, one or ten, not '$incr'" >&2; exit 1 ;;
+   esac
+   {
+   cat <<END_OF_CASE
+TITLE = ${machine^^}, MU $mu, SURFACES $surface, ORDER $order
+UNITS = MM, N
+METHOD = NEWTON
+SOLVER = TREE
+ECHO = NO
+$(grep -q "^SPC" "$here/zoo/$machine.bdf" && echo "SPC = 1" || echo "$ no support")
+OUTPUT = NONE
+${words:-$ no INCR}
+SUBCASE 1
+  LABEL = BOLTS AND WEIGHT
+  LOAD = 10
+SUBCASE 2
+  LABEL = FORCE ALONG X
+  LOAD = 31
+SUBCASE 3
+  LABEL = FORCE ALONG Y
+  LOAD = 32
+SUBCASE 4
+  LABEL = FORCE ALONG Z
+  LOAD = 33
+SUBCASE 5
+  LABEL = BACK
+  LOAD = 10
+BEGIN BULK
+INCLUDE '${machine}_${order}_mesh.bdf'
+JINCR   1       1
+JINCR   2       10      ARITH   0.1
+MAT1    1       120000.         0.26    7.2-9
+MAT1    2       210000.         0.3     7.85-9
+GRAV    10              9810.0  0.0     0.0     -1.0
+LOAD    31      1.0     1.0     10      1.0     21
+LOAD    32      1.0     1.0     10      1.0     22
+LOAD    33      1.0     1.0     10      1.0     23
+\$ 1: ways, scraped; 2: bolted faces, ground
+PJOINT  1       1       1       1       $mu
+PJOINT  2       2       2       2       $mu
+END_OF_CASE
+   law 1 scraped_20_25_spots_depth_6_8 "$surface"
+   law 2 ground_on_ground "$surface"
+   awk -F, -v mu="$mu" -v order="$order" -f "$here/zoo/zoo.awk" "$work/${machine}_${order}_mesh.bdf" "$here/zoo/$machine.bdf" && echo ENDDATA
+   } > "$work/${machine}_$2.bdf" || exit 1
+}
+
+# A line of the table, from the listing $1 and the answers $2, with head $3, status $4, seconds $5
+row() {
+   cat "$1" "$2" 2> /dev/null | awk -v head="$3" -v status="$4" -v seconds="$5" '
+      /^ CONVERGENCE HISTORY, STAGE / { on = 1; stage = $4 + 0; next }
+      /^ [A-Z]/ { on = 0 }
+      on && $1 + 0 > 0 && NF >= 6 {
+         key = stage "." $1
+         if (!(key in count)) increments++
+         count[key]++; iterations++
+         if (count[key] > most) { most = count[key]; where = key }
+         if ($2 > 1 && !(key in parts)) { parts[key] = 1; divided++ }
+      }
+      $1 == "LOADS" { for (i = 3; i <= 5; i++) if (size($i) > force) force = size($i) }
+      $1 == "LEFT"  { for (i = 2; i <= 4; i++) if (size($i) > left) left = size($i) }
+      function size(x) { return x < 0 ? -x : x + 0 }
+      END { split(head, w, " ")
+            printf "%-12s %-18s %6d %8s %5d %6d %7.1f %5d %7s %7d %8.1e %8.1f\n", w[1], w[2], w[3], status, increments, iterations, \
+               (increments ? iterations/increments : 0), most, (where == "" ? "-" : where), divided, (force > 0 ? left/force : 0), seconds }'
+}
+
+# Run the deck $1_$2 and print its lines of the table
+run() {
+   local name=$1_$2 status seconds TIMEFORMAT=%R
+   rm -f "$work/$name".{out,early,said,errors,joint.csv,stage.csv,reaction.csv,bolt.csv,spring.csv}
+   # on a terminal of `script` the program shows its iterations, which are all that is known of a run that was stopped
+   seconds=$({ time script -qec "timeout ${LIMIT:-60} nice $program --threads ${THREADS:-1} -o $work $work/$name.bdf > $work/$name.said" \
+      "$work/$name.errors" > /dev/null 2>&1 < /dev/null; } 2>&1)
+   status=$?
+   [ $status -ne 124 ] || status=stopped
+   [ $status != 0 ] || grep -q '^ END OF LISTING' "$work/$name.out" || status=no_end
+   row "$work/$name.out" "$work/$name.said" "$1 $2 $(grep -c '^GRID' "$work/$1_$(cut -d_ -f3 <<< "$2")_mesh.bdf")" "$status" "$seconds"
+   awk '/HAS NO EQUILIBRIUM|DID NOT CONVERGE|no equilibrium|NOT BALANCE/ { print "    " $0 }' "$work/$name.out" | head -n 5
+   [ "$status" = 0 ] || tr '\r' '\n' < "$work/$name.errors" | sed 's/\x1b\[[0-9;]*[A-Za-z]//g; s/ *$//; s/.*\.bdf: //' |
+      grep -v -e '^$' -e '^Script' -e '^jointfem: OpenBLAS' -e 'RESTART would keep' | awk '/^stage/ { last = $0; next } { print "    " substr($0, 1, 250) } END { if (last != "") print "    " last }' |
+      grep -v -e '^    build$' -e '^    order$' -e '^    factor$' -e '^    read$'
+}
+
+machines=$*
+for machine in $machines; do
+   for variant in $(variants "$machine"); do deck "$machine" "$variant"; done
+done
+[ "$program" != - ] || exit 0
+{
+   printf '%-12s %-18s %6s %8s %5s %6s %7s %5s %7s %7s %8s %8s\n' MACHINE VARIANT NODES STATUS INCR ITER AVERAGE MOST AT DIVIDED LEFT SECONDS
+   for machine in $machines; do
+      sed -n 's/^\$ HELD BY: \(.*\)/  '"$machine"': \1/p' "$here/zoo/$machine.bdf"
+      for variant in $(variants "$machine"); do run "$machine" "$variant"; done
+   done
+} | tee "$work/table"
+awk '$2 ~ /^[0-9.]+_/ { runs++; if ($4 == "0") { ended++; increments += $5; iterations += $6; if ($8 > most) { most = $8; where = $1 " " $2 " " $9 } if ($11 + 0 > left + 0) left = $11 }
+        seconds += $12 }
+     END { printf "%d of %d ended; of these: %d increments, %d iterations, %.1f on average, most %d (%s), left at most %s; %.0f s in all\n", \
+              ended, runs, increments, iterations, increments ? iterations/increments : 0, most, where, left + 0, seconds
+           exit ended < runs }' "$work/table" | tee -a "$work/table"
+exit "${PIPESTATUS[0]}"
