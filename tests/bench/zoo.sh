@@ -72,6 +72,7 @@ mesh() {
 deck() {
    local machine=$1 mu surface order incr words
    IFS=_ read -r mu surface order incr <<< "$2"
+   ! grep -q '^\$ ORDER 1' "$here/zoo/$machine.bdf" || order=1 # sheets have no second order
    mesh "$machine" "$order" || exit 1
    case $incr in
    free) words= ;;
@@ -86,7 +87,7 @@ UNITS = MM, N
 METHOD = NEWTON
 SOLVER = TREE
 ECHO = NO
-$(grep -q "^SPC" "$here/zoo/$machine.bdf" && echo "SPC = 1" || echo "$ no support")
+$(grep -q -e "^SPC" -e "^%anchor" -e "^%hold" "$here/zoo/$machine.bdf" && echo "SPC = 1" || echo "$ no support")
 OUTPUT = NONE
 ${words:-$ no INCR}
 SUBCASE 1
@@ -120,7 +121,7 @@ PJOINT  2       2       2       2       $mu
 END_OF_CASE
    law 1 scraped_20_25_spots_depth_6_8 "$surface"
    law 2 ground_on_ground "$surface"
-   awk -F, -v mu="$mu" -v order="$order" -f "$here/zoo/zoo.awk" "$work/${machine}_${order}_mesh.bdf" "$here/zoo/$machine.bdf" && echo ENDDATA
+   awk -F, -f "$here/zoo/zoo.awk" "$work/${machine}_${order}_mesh.bdf" "$here/zoo/$machine.bdf" && echo ENDDATA
    } > "$work/${machine}_$2.bdf" || exit 1
 }
 
@@ -154,7 +155,7 @@ run() {
    status=$?
    [ $status -ne 124 ] || status=stopped
    [ $status != 0 ] || grep -q '^ END OF LISTING' "$work/$name.out" || status=no_end
-   row "$work/$name.out" "$work/$name.said" "$1 $2 $(grep -c '^GRID' "$work/$1_$(cut -d_ -f3 <<< "$2")_mesh.bdf")" "$status" "$seconds"
+   row "$work/$name.out" "$work/$name.said" "$1 $2 $(sed -n "s/^INCLUDE '\(.*\)'/\1/p" "$work/$name.bdf" | sed "s:^:$work/:" | xargs grep -c '^GRID')" "$status" "$seconds"
    awk '/HAS NO EQUILIBRIUM|DID NOT CONVERGE|no equilibrium|NOT BALANCE/ { print "    " $0 }' "$work/$name.out" | head -n 5
    [ "$status" = 0 ] || tr '\r' '\n' < "$work/$name.errors" | sed 's/\x1b\[[0-9;]*[A-Za-z]//g; s/ *$//; s/.*\.bdf: //' |
       grep -v -e '^$' -e '^Script' -e '^jointfem: OpenBLAS' -e 'RESTART would keep' | awk '/^stage/ { last = $0; next } { print "    " substr($0, 1, 250) } END { if (last != "") print "    " last }' |

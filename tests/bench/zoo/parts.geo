@@ -44,3 +44,34 @@ Return
 Macro Size
   MeshSize { PointsOf{ Volume{solids()}; } } = scale*edge;
 Return
+
+// Flanked: between the left flank y = ya - s (z - 40) (left = 1; else the right one) and the right flank y = yb + s (z - 40) plus
+// t0 at x0, t1 at x1, from z = low to high: volume v, of plane faces
+Macro Flanked
+  e() = {};
+  For k In {0:1}
+    x = (k ? x1 : x0); t = (k ? t1 : t0);
+    q = newp; Point(q) = {x, (left ? ya - s*(low - 40) : yb + s*(low - 40)), low}; e() += q;
+    q = newp; Point(q) = {x, yb + s*(low - 40) + t, low}; e() += q;
+    q = newp; Point(q) = {x, yb + s*(high - 40) + t, high}; e() += q;
+    q = newp; Point(q) = {x, (left ? ya - s*(high - 40) : yb + s*(high - 40)), high}; e() += q;
+  EndFor
+  l = newl;
+  For k In {0:3}
+    Line(l + k) = {e(k), e((k + 1) % 4)};
+    Line(l + 4 + k) = {e(4 + k), e(4 + (k + 1) % 4)};
+    Line(l + 8 + k) = {e(k), e(4 + k)};
+  EndFor
+  r = newll;
+  Curve Loop(r) = {l, l + 1, l + 2, l + 3};
+  Curve Loop(r + 1) = {l + 4, l + 5, l + 6, l + 7};
+  For k In {0:3}
+    Curve Loop(r + 2 + k) = {l + k, l + 8 + (k + 1) % 4, -(l + 4 + k), -(l + 8 + k)};
+  EndFor
+  f = news;
+  For k In {0:5}
+    Plane Surface(f + k) = {r + k};
+  EndFor
+  q = newsl; Surface Loop(q) = {f, f + 1, f + 2, f + 3, f + 4, f + 5};
+  v = newv; Volume(v) = {q};
+Return
