@@ -18,9 +18,10 @@
 # VARIANTS="0.08_stiff_1_ten ..." runs these; FULL=yes all of MU, SURFACES, ORDER with free and ten. Without either: 0.15_book_2_free, and
 # of some machines more. LIMIT (60) is the seconds after which a run is stopped. SCALE (1) multiplies the sizes of all elements. THREADS (1).
 #
-# A line of the table: machine, variant, nodes, exit status (ends, stopped at LIMIT), increments, iterations: all, on average, most in an
-# increment; divided: increments that needed parts; left: largest unbalanced force of a stage over the largest force of the model; seconds.
-# Below it what went wrong: the message, where, warnings of increments that did not converge. Status 1 where a run does not end.
+# A line of the table: machine, variant, nodes, exit status (or: stopped at LIMIT), increments, iterations with those of attempts that
+# were given up, their average, most in an increment, its stage.increment, increments of more than 25; increments that were divided; the
+# largest unbalanced force of a stage over the largest load; seconds. Below it what went wrong: messages, the last iteration, warnings of
+# increments that did not converge as a whole. Status 1 where a run does not end.
 set -u
 export LC_ALL=C OPENBLAS_NUM_THREADS=1
 [ $# -ge 2 ] || { sed -n 's/^#    zoo.sh/usage: zoo.sh/p' "$0" >&2; exit 1; }
@@ -125,41 +126,46 @@ END_OF_CASE
    } > "$work/${machine}_$2.bdf" || exit 1
 }
 
-# A line of the table, from the listing $1 and the answers $2, with head $3, status $4, seconds $5
+# A line of the table, from what the program showed ($1.shown), the listing and the answers, with head $2, status $3, seconds $4. The
+# convergence history of the listing holds the last attempt of an increment only; the numbers shown count all its iterations.
 row() {
-   cat "$1" "$2" 2> /dev/null | awk -v head="$3" -v status="$4" -v seconds="$5" '
+   cat "$1.shown" "$1.out" "$1.said" 2> /dev/null | awk -v head="$2" -v status="$3" -v seconds="$4" '
+      /^stage [0-9]+, increment [0-9]+, iteration [0-9]+:/ { split($0, w, "[ ,:]+"); see(w[2] "." w[4], w[6]); next }
       /^ CONVERGENCE HISTORY, STAGE / { on = 1; stage = $4 + 0; next }
       /^ [A-Z]/ { on = 0 }
-      on && $1 + 0 > 0 && NF >= 6 {
-         key = stage "." $1
-         if (!(key in count)) increments++
-         count[key]++; iterations++
-         if (count[key] > most) { most = count[key]; where = key }
-         if ($2 > 1 && !(key in parts)) { parts[key] = 1; divided++ }
-      }
+      on && $1 + 0 > 0 && NF >= 6 { key = stage "." $1; count[key]++; see(key, count[key]); if ($2 > 1) parts[key] = 1 }
       $1 == "LOADS" { for (i = 3; i <= 5; i++) if (size($i) > force) force = size($i) }
       $1 == "LEFT"  { for (i = 2; i <= 4; i++) if (size($i) > left) left = size($i) }
       function size(x) { return x < 0 ? -x : x + 0 }
+      function see(key, n) { if (!(key in number)) order[++increments] = key; if (n + 0 > number[key] + 0) number[key] = n + 0 }
       END { split(head, w, " ")
-            printf "%-12s %-18s %6d %8s %5d %6d %7.1f %5d %7s %7d %8.1e %8.1f\n", w[1], w[2], w[3], status, increments, iterations, \
-               (increments ? iterations/increments : 0), most, (where == "" ? "-" : where), divided, (force > 0 ? left/force : 0), seconds }'
+            for (i = 1; i <= increments; i++) {
+               key = order[i]
+               iterations += number[key]
+               if (number[key] > most) { most = number[key]; where = key }
+               if (number[key] > 25) { over++ }
+               if (key in parts) divided++
+            }
+            printf "%-12s %-18s %6d %8s %5d %6d %7.1f %5d %7s %6d %7d %8.1e %8.1f\n", w[1], w[2], w[3], status, increments, iterations, \
+               (increments ? iterations/increments : 0), most, (where == "" ? "-" : where), over, divided, (force > 0 ? left/force : 0), seconds }'
 }
 
 # Run the deck $1_$2 and print its lines of the table
 run() {
-   local name=$1_$2 status seconds TIMEFORMAT=%R
-   rm -f "$work/$name".{out,early,said,errors,joint.csv,stage.csv,reaction.csv,bolt.csv,spring.csv}
-   # on a terminal of `script` the program shows its iterations, which are all that is known of a run that was stopped
+   local name=$1_$2 status seconds TIMEFORMAT=%R mesh
+   rm -f "$work/$name".{out,early,said,errors,shown,restart,joint.csv,stage.csv,reaction.csv,bolt.csv,spring.csv}
+   # on a terminal of `script` the program shows its iterations
    seconds=$({ time script -qec "timeout ${LIMIT:-60} nice $program --threads ${THREADS:-1} -o $work $work/$name.bdf > $work/$name.said" \
       "$work/$name.errors" > /dev/null 2>&1 < /dev/null; } 2>&1)
    status=$?
    [ $status -ne 124 ] || status=stopped
    [ $status != 0 ] || grep -q '^ END OF LISTING' "$work/$name.out" || status=no_end
-   row "$work/$name.out" "$work/$name.said" "$1 $2 $(sed -n "s/^INCLUDE '\(.*\)'/\1/p" "$work/$name.bdf" | sed "s:^:$work/:" | xargs grep -c '^GRID')" "$status" "$seconds"
-   awk '/HAS NO EQUILIBRIUM|DID NOT CONVERGE|no equilibrium|NOT BALANCE/ { print "    " $0 }' "$work/$name.out" | head -n 5
-   [ "$status" = 0 ] || tr '\r' '\n' < "$work/$name.errors" | sed 's/\x1b\[[0-9;]*[A-Za-z]//g; s/ *$//; s/.*\.bdf: //' |
-      grep -v -e '^$' -e '^Script' -e '^jointfem: OpenBLAS' -e 'RESTART would keep' | awk '/^stage/ { last = $0; next } { print "    " substr($0, 1, 250) } END { if (last != "") print "    " last }' |
-      grep -v -e '^    build$' -e '^    order$' -e '^    factor$' -e '^    read$'
+   tr '\r' '\n' < "$work/$name.errors" | sed 's/\x1b\[[0-9;]*[A-Za-z]//g; s/ *$//; s/.*\.bdf: //' |
+      grep -v -e '^$' -e '^Script' -e 'OpenBLAS' -e 'RESTART would keep' -e '^build$' -e '^order$' -e '^factor$' -e '^read$' -e '^write$' > "$work/$name.shown"
+   mesh=$(sed -n "s/^INCLUDE '\(.*\)'/\1/p" "$work/$name.bdf")
+   row "$work/$name" "$1 $2 $(grep -c '^GRID' "$work/$mesh")" "$status" "$seconds"
+   [ ! -f "$work/$name.out" ] || awk '/DID NOT CONVERGE/ { print "    " $0 }' "$work/$name.out" | head -n 5
+   [ "$status" = 0 ] || awk '/^stage .* left/ { last = $0; next } !/^stage .* into/ { print "    " substr($0, 1, 300) } END { if (last != "") print "    " last }' "$work/$name.shown"
 }
 
 machines=$*
@@ -168,15 +174,15 @@ for machine in $machines; do
 done
 [ "$program" != - ] || exit 0
 {
-   printf '%-12s %-18s %6s %8s %5s %6s %7s %5s %7s %7s %8s %8s\n' MACHINE VARIANT NODES STATUS INCR ITER AVERAGE MOST AT DIVIDED LEFT SECONDS
+   printf '%-12s %-18s %6s %8s %5s %6s %7s %5s %7s %6s %7s %8s %8s\n' MACHINE VARIANT NODES STATUS INCR ITER AVERAGE MOST AT "> 25" DIVIDED LEFT SECONDS
    for machine in $machines; do
       sed -n 's/^\$ HELD BY: \(.*\)/  '"$machine"': \1/p' "$here/zoo/$machine.bdf"
       for variant in $(variants "$machine"); do run "$machine" "$variant"; done
    done
 } | tee "$work/table"
-awk '$2 ~ /^[0-9.]+_/ { runs++; if ($4 == "0") { ended++; increments += $5; iterations += $6; if ($8 > most) { most = $8; where = $1 " " $2 " " $9 } if ($11 + 0 > left + 0) left = $11 }
-        seconds += $12 }
-     END { printf "%d of %d ended; of these: %d increments, %d iterations, %.1f on average, most %d (%s), left at most %s; %.0f s in all\n", \
-              ended, runs, increments, iterations, increments ? iterations/increments : 0, most, where, left + 0, seconds
+awk '$2 ~ /^[0-9.]+_/ { runs++; if ($4 == "0") { ended++; increments += $5; iterations += $6; if ($8 > most) { most = $8; where = $1 " " $2 " " $9 } over += $10; if ($12 + 0 > left + 0) left = $12 }
+        seconds += $13 }
+     END { printf "%d of %d ended; of these: %d increments, %d iterations, %.1f on average, most %d (%s), above 25 in %d; left at most %s; %.0f s in all\n", \
+              ended, runs, increments, iterations, increments ? iterations/increments : 0, most, where, over, left + 0, seconds
            exit ended < runs }' "$work/table" | tee -a "$work/table"
 exit "${PIPESTATUS[0]}"

@@ -3,6 +3,7 @@
 Include "parts.geo";
 v = newv; Box(v) = {-120, 0, 0, 240, 200, 560};
 w = newv; Box(w) = {-160, -300, -40, 320, 540, 40}; more() = {w};
+w = newv; Box(w) = {-25, -215, 0, 50, 50, 20}; more() += w;                          // foot of the screw
 w = newv; Box(w) = {-50, -20, 150, 100, 20, 400}; more() += w;
 w = newv; Box(w) = {-80, -50, 150, 160, 30, 400}; more() += w;
 column() = BooleanUnion{ Volume{v}; Delete; }{ Volume{more()}; Delete; };
@@ -32,7 +33,7 @@ box() = {-80, -20, 150, -50, -20, 550}; mark = 22; Call Mark;      // behind
 box() = {50, -20, 150, 80, -20, 550}; mark = 23; Call Mark;
 box() = {-80, -50, 150, -80, -20, 550}; mark = 24; Call Mark;      // beside
 box() = {80, -50, 150, 80, -20, 550}; mark = 25; Call Mark;
-box() = {-160, -300, 0, 160, 240, 0}; mark = 26; Call Mark;        // base: the screw
+box() = {-25, -215, 20, 25, -165, 20}; mark = 26; Call Mark;       // foot of the screw
 solids() = knee();
 box() = {-80, -50, 200, 80, -50, 400}; mark = 31; Call Mark;
 box() = {-110, -20, 200, -52, -20, 400}; mark = 32; Call Mark;

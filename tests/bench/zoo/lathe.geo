@@ -53,10 +53,10 @@ For i In {0:1}
 EndFor
 tail() = BooleanUnion{ Volume{v}; Delete; }{ Volume{more()}; Delete; };
 
-solids() = bed(); edge = 70; Call Size;
-solids() = head(); edge = 50; Call Size;
-solids() = carriage(); edge = 40; Call Size;
-solids() = tail(); edge = 50; Call Size;
+solids() = bed(); edge = 90; Call Size;
+solids() = head(); edge = 65; Call Size;
+solids() = carriage(); edge = 45; Call Size;
+solids() = tail(); edge = 60; Call Size;
 Physical Volume("bed", 1) = bed();
 Physical Volume("headstock", 2) = head();
 Physical Volume("carriage", 3) = carriage();

@@ -8,9 +8,9 @@ v = newv; Cylinder(v) = {-20, 0, 0, 40, 0, 0, 58}; w = newv; Cylinder(w) = {-21,
 outer() = BooleanDifference{ Volume{v}; Delete; }{ Volume{w}; Delete; };
 v = newv; Box(v) = {-20, -90, -80, 40, 180, 170}; w = newv; Cylinder(w) = {-21, 0, 0, 42, 0, 0, 58};
 house() = BooleanDifference{ Volume{v}; Delete; }{ Volume{w}; Delete; };
-Mesh.MeshSizeFromCurvature = 20;
-solids() = {shaft(), inner(), outer()}; edge = 14; Call Size;
-solids() = house(); edge = 24; Call Size;
+Mesh.MeshSizeFromCurvature = 16;
+solids() = {shaft(), inner(), outer()}; edge = 18; Call Size;
+solids() = house(); edge = 34; Call Size;
 Physical Volume("housing", 1) = house();
 Physical Volume("outer ring", 2) = outer();
 Physical Volume("inner ring", 3) = inner();
