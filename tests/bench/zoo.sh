@@ -21,7 +21,8 @@
 # A line of the table: machine, variant, nodes, exit status (or: stopped at LIMIT), increments, iterations with those of attempts that
 # were given up, their average, most in an increment, its stage.increment, increments of more than 25; increments that were divided; the
 # largest unbalanced force of a stage over the largest load; seconds. Below it what went wrong: messages, the last iteration, warnings of
-# increments that did not converge as a whole. Status 1 where a run does not end.
+# increments that did not converge as a whole; of variants that differ in INCREMENTS alone, how far their answers differ. Status 1 where
+# a run does not end.
 set -u
 export LC_ALL=C OPENBLAS_NUM_THREADS=1
 [ $# -ge 2 ] || { sed -n 's/^#    zoo.sh/usage: zoo.sh/p' "$0" >&2; exit 1; }
@@ -159,13 +160,35 @@ run() {
       "$work/$name.errors" > /dev/null 2>&1 < /dev/null; } 2>&1)
    status=$?
    [ $status -ne 124 ] || status=stopped
-   [ $status != 0 ] || grep -q '^ END OF LISTING' "$work/$name.out" || status=no_end
+   [ $status != 0 ] || whole "$name" || status=no_end
    tr '\r' '\n' < "$work/$name.errors" | sed 's/\x1b\[[0-9;]*[A-Za-z]//g; s/ *$//; s/.*\.bdf: //' |
-      grep -v -e '^$' -e '^Script' -e 'OpenBLAS' -e 'RESTART would keep' -e '^build$' -e '^order$' -e '^factor$' -e '^read$' -e '^write$' > "$work/$name.shown"
+      grep -v -e '^$' -e '^Script' -e 'OpenBLAS' -e 'RESTART would keep' -e '^build$' -e '^order$' -e '^factor$' -e '^read$' -e '^write$' \
+         -e 'warnings* in the listing' -e 'all bodies are of linear' -e ' s left$' > "$work/$name.shown"
    mesh=$(sed -n "s/^INCLUDE '\(.*\)'/\1/p" "$work/$name.bdf")
    row "$work/$name" "$1 $2 $(grep -c '^GRID' "$work/$mesh")" "$status" "$seconds"
    [ ! -f "$work/$name.out" ] || awk '/DID NOT CONVERGE/ { print "    " $0 }' "$work/$name.out" | head -n 5
    [ "$status" = 0 ] || awk '/^stage .* left/ { last = $0; next } !/^stage .* into/ { print "    " substr($0, 1, 300) } END { if (last != "") print "    " last }' "$work/$name.shown"
+}
+
+# Whether the run $1 came to its end
+whole() { [ -f "$work/$1.stage.csv" ] && grep -q '^ END OF LISTING' "$work/$1.out"; }
+
+# What the increments change: the answers of $1_$2 against those of the same variant with other increments, run before: the largest
+# difference of a stage in u_max over the largest u_max, and in a joint's normal and shear force over the largest force of a joint.
+paths() {
+   local variant other=$work/$1_$2.stage.csv
+   for variant in $3; do
+      [ "$variant" != "$2" ] || return
+      [ "${variant%_*}" = "${2%_*}" ] && whole "$1_$variant" && whole "$1_$2" || continue
+      awk -F, -v words="$2 against ${variant##*_}" '
+         FNR == 1 { file++; for (i = 1; i <= NF; i++) at[$i] = i; next }
+         file == 1 { u[$1, $2] = $at["u_max"]; n[$1, $2] = $at["n"]; t[$1, $2] = $at["t"]
+                     if (u[$1, $2] > largest) largest = u[$1, $2]; if (n[$1, $2] > force) force = n[$1, $2]; next }
+         ($1, $2) in u { du = far(du, u[$1, $2], $at["u_max"]); df = far(df, n[$1, $2], $at["n"]); df = far(df, t[$1, $2], $at["t"]) }
+         function far(d, a, b) { a -= b; if (a < 0) a = -a; return a > d ? a : d }
+         END { if (largest > 0 && force > 0) printf "    %s: u_max differs by %.1e, forces of joints by %.1e\n", words, du/largest, df/force }' \
+         "$work/$1_$variant.stage.csv" "$other"
+   done
 }
 
 machines=$*
@@ -177,7 +200,10 @@ done
    printf '%-12s %-18s %6s %8s %5s %6s %7s %5s %7s %6s %7s %8s %8s\n' MACHINE VARIANT NODES STATUS INCR ITER AVERAGE MOST AT "> 25" DIVIDED LEFT SECONDS
    for machine in $machines; do
       sed -n 's/^\$ HELD BY: \(.*\)/  '"$machine"': \1/p' "$here/zoo/$machine.bdf"
-      for variant in $(variants "$machine"); do run "$machine" "$variant"; done
+      for variant in $(variants "$machine"); do
+         run "$machine" "$variant"
+         paths "$machine" "$variant" "$(variants "$machine")"
+      done
    done
 } | tee "$work/table"
 awk '$2 ~ /^[0-9.]+_/ { runs++; if ($4 == "0") { ended++; increments += $5; iterations += $6; if ($8 > most) { most = $8; where = $1 " " $2 " " $9 } over += $10; if ($12 + 0 > left + 0) left = $12 }
