@@ -355,7 +355,7 @@ measure_zoo() {
    echo 'bench: zoo' >&2
    "$here/zoo.sh" "$program" "$work/zoo" ${ZOO_MODELS:-} > "$work/said" || echo 'bench: machines of the zoo did not end' >&2
    awk '$2 ~ /^[0-9.]+_[a-z]+_[12]_/ {
-           n = split("nodes ends increments iterations average most at over divided left all", name, " ")
+           n = split("nodes ends increments iterations average most at over divided left laws all", name, " ")
            if ($4 == "0") $4 = "yes"
            for (i = 1; i <= n; i++) print "zoo", $1 "_" $2, name[i], $(i + 2)
         }' "$work/zoo/table" >> "$measured"

@@ -8,21 +8,24 @@
 # WORK       folder of meshes, decks and results; WORK/table holds the table that is printed
 # MACHINE    lathe, wedges, ...: all if nothing is said
 #
-# Five stages: bolts and weight, then a force along x, along y, along z, then back to bolts and weight. A variant is MU_SURFACES_ORDER_INCREMENTS:
+# Five stages: bolts and weight, then a force along x, along y, along z, then back to bolts and weight. A variant is
+# MU_SURFACES_ORDER_INCREMENTS:
 #
 # MU          0.08, 0.15, 0.3, or another coefficient of friction
 # SURFACES    book: of input/surfaces, ways scraped, bolted faces ground; stiff: c/100, the shear 100 times as stiff
 # ORDER       1, 2: of the elements
 # INCREMENTS  free: no INCR; one: INCR of one increment; ten
 #
-# VARIANTS="0.08_stiff_1_ten ..." runs these; FULL=yes all of MU, SURFACES, ORDER with free and ten. Without either: 0.15_book_2_free, and
-# of some machines more. LIMIT (60) is the seconds after which a run is stopped. SCALE (1) multiplies the sizes of all elements. THREADS (1).
+# VARIANTS="0.08_stiff_1_ten ..." runs these; FULL=yes all of MU, SURFACES, ORDER with free and ten. Without either: 0.15_book_2_free,
+# and of some machines more. LIMIT (60) is the seconds after which a run is stopped. SCALE (1) multiplies the sizes of all elements.
+# THREADS (1).
 #
 # A line of the table: machine, variant, nodes, exit status (or: stopped at LIMIT), increments, iterations with those of attempts that
 # were given up, their average, most in an increment, its stage.increment, increments of more than 25; increments that were divided; the
-# largest unbalanced force of a stage over the largest load; seconds. Below it what went wrong: messages, the last iteration, warnings of
-# increments that did not converge as a whole; of variants that differ in INCREMENTS alone, how far their answers differ. Status 1 where
-# a run does not end.
+# largest unbalanced force of a stage over the largest load; how far pressures and shear stresses are from the laws, over the largest
+# pressure; seconds. Below it what went wrong: messages, the last iteration, warnings of increments that did not converge as a whole; of
+# variants that differ in INCREMENTS alone, how far their answers differ. Status 1 where a run does not end, or where an answer is not in
+# balance or off the laws by more than 1E-6.
 set -u
 export LC_ALL=C OPENBLAS_NUM_THREADS=1
 [ $# -ge 2 ] || { sed -n 's/^#    zoo.sh/usage: zoo.sh/p' "$0" >&2; exit 1; }
@@ -62,8 +65,8 @@ law() {
 mesh() {
    local machine=$1 order=$2 out=$work/$1_$2_mesh.bdf
    [ "$out" -nt "$here/zoo/$machine.geo" ] && [ "$out" -nt "$here/zoo/parts.geo" ] && return
-   gmsh -3 -order "$order" -format bdf -setnumber Mesh.SaveElementTagType 2 -setnumber Mesh.BdfFieldFormat 0 -setnumber scale "${SCALE:-1}" \
-      -o "$out.part.bdf" "$here/zoo/$machine.geo" > "$work/$machine.log" 2>&1
+   gmsh -3 -order "$order" -format bdf -setnumber Mesh.SaveElementTagType 2 -setnumber Mesh.BdfFieldFormat 0 \
+      -setnumber scale "${SCALE:-1}" -o "$out.part.bdf" "$here/zoo/$machine.geo" > "$work/$machine.log" 2>&1
    if grep -m 5 '^Error' "$work/$machine.log" >&2 || [ ! -s "$out.part.bdf" ]; then
       echo "zoo.sh: no mesh of $machine: see $work/$machine.log" >&2
       exit 1
@@ -127,10 +130,10 @@ END_OF_CASE
    } > "$work/${machine}_$2.bdf" || exit 1
 }
 
-# A line of the table, from what the program showed ($1.shown), the listing and the answers, with head $2, status $3, seconds $4. The
-# convergence history of the listing holds the last attempt of an increment only; the numbers shown count all its iterations.
+# A line of the table, from what the program showed ($1.shown), the listing and the answers, with head $2, status $3, seconds $4, laws
+# $5. The convergence history of the listing holds the last attempt of an increment only; the numbers shown count all its iterations.
 row() {
-   cat "$1.shown" "$1.out" "$1.said" 2> /dev/null | awk -v head="$2" -v status="$3" -v seconds="$4" '
+   cat "$1.shown" "$1.out" "$1.said" 2> /dev/null | awk -v head="$2" -v status="$3" -v seconds="$4" -v laws="${5:--}" '
       /^stage [0-9]+, increment [0-9]+, iteration [0-9]+:/ { split($0, w, "[ ,:]+"); see(w[2] "." w[4], w[6]); next }
       /^ CONVERGENCE HISTORY, STAGE / { on = 1; stage = $4 + 0; next }
       /^ [A-Z]/ { on = 0 }
@@ -147,8 +150,36 @@ row() {
                if (number[key] > 25) { over++ }
                if (key in parts) divided++
             }
-            printf "%-12s %-18s %6d %8s %5d %6d %7.1f %5d %7s %6d %7d %8.1e %8.1f\n", w[1], w[2], w[3], status, increments, iterations, \
-               (increments ? iterations/increments : 0), most, (where == "" ? "-" : where), over, divided, (force > 0 ? left/force : 0), seconds }'
+            printf "%-12s %-18s %6d %8s %5d %6d %7.1f %5d %7s %6d %7d %8.1e %8s %8.1f\n", w[1], w[2], w[3], status, increments, \
+               iterations, (increments ? iterations/increments : 0), most, (where == "" ? "-" : where), over, divided, \
+               (force > 0 ? left/force : 0), laws, seconds }'
+}
+
+# Whether the run $1 came to its end
+whole() { [ -f "$work/$1.stage.csv" ] && grep -q '^ END OF LISTING' "$work/$1.out"; }
+
+# How far the interface elements of the run $1 are from their laws, over the largest pressure: p on the loading curve of an element that
+# loads, p above 0, |tau| within MU p, the force p times the area; computed from the deck and the joint history
+laws() {
+   awk -F'[ ,]+' '
+      FNR == 1 { file++ }
+      file == 1 && $1 == "JNORM"  { c[$2] = $3; m[$2] = $4 }
+      file == 1 && $1 == "PJOINT" { law[$2] = $3; mu[$2] = $6 }
+      file == 1 && $1 == "JOINT"  { of[$2] = $3 }
+      file == 1 { next }
+      FNR == 1 { n = split($0, w, ","); for (i = 1; i <= n; i++) at[w[i]] = i; next }
+      {
+         split($0, w, ",")
+         k = of[w[at["joint"]]]; p = w[at["pressure"]]; lambda = w[at["lambda"]]
+         if (p > largest) largest = p
+         far(-p)
+         far(p - w[at["force"]]/w[at["area"]]); far(w[at["force"]]/w[at["area"]] - p)
+         far(sqrt(w[at["tau_x"]]^2 + w[at["tau_y"]]^2) - mu[k]*p)
+         if (w[at["branch"]] == "OPEN") far(p)
+         if (w[at["branch"]] == "LOAD") { q = lambda > 0 ? (lambda/c[law[k]])^(1/m[law[k]]) : 0; far(p - q); far(q - p) }
+      }
+      function far(d) { if (!(d <= worst)) worst = d }
+      END { printf "%.1e", (largest > 0 ? worst/largest : 0) }' "$work/$1.bdf" "$work/$1.joint.csv"
 }
 
 # Run the deck $1_$2 and print its lines of the table
@@ -165,13 +196,12 @@ run() {
       grep -v -e '^$' -e '^Script' -e 'OpenBLAS' -e 'RESTART would keep' -e '^build$' -e '^order$' -e '^factor$' -e '^read$' -e '^write$' \
          -e 'warnings* in the listing' -e 'all bodies are of linear' -e ' s left$' > "$work/$name.shown"
    mesh=$(sed -n "s/^INCLUDE '\(.*\)'/\1/p" "$work/$name.bdf")
-   row "$work/$name" "$1 $2 $(grep -c '^GRID' "$work/$mesh")" "$status" "$seconds"
+   row "$work/$name" "$1 $2 $(grep -c '^GRID' "$work/$mesh")" "$status" "$seconds" "$(whole "$name" && laws "$name")"
    [ ! -f "$work/$name.out" ] || awk '/DID NOT CONVERGE/ { print "    " $0 }' "$work/$name.out" | head -n 5
-   [ "$status" = 0 ] || awk '/^stage .* left/ { last = $0; next } !/^stage .* into/ { print "    " substr($0, 1, 300) } END { if (last != "") print "    " last }' "$work/$name.shown"
+   [ "$status" = 0 ] || awk '/^stage .* left/ { last = $0; next }
+                             !/^stage .* into/ { print "    " substr($0, 1, 300) }
+                             END { if (last != "") print "    " last }' "$work/$name.shown"
 }
-
-# Whether the run $1 came to its end
-whole() { [ -f "$work/$1.stage.csv" ] && grep -q '^ END OF LISTING' "$work/$1.out"; }
 
 # What the increments change: the answers of $1_$2 against those of the same variant with other increments, run before: the largest
 # difference of a stage in u_max over the largest u_max, and in a joint's normal and shear force over the largest force of a joint.
@@ -197,7 +227,8 @@ for machine in $machines; do
 done
 [ "$program" != - ] || exit 0
 {
-   printf '%-12s %-18s %6s %8s %5s %6s %7s %5s %7s %6s %7s %8s %8s\n' MACHINE VARIANT NODES STATUS INCR ITER AVERAGE MOST AT "> 25" DIVIDED LEFT SECONDS
+   printf '%-12s %-18s %6s %8s %5s %6s %7s %5s %7s %6s %7s %8s %8s %8s\n' MACHINE VARIANT NODES STATUS INCR ITER AVERAGE MOST AT '> 25' \
+      DIVIDED LEFT LAWS SECONDS
    for machine in $machines; do
       sed -n 's/^\$ HELD BY: \(.*\)/  '"$machine"': \1/p' "$here/zoo/$machine.bdf"
       for variant in $(variants "$machine"); do
@@ -206,9 +237,21 @@ done
       done
    done
 } | tee "$work/table"
-awk '$2 ~ /^[0-9.]+_/ { runs++; if ($4 == "0") { ended++; increments += $5; iterations += $6; if ($8 > most) { most = $8; where = $1 " " $2 " " $9 } over += $10; if ($12 + 0 > left + 0) left = $12 }
-        seconds += $13 }
-     END { printf "%d of %d ended; of these: %d increments, %d iterations, %.1f on average, most %d (%s), above 25 in %d; left at most %s; %.0f s in all\n", \
-              ended, runs, increments, iterations, increments ? iterations/increments : 0, most, where, over, left + 0, seconds
-           exit ended < runs }' "$work/table" | tee -a "$work/table"
-exit "${PIPESTATUS[0]}"
+awk '$2 ~ /^[0-9.]+_/ {
+        runs++
+        seconds += $14
+        if ($4 != "0") next
+        ended++; increments += $5; iterations += $6; over += $10
+        if ($8 > most) { most = $8; where = $1 " " $2 " " $9 }
+        if ($12 + 0 > left + 0) left = $12
+        if ($13 + 0 > laws + 0) laws = $13
+     }
+     END {
+        printf "%d of %d ended; of these: %d increments, %d iterations, %.1f on average, most %d (%s), above 25 in %d; ", ended, runs, \
+           increments, iterations, (increments ? iterations/increments : 0), most, where, over
+        printf "left at most %s, off the laws %s; %.0f s in all\n", left + 0, laws + 0, seconds
+        exit (ended < runs || left + 0 > 1e-6 || laws + 0 > 1e-6)
+     }' "$work/table" > "$work/sum"
+status=$?
+tee -a "$work/table" < "$work/sum"
+exit $status
