@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A zoo of machines (folder zoo): a geometry for Gmsh, which must be installed, and a piece of a deck each. Makes their decks and runs
-# them by NEWTON, one after the other. Nothing but the program's listing is read.
+# them by NEWTON, one after the other.
 #
 #    zoo.sh PROGRAM WORK [MACHINE...]
 #
@@ -20,12 +20,12 @@
 # and of some machines more. LIMIT (60) is the seconds after which a run is stopped. SCALE (1) multiplies the sizes of all elements.
 # THREADS (1).
 #
-# A line of the table: machine, variant, nodes, exit status (or: stopped at LIMIT), increments, iterations with those of attempts that
-# were given up, their average, most in an increment, its stage.increment, increments of more than 25; increments that were divided; the
-# largest unbalanced force of a stage over the largest load; how far pressures and shear stresses are from the laws, over the largest
-# pressure; seconds. Below it what went wrong: messages, the last iteration, warnings of increments that did not converge as a whole; of
-# variants that differ in INCREMENTS alone, how far their answers differ. Status 1 where a run does not end, or where an answer is not in
-# balance or off the laws by more than 1E-6.
+# A line of the table: machine, variant, nodes, exit status (stopped: at LIMIT; parts: an increment ended in parts, but not as a whole),
+# increments, iterations with those of attempts that were given up, their average, most in an increment, its stage.increment, increments
+# of more than 25; increments that were divided; the largest unbalanced force of a stage over the largest load; how far pressures and
+# shear stresses are from the laws, over the largest pressure; seconds. Below it what went wrong: messages, warnings, the last iteration;
+# of variants that differ in INCREMENTS alone, how far their answers differ. Status 1 where a run does not end, or where an answer is in
+# parts, not in balance or off the laws by more than 1E-6.
 set -u
 export LC_ALL=C OPENBLAS_NUM_THREADS=1
 [ $# -ge 2 ] || { sed -n 's/^#    zoo.sh/usage: zoo.sh/p' "$0" >&2; exit 1; }
@@ -131,10 +131,13 @@ END_OF_CASE
 }
 
 # A line of the table, from what the program showed ($1.shown), the listing and the answers, with head $2, status $3, seconds $4, laws
-# $5. The convergence history of the listing holds the last attempt of an increment only; the numbers shown count all its iterations.
+# $5. The convergence history of the listing holds the last attempt of an increment only; the summary counts all iterations of the run,
+# the numbers shown those of an increment (not every iteration is shown: MOST is a lower bound).
 row() {
-   cat "$1.shown" "$1.out" "$1.said" 2> /dev/null | awk -v head="$2" -v status="$3" -v seconds="$4" -v laws="${5:--}" '
+   cat "$1.shown" "$1.summary" "$1.out" "$1.said" 2> /dev/null | awk -v head="$2" -v status="$3" -v seconds="$4" -v laws="${5:--}" '
       /^stage [0-9]+, increment [0-9]+, iteration [0-9]+:/ { split($0, w, "[ ,:]+"); see(w[2] "." w[4], w[6]); next }
+      /^deck,status,/ { n = split($0, w, ","); for (i = 1; i <= n; i++) if (w[i] == "iterations") at = i
+                        getline; split($0, w, ","); total = w[at] }
       /^ CONVERGENCE HISTORY, STAGE / { on = 1; stage = $4 + 0; next }
       /^ [A-Z]/ { on = 0 }
       on && $1 + 0 > 0 && NF >= 6 { key = stage "." $1; count[key]++; see(key, count[key]); if ($2 > 1) parts[key] = 1 }
@@ -150,6 +153,7 @@ row() {
                if (number[key] > 25) { over++ }
                if (key in parts) divided++
             }
+            if (total + 0 > iterations) iterations = total
             printf "%-12s %-18s %6d %8s %5d %6d %7.1f %5d %7s %6d %7d %8.1e %8s %8.1f\n", w[1], w[2], w[3], status, increments, \
                iterations, (increments ? iterations/increments : 0), most, (where == "" ? "-" : where), over, divided, \
                (force > 0 ? left/force : 0), laws, seconds }'
@@ -185,22 +189,24 @@ laws() {
 # Run the deck $1_$2 and print its lines of the table
 run() {
    local name=$1_$2 status seconds TIMEFORMAT=%R mesh
-   rm -f "$work/$name".{out,early,said,errors,shown,restart,joint.csv,stage.csv,reaction.csv,bolt.csv,spring.csv}
+   rm -f "$work/$name".{out,early,said,errors,shown,summary,restart,joint.csv,stage.csv,reaction.csv,bolt.csv,spring.csv}
    # on a terminal of `script` the program shows its iterations
-   seconds=$({ time script -qec "timeout ${LIMIT:-60} nice $program --threads ${THREADS:-1} -o $work $work/$name.bdf > $work/$name.said" \
+   seconds=$({ time script -qec "timeout ${LIMIT:-60} nice $program --threads ${THREADS:-1} -o $work --summary $work/$name.summary \
+      $work/$name.bdf > $work/$name.said" \
       "$work/$name.errors" > /dev/null 2>&1 < /dev/null; } 2>&1)
    status=$?
    [ $status -ne 124 ] || status=stopped
    [ $status != 0 ] || whole "$name" || status=no_end
+   [ $status != 0 ] || ! grep -q 'DID NOT CONVERGE' "$work/$name.out" || status=parts
    tr '\r' '\n' < "$work/$name.errors" | sed 's/\x1b\[[0-9;]*[A-Za-z]//g; s/ *$//; s/.*\.bdf: //' |
       grep -v -e '^$' -e '^Script' -e 'OpenBLAS' -e 'RESTART would keep' -e '^build$' -e '^order$' -e '^factor$' -e '^read$' -e '^write$' \
          -e 'warnings* in the listing' -e 'all bodies are of linear' -e ' s left$' > "$work/$name.shown"
    mesh=$(sed -n "s/^INCLUDE '\(.*\)'/\1/p" "$work/$name.bdf")
    row "$work/$name" "$1 $2 $(grep -c '^GRID' "$work/$mesh")" "$status" "$seconds" "$(whole "$name" && laws "$name")"
-   [ ! -f "$work/$name.out" ] || awk '/DID NOT CONVERGE/ { print "    " $0 }' "$work/$name.out" | head -n 5
+   [ ! -f "$work/$name.out" ] || awk '/DID NOT CONVERGE/ { print before; print "   " $0 } { before = "   " $0 }' "$work/$name.out" | head -n 6
    [ "$status" = 0 ] || awk '/^stage .* left/ { last = $0; next }
                              !/^stage .* into/ { print "    " substr($0, 1, 300) }
-                             END { if (last != "") print "    " last }' "$work/$name.shown"
+                             END { if (last != "" && status != "parts") print "    " last }' status="$status" "$work/$name.shown"
 }
 
 # What the increments change: the answers of $1_$2 against those of the same variant with other increments, run before: the largest
