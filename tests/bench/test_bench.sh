@@ -35,6 +35,14 @@ count 'a deck with seven modes' $?
 deck over_4x3x2 '' 318 0      # 5 x 5 x 3 nodes over 4 x 4 x 3, 4 x 4 held, 3 components of the upper block
 deck over_3x3x2 '' 237 0
 
+# ------------------------------------------------------------------ its Fortran programs agree with the modules of the program
+# Without module files, or with those of another compiler, nothing is compared.
+for source in dgemm_rate write_matrix partition_plan; do
+   ! "${FC:-gfortran}" -std=f2018 -fsyntax-only -I"$work/../../release" "$here/$source.f90" 2>&1 | grep '^Error:' > "$work/said"
+   status=$?
+   count "$source.f90 does not compile: $(head -n 1 "$work/said")" $status
+done
+
 # ------------------------------------------------------------------ tables: exponents, shares, ratios by hand
 cat > "$work/measured" <<'END'
 machine before rate 20.0
