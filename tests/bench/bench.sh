@@ -6,7 +6,8 @@
 #
 # FOLDER  where the programs of the benchmark are and its files go; FOLDER/measured holds every figure, FOLDER/tables the tables
 # WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing, gmsh, lists,
-#         modes, foot, mpi; not of all: foot and mpi, which take hours; FOOT_MODELS and MPI_SHAPES are the models they measure
+#         modes, foot, zoo, mpi; not of all: foot and mpi, which take hours, and zoo, which takes half an hour; FOOT_MODELS, ZOO_MODELS
+#         and MPI_SHAPES are the models they measure
 #
 # Programs run one after another, on one thread unless said otherwise, ours and CHOLMOD in turn; of several runs the fastest
 # counts, long ones are not repeated. Status 1 where a run fails or CHOLMOD finds another answer.
@@ -28,8 +29,8 @@ for word; do
    case $word in
    all)   wanted="$wanted $small $large $wide gmsh friction threads crossing lists modes" ;;
    small) wanted="$wanted $small friction crossing" ;;
-   q4_*|hex8_*|over_*|friction|threads|crossing|gmsh|lists|modes|foot|mpi) wanted="$wanted $word" ;;
-   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh, lists, modes, foot, mpi nor a shape like q4_100x20, hex8_20x20x20" >&2
+   q4_*|hex8_*|over_*|friction|threads|crossing|gmsh|lists|modes|foot|zoo|mpi) wanted="$wanted $word" ;;
+   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh, lists, modes, foot, zoo, mpi nor a shape like q4_100x20, hex8_20x20x20" >&2
       exit 1 ;;
    esac
 done
@@ -347,6 +348,19 @@ measure_foot() {
    done
 }
 
+# ------------------------------------------------------------------ a zoo of machines: iterations
+# ZOO_MODELS   machines, all of zoo.sh if nothing is said; its other variables (VARIANTS, FULL, LIMIT, SCALE) count here too
+measure_zoo() {
+   command -v gmsh > /dev/null || { echo 'bench: gmsh is not installed, the zoo is left out' >&2; return; }
+   echo 'bench: zoo' >&2
+   "$here/zoo.sh" "$program" "$work/zoo" ${ZOO_MODELS:-} > "$work/said" || echo 'bench: machines of the zoo did not end' >&2
+   awk '$2 ~ /^[0-9.]+_[a-z]+_[12]_/ {
+           n = split("nodes ends increments iterations average most at over divided left laws all", name, " ")
+           if ($4 == "0") $4 = "yes"
+           for (i = 1; i <= n; i++) print "zoo", $1 "_" $2, name[i], $(i + 2)
+        }' "$work/zoo/table" >> "$measured"
+}
+
 # The increments and iterations of the listing $1.
 iterations() {
    awk -v head=x -v seconds=0 -f "$here/iterations.awk" "$1" |
@@ -393,6 +407,7 @@ for what in $wanted; do
    crossing) measure_crossing ;;
    gmsh)     measure_gmsh ;;
    foot)     measure_foot ;;
+   zoo)      measure_zoo ;;
    mpi)      measure_mpi ;;
    lists)    measure_lists over_20x20x8 over_24x17x8 over_24x24x8 ;;
    modes)    measure_modes q4_1000x200 hex8_40x40x40 hex8_50x50x50 ;;

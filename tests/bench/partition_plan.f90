@@ -45,7 +45,7 @@ program partition_plan
    allocate (nodes(n), links(n), inside(n), received(n), sent(n), partners(n), source=0.0_wp)
    allocate (seen(n), source=0)
    allocate (meets(n, n), source=.false.)
-   do i = 1, model%n_nodes
+   do i = 1, model%mesh%n_nodes
       own = part(i) + 1
       nodes(own) = nodes(own) + 1.0_wp
       do k = graph%first(i), graph%first(i + 1) - 1
@@ -64,9 +64,9 @@ program partition_plan
    end do
    partners = real(count(meets, dim=2), wp)
 
-   associate (d => real(model%dimension, wp))
+   associate (d => real(model%mesh%dimension, wp))
       print '(a, 1x, i0)', 'processes', n
-      print '(a, 1x, i0)', 'unknowns', model%dimension*model%n_nodes
+      print '(a, 1x, i0)', 'unknowns', model%mesh%dimension*model%mesh%n_nodes
       print '(a, 1x, f0.0)', 'edge_cut', 0.5_wp*sum(links)
       call show('nodes', nodes)
       call show('partners', partners)

@@ -27,6 +27,7 @@ END {
    lists()
    modes()
    foot()
+   zoo()
    mpi()
    plan()
 }
@@ -213,6 +214,20 @@ function foot(    i, m) {
       m = row["foot_ccx", i]
       cells(words_of(m) ";" either(v["foot_ccx", m, "increments_done"]) ";" either(v["foot_ccx", m, "iterations"]) ";" \
          seconds(v["foot_ccx", m, "seconds"]) ";" either(v["foot_ccx", m, "ends"]) ";" ratio(v["foot_ccx", m, "seconds"], v["foot", m, "all"]))
+   }
+   put()
+}
+
+# Machines: iterations with those of attempts given up. A model that ran to its end has yes in `ends`.
+function zoo(    i, m) {
+   if (!rows["zoo"]) return
+   title("A zoo of machines by NEWTON, one thread")
+   head("model;nodes;increments;iterations;on average;most;stage.increment;above 25;divided;all;to its end")
+   for (i = 1; i <= rows["zoo"]; i++) {
+      m = row["zoo", i]
+      cells(words_of(m) ";" v["zoo", m, "nodes"] ";" v["zoo", m, "increments"] ";" v["zoo", m, "iterations"] ";" v["zoo", m, "average"] ";" \
+         v["zoo", m, "most"] ";" v["zoo", m, "at"] ";" v["zoo", m, "over"] ";" v["zoo", m, "divided"] ";" seconds(v["zoo", m, "all"]) ";" \
+         v["zoo", m, "ends"])
    }
    put()
 }

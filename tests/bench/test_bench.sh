@@ -35,6 +35,14 @@ count 'a deck with seven modes' $?
 deck over_4x3x2 '' 318 0      # 5 x 5 x 3 nodes over 4 x 4 x 3, 4 x 4 held, 3 components of the upper block
 deck over_3x3x2 '' 237 0
 
+# ------------------------------------------------------------------ its Fortran programs agree with the modules of the program
+# Without module files, or with those of another compiler, nothing is compared.
+for source in dgemm_rate write_matrix partition_plan; do
+   ! "${FC:-gfortran}" -std=f2018 -fsyntax-only -I"$work/../../release" "$here/$source.f90" 2>&1 | grep '^Error:' > "$work/said"
+   status=$?
+   count "$source.f90 does not compile: $(head -n 1 "$work/said")" $status
+done
+
 # ------------------------------------------------------------------ tables: exponents, shares, ratios by hand
 cat > "$work/measured" <<'END'
 machine before rate 20.0
@@ -109,6 +117,16 @@ foot_ccx small_cut seconds 30
 foot_ccx small_cut iterations 60
 foot_ccx small_cut increments_done 15
 foot_ccx small_cut ends yes
+zoo lathe_0.15_book_2_free nodes 6615
+zoo lathe_0.15_book_2_free increments 5
+zoo lathe_0.15_book_2_free iterations 40
+zoo lathe_0.15_book_2_free average 8.0
+zoo lathe_0.15_book_2_free most 27
+zoo lathe_0.15_book_2_free at 4.1
+zoo lathe_0.15_book_2_free over 1
+zoo lathe_0.15_book_2_free divided 0
+zoo lathe_0.15_book_2_free all 12
+zoo lathe_0.15_book_2_free ends yes
 crossing_SKYLINE q4_20x4 solution 0.03
 crossing_SKYLINE q4_20x4 entries 900
 crossing_TREE q4_20x4 solution 0.02
@@ -136,6 +154,7 @@ row '^\| hex8 4 over 3 x 2 \| 318 \| - \| 0.30 \| - \| 100 \| 3.00 \|$'
 row '^\| small cut \| 6895 \| 20000 \| 15 \| 110 \| 14 \| 0 \| - \| - \| 11.0 \| 100 \| 12.0 \| 205 \| yes \|$'
 row '^\| small cut none \| -? ?\|( - \|){11} stopped \|$'
 row '^\| small cut \| 15 \| 60 \| 30.0 \| yes \| 2.50 \|$'
+row '^\| lathe 0.15 book 2 free \| 6615 \| 5 \| 40 \| 8.0 \| 27 \| 4.1 \| 1 \| 0 \| 12.0 \| yes \|$'
 row '^\| factor \| 3.00 \| 2.00 \| 1.50 \|$'
 row '^\| Q4 20 x 4 \| 400 \| 900 \| - \| 30.0 \| 20.0 \| 1.50 \|$'
 

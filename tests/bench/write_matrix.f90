@@ -41,16 +41,16 @@ program write_matrix
    if (.not. readable) call stop_with('cannot be read')
    call build_model(deck, model, plan, errors)
    if (errors%any()) call stop_with('has errors')
-   if (n_bars(model) > 0 .or. n_sections(model) > 0) call stop_with('has bars or bolts')
-   if (allocated(model%stage_loads(1)%moved)) call stop_with('has moved supports')
-   call numbers%number_unknowns(model, [(i, i = 1, model%n_nodes)])
+   if (n_bars(model%mesh) > 0 .or. n_sections(model%mesh) > 0) call stop_with('has bars or bolts')
+   if (allocated(model%history%stages(1)%moved)) call stop_with('has moved supports')
+   call numbers%number_unknowns(model, [(i, i = 1, model%mesh%n_nodes)])
    call assemble(start, row, value)
    call first_load(load)
    call closing_displacements(closing_row, closing)
 
    open (newunit=unit, file=argument_text(2), form='unformatted', access='stream', action='write', status='replace', &
          iostat=status)
-   if (status == 0) write (unit, iostat=status) numbers%n, size(row), size(model%interface), start, row - 1, value, load, &
+   if (status == 0) write (unit, iostat=status) numbers%n, size(row), size(model%joints%element), start, row - 1, value, load, &
       closing_row - 1, closing
    if (status == 0) close (unit, iostat=status)
    if (status /= 0) call stop_with('its equations cannot be written to '//argument_text(2))
@@ -106,15 +106,15 @@ contains
       real(wp) :: k_int(3), k_global(3, 3)
       integer :: d, e, i
 
-      d = model%dimension
+      d = model%mesh%dimension
       allocate (k(max_dofs, max_dofs), source=0.0_wp)
-      do e = 1, model%n_elements
+      do e = 1, model%mesh%n_elements
          if (present(rows)) call coupled_stiffness(model, e, k)
-         call visit(equations_of(corners_of(model, e)), k, place, rows, values)
+         call visit(equations_of(corners_of(model%mesh, e)), k, place, rows, values)
       end do
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i))
-            k_int = stiffness_at_rest(model%joints(element%joint)%law, element%area, model%joints(element%joint)%p_av)
+      do i = 1, size(model%joints%element)
+         associate (element => model%joints%element(i))
+            k_int = stiffness_at_rest(model%joints%list(element%joint)%law, element%area, model%joints%list(element%joint)%p_av)
             k_global = matmul(element%axes*spread(k_int, 1, 3), transpose(element%axes))
             k(:d, :d) = k_global(:d, :d)
             k(d + 1:2*d, d + 1:2*d) = k_global(:d, :d)
@@ -128,7 +128,7 @@ contains
    !> Equations of the components of NODES, 0: held.
    function equations_of(nodes) result(equations)
       integer, intent(in) :: nodes(:)
-      integer :: equations(model%dimension*size(nodes))
+      integer :: equations(model%mesh%dimension*size(nodes))
 
       equations = reshape(numbers%number(:, nodes), [size(equations)])
    end function equations_of
@@ -164,9 +164,9 @@ contains
       integer :: d, equation, i
 
       allocate (load(numbers%n), source=0.0_wp)
-      associate (loads => model%stage_loads(1))
+      associate (loads => model%history%stages(1))
          do i = 1, loads%n
-            do d = 1, model%dimension
+            do d = 1, model%mesh%dimension
                equation = numbers%number(d, loads%node(i))
                if (equation > 0) load(equation) = load(equation) + plan%stages(1)%fractions(1)*loads%force(d, i)
             end do
@@ -180,11 +180,11 @@ contains
       real(wp), allocatable, intent(out) :: factors(:, :)
       integer :: d, i, k
 
-      d = model%dimension
-      allocate (rows(6, size(model%interface)), source=0)
-      allocate (factors(6, size(model%interface)), source=0.0_wp)
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i))
+      d = model%mesh%dimension
+      allocate (rows(6, size(model%joints%element)), source=0)
+      allocate (factors(6, size(model%joints%element)), source=0.0_wp)
+      do i = 1, size(model%joints%element)
+         associate (element => model%joints%element(i))
             do k = 1, size(element%node)
                rows(3*k - 2:3*k - 3 + d, i) = numbers%number(:, element%node(k))
                factors(3*k - 2:3*k - 3 + d, i) = element%weight(k)*element%axes(:d, 3)

@@ -1,0 +1,44 @@
+// A slide on a dovetail, with a taper gib (1 to 100) on its right flank. x along the way.
+Include "parts.geo";
+s = 17/30;                                                        // of the flanks
+from = 0; length = 400;
+ca() = {0, 240, 240, 160, 177, 63, 80, 0}; cb() = {0, 0, 40, 40, 70, 70, 40, 40};
+Call Prism;
+bed() = {v};
+// cavity of the slide, longer than the slide at both ends; then the gib
+x0 = 80; x1 = 320; low = 40; high = 72; ya = 80; yb = 160; left = 1;
+t0 = 9; t1 = 11.4;
+Call Flanked;
+cavity() = {v};
+x0 = 95; x1 = 305; low = 43; high = 68; left = 0;
+t0 = 9.15; t1 = 11.25;
+Call Flanked;
+gib() = {v};
+v = newv; Box(v) = {100, 20, 40, 200, 210, 70};
+slide() = BooleanDifference{ Volume{v}; Delete; }{ Volume{cavity()}; Delete; };
+w = newv; Box(w) = {170, 90, 110, 60, 60, 40};
+slide() = BooleanUnion{ Volume{slide()}; Delete; }{ Volume{w}; Delete; };
+solids() = bed(); edge = 50; Call Size;
+solids() = slide(); edge = 32; Call Size;
+solids() = gib(); edge = 16; Call Size;
+Physical Volume("bed", 1) = bed();
+Physical Volume("slide", 2) = slide();
+Physical Volume("gib", 3) = gib();
+solids() = bed();
+box() = {0, 0, 0, 400, 240, 0}; mark = 20; Call Mark;
+box() = {0, 0, 40, 400, 80, 40}; mark = 21; Call Mark;
+box() = {0, 160, 40, 400, 240, 40}; mark = 22; Call Mark;
+box() = {0, 63, 40, 400, 80, 70}; mark = 23; Call Mark;
+box() = {0, 160, 40, 400, 177, 70}; mark = 24; Call Mark;
+box() = {0, 0, 0, 0, 240, 70}; mark = 25; Call Mark;
+solids() = slide();
+box() = {100, 20, 40, 300, 80, 40}; mark = 31; Call Mark;
+box() = {100, 165, 40, 300, 230, 40}; mark = 32; Call Mark;
+box() = {100, 60, 40, 300, 80, 72}; mark = 33; Call Mark;
+box() = {100, 165, 40, 300, 192, 72}; mark = 34; Call Mark;
+box() = {100, 20, 40, 100, 230, 110}; mark = 35; Call Mark;
+box() = {170, 90, 150, 230, 150, 150}; mark = 36; Call Mark;
+solids() = gib();
+box() = {95, 161, 43, 305, 177, 68}; mark = 41; Call Mark;
+box() = {95, 170, 43, 305, 190, 68}; mark = 42; Call Mark;
+box() = {305, 160, 43, 305, 190, 68}; mark = 43; Call Mark;

@@ -1,0 +1,22 @@
+// A toolholder with a taper of 1 to 20, pressed into its spindle.
+Include "parts.geo";
+v = newv; Cylinder(v) = {0, 0, 0, 0, 0, 150, 60};
+w = newv; Cone(w) = {0, 0, 30, 0, 0, 120, 25, 28};
+u = newv; Cylinder(u) = {0, 0, -1, 0, 0, 32, 20};
+spindle() = BooleanDifference{ Volume{v}; Delete; }{ Volume{w, u}; Delete; };
+v = newv; Cone(v) = {0, 0, 30, 0, 0, 120, 25, 28};
+w = newv; Cylinder(w) = {0, 0, 150, 0, 0, 40, 28}; more() = {w};
+w = newv; Cylinder(w) = {0, 0, 160, 0, 0, 20, 45}; more() += w;
+w = newv; Cylinder(w) = {0, 0, 190, 0, 0, 60, 20}; more() += w;
+holder() = BooleanUnion{ Volume{v}; Delete; }{ Volume{more()}; Delete; };
+Mesh.MeshSizeFromCurvature = 12;
+solids() = spindle(); edge = 34; Call Size;
+solids() = holder(); edge = 20; Call Size;
+Physical Volume("spindle", 1) = spindle();
+Physical Volume("holder", 2) = holder();
+solids() = spindle();
+box() = {-60, -60, 0, 60, 60, 0}; mark = 20; Call Mark;
+box() = {-28, -28, 30, 28, 28, 150}; mark = 21; Call Mark;
+solids() = holder();
+box() = {-28, -28, 30, 28, 28, 150}; mark = 31; Call Mark;
+box() = {-20, -20, 250, 20, 20, 250}; mark = 32; Call Mark;

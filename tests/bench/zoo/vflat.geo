@@ -1,0 +1,27 @@
+// A carriage on a V and a flat way, without keepers: it lies on them. x along the ways.
+Include "parts.geo";
+from = 0; length = 600;
+ca() = {0, 300, 300, 280, 280, 220, 220, 100, 70, 40, 0}; cb() = {0, 0, 60, 60, 80, 80, 60, 60, 90, 60, 60};
+Call Prism;
+bed() = {v};
+from = 160; length = 250;
+ca() = {10, 45, 65, 75, 95, 110, 110, 220, 220, 280, 280, 290, 290, 10}; cb() = {65, 65, 85, 85, 65, 65, 90, 90, 80, 80, 90, 90, 130, 130};
+Call Prism;
+w = newv; Box(w) = {260, 90, 130, 80, 80, 50};
+carriage() = BooleanUnion{ Volume{v}; Delete; }{ Volume{w}; Delete; };
+solids() = bed(); edge = 60; Call Size;
+solids() = carriage(); edge = 36; Call Size;
+Physical Volume("bed", 1) = bed();
+Physical Volume("carriage", 2) = carriage();
+solids() = bed();
+box() = {0, 0, 0, 600, 300, 0}; mark = 20; Call Mark;
+box() = {0, 40, 60, 600, 70, 90}; mark = 21; Call Mark;
+box() = {0, 70, 60, 600, 100, 90}; mark = 22; Call Mark;
+box() = {0, 220, 80, 600, 280, 80}; mark = 23; Call Mark;
+box() = {0, 0, 0, 0, 300, 90}; mark = 24; Call Mark;
+solids() = carriage();
+box() = {160, 45, 65, 410, 65, 85}; mark = 31; Call Mark;
+box() = {160, 75, 65, 410, 95, 85}; mark = 32; Call Mark;
+box() = {160, 220, 80, 410, 280, 80}; mark = 33; Call Mark;
+box() = {160, 10, 65, 160, 290, 130}; mark = 34; Call Mark;
+box() = {260, 90, 180, 340, 170, 180}; mark = 35; Call Mark;
