@@ -24,6 +24,8 @@ module given_limits
    real(wp), parameter :: converges = 0.1_wp   ! of the residual: an iteration of the exact laws that leaves more does not converge
    real(wp), parameter :: close = 0.2_wp       ! of the work of the first unbalanced forces: what a line search may leave
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
+   real(wp), parameter :: close_to_flat = 1.0e-3_wp ! of the work: what falls less in a trial does not fall
+   integer, parameter  :: most_flat = 4        ! such trials, one behind the other
    integer, parameter  :: most_trials = 20     ! of a line search
    integer, parameter  :: patience = 25        ! iterations in which a problem is solved
    integer, parameter  :: settled = 2          ! limits after which the exact laws try to finish
@@ -43,6 +45,8 @@ contains
       attempt%n_limits = 0
       attempt%sees_own = .false.
       attempt%to_solve = 0.0_wp
+      attempt%runs = .false.
+      attempt%bearable = 1.0_wp
       attempt%since = 0
    end subroutine give_first_limits
 
@@ -107,8 +111,9 @@ contains
       type(trial_type), intent(inout)    :: next
       real(wp), allocatable :: body(:, :)
       real(wp) :: first, work, low(2), high(2) ! steps and the works there
-      integer  :: i
+      integer  :: flat, i
 
+      flat = 0
       allocate (body, mold=direction)
       call forces_in_bodies(system, direction, body)
       first = sum(now%residual*direction, mask=.not. analysis%held)
@@ -124,7 +129,9 @@ contains
          if (next%size <= 0.5_wp*now%size .or. abs(work) <= close*abs(first)) return
          if (.not. first > 0.0_wp) exit
          if (work > 0.0_wp) then
+            flat = merge(flat + 1, 0, work > (1.0_wp - close_to_flat)*low(2))
             low = [attempt%step, work]
+            if (flat == most_flat .and. high(1) < 0.0_wp) exit
          else
             high = [attempt%step, work]
          end if
@@ -139,9 +146,26 @@ contains
             end associate
          end if
       end do
-      if (first > 0.0_wp) return
+      if (first > 0.0_wp) then
+         if (high(1) < 0.0_wp) call note_missing(low(2))
+         return
+      end if
       next = now ! the energy does not fall along this direction
       attempt%step = 0.0_wp
+
+   contains
+
+      !> The limits do not bear the load: the WORK of the unbalanced forces does not vanish however far the body moves.
+      subroutine note_missing(work)
+         real(wp), intent(in) :: work
+         real(wp) :: asked
+
+         attempt%runs = .true.
+         asked = sum(attempt%asked*direction, mask=.not. analysis%held)
+         attempt%bearable = max(0.0_wp, min(1.0_wp, 1.0_wp - work/max(asked, work)))
+         if (attempt%missing <= 0.0_wp) attempt%missing = work/max(maxval(abs(direction)), tiny(1.0_wp))
+      end subroutine note_missing
+
    end subroutine minimise
 
    !> Whether an iteration of the exact laws from NOW to NEXT does not converge. New limits at NOW follow then.
@@ -160,11 +184,11 @@ contains
       attempt%n_limits = settled - 1 ! two problems more before the exact laws try again
    end function falls_back
 
-   !> Whether the body moves on under the present limits: many iterations have not solved their problem.
+   !> Whether the body moves on under the present limits, or many iterations have not solved their problem.
    pure logical function moves_on(attempt)
       type(attempt_type), intent(in) :: attempt
 
-      moves_on = attempt%iteration - attempt%since > patience
+      moves_on = attempt%runs .or. attempt%iteration - attempt%since > patience
    end function moves_on
 
    !> Whether the trial of ATTEMPT follows the exact laws.

@@ -57,6 +57,7 @@ contains
       else
          call evaluate_at(model, system, attempt, analysis, analysis%u, now)
       end if
+      if (attempt%with_limits) attempt%asked = now%residual
       allocate (next, source=now)
       if (attempt%growth > 0.0_wp) then
          moves = attempt%moves

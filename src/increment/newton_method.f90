@@ -25,6 +25,8 @@ module newton_method
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
    integer, parameter  :: most_halvings = 12
+   integer, parameter  :: most_cuts = 3           ! to the share of a load that the limits seem to bear, without one that they bear
+   real(wp), parameter :: least_share = 1.0e-3_wp ! of an increment: limits of friction that bear less of it are at their end
 
 contains
 
@@ -194,12 +196,13 @@ contains
       type(analysis_type), allocatable :: whole
       real(wp), allocatable :: u_start(:, :)
       real(wp) :: done, part
-      integer  :: before_open
+      integer  :: before_open, n_cut
 
       allocate (u_start, source=analysis%u)
       before_open = count(analysis%states%normal%branch == branch_open)
       done = 0.0_wp
       part = 1.0_wp
+      n_cut = 0
       analysis%record%n_parts = 0
       do while (done < 1.0_wp)
          part = min(part, 1.0_wp - done)
@@ -207,10 +210,13 @@ contains
          if (attempt%converged) then
             done = done + part
             part = 2.0_wp*part
+            n_cut = 0
             analysis%record%n_parts = analysis%record%n_parts + 1
-         else if (part > 0.5_wp**most_halvings) then
+         else if (merge(attempt%bearable*part > least_share .and. n_cut < most_cuts, part > 0.5_wp**most_halvings, &
+                        attempt%runs)) then
+            n_cut = n_cut + 1
             if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
-            part = 0.5_wp*part
+            part = part*merge(0.999_wp*attempt%bearable, 0.5_wp, attempt%runs)
          else
             attempt%left_over = 1.0_wp - done
             if (attempt%trouble%raised) then
@@ -289,6 +295,7 @@ contains
             words = words//': joint '//integer_text(joint%id)//' slips or is open at all its nodes, from node '// &
                     integer_text(joint_node_id(model, joint%first, 1))// &
                     ' on, and does not hold the load in the direction of its movement'
+            if (attempt%missing > 0.0_wp) words = words//': '//real_text(attempt%missing)//' of force are missing'
          end associate
       else if (attempt%imprecise) then
          words = words//': '//no_balance

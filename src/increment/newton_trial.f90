@@ -55,6 +55,10 @@ module newton_trial
       real(wp) :: to_solve = 0.0_wp               !! residual of the first trial under the present limits [force]
       integer  :: n_limits = 0                    !! limits given so far
       integer  :: since = 0                       !! iteration at which the present ones were given
+      real(wp), allocatable :: asked(:, :)        !! the load that the part adds, (dimension, retained) [force]
+      logical  :: runs = .false.                  !! the body moves without end: the limits do not bear the load
+      real(wp) :: bearable = 1.0_wp               !! share of the load of the part that they bear [-]
+      real(wp) :: missing = 0.0_wp                !! force that they lacked, in the largest part tried [force]
       ! the outcome
       logical  :: converged = .false.
       logical  :: ends = .false.                  !! no further iteration

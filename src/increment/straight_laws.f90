@@ -31,6 +31,7 @@ module straight_laws
    real(wp), parameter :: right = 0.1_wp    !! of it: error up to which a straight law has crossed no kink
    real(wp), parameter :: farthest = 1.0e30_wp  !! point of rest from the movement: powers of it are finite [length]
    real(wp), parameter :: most  = 3.0_wp    !! times the residual: limit of the force of a movement
+   real(wp), parameter :: along = 0.5_wp  !! cosine of a normal and an axis from which on it holds along the axis
    real(wp), parameter :: far = 1.0e3_wp    !! times the last direction: the body is not held
    integer, parameter, public :: direction_digits = 6 !! the next iteration corrects the direction
 
@@ -70,16 +71,17 @@ contains
    !> Change the LAWS at NOW, the committed state, to those of the first iteration. The direction of movement of an element is not
    !! yet known. An element on its first loading has the secants of Eq. (9). ELASTIC: an element that was pressed before has the
    !! stiffer side of its kink, that of unloading, like the elastic predictor of plasticity. The elements of a joint without
-   !! pressure and with gaps are taken as closed.
+   !! pressure and with gaps are taken as closed
+   !! where nothing else holds one of their bodies along the normal.
    subroutine first_laws(model, now, elastic, laws)
       type(model_type), intent(in)      :: model
       type(trial_type), intent(in)      :: now
       logical, intent(in)               :: elastic
       type(straight_law), intent(inout) :: laws(:)
       integer :: d, i
-      logical :: is_first, closes, unloads, rests(model%freedoms%n_parts + 1)
+      logical :: is_first, closes, unloads, rests(model%mesh%dimension, model%freedoms%n_parts + 1)
 
-      rests = parts_at_rest(model, now%states)
+      rests = held_parts(model, now%states)
       do i = 1, size(model%joints%element)
          associate (element => model%joints%element(i), joint => model%joints%list(model%joints%element(i)%joint), &
                     state => now%states(i)%normal, tangent => laws(i)%tangent, k => laws(i)%elastic)
@@ -87,7 +89,8 @@ contains
             closes = is_apart(now%states(i))
             if (closes) closes = all(now%states(joint%first:joint%last)%normal%pressure <= &
                                      pressure_floor*now%states(joint%first:joint%last)%normal%p_av) .and. &
-                                 .not. (rests(part_at(model, i, 1)) .and. rests(part_at(model, i, 2)))
+                                 any(is_along(model, i) .and. .not. (rests(:, part_at(model, i, 1)) .and. &
+                                                                      rests(:, part_at(model, i, 2))))
             unloads = elastic .and. state%branch /= branch_open
             if (is_first .or. closes) then
                tangent(3, 3) = k(3)
@@ -105,25 +108,36 @@ contains
       end do
    end subroutine first_laws
 
-   !> Which parts supports hold or an interface element presses; the rigid base is behind the last part.
-   pure function parts_at_rest(model, states) result(rests)
+   !> Along which axes a part is held by supports or pressed by interface elements; the rigid base is behind the last part.
+   pure function held_parts(model, states) result(rests)
       type(model_type), intent(in)    :: model
       type(element_state), intent(in) :: states(:)
-      logical :: rests(model%freedoms%n_parts + 1)
+      logical :: rests(model%mesh%dimension, model%freedoms%n_parts + 1)
       integer :: end, i, node
 
       rests = .false.
-      rests(size(rests)) = .true.
+      rests(:, size(rests, 2)) = .true.
       do node = 1, n_points(model%mesh)
-         if (any(model%freedoms%held(:, node))) rests(model%freedoms%part(node)) = .true.
+         associate (part => model%freedoms%part(node))
+            rests(:, part) = rests(:, part) .or. model%freedoms%held(:, node)
+         end associate
       end do
       do i = 1, size(states)
          if (states(i)%normal%pressure <= pressure_floor*states(i)%normal%p_av) cycle
          do end = 1, 2
-            rests(part_at(model, i, end)) = .true.
+            rests(:, part_at(model, i, end)) = rests(:, part_at(model, i, end)) .or. is_along(model, i)
          end do
       end do
-   end function parts_at_rest
+   end function held_parts
+
+   !> Which axes the normal of interface element I is near to.
+   pure function is_along(model, i)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i
+      logical :: is_along(model%mesh%dimension)
+
+      is_along = abs(model%joints%element(i)%axes(:model%mesh%dimension, 3)) > along
+   end function is_along
 
    !> The part of the first node of END 1 or 2 of interface element I, or the rigid base.
    pure integer function part_at(model, i, end) result(part)

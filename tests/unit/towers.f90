@@ -37,6 +37,8 @@ contains
          model%history%stages(2))
       model%mesh%node_id = [(100 + i, i=1, n)]
       model%mesh%x = 0.0_wp
+      model%freedoms%n_parts = n
+      model%freedoms%part = [(i, i=1, n)]
       model%freedoms%used = .true.
       model%freedoms%held = .false.
       model%freedoms%held(1, :) = .not. sideways
