@@ -6,7 +6,7 @@ module free_structure
    use deck_check, only: checked_deck
    use interface_operator, only: named_node
    use kinds, only: wp
-   use model_data, only: a_point, a_rotation, corners_of, freedoms_type, history_type, is_face_node, joints_type, mesh_type, &
+   use model_data, only: a_point, a_rotation, element_points, freedoms_type, history_type, is_face_node, joints_type, mesh_type, &
                           node_kind, place_in_kind, support_group
    use numbers, only: cross, first_largest
    use support_build, only: hold
@@ -42,7 +42,7 @@ contains
       call find_bodies(mesh, body, n)
       body_of = 0
       do e = 1, mesh%n_elements
-         body_of(corners_of(mesh, e)) = body(e)
+         body_of(element_points(mesh, e)) = body(e)
       end do
       may_be = body_of == maxloc([(count(body_of == i), i = 1, n)], dim=1)
       if (allocated(mesh%node_system)) may_be = may_be .and. mesh%node_system(:size(may_be)) == 0

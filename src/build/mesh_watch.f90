@@ -6,7 +6,7 @@ module mesh_watch
    use element_kinds, only: element_table
    use kinds, only: wp
    use lists, only: join, list_owners, root_of
-   use model_data, only: a_bar, bar_nodes, corners_of, freedoms_type, is_face_node, joints_type, mesh_type, n_bars, n_points, &
+   use model_data, only: a_bar, bar_nodes, element_points, freedoms_type, is_face_node, joints_type, mesh_type, n_bars, n_points, &
                           supported
    use spatial_search, only: spatial_search_type
    use text_tools, only: integer_text, one_of, plural
@@ -31,7 +31,7 @@ contains
 
       allocate (lowest(1, mesh%n_elements + n_bars(mesh)), source=0)
       do e = 1, mesh%n_elements
-         lowest(1, e) = minval(corners_of(mesh, e))
+         lowest(1, e) = minval(element_points(mesh, e))
       end do
       do i = 1, n_bars(mesh)
          if (mesh%bars(i)%kind == a_bar .and. mesh%bars(i)%bolt == 0) &

@@ -10,6 +10,7 @@ module model_build
    use determinate_joints, only: find_determinate_joints, find_first_pressures
    use displacement_systems, only: couple_node_systems, find_node_systems
    use element_build, only: marked_side
+   use element_unknowns, only: make_table
    use free_structure, only: check_balance, hold_free_structure
    use joint_build, only: build_joints
    use joint_gaps, only: build_gaps
@@ -146,8 +147,8 @@ contains
       call build_gaps(deck, mesh, joints)
    end subroutine make_joints
 
-   !> Make the FREEDOMS: supports, displacement systems, constraint equations and rigid elements. EXPANSIONS are those of the rigid
-   !! elements when warm.
+   !> Make the FREEDOMS: supports, displacement systems, constraint equations and rigid elements, and the table of unknowns. EXPANSIONS are
+   !! those of the rigid elements when warm.
    subroutine make_freedoms(deck, mesh, joints, ties, freedoms, expansions)
       type(checked_deck), intent(inout) :: deck
       type(mesh_type), intent(in)       :: mesh
@@ -163,6 +164,7 @@ contains
       call leave_out_idle(mesh, freedoms)
       call check_masses(deck, mesh, freedoms)
       if (.not. deck%errors%any()) call couple_shell_faces(mesh, freedoms)
+      if (.not. deck%errors%any()) call make_table(mesh, freedoms)
    end subroutine make_freedoms
 
    !> Make the load HISTORY, and the loads that oscillate.

@@ -7,7 +7,7 @@ module shell_faces
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use kinds, only: wp
-   use model_data, only: corners_of, face_node_type, freedoms_type, is_shell, mesh_type, surface_type
+   use model_data, only: element_points, face_node_type, freedoms_type, is_shell, mesh_type, surface_type
    use node_build, only: append_nodes
    use node_coupling, only: couple_node, transformation, unknown_nodes
    use numbers, only: by_rotation, cross
@@ -95,7 +95,7 @@ contains
          c = count(surface%nodes(:, s) > 0)
          row = merge(-surface%nodes(3, s), 0, c == 2)
          nodes(:c) = surface%nodes(:c, s)
-         associate (corners => corners_of(mesh, surface%element(s)), &
+         associate (corners => element_points(mesh, surface%element(s)), &
                     law => mesh%structural%shells(mesh%structural%place(surface%element(s))))
             frame = shell_frame_of(mesh%x(:, corners), law%offset)
             side = sign(0.5_wp, dot_product(frame%axes(:, 3), cross(mesh%x(:, nodes(2)) - mesh%x(:, nodes(1)), &

@@ -8,7 +8,7 @@ module structural_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, freedoms_type, is_beam, is_shell, mesh_type, n_rotations, rotation_type
+   use model_data, only: element_points, freedoms_type, is_beam, is_shell, mesh_type, n_rotations, rotation_type
    use node_build, only: append_unknowns
    use rod_torsion, only: add_twisted, leave_out_untwisted
    use shell_membrane, only: shell_law
@@ -76,7 +76,7 @@ contains
       count_of = 0
       do e = 1, mesh%n_elements
          if (.not. has_rotations(mesh, e)) cycle
-         associate (nodes => corners_of(mesh, e))
+         associate (nodes => element_points(mesh, e))
             if (any(nodes == 0)) cycle ! reported already
             do i = 1, size(nodes)
                square(nodes(i)) = square(nodes(i)) + sum((mesh%x(:, nodes) - spread(mesh%x(:, nodes(i)), 2, size(nodes)))**2)
@@ -205,7 +205,7 @@ contains
 
       do e = 1, mesh%n_elements
          if (.not. is_shell(mesh, e)) cycle
-         if (size(corners_of(mesh, e)) /= 3) cycle
+         if (size(element_points(mesh, e)) /= 3) cycle
          associate (nodes => mesh%element_nodes(:3, e), law => mesh%structural%shells(mesh%structural%place(e)))
             do i = 1, 3
                b = nodes(modulo(i, 3) + 1)
@@ -213,8 +213,8 @@ contains
                do k = mesh%first_at(nodes(i)), mesh%first_at(nodes(i) + 1) - 1
                   associate (other => mesh%elements_at(k))
                      if (.not. is_shell(mesh, other)) cycle
-                     if (all(corners_of(mesh, other) /= b)) cycle
-                     if (size(corners_of(mesh, other)) == 4) then
+                     if (all(element_points(mesh, other) /= b)) cycle
+                     if (size(element_points(mesh, other)) == 4) then
                         law%bowed(i) = .false.
                         exit
                      end if

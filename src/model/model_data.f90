@@ -14,8 +14,8 @@ module model_data
    implicit none
    private
 
-   public :: bar_nodes, corners_of, is_beam, is_face_node, is_shell, joint_node_id, n_bars, n_points, &
-             n_rotations, n_sections, node_kind, own_nodes, place_in_kind, point_of, supported
+   public :: bar_nodes, element_points, is_beam, is_face_node, is_shell, joint_node_id, n_bars, n_points, &
+             n_rotations, n_sections, node_kind, place_in_kind, point_of, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -206,6 +206,13 @@ module model_data
       real(wp), allocatable :: t(:, :, :)    !! (dimension, dimension, likewise) by this matrix [-]
    end type node_coupling_type
 
+   !> The table of unknowns, a list of nodes for each element, see element_unknowns.
+   type, public :: unknowns_table
+      integer, allocatable :: first(:)         !! (n_elements + 1) row e is node(first(e):first(e + 1) - 1)
+      integer, allocatable :: first_unknown(:) !! (n_elements) position where the nodes of unknowns begin in the row
+      integer, allocatable :: node(:)
+   end type unknowns_table
+
    !> The mesh: points with duplicates, mid-side and face nodes, the nodes of rotations and of pretension sections; elements, properties,
    !! surfaces; bars, springs, masses.
    type, public :: mesh_type
@@ -261,6 +268,7 @@ module model_data
       logical, allocatable  :: left_out(:, :) !! (dimension, n_nodes) no unknown and no support: dependent components, or
                                              !! components of reference nodes that move nothing; held too; if there are any
       type(node_coupling_type) :: coupling   !! of displacements to unknowns
+      type(unknowns_table) :: table          !! element -> nodes of its unknowns
       integer, allocatable  :: part(:)       !! (n_nodes) the connected body of a node
       integer :: n_parts = 0
    end type freedoms_type
@@ -369,14 +377,14 @@ contains
       if (id > 0) id = model%mesh%node_id(id)
    end function joint_node_id
 
-   !> The nodes of element E, corners first.
-   pure function corners_of(mesh, e) result(nodes)
+   !> The points of the geometry of element E, corners first: the nodes on its card. Those of its unknowns: element_unknowns.
+   pure function element_points(mesh, e) result(nodes)
       type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
       integer :: nodes(element_table(mesh%element_kind(e))%n_nodes)
 
       nodes = mesh%element_nodes(:size(nodes), e)
-   end function corners_of
+   end function element_points
 
    !> Whether element E is a shell.
    pure logical function is_shell(mesh, e)
@@ -404,16 +412,5 @@ contains
 
       is_beam = mesh%element_kind(e) == kind_edge2
    end function is_beam
-
-   !> The nodes of element E; for a shell or beam the nodes of their rotations follow.
-   pure function own_nodes(mesh, e) result(nodes)
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)          :: e
-      integer, allocatable :: nodes(:)
-
-      nodes = corners_of(mesh, e)
-      if (.not. allocated(mesh%structural%place)) return
-      if (mesh%structural%place(e) > 0) nodes = [nodes, mesh%rotations(mesh%rotation_of(nodes))%node]
-   end function own_nodes
 
 end module model_data

@@ -12,15 +12,15 @@ module node_coupling
    use element_kinds, only: element_table
    use interface_operator, only: interface_element
    use kinds, only: wp
-   use model_data, only: corners_of, freedoms_type, mesh_type, model_type, n_sections, node_coupling_type, own_nodes
+   use model_data, only: element_points, freedoms_type, mesh_type, model_type, n_sections, node_coupling_type
    use numbers, only: identity
    use tolerances, only: rounding_of_entries
    implicit none
    private
 
    public :: is_coupled, couple_node, unknown_nodes, transformation, onto_unknowns, between_unknowns, displacements, &
-             displacements_at, forces_on_unknowns, held_forces, list_on_unknowns, section_node, participating_nodes, &
-             coupled_nodes, corner_displacements, extend_stiffness, add_section_share, coupling_parts
+             displacements_at, forces_on_unknowns, held_forces, list_on_unknowns, section_node, &
+             corner_displacements, extend_stiffness, add_section_share, coupling_parts
 
 contains
 
@@ -267,25 +267,6 @@ contains
       if (mesh%element_section(e) > 0) node = mesh%sections(mesh%element_section(e))%node
    end function section_node
 
-   !> The nodes whose displacements enter element E: its own nodes, and the node of a section that it touches from behind.
-   pure function participating_nodes(model, e) result(nodes)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      integer, allocatable :: nodes(:)
-
-      nodes = own_nodes(model%mesh, e)
-      if (section_node(model%mesh, e) > 0) nodes = [nodes, section_node(model%mesh, e)]
-   end function participating_nodes
-
-   !> The nodes whose unknowns element E couples.
-   pure function coupled_nodes(model, e) result(nodes)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      integer, allocatable :: nodes(:)
-
-      nodes = unknown_nodes(model%freedoms, participating_nodes(model, e))
-   end function coupled_nodes
-
    !> Displacements of the corners of element E: u, or u + g direction at a section that the element touches from behind.
    pure function corner_displacements(model, e, u) result(moved)
       type(model_type), intent(in) :: model
@@ -294,7 +275,7 @@ contains
       real(wp) :: moved(model%mesh%dimension, element_table(model%mesh%element_kind(e))%n_nodes)
       integer  :: i
 
-      associate (corners => corners_of(model%mesh, e))
+      associate (corners => element_points(model%mesh, e))
          moved = u(:, corners)
          if (section_node(model%mesh, e) == 0) return
          associate (section => model%mesh%sections(model%mesh%element_section(e)))
@@ -306,18 +287,18 @@ contains
       end associate
    end function corner_displacements
 
-   !> [T]^T [k] [T]: transform the stiffness K of element E from its corners to its participating_nodes, components of node 1 first.
+   !> [T]^T [k] [T]: transform the stiffness K of element E from its points to its displaced_nodes, components of node 1 first.
    !! Only the first component of the section node has stiffness.
    pure subroutine extend_stiffness(model, e, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      real(wp), intent(inout)      :: k(:, :) !! dimension x coupled nodes rows and columns are set [force/length]
+      real(wp), intent(inout)      :: k(:, :) !! dimension x displaced nodes rows and columns are set [force/length]
       real(wp) :: row(size(k, 1))
       integer  :: c, d, g, i, n
 
       if (section_node(model%mesh, e) == 0) return
       d = model%mesh%dimension
-      associate (corners => corners_of(model%mesh, e), section => model%mesh%sections(model%mesh%element_section(e)))
+      associate (corners => element_points(model%mesh, e), section => model%mesh%sections(model%mesh%element_section(e)))
          n = d*size(corners)
          g = n + 1
          k(g:n + d, :n + d) = 0.0_wp

@@ -15,7 +15,7 @@ module partition
    use interface_operator, only: interface_element
    use kinds, only: wp
    use lists, only: first_not_below, list_owners, sorted_order
-   use model_data, only: bar_nodes, corners_of, is_beam, is_shell, model_type, n_bars, n_sections
+   use model_data, only: bar_nodes, element_points, is_beam, is_shell, model_type, n_bars, n_sections
    use nested_dissection, only: part_by_metis
    use node_coupling, only: is_coupled, section_node, unknown_nodes
    use node_graph, only: node_graph_type
@@ -116,7 +116,7 @@ contains
       integer, intent(in)          :: e
 
       is_entangled = section_node(model%mesh, e) > 0 .or. is_shell(model%mesh, e) .or. is_beam(model%mesh, e)
-      if (.not. is_entangled) is_entangled = is_coupled(model%freedoms, corners_of(model%mesh, e))
+      if (.not. is_entangled) is_entangled = is_coupled(model%freedoms, element_points(model%mesh, e))
    end function is_entangled
 
    !> Send SUBDOMAIN from rank 0 to process R.

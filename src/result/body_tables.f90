@@ -8,7 +8,7 @@ module body_tables
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use element_kinds, only: is_second_order
    use kinds, only: wp
-   use model_data, only: corners_of, is_beam, is_shell, model_type, n_points, n_rotations, supported
+   use model_data, only: element_points, is_beam, is_shell, model_type, n_points, n_rotations, supported
    use output_file, only: output_file_type
    use page_lines, only: axes, heading, in_units
    use result_page, only: page_type, shows
@@ -189,7 +189,7 @@ contains
       call table%start('STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
                        [column('ELEMENT', 'i11'), column('CENTRE '//axes(:model%mesh%dimension), 'es13.5'), &
                         column(stress_names(model), 'es13.5')], page%file)
-      list = pack([(e, e = 1, model%mesh%n_elements)], [(shows(page, corners_of(model%mesh, e)) .and. &
+      list = pack([(e, e = 1, model%mesh%n_elements)], [(shows(page, element_points(model%mesh, e)) .and. &
                   .not. (is_shell(model%mesh, e) .or. is_beam(model%mesh, e)), e = 1, model%mesh%n_elements)])
       allocate (values(model%mesh%dimension + n, size(list)))
       values(:model%mesh%dimension, :) = clean(centre(:, list))

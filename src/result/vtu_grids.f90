@@ -11,7 +11,7 @@ module vtu_grids
    use, intrinsic :: iso_fortran_env, only: int8
    use joint_values, only: face_distance
    use kinds, only: wp
-   use model_data, only: corners_of, is_shell, joint_type, model_type, surface_type, temperature_type
+   use model_data, only: element_points, is_shell, joint_type, model_type, surface_type, temperature_type
    use result_page, only: label_type
    use structural_results, only: face_stresses, node_peaks
    use surface_sides, only: nodes_of
@@ -81,7 +81,7 @@ contains
       allocate (thickness(n), at_face(n, 2), source=0.0_wp) ! at the centres of both faces of shells; zero for other elements
       do i = 1, n
          if (.not. is_shell(model%mesh, shown%elements(i))) cycle
-         k = size(corners_of(model%mesh, shown%elements(i)))
+         k = size(element_points(model%mesh, shown%elements(i)))
          call face_stresses(model, shown%elements(i), u, temperature, stress)
          at_face(i, :) = [(von_mises(stress(:, k + 1, f)), f = 1, 2)]
          thickness(i) = sum(model%mesh%structural%shells(model%mesh%structural%place(shown%elements(i)))%thickness(:k))/k
@@ -124,7 +124,7 @@ contains
       allocate (ends(size(shown%elements)), types(size(shown%elements)))
       n = 0
       do i = 1, size(ends)
-         associate (nodes => corners_of(model%mesh, shown%elements(i)), &
+         associate (nodes => element_points(model%mesh, shown%elements(i)), &
             kind => element_table(model%mesh%element_kind(shown%elements(i))))
             connected(n + 1:n + size(nodes)) = nodes(kind%vtk_nodes(:size(nodes)))
             n = n + size(nodes)
