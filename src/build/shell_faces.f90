@@ -93,7 +93,7 @@ contains
       do s = 1, surface%n
          if (.not. is_shell(mesh, surface%element(s))) cycle
          c = count(surface%nodes(:, s) > 0)
-         row = merge(-surface%nodes(3, s), 0, c == 2)
+         row = surface%strip(s)
          nodes(:c) = surface%nodes(:c, s)
          associate (corners => element_points(mesh, surface%element(s)), &
                     law => mesh%structural%shells(mesh%structural%place(surface%element(s))))
@@ -102,7 +102,7 @@ contains
                                                                      mesh%x(:, nodes(c)) - mesh%x(:, nodes(1)))))
             do i = 1, c
                associate (t => law%thickness(findloc(corners, nodes(i), dim=1)))
-                  if (c > 2) then
+                  if (row == 0) then
                      call take(0, nodes(i), (law%offset + side*t)*frame%axes(:, 3), surface%nodes(i, s))
                   else ! edge 1 to 2: 1 and 2 on the lower line of the strip, then 2 and 1 on the upper one
                      if (all(abs(up(:, nodes(i))) <= 0.0_wp)) up(:, nodes(i)) = frame%axes(:, 3)
@@ -145,7 +145,7 @@ contains
 
    end subroutine offset_sides
 
-   !> Repeat every edge of SURFACE once per strip over the thickness; minus the number of the strip follows its two nodes.
+   !> Repeat every edge of SURFACE once per strip over the thickness.
    pure subroutine cut_edges(surface)
       type(surface_type), intent(inout) :: surface
       integer, allocatable :: from(:), strip(:)
@@ -166,7 +166,7 @@ contains
       surface%element = surface%element(from)
       surface%other = surface%other(from)
       surface%line = surface%line(from)
-      where (surface%corners == 2) surface%nodes(3, :) = -strip
+      surface%strip = merge(strip, 0, surface%corners == 2)
    end subroutine cut_edges
 
    !> Couple the face nodes to the nodes from which they stand off, or to the masters of these: u + theta x lever.

@@ -58,7 +58,7 @@ contains
       do k = 1, size(mesh%surfaces)
          associate (marked => mesh%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
             marked%id = card%id
-            allocate (marked%nodes(most_nodes, n), source=0)
+            allocate (marked%nodes(most_nodes, n), marked%strip(n), source=0)
             allocate (marked%element(n), marked%other(n), marked%line(n), marked%corners(n), marked%n_nodes(n))
             do i = first(k), first(k + 1) - 1
                associate (side => sides(members(i)))

@@ -51,6 +51,7 @@ module model_data
       integer, allocatable :: nodes(:, :)    !! (largest number, n) its corners, then mid-side nodes as in element_kinds, 0 behind
       integer, allocatable :: element(:)     !! (n) the body element that the side belongs to
       integer, allocatable :: other(:)       !! (n) a body element behind the side, 0: none
+      integer, allocatable :: strip(:)       !! (n) which strip over the thickness, on an edge of shells, see shell_faces; 0: none
       logical :: was_split = .false.         !! a joint split the surface: the other body has duplicates of its nodes
       integer, allocatable :: line(:)        !! (n) of its card in the deck text
    end type surface_type
