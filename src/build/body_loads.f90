@@ -12,7 +12,8 @@ module body_loads
    use isoparametric, only: body_forces
    use kinds, only: wp
    use mass_matrix, only: bar_mass, scalar_mass
-   use model_data, only: element_points, freedoms_type, is_beam, is_shell, mesh_type, n_points, stage_load_type
+   use mesh_queries, only: element_points, is_beam, is_shell, n_points
+   use model_data, only: freedoms_type, mesh_type, stage_load_type
    use model_kind, only: space_hint
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity

@@ -5,7 +5,8 @@ module constraint_equations
    use blas_lapack, only: dgesv
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: a_rotation, freedoms_type, mesh_type, node_kind, point_of
+   use mesh_queries, only: node_kind, point_of
+   use model_data, only: a_rotation, freedoms_type, mesh_type
    use node_coupling, only: couple_node
    use numbers, only: identity
    use text_tools, only: integer_text, one_of

@@ -7,7 +7,8 @@ module element_build
    use element_mapping, only: smallest_jacobian
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order
-   use model_data, only: element_points, mesh_type, property_type
+   use mesh_queries, only: element_points
+   use model_data, only: mesh_type, property_type
    use node_build, only: blank_node, find_nodes
    use shell_membrane, only: flat_coordinates
    use spring_build, only: is_bar

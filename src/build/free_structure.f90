@@ -6,8 +6,8 @@ module free_structure
    use deck_check, only: checked_deck
    use interface_operator, only: named_node
    use kinds, only: wp
-   use model_data, only: a_point, a_rotation, element_points, freedoms_type, history_type, is_face_node, joints_type, mesh_type, &
-                          node_kind, place_in_kind, support_group
+   use mesh_queries, only: element_points, is_face_node, node_kind, place_in_kind
+   use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, mesh_type, support_group
    use numbers, only: cross, first_largest
    use support_build, only: hold
    use tolerances, only: balanced

@@ -8,7 +8,8 @@ module joint_sides
    use interface_operator, only: at_first_end, connect_nodes, interface_element
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: element_points, joint_cover, joint_frame, joint_type, joints_type, mesh_type, surface_type
+   use mesh_queries, only: element_points
+   use model_data, only: joint_cover, joint_frame, joint_type, joints_type, mesh_type, surface_type
    use mortar_integrals, only: face_part, whole_shares, interface_sums_type
    use node_pairing, only: aside_type, pair_nodes, fit_side
    use numbers, only: cross

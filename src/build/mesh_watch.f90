@@ -6,8 +6,8 @@ module mesh_watch
    use element_kinds, only: element_table
    use kinds, only: wp
    use lists, only: join, list_owners, root_of
-   use model_data, only: a_bar, bar_nodes, element_points, freedoms_type, is_face_node, joints_type, mesh_type, n_bars, n_points, &
-                          supported
+   use mesh_queries, only: element_points, is_face_node, n_points
+   use model_data, only: a_bar, bar_nodes, freedoms_type, joints_type, mesh_type, n_bars, supported
    use spatial_search, only: spatial_search_type
    use text_tools, only: integer_text, one_of, plural
    use tolerances, only: same_node

@@ -8,7 +8,8 @@ module pressure_loads
    use isoparametric, only: side_forces
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: element_points, is_shell, mesh_type
+   use mesh_queries, only: element_points, is_shell
+   use model_data, only: mesh_type
    use node_coupling, only: add_section_share
    use surface_sides, only: side_corners
    use text_tools, only: integer_text, one_of

@@ -4,7 +4,8 @@
 module rod_torsion
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: a_spring, bar_type, freedoms_type, mesh_type, n_bars, n_rotations, rotation_type
+   use mesh_queries, only: n_rotations
+   use model_data, only: a_spring, bar_type, freedoms_type, mesh_type, n_bars, rotation_type
    use tolerances, only: zero_rotation_stiffness
    use unknowns, only: node_axes, rotation_at
    implicit none

@@ -7,7 +7,8 @@ module shell_faces
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use kinds, only: wp
-   use model_data, only: element_points, face_node_type, freedoms_type, is_shell, mesh_type, surface_type
+   use mesh_queries, only: element_points, is_shell
+   use model_data, only: face_node_type, freedoms_type, mesh_type, surface_type
    use node_build, only: append_nodes
    use node_coupling, only: couple_node, transformation, unknown_nodes
    use numbers, only: by_rotation, cross

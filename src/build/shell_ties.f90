@@ -10,7 +10,8 @@ module shell_ties
    use element_kinds, only: kind_tria3, kind_tria6, max_nodes
    use face_overlap, only: face_frame, find_point, in_frame, make_frame, map_point, seen_face
    use kinds, only: wp
-   use model_data, only: element_points, is_shell, mesh_type, surface_type
+   use mesh_queries, only: element_points, is_shell
+   use model_data, only: mesh_type, surface_type
    use numbers, only: identity
    use rigid_fit, only: mean_motion
    use shell_membrane, only: shell_frame, shell_frame_of

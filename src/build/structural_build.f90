@@ -8,7 +8,8 @@ module structural_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: element_points, freedoms_type, is_beam, is_shell, mesh_type, n_rotations, rotation_type
+   use mesh_queries, only: element_points, is_beam, is_shell, n_rotations
+   use model_data, only: freedoms_type, mesh_type, rotation_type
    use node_build, only: append_unknowns
    use rod_torsion, only: add_twisted, leave_out_untwisted
    use shell_membrane, only: shell_law

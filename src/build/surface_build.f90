@@ -6,7 +6,8 @@ module surface_build
    use isoparametric, only: side_areas, side_forces
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
-   use model_data, only: is_shell, mesh_type, surface_type
+   use mesh_queries, only: is_shell
+   use model_data, only: mesh_type, surface_type
    use surface_sides, only: nodes_of, side_corners
    use text_tools, only: integer_text, one_of
    implicit none

@@ -7,8 +7,8 @@ module temperature_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: first_not_below
-   use model_data, only: a_bar, element_points, freedoms_type, history_type, is_shell, mesh_type, n_bars, n_points, &
-                          stage_load_type, temperature_type
+   use mesh_queries, only: element_points, is_shell, n_points
+   use model_data, only: a_bar, freedoms_type, history_type, mesh_type, n_bars, stage_load_type, temperature_type
    use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: least_misfit
    use unknowns, only: node_axes

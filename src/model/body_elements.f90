@@ -7,7 +7,8 @@ module body_elements
    use isoparametric, only: stiffness, nodal_thermal_forces
    use kinds, only: wp
    use element_unknowns, only: displaced_nodes
-   use model_data, only: element_points, is_beam, is_shell, mesh_type, model_type, temperature_type
+   use mesh_queries, only: element_points, is_beam, is_shell
+   use model_data, only: mesh_type, model_type, temperature_type
    use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, section_node
    use shape_functions, only: shape_values
    use shell_element, only: shell_stiffness, shell_thermal_forces

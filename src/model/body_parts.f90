@@ -3,7 +3,8 @@
 module body_parts
    use element_unknowns, only: displaced_nodes
    use lists, only: list_owners
-   use model_data, only: element_points, model_type, n_points, n_sections
+   use mesh_queries, only: element_points, n_points
+   use model_data, only: model_type, n_sections
    use temperatures, only: has_temperatures
    implicit none
    private

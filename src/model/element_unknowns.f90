@@ -4,10 +4,11 @@
 !! matrix of the element itself is between the components of these nodes. Where any of them is coupled, the row goes on with the
 !! nodes of the unknowns, each once, in the order in which node_coupling finds them: between their components is the transformed
 !! matrix, which the equations add up. Where none is coupled, both lists are the same one.
-!! Two other lists are none of unknowns of an element: `element_points` of model_data are the points of its geometry, and
+!! Two other lists are none of unknowns of an element: `element_points` of mesh_queries are the points of its geometry, and
 !! `unknown_nodes` of node_coupling are the unknowns of any nodes, such as those of a bar, a mass or an interface element.
 module element_unknowns
-   use model_data, only: element_points, freedoms_type, mesh_type, unknowns_table
+   use mesh_queries, only: element_points
+   use model_data, only: freedoms_type, mesh_type, unknowns_table
    use node_coupling, only: is_coupled, section_node, unknown_nodes
    implicit none
    private

@@ -9,7 +9,8 @@ module mass_matrix
    use isoparametric, only: lump, shape_products
    use kinds, only: wp
    use lists, only: list_owners
-   use model_data, only: bar_nodes, element_points, is_beam, is_shell, mesh_type, model_type, n_bars, n_points, point_mass_type
+   use mesh_queries, only: element_points, is_beam, is_shell, n_points
+   use model_data, only: bar_nodes, mesh_type, model_type, n_bars, point_mass_type
    use node_coupling, only: between_unknowns, extend_stiffness, onto_unknowns, section_node
    use numbers, only: identity
    use shell_element, only: shell_products

@@ -12,7 +12,8 @@ module node_coupling
    use element_kinds, only: element_table
    use interface_operator, only: interface_element
    use kinds, only: wp
-   use model_data, only: element_points, freedoms_type, mesh_type, model_type, n_sections, node_coupling_type
+   use mesh_queries, only: element_points
+   use model_data, only: freedoms_type, mesh_type, model_type, n_sections, node_coupling_type
    use numbers, only: identity
    use tolerances, only: rounding_of_entries
    implicit none

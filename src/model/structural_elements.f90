@@ -4,7 +4,8 @@
 !! node, its second node is the ground.
 module structural_elements
    use kinds, only: wp
-   use model_data, only: a_spring, bar_nodes, bar_type, element_points, mesh_type, model_type, temperature_type
+   use mesh_queries, only: element_points
+   use model_data, only: a_spring, bar_nodes, bar_type, mesh_type, model_type, temperature_type
    use shell_element, only: shell_stresses
    use temperatures, only: element_rise, element_slope
    implicit none

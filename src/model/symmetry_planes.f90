@@ -6,7 +6,8 @@
 module symmetry_planes
    use kinds, only: wp
    use lists, only: distinct
-   use model_data, only: model_type, n_points, supported
+   use mesh_queries, only: n_points
+   use model_data, only: model_type, supported
    use numbers, only: cross
    use tolerances, only: on_symmetry_plane, one_direction, parallel_in_mesh
    use unknowns, only: node_axes

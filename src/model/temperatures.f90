@@ -2,7 +2,8 @@
 module temperatures
    use element_kinds, only: element_table
    use kinds, only: wp
-   use model_data, only: element_points, is_shell, model_type, temperature_type
+   use mesh_queries, only: element_points, is_shell
+   use model_data, only: model_type, temperature_type
    implicit none
    private
 

@@ -4,7 +4,8 @@
 module unknowns
    use coordinate_systems, only: directions_at
    use kinds, only: wp
-   use model_data, only: a_point, a_rotation, an_overlap, mesh_type, model_type, node_kind, place_in_kind, point_of
+   use mesh_queries, only: node_kind, place_in_kind, point_of
+   use model_data, only: a_point, a_rotation, an_overlap, mesh_type, model_type
    use numbers, only: cross, identity
    use text_tools, only: integer_text, one_of
    implicit none

@@ -4,7 +4,7 @@
 module distributed_matrix
    use body_elements, only: coupled_stiffness
    use kinds, only: wp
-   use model_data, only: element_points
+   use mesh_queries, only: element_points
    use partition, only: subdomain_type
    use petscmat
    use ranks, only: gather, give_up, n_ranks, rank, scatter

@@ -15,7 +15,8 @@ module partition
    use interface_operator, only: interface_element
    use kinds, only: wp
    use lists, only: first_not_below, list_owners, sorted_order
-   use model_data, only: bar_nodes, element_points, is_beam, is_shell, model_type, n_bars, n_sections
+   use mesh_queries, only: element_points, is_beam, is_shell
+   use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use nested_dissection, only: part_by_metis
    use node_coupling, only: is_coupled, section_node, unknown_nodes
    use node_graph, only: node_graph_type

@@ -8,7 +8,8 @@ module body_tables
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use element_kinds, only: is_second_order
    use kinds, only: wp
-   use model_data, only: element_points, is_beam, is_shell, model_type, n_points, n_rotations, supported
+   use mesh_queries, only: element_points, is_beam, is_shell, n_points, n_rotations
+   use model_data, only: model_type, supported
    use output_file, only: output_file_type
    use page_lines, only: axes, heading, in_units
    use result_page, only: page_type, shows

@@ -11,7 +11,8 @@ module bolt_answers
    use element_kinds, only: max_section_dofs, max_nodes
    use interface_operator, only: at_first_end
    use kinds, only: wp
-   use model_data, only: element_points, model_type, section_type, temperature_type
+   use mesh_queries, only: element_points
+   use model_data, only: model_type, section_type, temperature_type
    use node_coupling, only: corner_displacements
    use numbers, only: cross, is_measure
    use passing_forces, only: forces_between, passage_type

@@ -12,7 +12,8 @@ module listing_opening
    use interface_operator, only: named_node
    use joint_sides, only: is_coarser
    use kinds, only: long, wp
-   use model_data, only: a_spring, model_type, n_bars, n_points, n_rotations, n_sections, supported, whole_share
+   use mesh_queries, only: n_points, n_rotations
+   use model_data, only: a_spring, model_type, n_bars, n_sections, supported, whole_share
    use normal_curve, only: normal_tangent
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
    use output_file, only: output_file_type

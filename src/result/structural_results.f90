@@ -8,7 +8,8 @@ module structural_results
    use element_unknowns, only: displaced_nodes
    use joint_sides, only: joint_axes
    use kinds, only: wp
-   use model_data, only: a_bar, element_points, is_beam, is_shell, model_type, n_points, temperature_type
+   use mesh_queries, only: element_points, is_beam, is_shell, n_points
+   use model_data, only: a_bar, model_type, temperature_type
    use page_lines, only: in_units
    use result_page, only: page_type, shell_table, shows, table_columns, xyz
    use shell_element, only: shell_forces

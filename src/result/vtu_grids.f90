@@ -11,7 +11,8 @@ module vtu_grids
    use, intrinsic :: iso_fortran_env, only: int8
    use joint_values, only: face_distance
    use kinds, only: wp
-   use model_data, only: element_points, is_shell, joint_type, model_type, surface_type, temperature_type
+   use mesh_queries, only: element_points, is_shell
+   use model_data, only: joint_type, model_type, surface_type, temperature_type
    use result_page, only: label_type
    use structural_results, only: face_stresses, node_peaks
    use surface_sides, only: nodes_of

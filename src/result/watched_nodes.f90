@@ -14,7 +14,8 @@ module watched_nodes
    use bolt_locking, only: bar_tension
    use kinds, only: wp
    use connected_bodies, only: find_bodies
-   use model_data, only: a_point, a_spring, bar_nodes, element_points, model_type, n_bars, n_points, node_kind
+   use mesh_queries, only: element_points, n_points, node_kind
+   use model_data, only: a_point, a_spring, bar_nodes, model_type, n_bars
    use restart_stream, only: restart_stream_type
    use structural_elements, only: bar_elongation
    use tolerances, only: zero_movement, zero_of_sums

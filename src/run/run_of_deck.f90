@@ -14,7 +14,8 @@ module run_of_deck
    use incomplete_results, only: say_at_interrupts, what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
-   use model_data, only: model_type, n_points
+   use mesh_queries, only: n_points
+   use model_data, only: model_type
    use openblas, only: kernel_words
    use output_file, only: output_file_type
    use page_lines, only: heading

@@ -6,7 +6,8 @@ module node_graph
    use element_unknowns, only: displaced_nodes, last_displaced, nodes_of_unknowns
    use lists, only: list_owners
    use mass_matrix, only: mass_nodes, n_masses
-   use model_data, only: bar_nodes, is_face_node, model_type, n_bars
+   use mesh_queries, only: is_face_node
+   use model_data, only: bar_nodes, model_type, n_bars
    use node_coupling, only: unknown_nodes
    implicit none
    private

@@ -26,7 +26,8 @@ module mode_values
    use kinds, only: wp
    use mass_matrix, only: mass_times, total_mass
    use connected_bodies, only: find_bodies
-   use model_data, only: bar_nodes, model_type, n_bars, n_points
+   use mesh_queries, only: n_points
+   use model_data, only: bar_nodes, model_type, n_bars
    use natural_modes, only: oscillating_type, spectrum_type
    use normal_curve, only: normal_tangent
    use normal_stiffness, only: branch_open

@@ -5,7 +5,8 @@ module dense_structure
    use element_kinds, only: max_nodes
    use isoparametric, only: lump, shape_products
    use kinds, only: wp
-   use model_data, only: element_points, model_type, n_bars
+   use mesh_queries, only: element_points
+   use model_data, only: model_type, n_bars
    implicit none
    private
 
