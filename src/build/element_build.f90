@@ -54,6 +54,7 @@ contains
       allocate (cards, source=[deck%bulk%pshell, deck%bulk%paxis, deck%bulk%psolid, (property_card( &
          line=deck%bulk%beam_property(i)%line, id=deck%bulk%beam_property(i)%id, material=deck%bulk%beam_property(i)%material, &
          state=beam), i = 1, size(deck%bulk%beam_property))])
+      deallocate (mesh%properties)
       allocate (mesh%properties(size(cards)))
       do i = 1, size(cards)
          associate (card => cards(i), property => mesh%properties(i))

@@ -45,7 +45,7 @@ contains
          body_of(element_points(mesh, e)) = body(e)
       end do
       may_be = body_of == maxloc([(count(body_of == i), i = 1, n)], dim=1)
-      if (allocated(mesh%node_system)) may_be = may_be .and. mesh%node_system(:size(may_be)) == 0
+      if (size(mesh%node_system) > 0) may_be = may_be .and. mesh%node_system(:size(may_be)) == 0
       dependent = [([deck%rigid(i)%nodes, deck%rigid(i)%node], i = 1, size(deck%rigid)), &
                    (deck%bulk%equation(i)%node, i = 1, size(deck%bulk%equation))]
       do i = 1, size(dependent) ! these nodes depend on each other

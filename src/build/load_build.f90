@@ -120,7 +120,7 @@ contains
       real(wp), intent(in)           :: axes(3, 3), force(3)
       integer :: d, digit, k, parts(2)
 
-      if (.not. allocated(freedoms%left_out)) return
+      if (size(freedoms%left_out) == 0) return
       parts = coupling_parts(freedoms, node)
       do d = 1, mesh%dimension
          if (.not. freedoms%left_out(d, node) .or. abs(dot_product(axes(:, d), force)) <= zero_component_along*norm2(force)) cycle

@@ -210,11 +210,9 @@ contains
             end do
          end associate
       end do
-      if (allocated(mesh%faces)) then
-         do k = 1, size(mesh%faces)
-            call join(body, mesh%faces(k)%point, mesh%faces(k)%node)
-         end do
-      end if
+      do k = 1, size(mesh%faces)
+         call join(body, mesh%faces(k)%point, mesh%faces(k)%node)
+      end do
       assembly = body
       call join_ends(joints, assembly)
    end subroutine find_assemblies

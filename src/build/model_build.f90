@@ -18,6 +18,7 @@ module model_build
    use load_build, only: build_loads
    use mass_build, only: build_masses, check_mass, check_masses
    use mesh_build, only: build_mesh, check_named_nodes
+   use mesh_queries, only: start_freedoms, start_mesh
    use mesh_watch, only: crack_words, repeated_words
    use model_data, only: freedoms_type, history_type, joints_type, mesh_type, model_type, n_sections, stage_load_type
    use pretension_section, only: build_sections
@@ -113,6 +114,7 @@ contains
       logical, intent(out)              :: is_whole
       type(marked_side), allocatable :: sides(:)
 
+      call start_mesh(mesh)
       call build_mesh(deck, mesh, sides)
       call check_named_nodes(deck, mesh)
       is_whole = .not. deck%mesh_is_faulty()
@@ -157,6 +159,7 @@ contains
       type(freedoms_type), intent(out)  :: freedoms
       type(expansion_type), allocatable, intent(out) :: expansions(:)
 
+      call start_freedoms(freedoms)
       call build_supports(deck, mesh, joints, freedoms)
       call hold_free_structure(deck, mesh, joints, freedoms)
       call couple_node_systems(deck, mesh, freedoms)

@@ -70,10 +70,7 @@ contains
       character(:), allocatable :: words
 
       words = ' (MODEL = SPACE makes it a model of space)'
-      if (allocated(mesh%properties)) then
-         if (any(mesh%properties%state < axisymmetric)) &
-            words = ' (MODEL = SPACE, and MID2 on PSHELL, make it a model of space)'
-      end if
+      if (any(mesh%properties%state < axisymmetric)) words = ' (MODEL = SPACE, and MID2 on PSHELL, make it a model of space)'
       if (mesh%axisymmetric) words = ''
    end function space_hint
 

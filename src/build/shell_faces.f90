@@ -7,7 +7,7 @@ module shell_faces
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use kinds, only: wp
-   use mesh_queries, only: element_points, is_shell
+   use mesh_queries, only: element_points, is_shell, open_left_out
    use model_data, only: face_node_type, freedoms_type, mesh_type, surface_type
    use node_build, only: append_nodes
    use node_coupling, only: couple_node, transformation, unknown_nodes
@@ -42,20 +42,18 @@ contains
             faces = [faces, face_node_type(point=n, lever=matmul(axes, card%offset))]
          end associate
       end do
-      if (allocated(mesh%structural%place)) then
-         do k = 1, size(mesh%surfaces)
-            associate (surface => mesh%surfaces(k))
-               if (.not. any([(is_shell(mesh, surface%element(n)), n = 1, surface%n)])) cycle
-               do n = 1, surface%n
-                  if (surface%other(n) == 0) cycle
-                  call deck%errors%add(surface%line(n), 'surface '//integer_text(surface%id)// &
-                     ': a joint cannot lie on an edge between two shells; expected a free edge')
-                  return
-               end do
-               call offset_sides(mesh, surface, faces)
-            end associate
-         end do
-      end if
+      do k = 1, size(mesh%surfaces)
+         associate (surface => mesh%surfaces(k))
+            if (.not. any([(is_shell(mesh, surface%element(n)), n = 1, surface%n)])) cycle
+            do n = 1, surface%n
+               if (surface%other(n) == 0) cycle
+               call deck%errors%add(surface%line(n), 'surface '//integer_text(surface%id)// &
+                  ': a joint cannot lie on an edge between two shells; expected a free edge')
+               return
+            end do
+            call offset_sides(mesh, surface, faces)
+         end associate
+      end do
       if (size(faces) == 0) return
       ! the nodes of the faces follow those of the deck, with the elements of the shell nodes, which give their material
       n = mesh%n_nodes
@@ -178,9 +176,9 @@ contains
       real(wp) :: w(mesh%dimension, mesh%dimension)
       integer  :: d, j, k
 
-      if (.not. allocated(mesh%faces)) return
+      if (size(mesh%faces) == 0) return
       d = mesh%dimension
-      if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, mesh%n_nodes), source=.false.)
+      call open_left_out(mesh, freedoms)
       do k = 1, size(mesh%faces)
          associate (face => mesh%faces(k), rotation => mesh%rotations(mesh%rotation_of(mesh%faces(k)%point)), &
                     lever => mesh%faces(k)%lever)

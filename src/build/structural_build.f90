@@ -8,7 +8,7 @@ module structural_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: id_table_type
-   use mesh_queries, only: element_points, is_beam, is_shell, n_rotations
+   use mesh_queries, only: element_points, is_beam, is_shell, n_rotations, open_left_out
    use model_data, only: freedoms_type, mesh_type, rotation_type
    use node_build, only: append_unknowns
    use rod_torsion, only: add_twisted, leave_out_untwisted
@@ -47,7 +47,7 @@ contains
       if (mesh%axisymmetric) return
       if (size(deck%rigid) == 0 .and. all(mesh%properties%state < shell) .and. all(mesh%bars%torsion <= 0.0_wp)) return
       allocate (rotations(size(deck%rigid) + mesh%n_nodes))
-      allocate (mesh%rotation_of(mesh%n_nodes), source=0)
+      mesh%rotation_of = spread(0, 1, mesh%n_nodes)
       n = 0
       do i = 1, size(deck%rigid) ! reference nodes
          associate (card => deck%rigid(i))
@@ -97,7 +97,7 @@ contains
       end do
       call add_twisted(deck, mesh, rotations, n)
       if (n == 0) then
-         deallocate (mesh%rotation_of)
+         mesh%rotation_of = [integer ::]
          return
       end if
       mesh%rotations = rotations(:n)
@@ -131,7 +131,7 @@ contains
       if (mesh%dimension == 3) return
       do k = 1, n_rotations(mesh)
          if (.not. mesh%rotations(k)%of_element) cycle
-         if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, mesh%n_nodes), source=.false.)
+         call open_left_out(mesh, freedoms)
          freedoms%left_out(2, mesh%rotations(k)%node) = .true.
          freedoms%held(2, mesh%rotations(k)%node) = .true.
       end do
@@ -171,7 +171,7 @@ contains
          end associate
       end do
       if (.not. any([(has_rotations(mesh, e), e = 1, mesh%n_elements)])) return
-      allocate (mesh%structural%place(mesh%n_elements), source=0)
+      mesh%structural%place = spread(0, 1, mesh%n_elements)
       allocate (of_property(size(mesh%properties)))
       do i = 1, size(deck%bulk%pshell)
          if (mesh%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! they come first
@@ -184,6 +184,7 @@ contains
          n(i) = n(i) + 1
          mesh%structural%place(e) = n(i)
       end do
+      deallocate (mesh%structural%shells, mesh%structural%beams)
       allocate (mesh%structural%shells(n(1)), mesh%structural%beams(n(2)))
       do e = 1, mesh%n_elements
          if (.not. is_shell(mesh, e)) cycle
@@ -250,7 +251,6 @@ contains
       real(wp) :: x(3, 2)
       integer  :: c, e, end, k, other
 
-      if (.not. allocated(mesh%structural%beams)) return
       if (size(mesh%structural%beams) == 0) return
       call edges%build(deck%bulk%edge%id)
       do e = 1, mesh%n_elements

@@ -293,7 +293,6 @@ contains
             end do
          end associate
       end do
-      if (.not. allocated(mesh%faces)) return
       do k = 1, size(mesh%faces)
          associate (face => mesh%faces(k))
             at(face%node) = at(face%point)

@@ -206,8 +206,7 @@ contains
          logical, allocatable :: are_in(:)
          integer :: at, i
 
-         allocate (numbers, source=mesh%node_id)
-         if (allocated(mesh%placed)) numbers = [numbers, mesh%placed%id]
+         allocate (numbers, source=[mesh%node_id, mesh%placed%id])
          allocate (are_in(size(numbers)))
          call numbers_in_set(set, numbers, are_in, marks, deck%errors)
          are_named = are_named .or. are_in(:mesh%n_nodes)

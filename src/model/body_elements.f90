@@ -36,7 +36,7 @@ contains
 
       if (.not. allocated(k)) allocate (k(max_section_dofs, max_section_dofs))
       call element_stiffness(model, e, k)
-      if (allocated(model%freedoms%coupling%of_node)) call onto_unknowns(model, displaced_nodes(model%freedoms, e), k)
+      if (model%freedoms%coupling%n > 0) call onto_unknowns(model, displaced_nodes(model%freedoms, e), k)
    end subroutine coupled_stiffness
 
    !> [k] between the displacements of the displaced_nodes of element E, components of node 1 first [force/length].

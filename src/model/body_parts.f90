@@ -3,7 +3,7 @@
 module body_parts
    use element_unknowns, only: displaced_nodes
    use lists, only: list_owners
-   use mesh_queries, only: element_points, n_points
+   use mesh_queries, only: element_points, n_points, start_parts
    use model_data, only: model_type, n_sections
    use temperatures, only: has_temperatures
    implicit none
@@ -49,6 +49,7 @@ contains
 
       allocate (place(0:model%mesh%n_nodes), source=0)
       place(nodes) = [(i, i = 1, size(nodes))]
+      call start_parts(part)
       part%mesh%dimension = model%mesh%dimension
       part%mesh%properties = model%mesh%properties
       part%mesh%n_elements = size(elements)

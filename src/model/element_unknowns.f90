@@ -56,7 +56,7 @@ contains
       integer, allocatable :: nodes(:)
 
       nodes = element_points(mesh, e)
-      if (allocated(mesh%structural%place)) then
+      if (size(mesh%structural%place) > 0) then
          if (mesh%structural%place(e) > 0) nodes = [nodes, mesh%rotations(mesh%rotation_of(nodes))%node]
       end if
       if (section_node(mesh, e) > 0) nodes = [nodes, section_node(mesh, e)]

@@ -39,8 +39,7 @@ contains
    pure integer function n_masses(model)
       type(model_type), intent(in) :: model
 
-      n_masses = 0
-      if (allocated(model%mesh%masses)) n_masses = size(model%mesh%masses)
+      n_masses = size(model%mesh%masses)
    end function n_masses
 
    !> Mass between the points of element E (no beam), the same for every component of their displacements [force time^2/length].
@@ -111,7 +110,7 @@ contains
       if (.not. abs(shift) > 0.0_wp) return
       allocate (full(max_section_dofs, max_section_dofs))
       call whole_mass(model, e, full)
-      if (allocated(model%freedoms%coupling%of_node)) call onto_unknowns(model, displaced_nodes(model%freedoms, e), full)
+      if (model%freedoms%coupling%n > 0) call onto_unknowns(model, displaced_nodes(model%freedoms, e), full)
       n = model%mesh%dimension*size(nodes_of_unknowns(model%freedoms, e))
       k(:n, :n) = k(:n, :n) - shift*full(:n, :n)
    end subroutine coupled_dynamic_stiffness

@@ -1,13 +1,50 @@
 !> What is asked about a mesh: its points and the nodes that follow them, the points and the kinds of its elements.
+!! A mesh and its freedoms start with empty lists: a list of size 0 says that there are none, or that no node has such a value.
 module mesh_queries
    use element_kinds, only: element_table, kind_edge2
-   use model_data, only: a_point, a_rotation, an_overlap, mesh_type, n_sections
+   use model_data, only: a_point, a_rotation, an_overlap, freedoms_type, mesh_type, model_type, n_sections
    implicit none
    private
 
+   public :: start_mesh, start_freedoms, start_parts, open_left_out
    public :: n_points, n_rotations, node_kind, place_in_kind, point_of, element_points, is_shell, is_beam, is_face_node
 
 contains
+
+   !> Start MESH: the lists that a deck need not fill are empty.
+   pure subroutine start_mesh(mesh)
+      type(mesh_type), intent(inout) :: mesh
+
+      allocate (mesh%properties(0), mesh%bars(0), mesh%masses(0), mesh%sections(0), mesh%rotations(0), mesh%faces(0), &
+                mesh%placed(0))
+      allocate (mesh%structural%place(0), mesh%structural%shells(0), mesh%structural%beams(0))
+      allocate (mesh%duplicate(0), mesh%node_system(0), mesh%face_of(0), mesh%rotation_of(0), mesh%node_section(0), &
+                mesh%element_section(0))
+   end subroutine start_mesh
+
+   !> Start FREEDOMS: nothing is coupled or left out.
+   pure subroutine start_freedoms(freedoms)
+      type(freedoms_type), intent(inout) :: freedoms
+
+      allocate (freedoms%left_out(0, 0), freedoms%coupling%of_node(0), freedoms%coupling%node(0), freedoms%coupling%t(0, 0, 0))
+      allocate (freedoms%coupling%first(1), source=1)
+   end subroutine start_freedoms
+
+   !> Start the mesh and the freedoms of MODEL.
+   pure subroutine start_parts(model)
+      type(model_type), intent(inout) :: model
+
+      call start_mesh(model%mesh)
+      call start_freedoms(model%freedoms)
+   end subroutine start_parts
+
+   !> From now on LEFT_OUT has a value for every component; none is left out yet. Nothing where it has them already.
+   pure subroutine open_left_out(mesh, freedoms)
+      type(mesh_type), intent(in)        :: mesh
+      type(freedoms_type), intent(inout) :: freedoms
+
+      if (size(freedoms%left_out) == 0) freedoms%left_out = spread(spread(.false., 1, mesh%dimension), 2, mesh%n_nodes)
+   end subroutine open_left_out
 
    !> The number of points of the structure. The nodes of rotations and sections follow the points.
    pure integer function n_points(mesh)
@@ -20,8 +57,7 @@ contains
    pure integer function n_rotations(mesh)
       type(mesh_type), intent(in) :: mesh
 
-      n_rotations = 0
-      if (allocated(mesh%rotations)) n_rotations = size(mesh%rotations)
+      n_rotations = size(mesh%rotations)
    end function n_rotations
 
    !> The kind of the unknowns of NODE. The nodes of rotations follow the points, the nodes of sections follow those.
@@ -68,7 +104,7 @@ contains
       integer, intent(in)          :: e
 
       is_shell = .false.
-      if (allocated(mesh%structural%place)) is_shell = mesh%structural%place(e) > 0 .and. mesh%element_kind(e) /= kind_edge2
+      if (size(mesh%structural%place) > 0) is_shell = mesh%structural%place(e) > 0 .and. mesh%element_kind(e) /= kind_edge2
    end function is_shell
 
    !> Whether element E is a beam.
@@ -85,7 +121,6 @@ contains
       integer, intent(in)          :: node
 
       is_face_node = .false.
-      if (.not. allocated(mesh%face_of)) return
       if (node <= size(mesh%face_of)) is_face_node = mesh%face_of(node) > 0
    end function is_face_node
 

@@ -34,7 +34,7 @@ module model_data
    !> Laws of shells and beams, in addition to the data of all elements. PLACE is the position of a law: in SHELLS for a plane
    !! element in space, in BEAMS for a line.
    type, public :: structural_type
-      integer, allocatable :: place(:)       !! (n_elements) 0: a body
+      integer, allocatable :: place(:)       !! (n_elements) 0: a body; empty: all are
       type(shell_law), allocatable :: shells(:)
       type(beam_law), allocatable  :: beams(:)
    end type structural_type
@@ -199,7 +199,7 @@ module model_data
    !> Nodes whose displacements are not their own unknowns in global axes, see node_coupling.
    type, public :: node_coupling_type
       integer :: n = 0                       !! number of coupled nodes
-      integer, allocatable  :: of_node(:)    !! (n_nodes) position among the coupled nodes, 0: none; not allocated: none is coupled
+      integer, allocatable  :: of_node(:)    !! (n_nodes) position among the coupled nodes, 0: none; empty: none is coupled
       integer, allocatable  :: first(:)      !! (at least n + 1) parts first(k) to first(k + 1) - 1 are of coupled node k:
       integer, allocatable  :: node(:)       !! (at least parts) the unknowns of this node
       real(wp), allocatable :: t(:, :, :)    !! (dimension, dimension, likewise) by this matrix [-]
@@ -223,9 +223,9 @@ module model_data
       integer :: first_filled = 0            !! position of the first of these nodes
       integer, allocatable  :: node_id(:)    !! ascending; 0 for the nodes of rotations and of sections, which follow
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
-      integer, allocatable  :: duplicate(:)  !! (n_nodes) the duplicate of a node on a split surface, 0: none
-      integer, allocatable  :: node_system(:) !! (n_nodes) the system CD of a node, 0: global axes; allocated if any node has one
-      type(placed_node), allocatable :: placed(:) !! nodes defined by position; not allocated: none
+      integer, allocatable  :: duplicate(:)  !! (n_nodes) the duplicate of a node on a split surface, 0: none; empty before
+      integer, allocatable  :: node_system(:) !! (n_nodes) the system CD of a node, 0: global axes; empty: no node has one
+      type(placed_node), allocatable :: placed(:) !! nodes defined by position
       type(id_table_type)   :: node_table
       integer :: n_elements = 0
       integer, allocatable  :: element_id(:)
@@ -245,10 +245,10 @@ module model_data
       type(section_type), allocatable      :: sections(:)
       type(rotation_type), allocatable     :: rotations(:)
       type(face_node_type), allocatable    :: faces(:)
-      integer, allocatable  :: face_of(:)            !! (points) position of a node in faces, 0: none; if there are any
-      integer, allocatable  :: rotation_of(:)        !! (points) position of a node in rotations, 0: none; if there are any
-      integer, allocatable  :: node_section(:)       !! (n_nodes) the section that contains a node, 0: none; if there are any
-      integer, allocatable  :: element_section(:)    !! (n_elements) the section that an element touches from behind, 0: none
+      integer, allocatable  :: face_of(:)            !! (points) position of a node in faces, 0: none; empty: there are none
+      integer, allocatable  :: rotation_of(:)        !! (points) position of a node in rotations, 0: none; empty: there are none
+      integer, allocatable  :: node_section(:)       !! (n_nodes) the section that contains a node, 0: none; empty: there are none
+      integer, allocatable  :: element_section(:) !! (n_elements) the section that an element touches from behind, 0: none; or empty
    end type mesh_type
 
    !> The joints and their interface elements.
@@ -265,7 +265,7 @@ module model_data
       logical :: floats = .false.            !! the structure has no supports but those of FREE
       integer, allocatable  :: support_of(:, :) !! (dimension, nodes at that time) the first of the groups that supports it, 0: none
       logical, allocatable  :: left_out(:, :) !! (dimension, n_nodes) no unknown and no support: dependent components, or
-                                             !! components of reference nodes that move nothing; held too; if there are any
+                                             !! components of reference nodes that move nothing; held too; empty: there are none
       type(node_coupling_type) :: coupling   !! of displacements to unknowns
       type(unknowns_table) :: table          !! element -> nodes of its unknowns
       integer, allocatable  :: part(:)       !! (n_nodes) the connected body of a node
@@ -292,8 +292,7 @@ contains
    pure integer function n_bars(mesh)
       type(mesh_type), intent(in) :: mesh
 
-      n_bars = 0
-      if (allocated(mesh%bars)) n_bars = size(mesh%bars)
+      n_bars = size(mesh%bars)
    end function n_bars
 
    !> The nodes of BAR, without the ground.
@@ -308,8 +307,7 @@ contains
    pure integer function n_sections(mesh)
       type(mesh_type), intent(in) :: mesh
 
-      n_sections = 0
-      if (allocated(mesh%sections)) n_sections = size(mesh%sections)
+      n_sections = size(mesh%sections)
    end function n_sections
 
    !> The components of NODE that are supported.
@@ -320,7 +318,7 @@ contains
       logical :: held(mesh%dimension)
 
       held = freedoms%held(:, node)
-      if (allocated(freedoms%left_out)) held = held .and. .not. freedoms%left_out(:, node)
+      if (size(freedoms%left_out) > 0) held = held .and. .not. freedoms%left_out(:, node)
    end function supported
 
    !> The number of the node that interface element I names for END 1 or 2: 0 for a rigid base, -1 where the end has several nodes.

@@ -32,7 +32,7 @@ contains
       integer :: parts(2)
 
       parts = [0, -1]
-      if (.not. allocated(freedoms%coupling%of_node)) return
+      if (freedoms%coupling%n == 0) return
       associate (c => freedoms%coupling%of_node(node))
          if (c > 0) parts = [freedoms%coupling%first(c), freedoms%coupling%first(c + 1) - 1]
       end associate
@@ -44,7 +44,7 @@ contains
       integer, intent(in)          :: nodes(:)
 
       is_coupled = .false.
-      if (allocated(freedoms%coupling%of_node)) is_coupled = any(freedoms%coupling%of_node(pack(nodes, nodes > 0)) > 0)
+      if (freedoms%coupling%n > 0) is_coupled = any(freedoms%coupling%of_node(pack(nodes, nodes > 0)) > 0)
    end function is_coupled
 
    !> Couple NODE: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes. An earlier coupling is replaced.
@@ -54,11 +54,7 @@ contains
       real(wp), intent(in)                    :: t(:, :, :) !! (dimension, dimension, masters) [-]
       integer :: n, parts
 
-      if (.not. allocated(coupling%of_node)) then
-         allocate (coupling%of_node(n_nodes), source=0)
-         allocate (coupling%first(1), source=1)
-         allocate (coupling%node(0), coupling%t(size(t, 1), size(t, 2), 0))
-      end if
+      if (coupling%n == 0) coupling%of_node = spread(0, 1, n_nodes)
       n = coupling%n + 1
       parts = coupling%first(n) - 1
       if (n + 1 > size(coupling%first)) coupling%first = [coupling%first, coupling%first]
@@ -165,7 +161,7 @@ contains
       integer :: i, k
 
       u = q
-      if (.not. allocated(model%freedoms%coupling%of_node)) return
+      if (model%freedoms%coupling%n == 0) return
       do i = 1, size(model%freedoms%coupling%of_node)
          associate (coupling => model%freedoms%coupling, parts => coupling_parts(model%freedoms, i))
             if (parts(2) >= 0) u(:, i) = 0.0_wp
@@ -200,7 +196,7 @@ contains
       integer :: i, k
 
       on_unknowns = f
-      if (.not. allocated(model%freedoms%coupling%of_node)) return
+      if (model%freedoms%coupling%n == 0) return
       associate (coupling => model%freedoms%coupling)
          do i = 1, size(coupling%of_node)
             if (coupling%of_node(i) > 0) on_unknowns(:, i) = 0.0_wp
@@ -223,7 +219,7 @@ contains
       integer :: i, k
 
       held = merge(forces_on_unknowns(model, f), 0.0_wp, model%freedoms%held)
-      if (.not. allocated(model%freedoms%coupling%of_node)) return
+      if (model%freedoms%coupling%n == 0) return
       do i = 1, size(model%freedoms%coupling%of_node)
          associate (coupling => model%freedoms%coupling, parts => coupling_parts(model%freedoms, i))
             do k = parts(1), parts(2)

@@ -159,7 +159,7 @@ contains
          if (.not. counts(node)) cycle
          if (dot_product(plane%normal, model%mesh%x(:, node)) < plane%offset - plane%near) return
          if (.not. is_on(plane, model%mesh%x(:, node))) cycle
-         if (allocated(model%freedoms%left_out)) then
+         if (size(model%freedoms%left_out) > 0) then
             if (all(model%freedoms%left_out(:, node))) cycle ! moves with other nodes
          end if
          axes = node_axes(model%mesh, node)

@@ -15,7 +15,7 @@ module partition
    use interface_operator, only: interface_element
    use kinds, only: wp
    use lists, only: first_not_below, list_owners, sorted_order
-   use mesh_queries, only: element_points, is_beam, is_shell
+   use mesh_queries, only: element_points, is_beam, is_shell, start_parts
    use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use nested_dissection, only: part_by_metis
    use node_coupling, only: is_coupled, section_node, unknown_nodes
@@ -148,6 +148,8 @@ contains
       end if
       call pass(r, part%mesh%dimension, part%mesh%n_elements, part%mesh%n_nodes, n_corners, n_properties)
       if (rank /= 0) then
+         call start_parts(part)
+         deallocate (part%mesh%properties)
          allocate (part%mesh%element_kind(part%mesh%n_elements), part%mesh%element_property(part%mesh%n_elements), &
             part%mesh%x(3, part%mesh%n_nodes), &
                    part%mesh%element_nodes(n_corners, part%mesh%n_elements), part%mesh%properties(n_properties))

@@ -58,9 +58,9 @@ contains
             turns=.true.)
       end associate
       has_bodies = model%mesh%n_elements > 0
-      if (allocated(model%mesh%structural%place)) has_bodies = any(model%mesh%structural%place == 0)
+      if (size(model%mesh%structural%place) > 0) has_bodies = any(model%mesh%structural%place == 0)
       if (has_bodies) call list_stresses(page, asked%stress, model, analysis)
-      if (allocated(model%mesh%structural%place)) then
+      if (size(model%mesh%structural%place) > 0) then
          call list_shells(page, asked%forces, model, analysis)
          call list_beams(page, model, analysis)
       end if
@@ -112,7 +112,7 @@ contains
          do i = 1, size(nodes)
             directions = node_axes(model%mesh, nodes(i))
             along(:, i) = matmul(along(:, i), directions(first:last, first:last))
-            if (allocated(model%mesh%node_system)) system(i) = model%mesh%node_system(nodes(i))
+            if (size(model%mesh%node_system) > 0) system(i) = model%mesh%node_system(nodes(i))
             if (system(i) > 0) system(i) = model%mesh%systems(system(i))%id
          end do
       end if

@@ -198,7 +198,7 @@ contains
                       sum([(count(supported(model%mesh, model%freedoms, i), kind=long), i = 1, n_points(model%mesh) + &
                          n_rotations(model%mesh))]))
       if (size(deck%bulk%rigid) > 0) call count_line(file, 'RIGID ELEMENTS', size(deck%bulk%rigid, kind=long))
-      if (allocated(model%freedoms%left_out)) call count_line(file, 'COMPONENTS DEPENDENT OR IDLE', &
+      if (size(model%freedoms%left_out) > 0) call count_line(file, 'COMPONENTS DEPENDENT OR IDLE', &
          count(model%freedoms%left_out, kind=long))
       call count_line(file, 'UNKNOWNS', int(system%n, long))
       do i = 1, size(system%description%words)
@@ -273,7 +273,7 @@ contains
             end associate
          end do
       end if
-      if (.not. allocated(model%mesh%placed)) return ! nodes by place
+      if (size(model%mesh%placed) == 0) return ! nodes by place
       call table%start('NODES BY PLACE AND SURFACE', [column([character(8) :: 'NODE', 'NODEAT', 'ELEMENT', 'PMARK'], 'i11'), &
                        column(axes(:d), 'es14.5', page%labels%length), column('DISTANCE', 'es12.3', page%labels%length)], page%file)
       do i = 1, size(model%mesh%placed)

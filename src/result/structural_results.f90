@@ -115,7 +115,7 @@ contains
 
       at_node = 0.0_wp
       at_centre = 0.0_wp
-      if (.not. allocated(model%mesh%structural%place)) return
+      if (size(model%mesh%structural%place) == 0) return
       allocate (stress(max_stresses, 5, 2, size(model%mesh%structural%shells)), normal(3, size(model%mesh%structural%shells)))
       do e = 1, model%mesh%n_elements
          if (is_shell(model%mesh, e)) then
@@ -223,7 +223,7 @@ contains
       real(wp) :: axes(3, 3), floor(2), thickness, x(3)
       integer  :: e, i, node
 
-      if (.not. allocated(model%mesh%structural%place)) return
+      if (size(model%mesh%structural%place) == 0) return
       thickness = 0.0_wp
       allocate (force(8, 5, size(model%mesh%structural%shells)), source=0.0_wp)
       do e = 1, model%mesh%n_elements

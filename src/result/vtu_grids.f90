@@ -78,7 +78,7 @@ contains
       call file%add(cell_data, named('principal_stress', labels%pressure), principal)
       call file%add(cell_data, named('von_mises_at_centre', labels%pressure), [(max(von_mises(at_centre(:, i)), &
                                                                                 at_ends(shown%elements(i))), i = 1, n)])
-      if (.not. allocated(model%mesh%structural%place)) return
+      if (size(model%mesh%structural%place) == 0) return
       allocate (thickness(n), at_face(n, 2), source=0.0_wp) ! at the centres of both faces of shells; zero for other elements
       do i = 1, n
          if (.not. is_shell(model%mesh, shown%elements(i))) cycle

@@ -132,7 +132,7 @@ contains
             part%last = max(part%last, model%mesh%element_id(e))
          end associate
          of_node(element_points(model%mesh, e)) = body(e)
-         if (allocated(model%mesh%element_section)) then
+         if (size(model%mesh%element_section) > 0) then
             if (model%mesh%element_section(e) > 0) of_node(model%mesh%sections(model%mesh%element_section(e))%node) = body(e)
          end if
       end do

@@ -97,7 +97,7 @@ contains
             call join(unknown_nodes(model%freedoms, mass_nodes(model, model%mesh%masses(i))))
          end do
       end if
-      if (.not. (with_bodies .and. allocated(model%freedoms%coupling%of_node))) return
+      if (.not. (with_bodies .and. model%freedoms%coupling%n > 0)) return
       do e = 1, model%mesh%n_elements
          ! an unknown of the element may belong to a node that does not participate
          associate (displaced => displaced_nodes(model%freedoms, e), unknown => nodes_of_unknowns(model%freedoms, e))
