@@ -16,7 +16,8 @@ module restart_file
    use model_data, only: model_type
    use run_of_deck, only: goes_on, is_over, is_refused, run_type, tell
    use restart_stream, only: open_restart, restart_stream_type
-   use results, only: record_results, restart_ending
+   use result_names, only: restart_ending
+   use results, only: record_results
    use stage_plan, only: stage_plan_type, where_in_plan
    use terminal, only: version
    use text_tools, only: integer_text, one_of

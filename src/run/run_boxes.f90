@@ -31,7 +31,8 @@ module run_boxes
    use normal_stiffness, only: branch_open
    use openblas, only: prepare_openblas, tell_kernel
    use restart_file, only: open_restart_file, take_up, write_restart
-   use results, only: end_stage, list_results => print_increment, print_modes, print_stage, remove_old_results, start_results
+   use result_names, only: remove_old_results
+   use results, only: end_stage, list_results => print_increment, print_modes, print_stage, start_results
    use run_of_deck, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, &
                           phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
                           is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
