@@ -1,7 +1,7 @@
 !> From a deck to the model that is solved: mesh, joints, freedoms and load history, each from those before it. An exchanged call does
 !! not compile.
 module model_build
-   use case_control, only: method_step
+   use control_words, only: method_step
    use connected_bodies, only: find_parts
    use constraint_equations, only: expansion_type
    use deck_check, only: checked_deck
@@ -27,14 +27,15 @@ module model_build
    use shell_faces, only: build_shell_faces, couple_shell_faces
    use shell_ties, only: find_ties, tie_type
    use spring_build, only: build_bars, build_springs
-   use stage_plan, only: plan_stages, stage_plan_type
+   use stage_build, only: find_shown_nodes, plan_stages
+   use stage_plan, only: stage_plan_type
    use structural_build, only: bow_edges, build_beams, build_rotations, build_shells, leave_out_idle
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use surface_sides, only: split_shared_surfaces
    use temperature_build, only: build_temperatures
    use unit_watch, only: watch_units
-   use vibration_build, only: find_shown_nodes, plan_vibrations
+   use vibration_build, only: plan_vibrations
    implicit none
    private
 

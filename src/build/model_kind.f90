@@ -5,7 +5,7 @@
 !! supports of a plane truss often name all six components.
 module model_kind
    use bulk_data, only: edge_cbeam, of_edge
-   use case_control, only: model_axisymmetric, model_plane, model_space
+   use control_words, only: model_axisymmetric, model_plane, model_space
    use coordinate_systems, only: directions_at
    use deck_check, only: checked_deck
    use elasticity, only: axisymmetric

@@ -7,7 +7,7 @@ module petsc_solver
    use distributed_matrix, only: add_blocks
    use distributed_solution, only: by_gamg, by_mumps, no_limit
    use element_unknowns, only: nodes_of_unknowns
-   use equation_solver, only: equation_system, failure_type, no_memory, no_solution, pivot_tolerance
+   use equation_solver, only: equation_system, failure_type, no_memory, no_solution
    use factor_reuse, only: factor_reuse_type, may_reuse, note_factor, note_failure, note_steps
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
@@ -19,6 +19,7 @@ module petsc_solver
                         subdomain_type, touched_type
    use ranks, only: n_ranks
    use text_tools, only: integer_text, one_of, real_text
+   use tolerances, only: pivot_tolerance
    use worker_loop, only: broadcast_command, command_diagonal, command_finish, command_forget, command_multiply, command_read, &
                           command_renew, command_solve, command_start, command_take, command_way, &
                           command_write, solution, stiffest_of_all => stiffest, stiffness, subdomain

@@ -1,6 +1,6 @@
 !> The deck and the model on the first pages of the listing: the echo of the cards, the numbers of the parts of the model, the method.
 module listing_summary
-   use case_control, only: method_newton, method_step, pressure_eq10
+   use control_words, only: method_newton, method_step, pressure_eq10
    use deck_cards, only: card_name
    use deck_input, only: deck_type
    use deck_text, only: is_include

@@ -3,7 +3,7 @@
 module stage_tables
    use analysis_state, only: analysis_type, free_norm
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
-   use case_control, only: method_back, method_newton
+   use control_words, only: method_back, method_newton
    use joint_values, only: joint_values_type
    use kinds, only: wp
    use mesh_queries, only: point_of

@@ -8,7 +8,7 @@ module restart_file
    use analysis_state, only: analysis_type
    use bolt_locking, only: lock_again
    use c_library, only: c_fsync, close_file, is_regular_file, read_all_bytes, remove_file
-   use case_control, only: no_restart, restart_stages
+   use control_words, only: no_restart, restart_stages
    use deck_input, only: deck_type
    use deck_text, only: checksum_of
    use equation_solver, only: equation_system

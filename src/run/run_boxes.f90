@@ -5,7 +5,7 @@ module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use backbone, only: backbone_type, find_loop, finish_backbone, start_backbone
    use c_library, only: end_run, make_folders, open_standard_outputs, tell_failed_writes
-   use case_control, only: method_back
+   use control_words, only: method_back
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use condensed_interface, only: condense_on_joints
    use condition_estimate, only: watch_condition

@@ -2,7 +2,7 @@
 !! OpenMP. Every addition has its place in one order, whatever the number of threads.
 module front_factor
    use element_unknowns, only: nodes_of_unknowns
-   use equation_solver, only: no_memory, pivot_tolerance
+   use equation_solver, only: no_memory
    use front_kernel, only: eliminate, large, top_row
    use front_tree, only: add_to_block, front_of, front_tree_type, front_type, keep_block, place_in, restore_block, task_work
    use kinds, only: long, wp
@@ -11,6 +11,7 @@ module front_factor
    use mass_matrix, only: coupled_dynamic_stiffness
    use model_data, only: model_type
    use omp_lib, only: omp_get_wtime
+   use tolerances, only: pivot_tolerance
    implicit none
    private
 

@@ -2,7 +2,7 @@
 !! whole of [k_s] = [k_b] + sum of [k_int] is formed and factorised.
 module skyline_solver
    use element_unknowns, only: nodes_of_unknowns
-   use equation_solver, only: equation_system, failure_type, pivot_tolerance
+   use equation_solver, only: equation_system, failure_type
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
    use kinds, only: long, wp
@@ -14,6 +14,7 @@ module skyline_solver
    use skyline, only: add_to_skyline, factor_times_vector, factorise_skyline, skyline_matrix, skyline_times_vector, &
                       solve_skyline, start_skyline
    use text_tools, only: integer_text
+   use tolerances, only: pivot_tolerance
    implicit none
    private
 

@@ -9,7 +9,7 @@
 !! Source: Parlett, The Symmetric Eigenvalue Problem, SIAM 1998, sections 3.3 and 15.
 module natural_modes
    use analysis_state, only: analysis_type
-   use case_control, only: solver_skyline, solver_tree
+   use control_words, only: solver_skyline, solver_tree
    use eigenpairs, only: find_eigenpairs, needs_all, on_equations
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system, failure_type
