@@ -3,7 +3,7 @@
 program jointfem
    use analysis_state, only: analysis_type, interface_stiffness
    use back_method, only: back_increment
-   use case_control, only: method_back, method_newton, method_step
+   use control_words, only: method_back, method_newton, method_step
    use command_line, only: command_type, deck_argument
    use deck_input, only: deck_type
    use equation_solver, only: equation_system

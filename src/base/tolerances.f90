@@ -2,7 +2,6 @@
 !! Arithmetic has 16 digits. A number from one operation is right to 1E-16, a sum or a small factorisation to 1E-14 to 1E-12,
 !! a coordinate of ten digits to 1E-9, a place that a mesh generator has computed to 1E-6. What users may set stands here as its
 !! default.
-!! In `src/solver` stay, beside the algorithms that they belong to: `pivot_tolerance`, `step_tolerance`, `dependent`.
 !! In other modules stay the ranges of fields (`least_power`, `smallest_size`) and the usual sizes of materials (`unit_watch`).
 module tolerances
    use kinds, only: wp
@@ -114,6 +113,12 @@ module tolerances
    real(wp), parameter :: end_of_way = 1.0e-9_wp     !! of the way: a zero at its end counts as the end
    real(wp), parameter :: zero_stress = 1.0e-13_wp   !! of the stresses: a difference of two of them
    real(wp), parameter :: least_slope = 1.0e-6_wp    !! of the first slope of a curve: at its peak delta takes no part of d D
+
+   ! ---- solution of the equations
+   real(wp), parameter :: pivot_tolerance = 1.0e-12_wp !! of the diagonal entry: rounding; the unknown has no stiffness
+   real(wp), parameter :: step_tolerance = 1.0e-13_wp !! of the solution, energy norm: steps are as good as a factor
+   real(wp), parameter :: dependent_product = 1.0e-10_wp !! of the product of [k] and a direction: rounding of products
+   real(wp), parameter :: dependent_energy = 1.0e-12_wp !! of the energy of a solution: the rest adds nothing to a guess
 
    ! ---- vibration
    real(wp), parameter :: lanczos_tolerance = 1.0e-13_wp !! of nu: the error estimate of Lanczos, near rounding

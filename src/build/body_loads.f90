@@ -8,10 +8,12 @@ module body_loads
    use deck_check, only: checked_deck
    use displacement_systems, only: rectangular_axes
    use element_kinds, only: kind_edge2, max_nodes
+   use element_unknowns, only: displaced_nodes
    use isoparametric, only: body_forces
    use kinds, only: wp
    use mass_matrix, only: bar_mass, scalar_mass
-   use model_data, only: corners_of, is_beam, is_shell, mesh_type, n_points, own_nodes, stage_load_type
+   use mesh_queries, only: element_points, is_beam, is_shell, n_points
+   use model_data, only: freedoms_type, mesh_type, stage_load_type
    use model_kind, only: space_hint
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity
@@ -125,8 +127,9 @@ contains
    end subroutine find_fields
 
    !> Add FACTOR times the FIELDS of SET: end forces of beams to LOADS, nodal forces to FORCE. An ACCEL1 acts at its nodes alone.
-   subroutine add_gravity(mesh, fields, set, factor, loads, force)
-      type(mesh_type), intent(in) :: mesh
+   subroutine add_gravity(mesh, freedoms, fields, set, factor, loads, force)
+      type(mesh_type), intent(in)          :: mesh
+      type(freedoms_type), intent(in)      :: freedoms
       type(acceleration_field), intent(in) :: fields(:)
       integer, intent(in)                  :: set
       real(wp), intent(in)                 :: factor
@@ -142,11 +145,11 @@ contains
          field%uniform = factor*field%uniform
          field%gradient = factor*field%gradient
          if (.not. allocated(field%nodes%first)) then
-            call add_field(mesh, field, loads, force)
+            call add_field(mesh, freedoms, field, loads, force)
             cycle
          end if
          everywhere = spread(spread(0.0_wp, 1, 3), 2, mesh%n_nodes)
-         call add_field(mesh, field, loads, everywhere)
+         call add_field(mesh, freedoms, field, loads, everywhere)
          do node = 1, n_points(mesh)
             associate (id => mesh%node_id(node))
                if (any(id >= field%nodes%first .and. id <= field%nodes%last)) force(:, node) = force(:, node) + everywhere(:, node)
@@ -166,8 +169,9 @@ contains
    end function acceleration_at
 
    !> Add the forces of an acceleration FIELD on all masses: end forces of beams to LOADS, nodal forces to FORCE.
-   subroutine add_field(mesh, field, loads, force)
-      type(mesh_type), intent(in) :: mesh
+   subroutine add_field(mesh, freedoms, field, loads, force)
+      type(mesh_type), intent(in)          :: mesh
+      type(freedoms_type), intent(in)      :: freedoms
       type(acceleration_field), intent(in) :: field
       type(stage_load_type), intent(inout) :: loads
       real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes)
@@ -175,34 +179,31 @@ contains
       integer  :: e, end, k
 
       do e = 1, mesh%n_elements
-         if (any(corners_of(mesh, e) == 0) .or. mesh%element_property(e) == 0 .or. is_beam(mesh, e)) cycle
-         associate (nodes => own_nodes(mesh, e), d => mesh%dimension)
+         if (any(element_points(mesh, e) == 0) .or. mesh%element_property(e) == 0 .or. is_beam(mesh, e)) cycle
+         associate (corners => element_points(mesh, e), d => mesh%dimension)
             if (.not. field%is_spin .and. .not. is_shell(mesh, e)) then
-               call body_forces(law_of(mesh, e), mesh%x(:d, corners_of(mesh, e)), &
+               call body_forces(law_of(mesh, e), mesh%x(:d, corners), &
                                 mesh%properties(mesh%element_property(e))%rho*field%uniform(:d), f)
             else ! from the translational mass alone: at constant speed rotations do not accelerate
-               associate (corners => corners_of(mesh, e))
-                  call scalar_mass(mesh, e, m)
-                  f = 0.0_wp
-                  do k = 1, size(corners)
-                     a(:, k) = acceleration_at(field, mesh%x(:, corners(k)))
-                  end do
-                  f(:, :size(corners)) = matmul(a(:d, :size(corners)), m(:size(corners), :size(corners)))
-               end associate
+               call scalar_mass(mesh, e, m)
+               do k = 1, size(corners)
+                  a(:, k) = acceleration_at(field, mesh%x(:, corners(k)))
+               end do
+               f(:, :size(corners)) = matmul(a(:d, :size(corners)), m(:size(corners), :size(corners)))
             end if
-            force(:d, nodes) = force(:d, nodes) + f(:, :size(nodes))
-            call add_section_share(mesh, e, nodes, f, force)
+            force(:d, corners) = force(:d, corners) + f(:, :size(corners))
+            call add_section_share(mesh, e, corners, f, force)
          end associate
       end do
       do e = 1, mesh%n_elements
          if (.not. is_beam(mesh, e)) cycle
-         x = mesh%x(:, corners_of(mesh, e))
+         x = mesh%x(:, element_points(mesh, e))
          associate (law => mesh%structural%beams(mesh%structural%place(e)))
             q = 0.0_wp
             do end = 1, 2
                q(:3, end) = (law%rho*law%area + law%extra_mass)*acceleration_at(field, x(:, end) + law%offset(:, end))
             end do
-            call add_to_beam(mesh, e, beam_line_load(law, x, q, 0.0_wp, 1.0_wp), loads, force)
+            call add_to_beam(mesh, freedoms, e, beam_line_load(law, x, q, 0.0_wp, 1.0_wp), loads, force)
          end associate
       end do
       do k = 1, size(mesh%bars)
@@ -239,7 +240,7 @@ contains
             if (card%element > 0 .and. e == 0) call deck%field_error(card%line, 'EID', 'there is no beam '// &
                integer_text(card%element)//': no CBAR or CBEAM with a PBAR, PBARL, PBEAM or PBEAML')
             if (e == 0 .or. deck%errors%any()) cycle
-            length = beam_length(mesh%structural%beams(mesh%structural%place(e)), mesh%x(:, corners_of(mesh, e)))
+            length = beam_length(mesh%structural%beams(mesh%structural%place(e)), mesh%x(:, element_points(mesh, e)))
             if (.not. card%is_fraction .and. any(card%x > length*(1.0_wp + past_the_end))) &
                call deck%field_error(card%line, 'X1', 'X1 or X2 lies beyond the end of the beam')
             if (mesh%dimension == 2 .and. card%kind <= 6 .and. any(load_types(card%kind) == ['FZ ', 'MX ', 'MY '])) &
@@ -259,7 +260,7 @@ contains
       real(wp) :: f(12), axes(3, 3), q(6, 2), s(2), direction(3)
       integer  :: first, k
 
-      associate (law => mesh%structural%beams(mesh%structural%place(e)), x => mesh%x(:, corners_of(mesh, e)))
+      associate (law => mesh%structural%beams(mesh%structural%place(e)), x => mesh%x(:, element_points(mesh, e)))
          s = card%x
          if (.not. card%is_fraction) s = min(1.0_wp, s/beam_length(law, x))
          axes = beam_axes(law, x)
@@ -281,8 +282,9 @@ contains
    end function at_ends
 
    !> Add the end forces F of beam E to LOADS, and the equivalent nodal forces to FORCE.
-   subroutine add_to_beam(mesh, e, f, loads, force)
-      type(mesh_type), intent(in) :: mesh
+   subroutine add_to_beam(mesh, freedoms, e, f, loads, force)
+      type(mesh_type), intent(in)          :: mesh
+      type(freedoms_type), intent(in)      :: freedoms
       integer, intent(in)                  :: e
       real(wp), intent(in)                 :: f(12)
       type(stage_load_type), intent(inout) :: loads
@@ -292,8 +294,8 @@ contains
       associate (place => mesh%structural%place(e), d => mesh%dimension)
          if (.not. allocated(loads%beam)) allocate (loads%beam(12, size(mesh%structural%beams)), source=0.0_wp)
          loads%beam(:, place) = loads%beam(:, place) + f
-         call onto_own(mesh, e, beam_nodal_forces(mesh%structural%beams(place), mesh%x(:, corners_of(mesh, e)), f), nodal)
-         associate (nodes => own_nodes(mesh, e))
+         call onto_own(mesh, e, beam_nodal_forces(mesh%structural%beams(place), mesh%x(:, element_points(mesh, e)), f), nodal)
+         associate (nodes => displaced_nodes(freedoms, e))
             force(:d, nodes) = force(:d, nodes) + nodal
          end associate
       end associate

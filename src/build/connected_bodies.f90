@@ -2,7 +2,8 @@
 !! Joints do not connect parts.
 module connected_bodies
    use lists, only: join, root_of
-   use model_data, only: freedoms_type, mesh_type, n_bars, n_rotations, n_sections
+   use mesh_queries, only: n_rotations
+   use model_data, only: freedoms_type, mesh_type, n_bars, n_sections
    use node_coupling, only: coupling_parts, section_node
    implicit none
    private

@@ -5,7 +5,8 @@ module constraint_equations
    use blas_lapack, only: dgesv
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: a_rotation, freedoms_type, mesh_type, node_kind, point_of
+   use mesh_queries, only: node_kind, open_left_out, point_of
+   use model_data, only: a_rotation, freedoms_type, mesh_type
    use node_coupling, only: couple_node
    use numbers, only: identity
    use text_tools, only: integer_text, one_of
@@ -207,7 +208,8 @@ contains
       integer  :: d, i, k, n, node
 
       d = mesh%dimension
-      allocate (freedoms%left_out(d, mesh%n_nodes), is_used(d, mesh%n_nodes), source=.false.)
+      call open_left_out(mesh, freedoms)
+      allocate (is_used(d, mesh%n_nodes), source=.false.)
       allocate (masters(mesh%n_nodes), column(mesh%n_nodes), source=0)
       do i = 1, list%n
          associate (item => list%item(i))

@@ -4,8 +4,9 @@ module determinate_joints
    use interface_operator, only: nodes_of_end
    use kinds, only: wp
    use lists, only: join, root_of, distinct
-   use model_data, only: a_point, an_overlap, freedoms_type, joint_type, joints_type, mesh_type, n_bars, &
-                          n_points, n_sections, node_kind, place_in_kind, stage_load_type, supported
+   use mesh_queries, only: n_points, node_kind, place_in_kind
+   use model_data, only: a_point, an_overlap, freedoms_type, joint_type, joints_type, mesh_type, n_bars, n_sections, &
+                         stage_load_type, supported
    use node_coupling, only: coupling_parts, is_coupled
    use tolerances, only: same_direction, zero_cosine
    implicit none

@@ -173,7 +173,7 @@ contains
                                      'model, x-y')
                cycle
             end if
-            if (.not. allocated(mesh%node_system)) allocate (mesh%node_system(mesh%n_nodes), source=0)
+            if (size(mesh%node_system) == 0) mesh%node_system = spread(0, 1, mesh%n_nodes)
             do while (node > 0)
                if (mesh%node_system(node) > 0) exit ! a number given twice has one node
                mesh%node_system(node) = findloc(mesh%systems%id, grid%cd, dim=1)
@@ -191,7 +191,7 @@ contains
       real(wp) :: directions(3, 3)
       integer  :: i, node, rotation
 
-      if (.not. allocated(mesh%node_system)) return
+      if (size(mesh%node_system) == 0) return
       do i = 1, size(deck%bulk%grid)
          if (deck%bulk%grid(i)%cd <= 0) cycle
          node = mesh%node_table%find(deck%bulk%grid(i)%id)

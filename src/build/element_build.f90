@@ -7,7 +7,8 @@ module element_build
    use element_mapping, only: smallest_jacobian
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order
-   use model_data, only: corners_of, mesh_type, property_type
+   use mesh_queries, only: element_points
+   use model_data, only: mesh_type, property_type
    use node_build, only: blank_node, find_nodes
    use shell_membrane, only: flat_coordinates
    use spring_build, only: is_bar
@@ -53,6 +54,7 @@ contains
       allocate (cards, source=[deck%bulk%pshell, deck%bulk%paxis, deck%bulk%psolid, (property_card( &
          line=deck%bulk%beam_property(i)%line, id=deck%bulk%beam_property(i)%id, material=deck%bulk%beam_property(i)%material, &
          state=beam), i = 1, size(deck%bulk%beam_property))])
+      deallocate (mesh%properties)
       allocate (mesh%properties(size(cards)))
       do i = 1, size(cards)
          associate (card => cards(i), property => mesh%properties(i))
@@ -243,7 +245,7 @@ contains
          integer, intent(in) :: e
 
          is_sound = .true.
-         associate (nodes => corners_of(mesh, e))
+         associate (nodes => element_points(mesh, e))
             if (any(nodes == 0)) return
             if (any(doubtful(nodes))) return
             if (mesh%element_kind(e) == kind_edge2) return ! a beam: its length is checked with its offsets
@@ -281,7 +283,7 @@ contains
       real(wp) :: off, largest
       integer  :: i, k, places, worst
 
-      allocate (nodes, source=corners_of(mesh, e))
+      allocate (nodes, source=element_points(mesh, e))
       associate (kind => element_table(mesh%element_kind(e)))
          allocate (corners, source=nodes(:kind%n_corners))
          words = ' has no positive '//one_of(kind%dimension == 3, 'volume', 'area')//' at some integration point'

@@ -8,7 +8,8 @@ module facing_bodies
    use kinds, only: wp
    use lists, only: join, list_owners, root_of
    use connected_bodies, only: find_bodies
-   use model_data, only: corners_of, freedoms_type, is_shell, joints_type, mesh_type, n_bars, n_points, supported
+   use mesh_queries, only: element_points, is_shell, n_points
+   use model_data, only: freedoms_type, joints_type, mesh_type, n_bars, supported
    use node_pairing, only: opposed => facing, reach => default_reach
    use numbers, only: cross
    use spatial_search, only: spatial_search_type
@@ -62,7 +63,7 @@ contains
       allocate (bodies(n))
       seen = 0
       do e = 1, mesh%n_elements
-         associate (record => bodies(body(e)), nodes => corners_of(mesh, e))
+         associate (record => bodies(body(e)), nodes => element_points(mesh, e))
             record%first = min(record%first, mesh%element_id(e))
             record%last = max(record%last, mesh%element_id(e))
             record%n_elements = record%n_elements + 1

@@ -5,7 +5,8 @@ module first_pressures
    use determinate_joints, only: carried_resultant, parts_at
    use kinds, only: wp
    use load_build, only: add_force
-   use model_data, only: freedoms_type, history_type, joint_type, joints_type, mesh_type, n_bars, n_points, n_sections, &
+   use mesh_queries, only: n_points
+   use model_data, only: freedoms_type, history_type, joint_type, joints_type, mesh_type, n_bars, n_sections, &
                          stage_load_type, supported
    use normal_curve, only: loading_pressure
    use text_tools, only: integer_text, real_text

@@ -6,8 +6,8 @@ module free_structure
    use deck_check, only: checked_deck
    use interface_operator, only: named_node
    use kinds, only: wp
-   use model_data, only: a_point, a_rotation, corners_of, freedoms_type, history_type, is_face_node, joints_type, mesh_type, &
-                          node_kind, place_in_kind, support_group
+   use mesh_queries, only: element_points, is_face_node, node_kind, place_in_kind
+   use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, mesh_type, support_group
    use numbers, only: cross, first_largest
    use support_build, only: hold
    use tolerances, only: balanced
@@ -42,10 +42,10 @@ contains
       call find_bodies(mesh, body, n)
       body_of = 0
       do e = 1, mesh%n_elements
-         body_of(corners_of(mesh, e)) = body(e)
+         body_of(element_points(mesh, e)) = body(e)
       end do
       may_be = body_of == maxloc([(count(body_of == i), i = 1, n)], dim=1)
-      if (allocated(mesh%node_system)) may_be = may_be .and. mesh%node_system(:size(may_be)) == 0
+      if (size(mesh%node_system) > 0) may_be = may_be .and. mesh%node_system(:size(may_be)) == 0
       dependent = [([deck%rigid(i)%nodes, deck%rigid(i)%node], i = 1, size(deck%rigid)), &
                    (deck%bulk%equation(i)%node, i = 1, size(deck%bulk%equation))]
       do i = 1, size(dependent) ! these nodes depend on each other

@@ -319,11 +319,9 @@ contains
             end do
          end associate
       end if
-      if (allocated(mesh%faces)) then
-         do i = 1, size(mesh%faces)
-            if (given_at(mesh%faces(i)%node) == -1) on_side(mesh%faces(i)%point) = mesh%faces(i)%node
-         end do
-      end if
+      do i = 1, size(mesh%faces)
+         if (given_at(mesh%faces(i)%node) == -1) on_side(mesh%faces(i)%point) = mesh%faces(i)%node
+      end do
       do i = 1, size(card%node)
          if (card%node(i) == 0) cycle
          words = ''

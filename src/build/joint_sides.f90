@@ -8,7 +8,8 @@ module joint_sides
    use interface_operator, only: at_first_end, connect_nodes, interface_element
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, joint_cover, joint_frame, joint_type, joints_type, mesh_type, surface_type
+   use mesh_queries, only: element_points
+   use model_data, only: joint_cover, joint_frame, joint_type, joints_type, mesh_type, surface_type
    use mortar_integrals, only: face_part, whole_shares, interface_sums_type
    use node_pairing, only: aside_type, pair_nodes, fit_side
    use numbers, only: cross
@@ -219,7 +220,7 @@ contains
          if (nodes(side) == 0) cycle
          to_body = 0.0_wp ! from the node to the centres of its elements
          do i = mesh%first_at(nodes(side)), mesh%first_at(nodes(side) + 1) - 1
-            associate (corners => corners_of(mesh, mesh%elements_at(i)))
+            associate (corners => element_points(mesh, mesh%elements_at(i)))
                if (any(corners == 0)) cycle
                to_body = to_body + sum(mesh%x(:, corners), dim=2)/size(corners) - mesh%x(:, nodes(side))
             end associate

@@ -120,7 +120,7 @@ contains
       real(wp), intent(in)           :: axes(3, 3), force(3)
       integer :: d, digit, k, parts(2)
 
-      if (.not. allocated(freedoms%left_out)) return
+      if (size(freedoms%left_out) == 0) return
       parts = coupling_parts(freedoms, node)
       do d = 1, mesh%dimension
          if (.not. freedoms%left_out(d, node) .or. abs(dot_product(axes(:, d), force)) <= zero_component_along*norm2(force)) cycle
@@ -284,11 +284,11 @@ contains
          if (i > 0) then
             associate (load => deck%bulk%load(i))
                do k = 1, size(load%sets)
-                  call add_set(deck, mesh, cards, load%sets(k), load%scale*load%factors(k), loads)
+                  call add_set(deck, mesh, freedoms, cards, load%sets(k), load%scale*load%factors(k), loads)
                end do
             end associate
          else
-            call add_set(deck, mesh, cards, reference%id, 1.0_wp, loads)
+            call add_set(deck, mesh, freedoms, cards, reference%id, 1.0_wp, loads)
             if (.not. has_set(deck%bulk, reference%id)) call deck%errors%add(reference%line, &
                key//': there is no FORCE or LOAD with set '//integer_text(reference%id)//nor_others)
          end if
@@ -297,9 +297,10 @@ contains
    end subroutine build_loads
 
    !> Add FACTOR times all loads of SET to LOADS: nodal forces one by one, distributed loads as sums per node.
-   subroutine add_set(deck, mesh, cards, set, factor, loads)
+   subroutine add_set(deck, mesh, freedoms, cards, set, factor, loads)
       type(checked_deck), intent(in)       :: deck
-      type(mesh_type), intent(in) :: mesh
+      type(mesh_type), intent(in)          :: mesh
+      type(freedoms_type), intent(in)      :: freedoms
       type(card_loads), intent(in)         :: cards
       integer, intent(in)                  :: set
       real(wp), intent(in)                 :: factor
@@ -328,10 +329,10 @@ contains
             s = findloc(mesh%surfaces%id, bulk%surface_load(i)%surface, dim=1)
             if (s > 0) call add_surface_load(mesh, mesh%surfaces(s), bulk%surface_load(i), factor, spread_out)
          end do
-         call add_gravity(mesh, cards%fields, set, factor, loads, spread_out)
+         call add_gravity(mesh, freedoms, cards%fields, set, factor, loads, spread_out)
          do i = 1, size(bulk%beam_load)
             if (bulk%beam_load(i)%set == set .and. cards%beam(i) > 0) &
-               call add_to_beam(mesh, cards%beam(i), factor*cards%end_force(:, i), loads, spread_out)
+               call add_to_beam(mesh, freedoms, cards%beam(i), factor*cards%end_force(:, i), loads, spread_out)
          end do
       end associate
       do node = 1, mesh%n_nodes

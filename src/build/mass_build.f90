@@ -34,6 +34,7 @@ contains
                   'only one of them')
          end if
       end associate
+      deallocate (mesh%masses)
       allocate (mesh%masses(2*size(deck%bulk%mass)))
       n = 0
       n_off = 0

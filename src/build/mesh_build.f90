@@ -84,6 +84,7 @@ contains
       integer  :: highest, i, k, n, n_given ! n_given: before the new reference nodes
 
       n_given = mesh%n_nodes
+      deallocate (mesh%placed)
       allocate (mesh%placed(size(deck%bulk%place)))
       mesh%placed%id = deck%bulk%place%id ! reference nodes get higher numbers
       ! the new reference nodes

@@ -6,8 +6,8 @@ module mesh_watch
    use element_kinds, only: element_table
    use kinds, only: wp
    use lists, only: join, list_owners, root_of
-   use model_data, only: a_bar, bar_nodes, corners_of, freedoms_type, is_face_node, joints_type, mesh_type, n_bars, n_points, &
-                          supported
+   use mesh_queries, only: element_points, is_face_node, n_points
+   use model_data, only: a_bar, bar_nodes, freedoms_type, joints_type, mesh_type, n_bars, supported
    use spatial_search, only: spatial_search_type
    use text_tools, only: integer_text, one_of, plural
    use tolerances, only: same_node
@@ -31,7 +31,7 @@ contains
 
       allocate (lowest(1, mesh%n_elements + n_bars(mesh)), source=0)
       do e = 1, mesh%n_elements
-         lowest(1, e) = minval(corners_of(mesh, e))
+         lowest(1, e) = minval(element_points(mesh, e))
       end do
       do i = 1, n_bars(mesh)
          if (mesh%bars(i)%kind == a_bar .and. mesh%bars(i)%bolt == 0) &
@@ -210,11 +210,9 @@ contains
             end do
          end associate
       end do
-      if (allocated(mesh%faces)) then
-         do k = 1, size(mesh%faces)
-            call join(body, mesh%faces(k)%point, mesh%faces(k)%node)
-         end do
-      end if
+      do k = 1, size(mesh%faces)
+         call join(body, mesh%faces(k)%point, mesh%faces(k)%node)
+      end do
       assembly = body
       call join_ends(joints, assembly)
    end subroutine find_assemblies

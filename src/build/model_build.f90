@@ -1,7 +1,7 @@
 !> From a deck to the model that is solved: mesh, joints, freedoms and load history, each from those before it. An exchanged call does
 !! not compile.
 module model_build
-   use case_control, only: method_step
+   use control_words, only: method_step
    use connected_bodies, only: find_parts
    use constraint_equations, only: expansion_type
    use deck_check, only: checked_deck
@@ -11,6 +11,7 @@ module model_build
    use first_pressures, only: find_first_pressures
    use displacement_systems, only: couple_node_systems, find_node_systems
    use element_build, only: marked_side
+   use element_unknowns, only: make_table
    use free_structure, only: check_balance, hold_free_structure
    use joint_build, only: build_joints
    use joint_gaps, only: build_gaps
@@ -18,6 +19,7 @@ module model_build
    use load_build, only: build_loads
    use mass_build, only: build_masses, check_mass, check_masses
    use mesh_build, only: build_mesh, check_named_nodes
+   use mesh_queries, only: start_freedoms, start_mesh
    use mesh_watch, only: crack_words, repeated_words
    use model_data, only: freedoms_type, history_type, joints_type, mesh_type, model_type, n_sections, stage_load_type
    use pretension_section, only: build_sections
@@ -26,14 +28,15 @@ module model_build
    use shell_faces, only: build_shell_faces, couple_shell_faces
    use shell_ties, only: find_ties, tie_type
    use spring_build, only: build_bars, build_springs
-   use stage_plan, only: plan_stages, stage_plan_type
+   use stage_build, only: find_shown_nodes, plan_stages
+   use stage_plan, only: stage_plan_type
    use structural_build, only: bow_edges, build_beams, build_rotations, build_shells, leave_out_idle
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use surface_sides, only: split_shared_surfaces
    use temperature_build, only: build_temperatures
    use unit_watch, only: watch_units
-   use vibration_build, only: find_shown_nodes, plan_vibrations
+   use vibration_build, only: plan_vibrations
    implicit none
    private
 
@@ -113,6 +116,7 @@ contains
       logical, intent(out)              :: is_whole
       type(marked_side), allocatable :: sides(:)
 
+      call start_mesh(mesh)
       call build_mesh(deck, mesh, sides)
       call check_named_nodes(deck, mesh)
       is_whole = .not. deck%mesh_is_faulty()
@@ -147,8 +151,8 @@ contains
       call build_gaps(deck, mesh, joints)
    end subroutine make_joints
 
-   !> Make the FREEDOMS: supports, displacement systems, constraint equations and rigid elements. EXPANSIONS are those of the rigid
-   !! elements when warm.
+   !> Make the FREEDOMS: supports, displacement systems, constraint equations and rigid elements, and the table of unknowns. EXPANSIONS are
+   !! those of the rigid elements when warm.
    subroutine make_freedoms(deck, mesh, joints, ties, freedoms, expansions)
       type(checked_deck), intent(inout) :: deck
       type(mesh_type), intent(in)       :: mesh
@@ -157,6 +161,7 @@ contains
       type(freedoms_type), intent(out)  :: freedoms
       type(expansion_type), allocatable, intent(out) :: expansions(:)
 
+      call start_freedoms(freedoms)
       call build_supports(deck, mesh, joints, freedoms)
       call hold_free_structure(deck, mesh, joints, freedoms)
       call couple_node_systems(deck, mesh, freedoms)
@@ -164,6 +169,7 @@ contains
       call leave_out_idle(mesh, freedoms)
       call check_masses(deck, mesh, freedoms)
       if (.not. deck%errors%any()) call couple_shell_faces(mesh, freedoms)
+      if (.not. deck%errors%any()) call make_table(mesh, freedoms)
    end subroutine make_freedoms
 
    !> Make the load HISTORY, and the loads that oscillate.

@@ -5,7 +5,7 @@
 !! supports of a plane truss often name all six components.
 module model_kind
    use bulk_data, only: edge_cbeam, of_edge
-   use case_control, only: model_axisymmetric, model_plane, model_space
+   use control_words, only: model_axisymmetric, model_plane, model_space
    use coordinate_systems, only: directions_at
    use deck_check, only: checked_deck
    use elasticity, only: axisymmetric
@@ -70,10 +70,7 @@ contains
       character(:), allocatable :: words
 
       words = ' (MODEL = SPACE makes it a model of space)'
-      if (allocated(mesh%properties)) then
-         if (any(mesh%properties%state < axisymmetric)) &
-            words = ' (MODEL = SPACE, and MID2 on PSHELL, make it a model of space)'
-      end if
+      if (any(mesh%properties%state < axisymmetric)) words = ' (MODEL = SPACE, and MID2 on PSHELL, make it a model of space)'
       if (mesh%axisymmetric) words = ''
    end function space_hint
 

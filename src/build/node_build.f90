@@ -72,9 +72,8 @@ contains
       mesh%node_id = [mesh%node_id, (highest + min(k, huge(1) - highest), k = 1, size(x, 2))]
       mesh%n_nodes = size(mesh%node_id)
       mesh%x = reshape([mesh%x, x], [3, mesh%n_nodes])
-      if (allocated(mesh%duplicate)) mesh%duplicate = [mesh%duplicate, spread(0, 1, size(x, 2))]
+      if (size(mesh%duplicate) > 0) mesh%duplicate = [mesh%duplicate, spread(0, 1, size(x, 2))]
       call mesh%node_table%build(mesh%node_id)
-      if (.not. allocated(mesh%placed)) return
       associate (named => mesh%placed%id > 0 .and. mesh%placed%node > 0)
          call mesh%node_table%add(pack(mesh%placed%id, named), pack(mesh%placed%node, named))
       end associate
@@ -84,8 +83,7 @@ contains
    pure integer function highest_number(mesh)
       type(mesh_type), intent(in) :: mesh
 
-      highest_number = mesh%node_id(mesh%n_nodes)
-      if (allocated(mesh%placed)) highest_number = max(highest_number, maxval([0, mesh%placed%id]))
+      highest_number = max(mesh%node_id(mesh%n_nodes), maxval([0, mesh%placed%id]))
    end function highest_number
 
    !> The NODES with the numbers ID, which an element, edge or interface element card names from data field FIRST on; 0, and an
@@ -266,8 +264,8 @@ contains
       do k = n + 1, mesh%n_nodes
          mesh%first_at(k + 1) = mesh%first_at(k) + n_elements(k - n)
       end do
-      if (allocated(mesh%rotation_of)) mesh%rotation_of = [mesh%rotation_of, none]
-      if (allocated(mesh%node_section)) mesh%node_section = [mesh%node_section, none]
+      if (size(mesh%rotation_of) > 0) mesh%rotation_of = [mesh%rotation_of, none]
+      if (size(mesh%node_section) > 0) mesh%node_section = [mesh%node_section, none]
    end subroutine append_unknowns
 
 end module node_build

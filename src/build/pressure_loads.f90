@@ -8,7 +8,8 @@ module pressure_loads
    use isoparametric, only: side_forces
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, is_shell, mesh_type
+   use mesh_queries, only: element_points, is_shell
+   use model_data, only: mesh_type
    use node_coupling, only: add_section_share
    use surface_sides, only: side_corners
    use text_tools, only: integer_text, one_of
@@ -151,7 +152,7 @@ contains
                call deck%field_error(card%line, 'EID', 'element '//integer_text(card%first)//' is a '// &
                   trim(element_table(mesh%element_kind(e))%card)// &
                   one_of(card%kind == of_face, ': PLOAD4 is for faces of solids', ': PLOADE is for plane edges'))
-            else if (any(corners_of(mesh, e) == 0)) then
+            else if (any(element_points(mesh, e) == 0)) then
                cycle ! reported already
             else if (card%corners(1) == 0) then
                if (card%kind == of_face) call deck%field_error(card%line, 'G1', 'blank, expected a corner of the face')
@@ -326,7 +327,7 @@ contains
                  property => mesh%properties(max(1, mesh%element_property(pressed%element))))
          if (s == 0) then
             n = kind%n_nodes
-            nodes(:n) = corners_of(mesh, e)
+            nodes(:n) = element_points(mesh, e)
             p(:n) = factor*pressed%p(:n)
          else
             n = kind%side_size(s)

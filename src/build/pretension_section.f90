@@ -27,8 +27,10 @@ contains
 
       n = count(deck%bulk%bolt%surface > 0)
       if (n == 0) return
+      deallocate (mesh%sections)
       allocate (mesh%sections(n))
-      allocate (mesh%node_section(mesh%n_nodes), mesh%element_section(mesh%n_elements), source=0)
+      mesh%node_section = spread(0, 1, mesh%n_nodes)
+      mesh%element_section = spread(0, 1, mesh%n_elements)
       k = 0
       do i = 1, size(deck%bulk%bolt)
          if (deck%bulk%bolt(i)%surface <= 0) cycle

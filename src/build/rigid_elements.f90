@@ -8,7 +8,8 @@ module rigid_elements
    use deck_check, only: checked_deck
    use field_rules, only: has_component
    use kinds, only: wp
-   use model_data, only: freedoms_type, mesh_type, n_rotations
+   use mesh_queries, only: n_rotations
+   use model_data, only: freedoms_type, mesh_type
    use numbers, only: by_rotation
    use shell_ties, only: add_ties, tie_type
    use support_build, only: check_sums, summed_sets

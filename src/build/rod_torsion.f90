@@ -4,7 +4,8 @@
 module rod_torsion
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: a_spring, bar_type, freedoms_type, mesh_type, n_bars, n_rotations, rotation_type
+   use mesh_queries, only: n_rotations, open_left_out
+   use model_data, only: a_spring, bar_type, freedoms_type, mesh_type, n_bars, rotation_type
    use tolerances, only: zero_rotation_stiffness
    use unknowns, only: node_axes, rotation_at
    implicit none
@@ -124,7 +125,7 @@ contains
                k = k - spread(k(:, c), 2, 3)*spread(k(c, :), 1, 3)/k(c, c)
             end do
             if (.not. any(free)) cycle
-            if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, mesh%n_nodes), source=.false.)
+            call open_left_out(mesh, freedoms)
             freedoms%left_out(:, node) = freedoms%left_out(:, node) .or. free
             freedoms%held(:, node) = freedoms%held(:, node) .or. free
          end associate

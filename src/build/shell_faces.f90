@@ -7,7 +7,8 @@ module shell_faces
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use kinds, only: wp
-   use model_data, only: corners_of, face_node_type, freedoms_type, is_shell, mesh_type, surface_type
+   use mesh_queries, only: element_points, is_shell, open_left_out
+   use model_data, only: face_node_type, freedoms_type, mesh_type, surface_type
    use node_build, only: append_nodes
    use node_coupling, only: couple_node, transformation, unknown_nodes
    use numbers, only: by_rotation, cross
@@ -41,20 +42,18 @@ contains
             faces = [faces, face_node_type(point=n, lever=matmul(axes, card%offset))]
          end associate
       end do
-      if (allocated(mesh%structural%place)) then
-         do k = 1, size(mesh%surfaces)
-            associate (surface => mesh%surfaces(k))
-               if (.not. any([(is_shell(mesh, surface%element(n)), n = 1, surface%n)])) cycle
-               do n = 1, surface%n
-                  if (surface%other(n) == 0) cycle
-                  call deck%errors%add(surface%line(n), 'surface '//integer_text(surface%id)// &
-                     ': a joint cannot lie on an edge between two shells; expected a free edge')
-                  return
-               end do
-               call offset_sides(mesh, surface, faces)
-            end associate
-         end do
-      end if
+      do k = 1, size(mesh%surfaces)
+         associate (surface => mesh%surfaces(k))
+            if (.not. any([(is_shell(mesh, surface%element(n)), n = 1, surface%n)])) cycle
+            do n = 1, surface%n
+               if (surface%other(n) == 0) cycle
+               call deck%errors%add(surface%line(n), 'surface '//integer_text(surface%id)// &
+                  ': a joint cannot lie on an edge between two shells; expected a free edge')
+               return
+            end do
+            call offset_sides(mesh, surface, faces)
+         end associate
+      end do
       if (size(faces) == 0) return
       ! the nodes of the faces follow those of the deck, with the elements of the shell nodes, which give their material
       n = mesh%n_nodes
@@ -93,16 +92,16 @@ contains
       do s = 1, surface%n
          if (.not. is_shell(mesh, surface%element(s))) cycle
          c = count(surface%nodes(:, s) > 0)
-         row = merge(-surface%nodes(3, s), 0, c == 2)
+         row = surface%strip(s)
          nodes(:c) = surface%nodes(:c, s)
-         associate (corners => corners_of(mesh, surface%element(s)), &
+         associate (corners => element_points(mesh, surface%element(s)), &
                     law => mesh%structural%shells(mesh%structural%place(surface%element(s))))
             frame = shell_frame_of(mesh%x(:, corners), law%offset)
             side = sign(0.5_wp, dot_product(frame%axes(:, 3), cross(mesh%x(:, nodes(2)) - mesh%x(:, nodes(1)), &
                                                                      mesh%x(:, nodes(c)) - mesh%x(:, nodes(1)))))
             do i = 1, c
                associate (t => law%thickness(findloc(corners, nodes(i), dim=1)))
-                  if (c > 2) then
+                  if (row == 0) then
                      call take(0, nodes(i), (law%offset + side*t)*frame%axes(:, 3), surface%nodes(i, s))
                   else ! edge 1 to 2: 1 and 2 on the lower line of the strip, then 2 and 1 on the upper one
                      if (all(abs(up(:, nodes(i))) <= 0.0_wp)) up(:, nodes(i)) = frame%axes(:, 3)
@@ -145,7 +144,7 @@ contains
 
    end subroutine offset_sides
 
-   !> Repeat every edge of SURFACE once per strip over the thickness; minus the number of the strip follows its two nodes.
+   !> Repeat every edge of SURFACE once per strip over the thickness.
    pure subroutine cut_edges(surface)
       type(surface_type), intent(inout) :: surface
       integer, allocatable :: from(:), strip(:)
@@ -166,7 +165,7 @@ contains
       surface%element = surface%element(from)
       surface%other = surface%other(from)
       surface%line = surface%line(from)
-      where (surface%corners == 2) surface%nodes(3, :) = -strip
+      surface%strip = merge(strip, 0, surface%corners == 2)
    end subroutine cut_edges
 
    !> Couple the face nodes to the nodes from which they stand off, or to the masters of these: u + theta x lever.
@@ -177,9 +176,9 @@ contains
       real(wp) :: w(mesh%dimension, mesh%dimension)
       integer  :: d, j, k
 
-      if (.not. allocated(mesh%faces)) return
+      if (size(mesh%faces) == 0) return
       d = mesh%dimension
-      if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, mesh%n_nodes), source=.false.)
+      call open_left_out(mesh, freedoms)
       do k = 1, size(mesh%faces)
          associate (face => mesh%faces(k), rotation => mesh%rotations(mesh%rotation_of(mesh%faces(k)%point)), &
                     lever => mesh%faces(k)%lever)

@@ -10,7 +10,8 @@ module shell_ties
    use element_kinds, only: kind_tria3, kind_tria6, max_nodes
    use face_overlap, only: face_frame, find_point, in_frame, make_frame, map_point, seen_face
    use kinds, only: wp
-   use model_data, only: corners_of, is_shell, mesh_type, surface_type
+   use mesh_queries, only: element_points, is_shell
+   use model_data, only: mesh_type, surface_type
    use numbers, only: identity
    use rigid_fit, only: mean_motion
    use shell_membrane, only: shell_frame, shell_frame_of
@@ -85,7 +86,7 @@ contains
       of_node = 0
       n = 0
       do s = 1, side%n
-         associate (corners => corners_of(mesh, side%element(s)), &
+         associate (corners => element_points(mesh, side%element(s)), &
                     law => mesh%structural%shells(mesh%structural%place(side%element(s))))
             frame = shell_frame_of(mesh%x(:, corners), law%offset)
             do k = 1, 2

@@ -38,6 +38,7 @@ contains
       integer :: i, k, n, stage
       logical :: is_cut_beam
 
+      deallocate (mesh%bars)
       allocate (mesh%bars(size(deck%bulk%edge) + size(deck%bulk%conrod)))
       n = 0
       do i = 1, size(deck%bulk%edge)

@@ -8,7 +8,8 @@ module structural_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, freedoms_type, is_beam, is_shell, mesh_type, n_rotations, rotation_type
+   use mesh_queries, only: element_points, is_beam, is_shell, n_rotations, open_left_out
+   use model_data, only: freedoms_type, mesh_type, rotation_type
    use node_build, only: append_unknowns
    use rod_torsion, only: add_twisted, leave_out_untwisted
    use shell_membrane, only: shell_law
@@ -46,7 +47,7 @@ contains
       if (mesh%axisymmetric) return
       if (size(deck%rigid) == 0 .and. all(mesh%properties%state < shell) .and. all(mesh%bars%torsion <= 0.0_wp)) return
       allocate (rotations(size(deck%rigid) + mesh%n_nodes))
-      allocate (mesh%rotation_of(mesh%n_nodes), source=0)
+      mesh%rotation_of = spread(0, 1, mesh%n_nodes)
       n = 0
       do i = 1, size(deck%rigid) ! reference nodes
          associate (card => deck%rigid(i))
@@ -76,7 +77,7 @@ contains
       count_of = 0
       do e = 1, mesh%n_elements
          if (.not. has_rotations(mesh, e)) cycle
-         associate (nodes => corners_of(mesh, e))
+         associate (nodes => element_points(mesh, e))
             if (any(nodes == 0)) cycle ! reported already
             do i = 1, size(nodes)
                square(nodes(i)) = square(nodes(i)) + sum((mesh%x(:, nodes) - spread(mesh%x(:, nodes(i)), 2, size(nodes)))**2)
@@ -96,7 +97,7 @@ contains
       end do
       call add_twisted(deck, mesh, rotations, n)
       if (n == 0) then
-         deallocate (mesh%rotation_of)
+         mesh%rotation_of = [integer ::]
          return
       end if
       mesh%rotations = rotations(:n)
@@ -130,7 +131,7 @@ contains
       if (mesh%dimension == 3) return
       do k = 1, n_rotations(mesh)
          if (.not. mesh%rotations(k)%of_element) cycle
-         if (.not. allocated(freedoms%left_out)) allocate (freedoms%left_out(mesh%dimension, mesh%n_nodes), source=.false.)
+         call open_left_out(mesh, freedoms)
          freedoms%left_out(2, mesh%rotations(k)%node) = .true.
          freedoms%held(2, mesh%rotations(k)%node) = .true.
       end do
@@ -170,7 +171,7 @@ contains
          end associate
       end do
       if (.not. any([(has_rotations(mesh, e), e = 1, mesh%n_elements)])) return
-      allocate (mesh%structural%place(mesh%n_elements), source=0)
+      mesh%structural%place = spread(0, 1, mesh%n_elements)
       allocate (of_property(size(mesh%properties)))
       do i = 1, size(deck%bulk%pshell)
          if (mesh%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! they come first
@@ -183,6 +184,7 @@ contains
          n(i) = n(i) + 1
          mesh%structural%place(e) = n(i)
       end do
+      deallocate (mesh%structural%shells, mesh%structural%beams)
       allocate (mesh%structural%shells(n(1)), mesh%structural%beams(n(2)))
       do e = 1, mesh%n_elements
          if (.not. is_shell(mesh, e)) cycle
@@ -205,7 +207,7 @@ contains
 
       do e = 1, mesh%n_elements
          if (.not. is_shell(mesh, e)) cycle
-         if (size(corners_of(mesh, e)) /= 3) cycle
+         if (size(element_points(mesh, e)) /= 3) cycle
          associate (nodes => mesh%element_nodes(:3, e), law => mesh%structural%shells(mesh%structural%place(e)))
             do i = 1, 3
                b = nodes(modulo(i, 3) + 1)
@@ -213,8 +215,8 @@ contains
                do k = mesh%first_at(nodes(i)), mesh%first_at(nodes(i) + 1) - 1
                   associate (other => mesh%elements_at(k))
                      if (.not. is_shell(mesh, other)) cycle
-                     if (all(corners_of(mesh, other) /= b)) cycle
-                     if (size(corners_of(mesh, other)) == 4) then
+                     if (all(element_points(mesh, other) /= b)) cycle
+                     if (size(element_points(mesh, other)) == 4) then
                         law%bowed(i) = .false.
                         exit
                      end if
@@ -249,7 +251,6 @@ contains
       real(wp) :: x(3, 2)
       integer  :: c, e, end, k, other
 
-      if (.not. allocated(mesh%structural%beams)) return
       if (size(mesh%structural%beams) == 0) return
       call edges%build(deck%bulk%edge%id)
       do e = 1, mesh%n_elements

@@ -8,8 +8,8 @@ module support_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: first_not_below
-   use model_data, only: freedoms_type, is_face_node, joints_type, mesh_type, n_bars, n_points, n_sections, stage_load_type, &
-      support_group
+   use mesh_queries, only: is_face_node, n_points
+   use model_data, only: freedoms_type, joints_type, mesh_type, n_bars, n_sections, stage_load_type, support_group
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text

@@ -6,7 +6,8 @@ module surface_build
    use isoparametric, only: side_areas, side_forces
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
-   use model_data, only: is_shell, mesh_type, surface_type
+   use mesh_queries, only: is_shell
+   use model_data, only: mesh_type, surface_type
    use surface_sides, only: nodes_of, side_corners
    use text_tools, only: integer_text, one_of
    implicit none
@@ -58,7 +59,7 @@ contains
       do k = 1, size(mesh%surfaces)
          associate (marked => mesh%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
             marked%id = card%id
-            allocate (marked%nodes(most_nodes, n), source=0)
+            allocate (marked%nodes(most_nodes, n), marked%strip(n), source=0)
             allocate (marked%element(n), marked%other(n), marked%line(n), marked%corners(n), marked%n_nodes(n))
             do i = first(k), first(k + 1) - 1
                associate (side => sides(members(i)))

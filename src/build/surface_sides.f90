@@ -198,7 +198,7 @@ contains
       integer, allocatable :: split(:) ! nodes with a duplicate
       integer :: j, k, n_duplicates, node, s
 
-      allocate (mesh%duplicate(mesh%n_nodes), source=0)
+      mesh%duplicate = spread(0, 1, mesh%n_nodes)
       call surfaces%build(mesh%surfaces%id)
       n_duplicates = 0
       do j = 1, size(deck%bulk%joint)

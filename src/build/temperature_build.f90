@@ -7,8 +7,8 @@ module temperature_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: first_not_below
-   use model_data, only: a_bar, corners_of, freedoms_type, history_type, is_shell, mesh_type, n_bars, n_points, &
-                          stage_load_type, temperature_type
+   use mesh_queries, only: element_points, is_shell, n_points
+   use model_data, only: a_bar, freedoms_type, history_type, mesh_type, n_bars, stage_load_type, temperature_type
    use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: least_misfit
    use unknowns, only: node_axes
@@ -283,7 +283,7 @@ contains
          given = given .or. .not. is_filled
       end if
       do e = 1, mesh%n_elements
-         associate (kind => element_table(mesh%element_kind(e)), nodes => corners_of(mesh, e))
+         associate (kind => element_table(mesh%element_kind(e)), nodes => element_points(mesh, e))
             do k = kind%n_corners + 1, kind%n_nodes
                if (any(nodes == 0)) exit
                corners = nodes(kind%edges(:, k - kind%n_corners))
@@ -293,7 +293,6 @@ contains
             end do
          end associate
       end do
-      if (.not. allocated(mesh%faces)) return
       do k = 1, size(mesh%faces)
          associate (face => mesh%faces(k))
             at(face%node) = at(face%point)
@@ -347,7 +346,7 @@ contains
       allocate (temperature%plate(5, size(mesh%structural%shells)), source=0.0_wp)
       do e = 1, mesh%n_elements
          if (card_of(e) == 0) cycle
-         associate (card => deck%bulk%plate_temperature(card_of(e)), nodes => corners_of(mesh, e), &
+         associate (card => deck%bulk%plate_temperature(card_of(e)), nodes => element_points(mesh, e), &
                     place => mesh%structural%place(e))
             temperature%plate(:size(nodes), place) = card%mean - temperature%at(nodes)
             temperature%plate(5, place) = card%slope

@@ -2,6 +2,8 @@
 module case_control
    use case_entries, only: choose, cut_entry, entry_type, global_keys, limit_type, number_set, read_number, &
                            read_set, set_reference, stage_keys, value_error
+   use control_words, only: method_back, method_step, method_words, model_words, no_restart, pressure_sumf, pressure_words, &
+                            solver_auto, solver_mumps, solver_petsc, solver_words
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
    use field_rules, only: parse_integer, parse_real
@@ -14,13 +16,6 @@ module case_control
    private
 
    public :: read_case_control, watch_also, offer_petsc
-
-   integer, parameter, public :: model_plane = 1, model_axisymmetric = 2, model_space = 3           !! MODEL =
-   integer, parameter, public :: method_step = 1, method_newton = 2, method_back = 3                !! METHOD =
-   integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                               !! PRESSURE =
-   integer, parameter, public :: no_restart = -1, restart_stages = 0                                !! RESTART =, or a number
-   integer, parameter, public :: solver_auto = 1, solver_skyline = 2, solver_tree = 3, &
-                                 solver_petsc = 4, solver_mumps = 5                                !! SOLVER =
 
    integer, parameter  :: own_set = -1 ! number of the set of --watch
 
@@ -198,13 +193,13 @@ contains
       case ('UNITS')
          call read_units(entry, control, errors)
       case ('METHOD')
-         call choose(entry, '|STEP|NEWTON|BACK|', control%method, errors)
+         call choose(entry, method_words, control%method, errors)
       case ('TOL')
          call parse_real(upper(entry%value), control%tolerance, ok)
          if (.not. ok .or. control%tolerance < least_tol .or. control%tolerance > 0.01_wp) &
             call value_error(entry, 'a real number from 1.E-14 to 0.01', errors)
       case ('PRESSURE')
-         call choose(entry, '|SUMF|EQ10|', control%pressure, errors)
+         call choose(entry, pressure_words, control%pressure, errors)
       case ('CARRY')
          call choose(entry, '|NO|YES|', choice, errors)
          control%carry = choice == 2
@@ -212,14 +207,14 @@ contains
          call choose(entry, '|YES|NO|', choice, errors)
          control%average = choice /= 2
       case ('MODEL')
-         call choose(entry, '|PLANE|AXISYMMETRIC|SPACE|', control%model, errors)
+         call choose(entry, model_words, control%model, errors)
          control%model_line = entry%line
       case ('MASS')
          call choose(entry, '|CONSISTENT|LUMPED|', choice, errors)
          control%lumped = choice == 2
          control%mass_is_given = .true.
       case ('SOLVER')
-         call choose(entry, '|AUTO|SKYLINE|TREE|PETSC|MUMPS|', control%solver, errors)
+         call choose(entry, solver_words, control%solver, errors)
          if (any(control%solver == [solver_petsc, solver_mumps]) .and. .not. has_petsc) then
             control%solver = solver_auto
             call value_error(entry, 'AUTO, SKYLINE or TREE; PETSC and MUMPS are solvers of the program that make mpi builds', &

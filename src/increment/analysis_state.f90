@@ -1,6 +1,7 @@
 !> The state of the analysis, which changes from increment to increment, and operations on it common to all methods.
 module analysis_state
-   use case_control, only: case_control_type, method_step, pressure_eq10
+   use case_control, only: case_control_type
+   use control_words, only: method_step, pressure_eq10
    use condensed_interface, only: condensed_type
    use condition_estimate, only: condition_type
    use equation_solver, only: equation_system, failure_type

@@ -4,7 +4,7 @@
 !! deflection.
 module law_error
    use analysis_state, only: analysis_type
-   use case_control, only: method_back, method_newton
+   use control_words, only: method_back, method_newton
    use joint_laws, only: element_state, follow_element, norm_and_shear, rest_when_open
    use kinds, only: wp
    use model_data, only: model_type

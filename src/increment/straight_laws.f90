@@ -15,7 +15,8 @@ module straight_laws
    use interface_operator, only: add_force, joint_movement, nodes_of_end
    use joint_laws, only: element_state, follow_element, force_of, friction_limit, is_apart, joint_law, stiffness_at_rest
    use kinds, only: wp
-   use model_data, only: model_type, n_points
+   use mesh_queries, only: n_points
+   use model_data, only: model_type
    use newton_trial, only: attempt_type, trial_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_law, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, follow_normal, normal_state

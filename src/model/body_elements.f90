@@ -6,8 +6,10 @@ module body_elements
    use element_mapping, only: element_law, make_element_law
    use isoparametric, only: stiffness, nodal_thermal_forces
    use kinds, only: wp
-   use model_data, only: corners_of, is_beam, is_shell, mesh_type, model_type, own_nodes, temperature_type
-   use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, participating_nodes
+   use element_unknowns, only: displaced_nodes
+   use mesh_queries, only: element_points, is_beam, is_shell
+   use model_data, only: mesh_type, model_type, temperature_type
+   use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, section_node
    use shape_functions, only: shape_values
    use shell_element, only: shell_stiffness, shell_thermal_forces
    use stress_recovery, only: centre_stress, nodal_stress
@@ -25,35 +27,35 @@ module body_elements
 
 contains
 
-   !> [k] between the unknowns of the coupled_nodes of element E, components of node 1 first [force/length]. K is enlarged where
+   !> [k] between the components of the nodes_of_unknowns of element E, components of node 1 first [force/length]. K is enlarged where
    !! it is too small, because dependent nodes couple an element with any number of unknowns. A loop over elements reuses K.
    pure subroutine coupled_stiffness(model, e, k)
       type(model_type), intent(in)         :: model
       integer, intent(in)                  :: e
-      real(wp), allocatable, intent(inout) :: k(:, :) !! dimension x coupled nodes rows and columns are set
+      real(wp), allocatable, intent(inout) :: k(:, :) !! dimension x these nodes rows and columns are set
 
       if (.not. allocated(k)) allocate (k(max_section_dofs, max_section_dofs))
       call element_stiffness(model, e, k)
-      if (allocated(model%freedoms%coupling%of_node)) call onto_unknowns(model, participating_nodes(model, e), k)
+      if (model%freedoms%coupling%n > 0) call onto_unknowns(model, displaced_nodes(model%freedoms, e), k)
    end subroutine coupled_stiffness
 
-   !> [k] between the displacements of the participating_nodes of element E, components of node 1 first [force/length].
+   !> [k] between the displacements of the displaced_nodes of element E, components of node 1 first [force/length].
    pure subroutine element_stiffness(model, e, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      real(wp), intent(inout)      :: k(:, :) !! dimension x participating nodes rows and columns are set
+      real(wp), intent(inout)      :: k(:, :) !! dimension x displaced nodes rows and columns are set
       real(wp) :: full(3*most_own, 3*most_own) ! between the nodal values of a shell or beam
 
       if (is_beam(model%mesh, e)) then
          full(:12, :12) = beam_stiffness(model%mesh%structural%beams(model%mesh%structural%place(e)), &
-                                         model%mesh%x(:, corners_of(model%mesh, e)))
+                                         model%mesh%x(:, element_points(model%mesh, e)))
          call between_own(model, e, full, k)
       else if (is_shell(model%mesh, e)) then
          call shell_stiffness(model%mesh%structural%shells(model%mesh%structural%place(e)), &
-                              model%mesh%x(:, corners_of(model%mesh, e)), full)
+                              model%mesh%x(:, element_points(model%mesh, e)), full)
          call between_own(model, e, full, k)
       else
-         call stiffness(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, corners_of(model%mesh, e)), k)
+         call stiffness(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, element_points(model%mesh, e)), k)
          call extend_stiffness(model, e, k)
       end if
    end subroutine element_stiffness
@@ -64,7 +66,7 @@ contains
       integer, intent(in)          :: e
       real(wp) :: x(model%mesh%dimension), n(max_nodes)
 
-      associate (nodes => corners_of(model%mesh, e), kind => element_table(model%mesh%element_kind(e)))
+      associate (nodes => element_points(model%mesh, e), kind => element_table(model%mesh%element_kind(e)))
          if (kind%n_nodes == kind%n_corners) then
             x = sum(model%mesh%x(:model%mesh%dimension, nodes), dim=2)/size(nodes)
          else
@@ -88,11 +90,12 @@ contains
          stress = 0.0_wp
       else if (is_shell(model%mesh, e)) then
          associate (n => element_table(model%mesh%element_kind(e))%n_nodes)
-            call structural_stress(model, e, u(:, own_nodes(model%mesh, e)), temperature, [0.0_wp], at_corners(:, :n + 1, :))
+            call structural_stress(model, e, u(:, displaced_nodes(model%freedoms, e)), temperature, [0.0_wp], &
+                                   at_corners(:, :n + 1, :))
             stress = at_corners(:, n + 1, 1)
          end associate
       else
-         call centre_stress(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, corners_of(model%mesh, e)), &
+         call centre_stress(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, element_points(model%mesh, e)), &
             corner_displacements(model, e, u), stress, element_rise(model, e, temperature))
       end if
    end function element_stress
@@ -105,7 +108,7 @@ contains
       type(temperature_type), intent(in) :: temperature
       real(wp), intent(inout)            :: stress(:, :) !! (components, nodes) [pressure], set here
 
-      call nodal_stress(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, corners_of(model%mesh, e)), &
+      call nodal_stress(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, element_points(model%mesh, e)), &
          corner_displacements(model, e, u), stress, element_rise(model, e, temperature))
    end subroutine element_nodal_stress
 
@@ -123,7 +126,7 @@ contains
       allocate (n_at(size(at_node, 2)), source=model%mesh%first_at(2:size(at_node, 2) + 1) - model%mesh%first_at(:size(at_node, 2)))
       do e = 1, model%mesh%n_elements ! shells and beams have separate tables
          if (is_shell(model%mesh, e) .or. is_beam(model%mesh, e)) &
-            n_at(corners_of(model%mesh, e)) = n_at(corners_of(model%mesh, e)) - 1
+            n_at(element_points(model%mesh, e)) = n_at(element_points(model%mesh, e)) - 1
       end do
       allocate (shares(max_stresses, size(model%mesh%element_nodes, 1), min(block, model%mesh%n_elements)))
       do first = 1, model%mesh%n_elements, block
@@ -152,7 +155,7 @@ contains
          real(wp) :: nodal(max_stresses, max_nodes), rise(max_nodes)
          integer  :: c, i
 
-         associate (nodes => corners_of(model%mesh, e))
+         associate (nodes => element_points(model%mesh, e))
             c = n_stresses(model%mesh%properties(model%mesh%element_property(e))%state)
             rise(:size(nodes)) = element_rise(model, e, temperature)
             call element_nodal_stress(model, e, u, temperature, nodal(:c, :size(nodes)))
@@ -204,7 +207,7 @@ contains
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
       real(wp), intent(out)        :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp), allocatable :: p(:, :, :)     ! (dimension, participating nodes, elements of a block)
+      real(wp), allocatable :: p(:, :, :)     ! (dimension, displaced nodes, elements of a block)
       integer :: e, first, i, last
 
       f = 0.0_wp
@@ -218,7 +221,7 @@ contains
          end do
          !$omp end parallel do
          do e = first, last
-            associate (nodes => participating_nodes(model, e))
+            associate (nodes => displaced_nodes(model%freedoms, e))
                do i = 1, size(nodes)
                   f(:, nodes(i)) = f(:, nodes(i)) + p(:, i, e - first + 1)
                end do
@@ -227,7 +230,7 @@ contains
       end do
    end subroutine internal_forces
 
-   !> The internal forces P of element E at its participating_nodes.
+   !> The internal forces P of element E at its displaced_nodes.
    pure subroutine element_forces(model, e, u, p)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -237,14 +240,14 @@ contains
       integer  :: n
 
       call element_stiffness(model, e, k)
-      associate (nodes => participating_nodes(model, e))
+      associate (nodes => displaced_nodes(model%freedoms, e))
          n = model%mesh%dimension*size(nodes)
          q(:n) = reshape(u(:, nodes), [n])
          p(:, :size(nodes)) = reshape(matmul(k(:n, :n), q(:n)), [model%mesh%dimension, size(nodes)])
       end associate
    end subroutine element_forces
 
-   !> Thermal nodal forces F of element E at its own_nodes at this TEMPERATURE.
+   !> Thermal nodal forces F of element E at its displaced_nodes, but for that of a section, at this TEMPERATURE.
    pure subroutine element_thermal_forces(model, e, temperature, f)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: e
@@ -252,7 +255,7 @@ contains
       real(wp), intent(inout)            :: f(:, :) !! (dimension, nodes) [force], set here
       real(wp) :: nodal(3, most_own)                ! on the nodal values of a shell or beam
 
-      associate (rise => element_rise(model, e, temperature), x => model%mesh%x(:, corners_of(model%mesh, e)))
+      associate (rise => element_rise(model, e, temperature), x => model%mesh%x(:, element_points(model%mesh, e)))
          if (is_beam(model%mesh, e)) then
             associate (law => model%mesh%structural%beams(model%mesh%structural%place(e)))
                nodal(:, :4) = beam_nodal_forces(law, x, beam_thermal_load(law, sum(rise)/2))
@@ -274,13 +277,15 @@ contains
       type(temperature_type), intent(in) :: temperature
       real(wp), intent(inout)            :: f(:, :) !! (dimension, n_nodes) [force]
       real(wp) :: nodal(model%mesh%dimension, max_nodes)
-      integer  :: e
+      integer  :: e, n
 
       do e = 1, model%mesh%n_elements
-         associate (nodes => own_nodes(model%mesh, e))
+         associate (nodes => displaced_nodes(model%freedoms, e))
+            n = size(nodes)
+            if (section_node(model%mesh, e) > 0) n = n - 1 ! add_section_share
             call element_thermal_forces(model, e, temperature, nodal)
-            f(:, nodes) = f(:, nodes) + nodal(:, :size(nodes))
-            call add_section_share(model%mesh, e, nodes, nodal, f)
+            f(:, nodes(:n)) = f(:, nodes(:n)) + nodal(:, :n)
+            call add_section_share(model%mesh, e, nodes(:n), nodal, f)
          end associate
       end do
    end subroutine add_thermal_forces

@@ -1,9 +1,10 @@
 !> Submodels: some elements of a model with nodes numbered anew, and the pieces in which the bodies are written.
 !! Each element is shown in one piece.
 module body_parts
+   use element_unknowns, only: displaced_nodes
    use lists, only: list_owners
-   use model_data, only: corners_of, model_type, n_points, n_sections
-   use node_coupling, only: participating_nodes
+   use mesh_queries, only: element_points, n_points, start_parts
+   use model_data, only: model_type, n_sections
    use temperatures, only: has_temperatures
    implicit none
    private
@@ -48,6 +49,7 @@ contains
 
       allocate (place(0:model%mesh%n_nodes), source=0)
       place(nodes) = [(i, i = 1, size(nodes))]
+      call start_parts(part)
       part%mesh%dimension = model%mesh%dimension
       part%mesh%properties = model%mesh%properties
       part%mesh%n_elements = size(elements)
@@ -71,7 +73,7 @@ contains
 
       has = .false.
       do k = 1, size(elements)
-         has(corners_of(model%mesh, elements(k))) = .true.
+         has(element_points(model%mesh, elements(k))) = .true.
       end do
       nodes = pack([(i, i = 1, model%mesh%n_nodes)], has)
    end function nodes_of_elements
@@ -92,7 +94,7 @@ contains
       allocate (is_shown(model%mesh%n_nodes), is_needed(model%mesh%n_nodes), source=.false.)
       do e = 1, model%mesh%n_elements
          is_own(e) = max(owner(model%mesh%element_nodes(1, e)), 0) == r
-         if (is_own(e)) is_shown(corners_of(model%mesh, e)) = .true.
+         if (is_own(e)) is_shown(element_points(model%mesh, e)) = .true.
       end do
       do i = 1, n_points(model%mesh)
          if (model%mesh%first_at(i + 1) == model%mesh%first_at(i)) is_shown(i) = max(owner(i), 0) == r
@@ -103,7 +105,7 @@ contains
       end do
       elements = pack([(e, e = 1, model%mesh%n_elements)], is_part)
       do e = 1, size(elements)
-         is_needed(participating_nodes(model, elements(e))) = .true.
+         is_needed(displaced_nodes(model%freedoms, elements(e))) = .true.
       end do
       nodes = [pack([(i, i = 1, model%mesh%n_nodes)], is_shown), pack([(i, i = 1, model%mesh%n_nodes)], is_needed &
          .and. .not. is_shown)]

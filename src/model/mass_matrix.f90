@@ -5,13 +5,13 @@ module mass_matrix
    use beam_element, only: beam_mass
    use body_elements, only: coupled_stiffness, law_of
    use element_kinds, only: element_table, max_section_dofs, max_nodes
+   use element_unknowns, only: displaced_nodes, nodes_of_unknowns
    use isoparametric, only: lump, shape_products
    use kinds, only: wp
    use lists, only: list_owners
-   use model_data, only: bar_nodes, corners_of, is_beam, is_shell, mesh_type, model_type, n_bars, n_points, own_nodes, &
-                          point_mass_type
-   use node_coupling, only: between_unknowns, extend_stiffness, participating_nodes, onto_unknowns, section_node, &
-                            unknown_nodes
+   use mesh_queries, only: element_points, is_beam, is_shell, n_points
+   use model_data, only: bar_nodes, mesh_type, model_type, n_bars, point_mass_type
+   use node_coupling, only: between_unknowns, extend_stiffness, onto_unknowns, section_node
    use numbers, only: identity
    use shell_element, only: shell_products
    use structural_elements, only: between_own
@@ -39,11 +39,10 @@ contains
    pure integer function n_masses(model)
       type(model_type), intent(in) :: model
 
-      n_masses = 0
-      if (allocated(model%mesh%masses)) n_masses = size(model%mesh%masses)
+      n_masses = size(model%mesh%masses)
    end function n_masses
 
-   !> Mass between the own_nodes of element E (no beam), the same for every component of their displacements [force time^2/length].
+   !> Mass between the points of element E (no beam), the same for every component of their displacements [force time^2/length].
    !! Of a shell: between its corners, and between its rotations the rotary inertia of the thickness, divided by the arms; the
    !! drilling rotation has this inertia too. Lumped mass has no rotary inertia.
    pure subroutine scalar_mass(mesh, e, m)
@@ -53,7 +52,7 @@ contains
       integer :: i, n
 
       n = element_table(mesh%element_kind(e))%n_nodes
-      associate (corners => corners_of(mesh, e), property => mesh%properties(mesh%element_property(e)))
+      associate (corners => element_points(mesh, e), property => mesh%properties(mesh%element_property(e)))
          if (is_shell(mesh, e)) then
             associate (x => mesh%x(:, corners), t => mesh%structural%shells(mesh%structural%place(e))%thickness)
                m(:2*n, :2*n) = 0.0_wp
@@ -74,21 +73,22 @@ contains
       end associate
    end subroutine scalar_mass
 
-   !> [m] between the participating_nodes of element E, components of node 1 first [force time^2/length].
+   !> [m] between the displaced_nodes of element E, components of node 1 first [force time^2/length].
    pure subroutine whole_mass(model, e, m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      real(wp), intent(inout)      :: m(:, :) !! dimension x participating nodes rows and columns are set
+      real(wp), intent(inout)      :: m(:, :) !! dimension x displaced nodes rows and columns are set
       real(wp) :: scalar(max_nodes, max_nodes)
       integer  :: c, d, n
 
       if (is_beam(model%mesh, e)) then
          call between_own(model, e, beam_mass(model%mesh%structural%beams(model%mesh%structural%place(e)), &
-                                              model%mesh%x(:, corners_of(model%mesh, e)), model%mesh%lumped), m)
+                                              model%mesh%x(:, element_points(model%mesh, e)), model%mesh%lumped), m)
          return
       end if
       d = model%mesh%dimension
-      n = size(own_nodes(model%mesh, e))
+      n = element_table(model%mesh%element_kind(e))%n_nodes
+      if (is_shell(model%mesh, e)) n = 2*n ! with their rotations
       call scalar_mass(model%mesh, e, scalar)
       m(:d*n, :d*n) = 0.0_wp
       do c = 1, d
@@ -97,12 +97,12 @@ contains
       call extend_stiffness(model, e, m)
    end subroutine whole_mass
 
-   !> K = [k] - SHIFT [m] between the unknowns of the coupled_nodes of element E, components of node 1 first [force/length].
+   !> K = [k] - SHIFT [m] between the components of the nodes_of_unknowns of element E, components of node 1 first [force/length].
    pure subroutine coupled_dynamic_stiffness(model, e, shift, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: shift   !! [1/time^2]
-      real(wp), allocatable, intent(inout) :: k(:, :) !! as of coupled_stiffness; dimension x coupled nodes rows and columns are set
+      real(wp), allocatable, intent(inout) :: k(:, :) !! as of coupled_stiffness; dimension x these nodes rows and columns are set
       real(wp), allocatable :: full(:, :)
       integer  :: n
 
@@ -110,8 +110,8 @@ contains
       if (.not. abs(shift) > 0.0_wp) return
       allocate (full(max_section_dofs, max_section_dofs))
       call whole_mass(model, e, full)
-      if (allocated(model%freedoms%coupling%of_node)) call onto_unknowns(model, participating_nodes(model, e), full)
-      n = model%mesh%dimension*size(unknown_nodes(model%freedoms, participating_nodes(model, e)))
+      if (model%freedoms%coupling%n > 0) call onto_unknowns(model, displaced_nodes(model%freedoms, e), full)
+      n = model%mesh%dimension*size(nodes_of_unknowns(model%freedoms, e))
       k(:n, :n) = k(:n, :n) - shift*full(:n, :n)
    end subroutine coupled_dynamic_stiffness
 
@@ -197,7 +197,7 @@ contains
       do e = 1, model%mesh%n_elements
          if (has_own_matrix(model, e)) cycle
          call scalar_mass(model%mesh, e, m)
-         call add(own_nodes(model%mesh, e), m)
+         call add(displaced_nodes(model%freedoms, e), m)
       end do
       do i = 1, n_bars(model%mesh)
          associate (bar => model%mesh%bars(i))
@@ -261,7 +261,7 @@ contains
             do i = model%mesh%first_at(node), model%mesh%first_at(node + 1) - 1
                e = model%mesh%elements_at(i)
                if (has_own_matrix(model, e)) cycle
-               associate (nodes => own_nodes(model%mesh, e))
+               associate (nodes => displaced_nodes(model%freedoms, e))
                   do k = 1, size(nodes)
                      call visit(nodes(k))
                   end do
@@ -311,7 +311,7 @@ contains
       end do
       !$omp end parallel do
       do i = 1, size(mass%whole)
-         associate (nodes => participating_nodes(model, mass%whole(i)))
+         associate (nodes => displaced_nodes(model%freedoms, mass%whole(i)))
             n = model%mesh%dimension*size(nodes)
             call whole_mass(model, mass%whole(i), m)
             f(:, nodes) = f(:, nodes) + reshape(matmul(m(:n, :n), pack(a(:, nodes), .true.)), [model%mesh%dimension, size(nodes)])

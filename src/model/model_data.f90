@@ -4,7 +4,6 @@ module model_data
    use beam_element, only: beam_law
    use coordinate_systems, only: coordinate_system
    use elasticity, only: plane_stress
-   use element_kinds, only: element_table, kind_edge2
    use interface_operator, only: interface_element, named_node
    use joint_laws, only: joint_law
    use kinds, only: wp
@@ -14,8 +13,7 @@ module model_data
    implicit none
    private
 
-   public :: bar_nodes, corners_of, is_beam, is_face_node, is_shell, joint_node_id, n_bars, n_points, &
-             n_rotations, n_sections, node_kind, own_nodes, place_in_kind, point_of, supported
+   public :: bar_nodes, joint_node_id, n_bars, n_sections, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -36,7 +34,7 @@ module model_data
    !> Laws of shells and beams, in addition to the data of all elements. PLACE is the position of a law: in SHELLS for a plane
    !! element in space, in BEAMS for a line.
    type, public :: structural_type
-      integer, allocatable :: place(:)       !! (n_elements) 0: a body
+      integer, allocatable :: place(:)       !! (n_elements) 0: a body; empty: all are
       type(shell_law), allocatable :: shells(:)
       type(beam_law), allocatable  :: beams(:)
    end type structural_type
@@ -51,6 +49,7 @@ module model_data
       integer, allocatable :: nodes(:, :)    !! (largest number, n) its corners, then mid-side nodes as in element_kinds, 0 behind
       integer, allocatable :: element(:)     !! (n) the body element that the side belongs to
       integer, allocatable :: other(:)       !! (n) a body element behind the side, 0: none
+      integer, allocatable :: strip(:)       !! (n) which strip over the thickness, on an edge of shells, see shell_faces; 0: none
       logical :: was_split = .false.         !! a joint split the surface: the other body has duplicates of its nodes
       integer, allocatable :: line(:)        !! (n) of its card in the deck text
    end type surface_type
@@ -200,11 +199,18 @@ module model_data
    !> Nodes whose displacements are not their own unknowns in global axes, see node_coupling.
    type, public :: node_coupling_type
       integer :: n = 0                       !! number of coupled nodes
-      integer, allocatable  :: of_node(:)    !! (n_nodes) position among the coupled nodes, 0: none; not allocated: none is coupled
+      integer, allocatable  :: of_node(:)    !! (n_nodes) position among the coupled nodes, 0: none; empty: none is coupled
       integer, allocatable  :: first(:)      !! (at least n + 1) parts first(k) to first(k + 1) - 1 are of coupled node k:
       integer, allocatable  :: node(:)       !! (at least parts) the unknowns of this node
       real(wp), allocatable :: t(:, :, :)    !! (dimension, dimension, likewise) by this matrix [-]
    end type node_coupling_type
+
+   !> The table of unknowns, a list of nodes for each element, see element_unknowns.
+   type, public :: unknowns_table
+      integer, allocatable :: first(:)         !! (n_elements + 1) row e is node(first(e):first(e + 1) - 1)
+      integer, allocatable :: first_unknown(:) !! (n_elements) position where the nodes of unknowns begin in the row
+      integer, allocatable :: node(:)
+   end type unknowns_table
 
    !> The mesh: points with duplicates, mid-side and face nodes, the nodes of rotations and of pretension sections; elements, properties,
    !! surfaces; bars, springs, masses.
@@ -217,9 +223,9 @@ module model_data
       integer :: first_filled = 0            !! position of the first of these nodes
       integer, allocatable  :: node_id(:)    !! ascending; 0 for the nodes of rotations and of sections, which follow
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
-      integer, allocatable  :: duplicate(:)  !! (n_nodes) the duplicate of a node on a split surface, 0: none
-      integer, allocatable  :: node_system(:) !! (n_nodes) the system CD of a node, 0: global axes; allocated if any node has one
-      type(placed_node), allocatable :: placed(:) !! nodes defined by position; not allocated: none
+      integer, allocatable  :: duplicate(:)  !! (n_nodes) the duplicate of a node on a split surface, 0: none; empty before
+      integer, allocatable  :: node_system(:) !! (n_nodes) the system CD of a node, 0: global axes; empty: no node has one
+      type(placed_node), allocatable :: placed(:) !! nodes defined by position
       type(id_table_type)   :: node_table
       integer :: n_elements = 0
       integer, allocatable  :: element_id(:)
@@ -239,10 +245,10 @@ module model_data
       type(section_type), allocatable      :: sections(:)
       type(rotation_type), allocatable     :: rotations(:)
       type(face_node_type), allocatable    :: faces(:)
-      integer, allocatable  :: face_of(:)            !! (points) position of a node in faces, 0: none; if there are any
-      integer, allocatable  :: rotation_of(:)        !! (points) position of a node in rotations, 0: none; if there are any
-      integer, allocatable  :: node_section(:)       !! (n_nodes) the section that contains a node, 0: none; if there are any
-      integer, allocatable  :: element_section(:)    !! (n_elements) the section that an element touches from behind, 0: none
+      integer, allocatable  :: face_of(:)            !! (points) position of a node in faces, 0: none; empty: there are none
+      integer, allocatable  :: rotation_of(:)        !! (points) position of a node in rotations, 0: none; empty: there are none
+      integer, allocatable  :: node_section(:)       !! (n_nodes) the section that contains a node, 0: none; empty: there are none
+      integer, allocatable  :: element_section(:) !! (n_elements) the section that an element touches from behind, 0: none; or empty
    end type mesh_type
 
    !> The joints and their interface elements.
@@ -259,8 +265,9 @@ module model_data
       logical :: floats = .false.            !! the structure has no supports but those of FREE
       integer, allocatable  :: support_of(:, :) !! (dimension, nodes at that time) the first of the groups that supports it, 0: none
       logical, allocatable  :: left_out(:, :) !! (dimension, n_nodes) no unknown and no support: dependent components, or
-                                             !! components of reference nodes that move nothing; held too; if there are any
+                                             !! components of reference nodes that move nothing; held too; empty: there are none
       type(node_coupling_type) :: coupling   !! of displacements to unknowns
+      type(unknowns_table) :: table          !! element -> nodes of its unknowns
       integer, allocatable  :: part(:)       !! (n_nodes) the connected body of a node
       integer :: n_parts = 0
    end type freedoms_type
@@ -285,8 +292,7 @@ contains
    pure integer function n_bars(mesh)
       type(mesh_type), intent(in) :: mesh
 
-      n_bars = 0
-      if (allocated(mesh%bars)) n_bars = size(mesh%bars)
+      n_bars = size(mesh%bars)
    end function n_bars
 
    !> The nodes of BAR, without the ground.
@@ -301,53 +307,8 @@ contains
    pure integer function n_sections(mesh)
       type(mesh_type), intent(in) :: mesh
 
-      n_sections = 0
-      if (allocated(mesh%sections)) n_sections = size(mesh%sections)
+      n_sections = size(mesh%sections)
    end function n_sections
-
-   !> The number of points of the structure. The nodes of rotations and sections follow the points.
-   pure integer function n_points(mesh)
-      type(mesh_type), intent(in) :: mesh
-
-      n_points = mesh%n_nodes - n_sections(mesh) - n_rotations(mesh)
-   end function n_points
-
-   !> The kind of the unknowns of NODE. The nodes of rotations follow the points, the nodes of sections follow those.
-   pure integer function node_kind(mesh, node) result(kind)
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)          :: node
-
-      kind = a_point
-      if (node > n_points(mesh)) kind = a_rotation
-      if (node > n_points(mesh) + n_rotations(mesh)) kind = an_overlap
-   end function node_kind
-
-   !> The position of NODE in its kind: itself for a point, else in model%mesh%rotations or model%mesh%sections.
-   pure integer function place_in_kind(mesh, node) result(place)
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)          :: node
-
-      place = node
-      if (node_kind(mesh, node) /= a_point) place = place - n_points(mesh)
-      if (node_kind(mesh, node) == an_overlap) place = place - n_rotations(mesh)
-   end function place_in_kind
-
-   !> The point to which the rotations NODE belong; a point gives itself.
-   pure integer function point_of(mesh, node) result(point)
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)          :: node
-
-      point = node
-      if (node_kind(mesh, node) == a_rotation) point = mesh%rotations(place_in_kind(mesh, node))%point
-   end function point_of
-
-   !> The number of nodes of rotations.
-   pure integer function n_rotations(mesh)
-      type(mesh_type), intent(in) :: mesh
-
-      n_rotations = 0
-      if (allocated(mesh%rotations)) n_rotations = size(mesh%rotations)
-   end function n_rotations
 
    !> The components of NODE that are supported.
    pure function supported(mesh, freedoms, node) result(held)
@@ -357,7 +318,7 @@ contains
       logical :: held(mesh%dimension)
 
       held = freedoms%held(:, node)
-      if (allocated(freedoms%left_out)) held = held .and. .not. freedoms%left_out(:, node)
+      if (size(freedoms%left_out) > 0) held = held .and. .not. freedoms%left_out(:, node)
    end function supported
 
    !> The number of the node that interface element I names for END 1 or 2: 0 for a rigid base, -1 where the end has several nodes.
@@ -368,52 +329,5 @@ contains
       id = named_node(model%joints%element(i), end)
       if (id > 0) id = model%mesh%node_id(id)
    end function joint_node_id
-
-   !> The nodes of element E, corners first.
-   pure function corners_of(mesh, e) result(nodes)
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)          :: e
-      integer :: nodes(element_table(mesh%element_kind(e))%n_nodes)
-
-      nodes = mesh%element_nodes(:size(nodes), e)
-   end function corners_of
-
-   !> Whether element E is a shell.
-   pure logical function is_shell(mesh, e)
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)          :: e
-
-      is_shell = .false.
-      if (allocated(mesh%structural%place)) is_shell = mesh%structural%place(e) > 0 .and. mesh%element_kind(e) /= kind_edge2
-   end function is_shell
-
-   !> Whether NODE is a face node of shells.
-   pure logical function is_face_node(mesh, node)
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)          :: node
-
-      is_face_node = .false.
-      if (.not. allocated(mesh%face_of)) return
-      if (node <= size(mesh%face_of)) is_face_node = mesh%face_of(node) > 0
-   end function is_face_node
-
-   !> Whether element E is a beam.
-   pure logical function is_beam(mesh, e)
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)          :: e
-
-      is_beam = mesh%element_kind(e) == kind_edge2
-   end function is_beam
-
-   !> The nodes of element E; for a shell or beam the nodes of their rotations follow.
-   pure function own_nodes(mesh, e) result(nodes)
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)          :: e
-      integer, allocatable :: nodes(:)
-
-      nodes = corners_of(mesh, e)
-      if (.not. allocated(mesh%structural%place)) return
-      if (mesh%structural%place(e) > 0) nodes = [nodes, mesh%rotations(mesh%rotation_of(nodes))%node]
-   end function own_nodes
 
 end module model_data

@@ -12,15 +12,16 @@ module node_coupling
    use element_kinds, only: element_table
    use interface_operator, only: interface_element
    use kinds, only: wp
-   use model_data, only: corners_of, freedoms_type, mesh_type, model_type, n_sections, node_coupling_type, own_nodes
+   use mesh_queries, only: element_points
+   use model_data, only: freedoms_type, mesh_type, model_type, n_sections, node_coupling_type
    use numbers, only: identity
    use tolerances, only: rounding_of_entries
    implicit none
    private
 
    public :: is_coupled, couple_node, unknown_nodes, transformation, onto_unknowns, between_unknowns, displacements, &
-             displacements_at, forces_on_unknowns, held_forces, list_on_unknowns, section_node, participating_nodes, &
-             coupled_nodes, corner_displacements, extend_stiffness, add_section_share, coupling_parts
+             displacements_at, forces_on_unknowns, held_forces, list_on_unknowns, section_node, &
+             corner_displacements, extend_stiffness, add_section_share, coupling_parts
 
 contains
 
@@ -31,7 +32,7 @@ contains
       integer :: parts(2)
 
       parts = [0, -1]
-      if (.not. allocated(freedoms%coupling%of_node)) return
+      if (freedoms%coupling%n == 0) return
       associate (c => freedoms%coupling%of_node(node))
          if (c > 0) parts = [freedoms%coupling%first(c), freedoms%coupling%first(c + 1) - 1]
       end associate
@@ -43,7 +44,7 @@ contains
       integer, intent(in)          :: nodes(:)
 
       is_coupled = .false.
-      if (allocated(freedoms%coupling%of_node)) is_coupled = any(freedoms%coupling%of_node(pack(nodes, nodes > 0)) > 0)
+      if (freedoms%coupling%n > 0) is_coupled = any(freedoms%coupling%of_node(pack(nodes, nodes > 0)) > 0)
    end function is_coupled
 
    !> Couple NODE: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes. An earlier coupling is replaced.
@@ -53,11 +54,7 @@ contains
       real(wp), intent(in)                    :: t(:, :, :) !! (dimension, dimension, masters) [-]
       integer :: n, parts
 
-      if (.not. allocated(coupling%of_node)) then
-         allocate (coupling%of_node(n_nodes), source=0)
-         allocate (coupling%first(1), source=1)
-         allocate (coupling%node(0), coupling%t(size(t, 1), size(t, 2), 0))
-      end if
+      if (coupling%n == 0) coupling%of_node = spread(0, 1, n_nodes)
       n = coupling%n + 1
       parts = coupling%first(n) - 1
       if (n + 1 > size(coupling%first)) coupling%first = [coupling%first, coupling%first]
@@ -164,7 +161,7 @@ contains
       integer :: i, k
 
       u = q
-      if (.not. allocated(model%freedoms%coupling%of_node)) return
+      if (model%freedoms%coupling%n == 0) return
       do i = 1, size(model%freedoms%coupling%of_node)
          associate (coupling => model%freedoms%coupling, parts => coupling_parts(model%freedoms, i))
             if (parts(2) >= 0) u(:, i) = 0.0_wp
@@ -199,7 +196,7 @@ contains
       integer :: i, k
 
       on_unknowns = f
-      if (.not. allocated(model%freedoms%coupling%of_node)) return
+      if (model%freedoms%coupling%n == 0) return
       associate (coupling => model%freedoms%coupling)
          do i = 1, size(coupling%of_node)
             if (coupling%of_node(i) > 0) on_unknowns(:, i) = 0.0_wp
@@ -222,7 +219,7 @@ contains
       integer :: i, k
 
       held = merge(forces_on_unknowns(model, f), 0.0_wp, model%freedoms%held)
-      if (.not. allocated(model%freedoms%coupling%of_node)) return
+      if (model%freedoms%coupling%n == 0) return
       do i = 1, size(model%freedoms%coupling%of_node)
          associate (coupling => model%freedoms%coupling, parts => coupling_parts(model%freedoms, i))
             do k = parts(1), parts(2)
@@ -267,25 +264,6 @@ contains
       if (mesh%element_section(e) > 0) node = mesh%sections(mesh%element_section(e))%node
    end function section_node
 
-   !> The nodes whose displacements enter element E: its own nodes, and the node of a section that it touches from behind.
-   pure function participating_nodes(model, e) result(nodes)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      integer, allocatable :: nodes(:)
-
-      nodes = own_nodes(model%mesh, e)
-      if (section_node(model%mesh, e) > 0) nodes = [nodes, section_node(model%mesh, e)]
-   end function participating_nodes
-
-   !> The nodes whose unknowns element E couples.
-   pure function coupled_nodes(model, e) result(nodes)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      integer, allocatable :: nodes(:)
-
-      nodes = unknown_nodes(model%freedoms, participating_nodes(model, e))
-   end function coupled_nodes
-
    !> Displacements of the corners of element E: u, or u + g direction at a section that the element touches from behind.
    pure function corner_displacements(model, e, u) result(moved)
       type(model_type), intent(in) :: model
@@ -294,7 +272,7 @@ contains
       real(wp) :: moved(model%mesh%dimension, element_table(model%mesh%element_kind(e))%n_nodes)
       integer  :: i
 
-      associate (corners => corners_of(model%mesh, e))
+      associate (corners => element_points(model%mesh, e))
          moved = u(:, corners)
          if (section_node(model%mesh, e) == 0) return
          associate (section => model%mesh%sections(model%mesh%element_section(e)))
@@ -306,18 +284,18 @@ contains
       end associate
    end function corner_displacements
 
-   !> [T]^T [k] [T]: transform the stiffness K of element E from its corners to its participating_nodes, components of node 1 first.
+   !> [T]^T [k] [T]: transform the stiffness K of element E from its points to its displaced_nodes, components of node 1 first.
    !! Only the first component of the section node has stiffness.
    pure subroutine extend_stiffness(model, e, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      real(wp), intent(inout)      :: k(:, :) !! dimension x coupled nodes rows and columns are set [force/length]
+      real(wp), intent(inout)      :: k(:, :) !! dimension x displaced nodes rows and columns are set [force/length]
       real(wp) :: row(size(k, 1))
       integer  :: c, d, g, i, n
 
       if (section_node(model%mesh, e) == 0) return
       d = model%mesh%dimension
-      associate (corners => corners_of(model%mesh, e), section => model%mesh%sections(model%mesh%element_section(e)))
+      associate (corners => element_points(model%mesh, e), section => model%mesh%sections(model%mesh%element_section(e)))
          n = d*size(corners)
          g = n + 1
          k(g:n + d, :n + d) = 0.0_wp

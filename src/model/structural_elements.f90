@@ -4,7 +4,8 @@
 !! node, its second node is the ground.
 module structural_elements
    use kinds, only: wp
-   use model_data, only: a_spring, bar_nodes, bar_type, corners_of, mesh_type, model_type, temperature_type
+   use mesh_queries, only: element_points
+   use model_data, only: a_spring, bar_nodes, bar_type, mesh_type, model_type, temperature_type
    use shell_element, only: shell_stresses
    use temperatures, only: element_rise, element_slope
    implicit none
@@ -26,7 +27,7 @@ contains
       integer :: c, d, i, m
 
       d = mesh%dimension
-      associate (nodes => corners_of(mesh, e))
+      associate (nodes => element_points(mesh, e))
          m = size(nodes)
          allocate (t(6*m, 2*d*m), source=0.0_wp)
          do i = 1, m
@@ -88,7 +89,7 @@ contains
       real(wp), intent(out)        :: stress(:, :, :) !! (6, corners + 1, heights) [pressure]
 
       call shell_stresses(model%mesh%structural%shells(model%mesh%structural%place(e)), &
-                          model%mesh%x(:, corners_of(model%mesh, e)), nodal_values(model, e, u), &
+                          model%mesh%x(:, element_points(model%mesh, e)), nodal_values(model, e, u), &
                           element_rise(model, e, temperature), element_slope(model, e, temperature), z, stress)
    end subroutine structural_stress
 

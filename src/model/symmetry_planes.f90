@@ -6,7 +6,8 @@
 module symmetry_planes
    use kinds, only: wp
    use lists, only: distinct
-   use model_data, only: model_type, n_points, supported
+   use mesh_queries, only: n_points
+   use model_data, only: model_type, supported
    use numbers, only: cross
    use tolerances, only: on_symmetry_plane, one_direction, parallel_in_mesh
    use unknowns, only: node_axes
@@ -158,7 +159,7 @@ contains
          if (.not. counts(node)) cycle
          if (dot_product(plane%normal, model%mesh%x(:, node)) < plane%offset - plane%near) return
          if (.not. is_on(plane, model%mesh%x(:, node))) cycle
-         if (allocated(model%freedoms%left_out)) then
+         if (size(model%freedoms%left_out) > 0) then
             if (all(model%freedoms%left_out(:, node))) cycle ! moves with other nodes
          end if
          axes = node_axes(model%mesh, node)

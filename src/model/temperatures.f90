@@ -2,7 +2,8 @@
 module temperatures
    use element_kinds, only: element_table
    use kinds, only: wp
-   use model_data, only: corners_of, is_shell, model_type, temperature_type
+   use mesh_queries, only: element_points, is_shell
+   use model_data, only: model_type, temperature_type
    implicit none
    private
 
@@ -19,7 +20,7 @@ contains
 
       rise = 0.0_wp
       if (.not. allocated(temperature%at)) return
-      rise = temperature%at(corners_of(model%mesh, e)) - temperature%reference_share* &
+      rise = temperature%at(element_points(model%mesh, e)) - temperature%reference_share* &
              model%mesh%properties(model%mesh%element_property(e))%reference
       if (.not. allocated(temperature%plate)) return
       if (is_shell(model%mesh, e)) rise = rise + temperature%plate(:size(rise), model%mesh%structural%place(e))

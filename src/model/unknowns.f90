@@ -4,7 +4,8 @@
 module unknowns
    use coordinate_systems, only: directions_at
    use kinds, only: wp
-   use model_data, only: a_point, a_rotation, an_overlap, mesh_type, model_type, node_kind, place_in_kind, point_of
+   use mesh_queries, only: node_kind, place_in_kind, point_of
+   use model_data, only: a_point, a_rotation, an_overlap, mesh_type, model_type
    use numbers, only: cross, identity
    use text_tools, only: integer_text, one_of
    implicit none
@@ -67,7 +68,7 @@ contains
       point = point_of(model%mesh, node)
       owner = 'node '//integer_text(model%mesh%node_id(point))
       system = 0
-      if (allocated(model%mesh%node_system)) system = model%mesh%node_system(point)
+      if (size(model%mesh%node_system) > 0) system = model%mesh%node_system(point)
       direction = letters(merge(3, d, is_rotation .and. model%mesh%dimension == 2))
       if (.not. is_rotation) direction = 'direction '//direction
       if (system > 0) direction = 'direction '//integer_text(d)//' of its system '//integer_text(model%mesh%systems(system)%id)
@@ -131,7 +132,6 @@ contains
       integer, intent(in)          :: point
 
       rotation = 0
-      if (.not. allocated(mesh%rotation_of)) return
       if (point <= size(mesh%rotation_of)) rotation = mesh%rotation_of(point)
    end function rotation_at
 
@@ -181,7 +181,7 @@ contains
       logical  :: ok
 
       axes = identity
-      if (.not. allocated(mesh%node_system)) return
+      if (size(mesh%node_system) == 0) return
       if (mesh%node_system(node) > 0) call directions_at(mesh%systems(mesh%node_system(node)), mesh%x(:, node), axes, ok)
    end function node_axes
 

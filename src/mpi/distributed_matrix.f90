@@ -4,7 +4,7 @@
 module distributed_matrix
    use body_elements, only: coupled_stiffness
    use kinds, only: wp
-   use model_data, only: corners_of
+   use mesh_queries, only: element_points
    use partition, only: subdomain_type
    use petscmat
    use ranks, only: gather, give_up, n_ranks, rank, scatter
@@ -53,7 +53,7 @@ contains
       call MatSetOption(stiffness%matrix, MAT_SPD_ETERNAL, PETSC_TRUE, code)
       do e = 1, subdomain%model%mesh%n_elements
          call coupled_stiffness(subdomain%model, e, k)
-         associate (nodes => corners_of(subdomain%model%mesh, e))
+         associate (nodes => element_points(subdomain%model%mesh, e))
             n = d*size(nodes)
             call add_blocks(subdomain%block(nodes), subdomain%held(:, nodes), k(:n, :n), stiffness)
          end associate

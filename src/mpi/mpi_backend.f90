@@ -62,7 +62,7 @@ contains
    end procedure choose_distributed
 
    module procedure distribute_bodies
-      if (n_ranks == 1 .or. allocated(model%mesh%structural%place)) return ! rank 0 has all shells and beams, and writes them
+      if (n_ranks == 1 .or. size(model%mesh%structural%place) > 0) return ! rank 0 has all shells and beams, and writes them
       select type (system)
       type is (petsc_solver_type)
          allocate (pieces_type :: output)

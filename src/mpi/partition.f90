@@ -15,7 +15,8 @@ module partition
    use interface_operator, only: interface_element
    use kinds, only: wp
    use lists, only: first_not_below, list_owners, sorted_order
-   use model_data, only: bar_nodes, corners_of, is_beam, is_shell, model_type, n_bars, n_sections
+   use mesh_queries, only: element_points, is_beam, is_shell, start_parts
+   use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use nested_dissection, only: part_by_metis
    use node_coupling, only: is_coupled, section_node, unknown_nodes
    use node_graph, only: node_graph_type
@@ -116,7 +117,7 @@ contains
       integer, intent(in)          :: e
 
       is_entangled = section_node(model%mesh, e) > 0 .or. is_shell(model%mesh, e) .or. is_beam(model%mesh, e)
-      if (.not. is_entangled) is_entangled = is_coupled(model%freedoms, corners_of(model%mesh, e))
+      if (.not. is_entangled) is_entangled = is_coupled(model%freedoms, element_points(model%mesh, e))
    end function is_entangled
 
    !> Send SUBDOMAIN from rank 0 to process R.
@@ -147,6 +148,8 @@ contains
       end if
       call pass(r, part%mesh%dimension, part%mesh%n_elements, part%mesh%n_nodes, n_corners, n_properties)
       if (rank /= 0) then
+         call start_parts(part)
+         deallocate (part%mesh%properties)
          allocate (part%mesh%element_kind(part%mesh%n_elements), part%mesh%element_property(part%mesh%n_elements), &
             part%mesh%x(3, part%mesh%n_nodes), &
                    part%mesh%element_nodes(n_corners, part%mesh%n_elements), part%mesh%properties(n_properties))

@@ -6,18 +6,20 @@ module petsc_solver
    use condition_estimate, only: first_large
    use distributed_matrix, only: add_blocks
    use distributed_solution, only: by_gamg, by_mumps, no_limit
-   use equation_solver, only: equation_system, failure_type, no_memory, no_solution, pivot_tolerance
+   use element_unknowns, only: nodes_of_unknowns
+   use equation_solver, only: equation_system, failure_type, no_memory, no_solution
    use factor_reuse, only: factor_reuse_type, may_reuse, note_factor, note_failure, note_steps
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
    use kinds, only: long, wp
    use model_data, only: model_type
-   use node_coupling, only: list_on_unknowns, coupled_nodes
+   use node_coupling, only: list_on_unknowns
    use node_graph, only: node_graph_type
    use partition, only: add_touched, is_entangled, list_touched, partition_nodes, partition_type, pass_subdomain, subdomain_of, &
                         subdomain_type, touched_type
    use ranks, only: n_ranks
    use text_tools, only: integer_text, one_of, real_text
+   use tolerances, only: pivot_tolerance
    use worker_loop, only: broadcast_command, command_diagonal, command_finish, command_forget, command_multiply, command_read, &
                           command_renew, command_solve, command_start, command_take, command_way, &
                           command_write, solution, stiffest_of_all => stiffest, stiffness, subdomain
@@ -104,7 +106,7 @@ contains
       do e = 1, model%mesh%n_elements
          if (.not. is_entangled(model, e)) cycle
          call coupled_stiffness(model, e, k)
-         associate (nodes => coupled_nodes(model, e))
+         associate (nodes => nodes_of_unknowns(model%freedoms, e))
             n = model%mesh%dimension*size(nodes)
             call add_blocks(self%parts%block(nodes), model%freedoms%held(:, nodes), k(:n, :n), stiffness)
          end associate

@@ -61,6 +61,7 @@ contains
          if (rank /= 0) then
             allocate (shown%elements(n_shown), part%mesh%node_id(part%mesh%n_nodes), part%mesh%element_id(part%mesh%n_elements))
             call list_owners(part%mesh%n_nodes, part%mesh%element_nodes, part%mesh%first_at, part%mesh%elements_at)
+            if (n > 0) deallocate (part%mesh%element_section, part%mesh%node_section, part%mesh%sections)
             if (n > 0) allocate (part%mesh%element_section(part%mesh%n_elements), part%mesh%node_section(part%mesh%n_nodes), &
                part%mesh%sections(n))
          end if

@@ -8,7 +8,8 @@ module body_tables
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use element_kinds, only: is_second_order
    use kinds, only: wp
-   use model_data, only: corners_of, is_beam, is_shell, model_type, n_points, n_rotations, supported
+   use mesh_queries, only: element_points, is_beam, is_shell, n_points, n_rotations
+   use model_data, only: model_type, supported
    use output_file, only: output_file_type
    use page_lines, only: axes, heading, in_units
    use result_page, only: page_type, shows
@@ -57,9 +58,9 @@ contains
             turns=.true.)
       end associate
       has_bodies = model%mesh%n_elements > 0
-      if (allocated(model%mesh%structural%place)) has_bodies = any(model%mesh%structural%place == 0)
+      if (size(model%mesh%structural%place) > 0) has_bodies = any(model%mesh%structural%place == 0)
       if (has_bodies) call list_stresses(page, asked%stress, model, analysis)
-      if (allocated(model%mesh%structural%place)) then
+      if (size(model%mesh%structural%place) > 0) then
          call list_shells(page, asked%forces, model, analysis)
          call list_beams(page, model, analysis)
       end if
@@ -111,7 +112,7 @@ contains
          do i = 1, size(nodes)
             directions = node_axes(model%mesh, nodes(i))
             along(:, i) = matmul(along(:, i), directions(first:last, first:last))
-            if (allocated(model%mesh%node_system)) system(i) = model%mesh%node_system(nodes(i))
+            if (size(model%mesh%node_system) > 0) system(i) = model%mesh%node_system(nodes(i))
             if (system(i) > 0) system(i) = model%mesh%systems(system(i))%id
          end do
       end if
@@ -189,7 +190,7 @@ contains
       call table%start('STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
                        [column('ELEMENT', 'i11'), column('CENTRE '//axes(:model%mesh%dimension), 'es13.5'), &
                         column(stress_names(model), 'es13.5')], page%file)
-      list = pack([(e, e = 1, model%mesh%n_elements)], [(shows(page, corners_of(model%mesh, e)) .and. &
+      list = pack([(e, e = 1, model%mesh%n_elements)], [(shows(page, element_points(model%mesh, e)) .and. &
                   .not. (is_shell(model%mesh, e) .or. is_beam(model%mesh, e)), e = 1, model%mesh%n_elements)])
       allocate (values(model%mesh%dimension + n, size(list)))
       values(:model%mesh%dimension, :) = clean(centre(:, list))

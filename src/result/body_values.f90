@@ -5,7 +5,8 @@ module body_values
    use body_elements, only: element_centre, node_stresses, whole_stress
    use elasticity, only: max_stresses, von_mises
    use kinds, only: wp
-   use model_data, only: model_type, n_points
+   use mesh_queries, only: n_points
+   use model_data, only: model_type
    use numbers, only: first_largest, is_measure
    use structural_results, only: node_peaks
    use text_tools, only: integer_text

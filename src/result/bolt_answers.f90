@@ -11,7 +11,8 @@ module bolt_answers
    use element_kinds, only: max_section_dofs, max_nodes
    use interface_operator, only: at_first_end
    use kinds, only: wp
-   use model_data, only: corners_of, model_type, section_type, temperature_type
+   use mesh_queries, only: element_points
+   use model_data, only: model_type, section_type, temperature_type
    use node_coupling, only: corner_displacements
    use numbers, only: cross, is_measure
    use passing_forces, only: forces_between, passage_type
@@ -116,7 +117,7 @@ contains
          e = model%mesh%elements_at(j)
          call element_stiffness(model, e, k)
          call element_thermal_forces(model, e, temperature, thermal(:d, :))
-         associate (nodes => corners_of(model%mesh, e))
+         associate (nodes => element_points(model%mesh, e))
             n = d*size(nodes)
             p(:n) = matmul(k(:n, :n), reshape(corner_displacements(model, e, u), [n]))
             do i = 1, size(nodes)

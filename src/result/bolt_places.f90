@@ -2,7 +2,8 @@
 module bolt_places
    use interface_operator, only: at_first_end
    use kinds, only: wp
-   use model_data, only: model_type, n_bars, n_points, n_sections
+   use mesh_queries, only: n_points
+   use model_data, only: model_type, n_bars, n_sections
    use numbers, only: first_largest
    use passing_forces, only: cut_passages, passage_type, start_passages
    use surface_build, only: surface_node_list, surface_nodes

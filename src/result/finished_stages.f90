@@ -9,6 +9,7 @@ module finished_stages
    use kinds, only: wp
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
+   use result_names, only: early_ending, listing_ending
    use result_page, only: page_type, table_endings
    use text_tools, only: plural, upper
    use vtu_results, only: mark_vtu, return_to_mark_vtu, vtu_results_type
@@ -16,8 +17,6 @@ module finished_stages
    private
 
    public :: count_increment, mark_finished, return_to_finished, name_companion, listing_end, record_finished, record_counts
-
-   character(*), parameter, public :: listing_ending = '.out', early_ending = '.early'
 
    !> The values of a run in a row of a batch.
    type, public :: digest_type

@@ -134,7 +134,7 @@ contains
          integer :: at, c, below(size(corners))
 
          below = corners
-         if (allocated(model%mesh%face_of)) then
+         if (size(model%mesh%face_of) > 0) then
             do c = 1, size(corners)
                if (model%mesh%face_of(corners(c)) > 0) below(c) = model%mesh%faces(model%mesh%face_of(corners(c)))%point
             end do

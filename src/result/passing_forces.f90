@@ -10,7 +10,8 @@ module passing_forces
    use interface_operator, only: nodes_of_end
    use kinds, only: wp
    use lists, only: join, root_of
-   use model_data, only: a_point, model_type, n_bars, n_points, node_kind, supported
+   use mesh_queries, only: n_points, node_kind
+   use model_data, only: a_point, model_type, n_bars, supported
    use symmetry_planes, only: cut_type, free_part
    use tolerances, only: parallel_in_mesh
    use unknowns, only: node_axes

@@ -5,7 +5,7 @@
 module range_watch
    use analysis_state, only: analysis_type, free_norm
    use branch_cubic, only: cubic_slope
-   use case_control, only: method_back
+   use control_words, only: method_back
    use element_kinds, only: kind_tetra4
    use joint_laws, only: friction_excess, friction_limit
    use joint_values, only: joint_values_type

@@ -10,9 +10,9 @@ module results
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
-   use finished_stages, only: count_increment, count_type, early_ending, finished_type, listing_end, listing_ending, &
-                              mark_finished, name_companion, record_counts, record_finished, return_to_finished
-   use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
+   use finished_stages, only: count_increment, count_type, finished_type, listing_end, mark_finished, name_companion, &
+                              record_counts, record_finished, return_to_finished
+   use incomplete_results, only: all_complete, give_up_parts, what_is_in_the_way
    use joint_answers, only: fault_of_joints, find_joint_answers, joint_answer
    use joint_tables, only: list_energy, list_joints, plot_joint, write_history
    use joint_values, only: find_cuts, find_joint_values, joint_values_type
@@ -23,6 +23,7 @@ module results
    use node_coupling, only: held_forces
    use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, watch_increment, watch_stage
    use restart_stream, only: restart_stream_type
+   use result_names, only: early_ending, listing_ending, remove_all
    use result_page, only: backbone_table, bend_table, bolt_table, energy_table, joint_table, loop_table, modes_table, page_type, &
                           record_page, response_table, set_labels, shell_table, split_table, table_columns, &
                           table_endings, watch_table
@@ -36,16 +37,13 @@ module results
    use table_writer, only: table_type
    use text_tools, only: integer_text, real_text, upper
    use vibration_tables, only: list_modes
-   use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, record_vtu, remove_old_vtu, start_vtu, vtu_names, &
-                          vtu_results_type, write_modes, write_vtu
+   use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, write_modes, write_vtu
    use watched_nodes, only: find_watched, record_watched, start_watched, state_at_end, watch_answer, watch_state
    implicit none
    private
 
    public :: start_results, print_increment, print_stage, print_modes, end_stage, keep_finished_stages, finish_results, &
-             discard_results, record_results, remove_old_results, show_answers, is_result_ending
-
-   character(*), parameter, public :: restart_ending = '.restart'
+             discard_results, record_results, show_answers
 
    type, public :: results_type
       type(count_type)       :: counts
@@ -366,39 +364,5 @@ contains
       if (allocated(results%watched_before%u)) call record_watched(stream, results%watched_before)
       call record_finished(stream, results%base, results%page, results%finished)
    end subroutine record_results
-
-   !> Remove the results of an earlier run of the same deck, which are no longer valid.
-   subroutine remove_old_results(base)
-      character(*), intent(in) :: base
-      integer :: hold
-      logical :: closed
-
-      if (base == '') return
-      call lock_folder(base(:index(base, '/', back=.true.))//'.', hold)
-      call remove_all(base)
-      call close_file(hold, closed)
-   end subroutine remove_old_results
-
-   !> Remove the results whose names begin with BASE, none where it is empty.
-   subroutine remove_all(base)
-      character(*), intent(in) :: base
-      integer :: i
-
-      if (base == '') return
-      call remove_old(base//listing_ending)
-      do i = 1, size(table_endings)
-         call remove_old(base//trim(table_endings(i)))
-      end do
-      call remove_old_vtu(base)
-      call remove_old(base//early_ending)
-   end subroutine remove_all
-
-   !> Whether ENDING, behind the base, is that of a result file.
-   pure logical function is_result_ending(ending)
-      character(*), intent(in) :: ending
-
-      is_result_ending = any(ending == [character(22) :: listing_ending, restart_ending, early_ending, &
-                              table_endings]) .or. is_vtu_ending(ending)
-   end function is_result_ending
 
 end module results

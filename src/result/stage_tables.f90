@@ -3,10 +3,11 @@
 module stage_tables
    use analysis_state, only: analysis_type, free_norm
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
-   use case_control, only: method_back, method_newton
+   use control_words, only: method_back, method_newton
    use joint_values, only: joint_values_type
    use kinds, only: wp
-   use model_data, only: a_spring, bar_nodes, joint_node_id, model_type, n_bars, n_sections, point_of
+   use mesh_queries, only: point_of
+   use model_data, only: a_spring, bar_nodes, joint_node_id, model_type, n_bars, n_sections
    use page_lines, only: axes
    use result_page, only: page_type
    use step_method, only: reanalyses_shown

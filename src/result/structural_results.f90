@@ -5,9 +5,11 @@ module structural_results
    use beam_element, only: beam_end_forces, beam_law, beam_thermal_load
    use bolt_locking, only: bar_tension
    use elasticity, only: max_stresses, von_mises
+   use element_unknowns, only: displaced_nodes
    use joint_sides, only: joint_axes
    use kinds, only: wp
-   use model_data, only: a_bar, corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
+   use mesh_queries, only: element_points, is_beam, is_shell, n_points
+   use model_data, only: a_bar, model_type, temperature_type
    use page_lines, only: in_units
    use result_page, only: page_type, shell_table, shows, table_columns, xyz
    use shell_element, only: shell_forces
@@ -36,8 +38,8 @@ contains
       real(wp), intent(out)              :: stress(max_stresses, 5, 2) !! (component, corner, face) [pressure]
 
       stress = 0.0_wp
-      associate (n => size(corners_of(model%mesh, e)) + 1)
-         call structural_stress(model, e, u(:, own_nodes(model%mesh, e)), temperature, &
+      associate (n => size(element_points(model%mesh, e)) + 1)
+         call structural_stress(model, e, u(:, displaced_nodes(model%freedoms, e)), temperature, &
                                 model%mesh%properties(model%mesh%element_property(e))%fibre, stress(:, :n, :))
       end associate
    end subroutine face_stresses
@@ -53,8 +55,8 @@ contains
       associate (place => model%mesh%structural%place(e), now => analysis%now%temperature)
          load = beam_thermal_load(model%mesh%structural%beams(place), sum(element_rise(model, e, now))/2.0_wp)
          load = load + analysis%fraction*of_stage(analysis%stage) + (1.0_wp - analysis%fraction)*of_stage(analysis%stage - 1)
-         s = beam_end_forces(model%mesh%structural%beams(place), model%mesh%x(:, corners_of(model%mesh, e)), &
-                             nodal_values(model, e, analysis%all_u(:, own_nodes(model%mesh, e))), load)
+         s = beam_end_forces(model%mesh%structural%beams(place), model%mesh%x(:, element_points(model%mesh, e)), &
+                             nodal_values(model, e, analysis%all_u(:, displaced_nodes(model%freedoms, e))), load)
       end associate
       forces = reshape([-s(:6), s(7:)], [6, 2])
       if (model%mesh%structural%beams(model%mesh%structural%place(e))%is_cut) forces(1, :) = bar_tension(model, analysis, &
@@ -113,13 +115,13 @@ contains
 
       at_node = 0.0_wp
       at_centre = 0.0_wp
-      if (.not. allocated(model%mesh%structural%place)) return
+      if (size(model%mesh%structural%place) == 0) return
       allocate (stress(max_stresses, 5, 2, size(model%mesh%structural%shells)), normal(3, size(model%mesh%structural%shells)))
       do e = 1, model%mesh%n_elements
          if (is_shell(model%mesh, e)) then
-            associate (of_face => stress(:, :, :, model%mesh%structural%place(e)), n => size(corners_of(model%mesh, e)))
+            associate (of_face => stress(:, :, :, model%mesh%structural%place(e)), n => size(element_points(model%mesh, e)))
                call face_stresses(model, e, u, temperature, of_face)
-               frame = shell_frame_of(model%mesh%x(:, corners_of(model%mesh, e)), 0.0_wp)
+               frame = shell_frame_of(model%mesh%x(:, element_points(model%mesh, e)), 0.0_wp)
                normal(:, model%mesh%structural%place(e)) = frame%axes(:, 3)
                at_centre(e) = max(von_mises(of_face(:, n + 1, 1)), von_mises(of_face(:, n + 1, 2)))
             end associate
@@ -154,7 +156,7 @@ contains
                associate (first => model%mesh%structural%place(model%mesh%elements_at(i)), &
                           other => model%mesh%structural%place(model%mesh%elements_at(j)))
                   if (abs(dot_product(normal(:, first), normal(:, other))) < one_plate) cycle
-                  corner = findloc(corners_of(model%mesh, model%mesh%elements_at(j)), node, dim=1)
+                  corner = findloc(element_points(model%mesh, model%mesh%elements_at(j)), node, dim=1)
                   if (corner == 0) cycle
                   n = n + 1
                   do f = 1, 2 ! for a reversed shell the faces change places
@@ -187,14 +189,14 @@ contains
       do e = 1, model%mesh%n_elements
          if (.not. is_shell(model%mesh, e)) cycle
          call face_stresses(model, e, analysis%all_u, analysis%now%temperature, stress)
-         centre(:, :, model%mesh%structural%place(e)) = stress(:, size(corners_of(model%mesh, e)) + 1, :)
+         centre(:, :, model%mesh%structural%place(e)) = stress(:, size(element_points(model%mesh, e)) + 1, :)
       end do
       floor = page_zero*maxval(abs(centre))
       call table%start('STRESSES AT THE FACES OF SHELLS, AT THEIR CENTRES'//page%now//in_units(page%labels%pressure), &
          [column('ELEMENT', 'i11'), column('HEIGHT', 'es13.5'), column(stresses, 'es13.5')], page%file)
       do e = 1, model%mesh%n_elements
          if (.not. is_shell(model%mesh, e)) cycle
-         if (.not. shows(page, corners_of(model%mesh, e))) cycle
+         if (.not. shows(page, element_points(model%mesh, e))) cycle
          associate (of_element => centre(:, :, model%mesh%structural%place(e)), &
                     fibre => model%mesh%properties(model%mesh%element_property(e))%fibre)
             do f = 1, 2
@@ -221,16 +223,16 @@ contains
       real(wp) :: axes(3, 3), floor(2), thickness, x(3)
       integer  :: e, i, node
 
-      if (.not. allocated(model%mesh%structural%place)) return
+      if (size(model%mesh%structural%place) == 0) return
       thickness = 0.0_wp
       allocate (force(8, 5, size(model%mesh%structural%shells)), source=0.0_wp)
       do e = 1, model%mesh%n_elements
          if (.not. is_shell(model%mesh, e)) cycle
-         associate (nodes => corners_of(model%mesh, e))
+         associate (nodes => element_points(model%mesh, e))
             frame = shell_frame_of(model%mesh%x(:, nodes), 0.0_wp)
             axes = joint_axes(model%mesh, frame%axes(:, 3))
             call shell_forces(model%mesh%structural%shells(model%mesh%structural%place(e)), model%mesh%x(:, nodes), &
-                              nodal_values(model, e, analysis%all_u(:, own_nodes(model%mesh, e))), &
+                              nodal_values(model, e, analysis%all_u(:, displaced_nodes(model%freedoms, e))), &
                               element_rise(model, e, analysis%now%temperature), &
                               element_slope(model, e, analysis%now%temperature), axes(:, 1), &
                               force(:, :size(nodes) + 1, model%mesh%structural%place(e)))
@@ -244,7 +246,7 @@ contains
       if (is_listed) call table%print_head(page%file)
       do e = 1, model%mesh%n_elements
          if (.not. is_shell(model%mesh, e)) cycle
-         associate (nodes => corners_of(model%mesh, e), n => size(corners_of(model%mesh, e)))
+         associate (nodes => element_points(model%mesh, e), n => size(element_points(model%mesh, e)))
             if (.not. shows(page, nodes)) cycle
             do i = 1, n + 1
                node = 0
@@ -300,7 +302,7 @@ contains
          [column('ELEMENT', 'i11'), column('NODE', 'i11'), column(points, 'es13.5')])
       do e = 1, model%mesh%n_elements
          if (.not. is_beam(model%mesh, e)) cycle
-         if (.not. shows(page, corners_of(model%mesh, e))) cycle
+         if (.not. shows(page, element_points(model%mesh, e))) cycle
          associate (place => model%mesh%structural%place(e))
             do end = 1, 2
                call table%put('ELEMENT', model%mesh%element_id(e))

@@ -6,7 +6,8 @@ module support_reactions
    use bolt_locking, only: bar_tension
    use interface_operator, only: at_first_end, named_node
    use kinds, only: wp
-   use model_data, only: a_point, a_rotation, model_type, n_bars, n_points, n_rotations, node_kind, place_in_kind, supported
+   use mesh_queries, only: n_points, n_rotations, node_kind, place_in_kind
+   use model_data, only: a_point, a_rotation, model_type, n_bars, supported
    use node_coupling, only: coupling_parts, forces_on_unknowns, held_forces
    use numbers, only: cross
    use text_tools, only: above

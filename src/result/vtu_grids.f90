@@ -11,7 +11,8 @@ module vtu_grids
    use, intrinsic :: iso_fortran_env, only: int8
    use joint_values, only: face_distance
    use kinds, only: wp
-   use model_data, only: corners_of, is_shell, joint_type, model_type, surface_type, temperature_type
+   use mesh_queries, only: element_points, is_shell
+   use model_data, only: joint_type, model_type, surface_type, temperature_type
    use result_page, only: label_type
    use structural_results, only: face_stresses, node_peaks
    use surface_sides, only: nodes_of
@@ -77,11 +78,11 @@ contains
       call file%add(cell_data, named('principal_stress', labels%pressure), principal)
       call file%add(cell_data, named('von_mises_at_centre', labels%pressure), [(max(von_mises(at_centre(:, i)), &
                                                                                 at_ends(shown%elements(i))), i = 1, n)])
-      if (.not. allocated(model%mesh%structural%place)) return
+      if (size(model%mesh%structural%place) == 0) return
       allocate (thickness(n), at_face(n, 2), source=0.0_wp) ! at the centres of both faces of shells; zero for other elements
       do i = 1, n
          if (.not. is_shell(model%mesh, shown%elements(i))) cycle
-         k = size(corners_of(model%mesh, shown%elements(i)))
+         k = size(element_points(model%mesh, shown%elements(i)))
          call face_stresses(model, shown%elements(i), u, temperature, stress)
          at_face(i, :) = [(von_mises(stress(:, k + 1, f)), f = 1, 2)]
          thickness(i) = sum(model%mesh%structural%shells(model%mesh%structural%place(shown%elements(i)))%thickness(:k))/k
@@ -124,7 +125,7 @@ contains
       allocate (ends(size(shown%elements)), types(size(shown%elements)))
       n = 0
       do i = 1, size(ends)
-         associate (nodes => corners_of(model%mesh, shown%elements(i)), &
+         associate (nodes => element_points(model%mesh, shown%elements(i)), &
             kind => element_table(model%mesh%element_kind(shown%elements(i))))
             connected(n + 1:n + size(nodes)) = nodes(kind%vtk_nodes(:size(nodes)))
             n = n + size(nodes)

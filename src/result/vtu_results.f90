@@ -10,7 +10,8 @@ module vtu_results
    use incomplete_results, only: remove_old
    use kinds, only: wp
    use mode_values, only: modes_type
-   use model_data, only: model_type, n_points
+   use mesh_queries, only: n_points
+   use model_data, only: model_type
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
    use result_page, only: label_type

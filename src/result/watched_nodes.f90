@@ -14,7 +14,8 @@ module watched_nodes
    use bolt_locking, only: bar_tension
    use kinds, only: wp
    use connected_bodies, only: find_bodies
-   use model_data, only: a_point, a_spring, bar_nodes, corners_of, model_type, n_bars, n_points, node_kind
+   use mesh_queries, only: element_points, n_points, node_kind
+   use model_data, only: a_point, a_spring, bar_nodes, model_type, n_bars
    use restart_stream, only: restart_stream_type
    use structural_elements, only: bar_elongation
    use tolerances, only: zero_movement, zero_of_sums
@@ -130,8 +131,8 @@ contains
             part%first = min(part%first, model%mesh%element_id(e))
             part%last = max(part%last, model%mesh%element_id(e))
          end associate
-         of_node(corners_of(model%mesh, e)) = body(e)
-         if (allocated(model%mesh%element_section)) then
+         of_node(element_points(model%mesh, e)) = body(e)
+         if (size(model%mesh%element_section) > 0) then
             if (model%mesh%element_section(e) > 0) of_node(model%mesh%sections(model%mesh%element_section(e))%node) = body(e)
          end if
       end do

@@ -5,9 +5,8 @@ module command_line
    use terminal, only: command_reader, complain, input_argument, next_option, say, standard_input, version
    use deck_parameters, only: is_parameter_name, parameter_type
    use field_rules, only: parse_integer
-   use finished_stages, only: listing_ending
    use result_page, only: history_ending
-   use results, only: is_result_ending
+   use result_names, only: is_result_ending, listing_ending
    use text_tools, only: upper
    use vtu_results, only: is_vtu_ending
    implicit none

@@ -8,7 +8,7 @@ module restart_file
    use analysis_state, only: analysis_type
    use bolt_locking, only: lock_again
    use c_library, only: c_fsync, close_file, is_regular_file, read_all_bytes, remove_file
-   use case_control, only: no_restart, restart_stages
+   use control_words, only: no_restart, restart_stages
    use deck_input, only: deck_type
    use deck_text, only: checksum_of
    use equation_solver, only: equation_system
@@ -16,7 +16,8 @@ module restart_file
    use model_data, only: model_type
    use run_of_deck, only: goes_on, is_over, is_refused, run_type, tell
    use restart_stream, only: open_restart, restart_stream_type
-   use results, only: record_results, restart_ending
+   use result_names, only: restart_ending
+   use results, only: record_results
    use stage_plan, only: stage_plan_type, where_in_plan
    use terminal, only: version
    use text_tools, only: integer_text, one_of

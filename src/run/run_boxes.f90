@@ -5,7 +5,7 @@ module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use backbone, only: backbone_type, find_loop, finish_backbone, start_backbone
    use c_library, only: end_run, make_folders, open_standard_outputs, tell_failed_writes
-   use case_control, only: method_back
+   use control_words, only: method_back
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use condensed_interface, only: condense_on_joints
    use condition_estimate, only: watch_condition
@@ -31,7 +31,8 @@ module run_boxes
    use normal_stiffness, only: branch_open
    use openblas, only: prepare_openblas, tell_kernel
    use restart_file, only: open_restart_file, take_up, write_restart
-   use results, only: end_stage, list_results => print_increment, print_modes, print_stage, remove_old_results, start_results
+   use result_names, only: remove_old_results
+   use results, only: end_stage, list_results => print_increment, print_modes, print_stage, start_results
    use run_of_deck, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, &
                           phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
                           is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite

@@ -10,18 +10,20 @@ module run_of_deck
    use distribution, only: leave_processes, memory_of_all
    use equation_solver, only: failure_type, solver_description
    use error_report, only: print_errors
-   use finished_stages, only: digest_type, listing_ending
+   use finished_stages, only: digest_type
    use incomplete_results, only: say_at_interrupts, what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
-   use model_data, only: model_type, n_points
+   use mesh_queries, only: n_points
+   use model_data, only: model_type
    use openblas, only: kernel_words
    use output_file, only: output_file_type
    use page_lines, only: heading
    use range_watch, only: distance_words, tetra_words
    use restart_stream, only: restart_stream_type
    use result_page, only: history_ending
-   use results, only: discard_results, finish_results, keep_finished_stages, restart_ending, results_type, show_answers
+   use result_names, only: listing_ending, restart_ending
+   use results, only: discard_results, finish_results, keep_finished_stages, results_type, show_answers
    use stage_plan, only: stage_plan_type
    use table_column, only: column, column_type, csv, csv_titles
    use table_writer, only: table_type

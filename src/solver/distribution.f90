@@ -2,7 +2,7 @@
 !! without such a solver, or src/mpi, PETSc on the processes that mpirun has started.
 module distribution
    use body_parts, only: body_piece_type
-   use case_control, only: solver_mumps, solver_petsc, solver_tree
+   use control_words, only: solver_mumps, solver_petsc, solver_tree
    use equation_solver, only: equation_system
    use kinds, only: wp
    use model_data, only: model_type, temperature_type

@@ -18,7 +18,6 @@ module equation_solver
    integer, parameter, public :: no_memory = -1                !! as FAULT: an allocation failed
    integer, parameter, public :: no_solution = -2              !! as FAULT: the solver has a COMPLAINT
    integer, parameter, public :: exact_digits = 11             !! of a direct solution: residual < 10**(-digits) of the load
-   real(wp), parameter, public :: pivot_tolerance = 1.0e-12_wp !! relative to the diagonal entry; below: no stiffness
 
    !> A numerical failure: that the structure cannot be solved, and why.
    type, public :: failure_type

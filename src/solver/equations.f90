@@ -2,7 +2,7 @@
 !! displacements of the retained nodes: with SKYLINE all nodes, with TREE the nodes that remain after condensation of the
 !! bodies. Arrays over retained nodes are (dimension, retained), those over all nodes (dimension, n_nodes).
 module equations
-   use case_control, only: solver_auto
+   use control_words, only: solver_auto
    use equation_solver, only: equation_system, exact_digits, failure_type, solver_direction, solver_options
    use interface_operator, only: add_global_force, global_stiffness, relative_movement
    use kinds, only: wp
@@ -14,6 +14,7 @@ module equations
    use solver_choice, only: choose_solver
    use structural_elements, only: bar_stiffness
    use text_tools, only: real_text
+   use tolerances, only: dependent_product
    use unknowns, only: unknown_name
    implicit none
    private
@@ -24,7 +25,6 @@ module equations
 
    integer, parameter  :: digits = 7              ! of an iterative solution within an iteration
    integer, parameter  :: most_kept = 24          ! directions of earlier coupled systems
-   real(wp), parameter :: dependent = 1.0e-10_wp  ! of a direction: a smaller remainder adds nothing new
 
 contains
 
@@ -382,7 +382,7 @@ contains
             new%u = new%u - share*directions(i)%u
             new%force = new%force - share*directions(i)%force
          end do
-         is_new = norm2(new%product) > dependent*length
+         is_new = norm2(new%product) > dependent_product*length
          if (.not. is_new) return
          length = norm2(new%product)
          new%product = new%product/length

@@ -8,6 +8,7 @@ module factor_reuse
    use front_tree, only: front_tree_type
    use interface_equations, only: add_products
    use kinds, only: wp
+   use tolerances, only: dependent_energy
    implicit none
    private
 
@@ -19,7 +20,6 @@ module factor_reuse
    integer, parameter  :: fewest_steps = 8          !! a factorisation that costs less than these steps is not avoided
    integer, parameter  :: few = 3                   !! steps after which the total number can be predicted
    integer, parameter  :: most_kept = 5             !! earlier solutions
-   real(wp), parameter :: dependent = 1.0e-12_wp    !! relative energy below which a direction adds nothing new
 
    type, public :: factor_reuse_type
       integer :: most_steps = 0                     !! steps that cost as much as a factorisation; 0: never worth while
@@ -162,7 +162,7 @@ contains
             end do
          end do
          left = dot_product(direction(:, n), matmul(energy, direction(:, n)))
-         if (.not. left > dependent*energy(j, j)) then
+         if (.not. left > dependent_energy*energy(j, j)) then
             n = n - 1
             cycle
          end if

@@ -1,7 +1,8 @@
 !> Factorisation in a tree of fronts: static fronts once, the others in every increment. Independent subtrees are tasks of
 !! OpenMP. Every addition has its place in one order, whatever the number of threads.
 module front_factor
-   use equation_solver, only: no_memory, pivot_tolerance
+   use element_unknowns, only: nodes_of_unknowns
+   use equation_solver, only: no_memory
    use front_kernel, only: eliminate, large, top_row
    use front_tree, only: add_to_block, front_of, front_tree_type, front_type, keep_block, place_in, restore_block, task_work
    use kinds, only: long, wp
@@ -9,8 +10,8 @@ module front_factor
    use machine, only: give_back
    use mass_matrix, only: coupled_dynamic_stiffness
    use model_data, only: model_type
-   use node_coupling, only: coupled_nodes
    use omp_lib, only: omp_get_wtime
+   use tolerances, only: pivot_tolerance
    implicit none
    private
 
@@ -207,7 +208,7 @@ contains
       time = omp_get_wtime()
       do k = 1, size(front%elements)
          call coupled_dynamic_stiffness(model, front%elements(k), tree%shift, stiffness)
-         associate (rows => pack(tree%number(:, coupled_nodes(model, front%elements(k))), .true.))
+         associate (rows => pack(tree%number(:, nodes_of_unknowns(model%freedoms, front%elements(k))), .true.))
             call add_matrix(front, rows, stiffness(:size(rows), :size(rows)))
          end associate
       end do

@@ -3,6 +3,7 @@
 !! Sources: Duff, Reid, ACM Trans. Math. Softw. 9 (1983) 302-325; Liu, SIAM Review 34 (1992) 82-109.
 module front_tree
    use blas_lapack, only: dgemv, dsymv
+   use element_unknowns, only: nodes_of_unknowns
    use front_kernel, only: top_row
    use front_layout, only: front_layout_type, front_operations
    use interface_equations, only: interface_equations_type, list_interface_equations
@@ -10,7 +11,7 @@ module front_tree
    use kinds, only: long, wp
    use lists, only: first_not_below, list_owners, sorted_order
    use model_data, only: model_type
-   use node_coupling, only: list_on_unknowns, coupled_nodes
+   use node_coupling, only: list_on_unknowns
    implicit none
    private
 
@@ -287,7 +288,7 @@ contains
       allocate (front(1, max(model%mesh%n_elements, size(model%joints%element))))
       !$omp parallel do schedule(dynamic, 512) default(shared) if(tree%is_parallel)
       do e = 1, model%mesh%n_elements
-         front(1, e) = front_of(tree, pack(tree%number(:, coupled_nodes(model, e)), .true.))
+         front(1, e) = front_of(tree, pack(tree%number(:, nodes_of_unknowns(model%freedoms, e)), .true.))
       end do
       !$omp end parallel do
       call list_owners(size(tree%fronts), front(:, :model%mesh%n_elements), first, list)

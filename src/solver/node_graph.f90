@@ -3,10 +3,12 @@
 !! Sources: Cuthill, McKee (Proc. 24th ACM Conf., 1969); George, Liu, Computer Solution of Large Sparse Positive
 !! Definite Systems, 1981, chapter 4 (the start node, and why reversed).
 module node_graph
+   use element_unknowns, only: displaced_nodes, last_displaced, nodes_of_unknowns
    use lists, only: list_owners
    use mass_matrix, only: mass_nodes, n_masses
-   use model_data, only: bar_nodes, corners_of, is_face_node, model_type, n_bars
-   use node_coupling, only: unknown_nodes, coupled_nodes, participating_nodes, section_node
+   use mesh_queries, only: is_face_node
+   use model_data, only: bar_nodes, model_type, n_bars
+   use node_coupling, only: unknown_nodes
    implicit none
    private
 
@@ -44,11 +46,9 @@ contains
             if (.not. is_face_node(model%mesh, node)) then ! a face has no unknowns
                do i = model%mesh%first_at(node), model%mesh%first_at(node + 1) - 1
                   e = model%mesh%elements_at(i)
-                  do k = 1, size(model%mesh%element_nodes, 1)
-                     call visit(model%mesh%element_nodes(k, e))
+                  do k = model%freedoms%table%first(e), last_displaced(model%freedoms%table, e)
+                     call visit(model%freedoms%table%node(k))
                   end do
-                  call visit(section_node(model%mesh, e))
-                  call visit_rotations(e)
                end do
             end if
             do i = first_list(node), first_list(node + 1) - 1
@@ -63,22 +63,10 @@ contains
 
    contains
 
-      !> Visit the rotations of a shell or beam.
-      subroutine visit_rotations(e)
-         integer, intent(in) :: e
-         integer :: j
-
-         if (.not. allocated(model%mesh%structural%place)) return
-         if (model%mesh%structural%place(e) == 0) return
-         do j = 1, size(corners_of(model%mesh, e))
-            call visit(model%mesh%rotations(model%mesh%rotation_of(model%mesh%element_nodes(j, e)))%node)
-         end do
-      end subroutine visit_rotations
-
       subroutine visit(other)
          integer, intent(in) :: other
 
-         if (other == 0) return ! end of a list, or no section
+         if (other == 0) return ! end of a list
          if (mark(other) == node) return
          mark(other) = node
          n = n + 1
@@ -109,11 +97,11 @@ contains
             call join(unknown_nodes(model%freedoms, mass_nodes(model, model%mesh%masses(i))))
          end do
       end if
-      if (.not. (with_bodies .and. allocated(model%freedoms%coupling%of_node))) return
+      if (.not. (with_bodies .and. model%freedoms%coupling%n > 0)) return
       do e = 1, model%mesh%n_elements
          ! an unknown of the element may belong to a node that does not participate
-         associate (participating => participating_nodes(model, e), unknown => coupled_nodes(model, e))
-            if (any([(all(participating /= unknown(i)), i = 1, size(unknown))])) call join(unknown)
+         associate (displaced => displaced_nodes(model%freedoms, e), unknown => nodes_of_unknowns(model%freedoms, e))
+            if (any([(all(displaced /= unknown(i)), i = 1, size(unknown))])) call join(unknown)
          end associate
       end do
       joined = joined(:, :n)

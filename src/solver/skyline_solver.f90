@@ -1,18 +1,20 @@
 !> The solver SKYLINE, the profile method of the period. [k_b] of the bodies is formed once in a profile. In every increment the
 !! whole of [k_s] = [k_b] + sum of [k_int] is formed and factorised.
 module skyline_solver
-   use equation_solver, only: equation_system, failure_type, pivot_tolerance
+   use element_unknowns, only: nodes_of_unknowns
+   use equation_solver, only: equation_system, failure_type
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
    use kinds, only: long, wp
    use mass_matrix, only: coupled_dynamic_stiffness
    use memory_need, only: shortage
    use model_data, only: model_type
-   use node_coupling, only: list_on_unknowns, coupled_nodes
+   use node_coupling, only: list_on_unknowns
    use node_graph, only: node_graph_type, reverse_cuthill_mckee
    use skyline, only: add_to_skyline, factor_times_vector, factorise_skyline, skyline_matrix, skyline_times_vector, &
                       solve_skyline, start_skyline
    use text_tools, only: integer_text
+   use tolerances, only: pivot_tolerance
    implicit none
    private
 
@@ -109,7 +111,7 @@ contains
       allocate (rows(0))
       do e = 1, model%mesh%n_elements
          call coupled_dynamic_stiffness(model, e, self%shift, k)
-         rows = [self%number(:, coupled_nodes(model, e))]
+         rows = [self%number(:, nodes_of_unknowns(model%freedoms, e))]
          call scatter(self%body, rows, k(:size(rows), :size(rows)))
       end do
       self%stiffest = maxval(self%body%values(self%body%diagonal(1:)))

@@ -1,6 +1,6 @@
 !> Which solver a structure gets. A new one is a line here, and a word of case control.
 module solver_choice
-   use case_control, only: solver_auto, solver_skyline
+   use control_words, only: solver_auto, solver_skyline
    use distribution, only: choose_distributed, n_processes, solver_work_type, weigh_solvers, weighed, weighing_words
    use equation_solver, only: equation_system
    use kinds, only: long, wp

@@ -17,10 +17,9 @@ module tree_solver
    use nested_dissection, only: dissect
    use node_graph, only: list_joined, node_graph_type
    use text_tools, only: integer_text
+   use tolerances, only: step_tolerance
    implicit none
    private
-
-   real(wp), parameter :: step_tolerance = 1.0e-13_wp !! of conjugate gradients: relative, in the energy norm
 
    !> The state of the present stiffness, beside the factor in the fronts.
    type :: interface_factor_type

@@ -10,7 +10,8 @@ module backbone
    use modal_loops, only: choose_sense, loop_type, run_loops
    use modal_path, only: modal_load_type, reverse, start_modal_load
    use mode_values, only: modes_type
-   use model_data, only: model_type, n_points
+   use mesh_queries, only: n_points
+   use model_data, only: model_type
    use stage_plan, only: backbone_plan, loss_at, stage_plan_type, vibration_plan_type
    use terminal, only: show_line
    use text_tools, only: integer_text

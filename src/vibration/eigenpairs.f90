@@ -281,7 +281,7 @@ contains
          u(system%direction(i), system%node(i)) = x(i)
       end do
       !$omp end parallel do
-      if (allocated(model%freedoms%coupling%of_node)) u = displacements(model, u)
+      if (model%freedoms%coupling%n > 0) u = displacements(model, u)
    end function all_displacements
 
 end module eigenpairs

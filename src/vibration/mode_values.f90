@@ -20,14 +20,15 @@ module mode_values
    use eigenpairs, only: all_displacements, on_equations
    use element_kinds, only: max_section_dofs
    use element_mapping, only: two_pi
+   use element_unknowns, only: displaced_nodes
    use equation_solver, only: equation_system
    use interface_operator, only: add_force, joint_movement
    use kinds, only: wp
    use mass_matrix, only: mass_times, total_mass
    use connected_bodies, only: find_bodies
-   use model_data, only: bar_nodes, model_type, n_bars, n_points
+   use mesh_queries, only: n_points
+   use model_data, only: bar_nodes, model_type, n_bars
    use natural_modes, only: oscillating_type, spectrum_type
-   use node_coupling, only: participating_nodes
    use normal_curve, only: normal_tangent
    use normal_stiffness, only: branch_open
    use shear_loops, only: loss_of_element
@@ -333,7 +334,7 @@ contains
       end do
       do e = 1, model%mesh%n_elements
          call element_stiffness(model, e, k)
-         associate (nodes => participating_nodes(model, e))
+         associate (nodes => displaced_nodes(model%freedoms, e))
             n = d*size(nodes)
             q(:n, :) = reshape(u(:, nodes, :), [n, size(energies)])
             p(:n, :) = matmul(k(:n, :n), q(:n, :))

@@ -9,7 +9,7 @@
 !! Source: Parlett, The Symmetric Eigenvalue Problem, SIAM 1998, sections 3.3 and 15.
 module natural_modes
    use analysis_state, only: analysis_type
-   use case_control, only: solver_skyline, solver_tree
+   use control_words, only: solver_skyline, solver_tree
    use eigenpairs, only: find_eigenpairs, needs_all, on_equations
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system, failure_type
@@ -17,7 +17,8 @@ module natural_modes
    use joint_laws, only: stiffness_matrices
    use kinds, only: wp
    use mass_matrix, only: form_mass, mass_matrix_type
-   use model_data, only: a_point, model_type, n_bars, n_points, n_sections, node_kind, supported
+   use mesh_queries, only: n_points, node_kind
+   use model_data, only: a_point, model_type, n_bars, n_sections, supported
    use shear_loops, only: oscillation_stiffness
    use stage_plan, only: vibration_plan_type
    use text_tools, only: integer_text

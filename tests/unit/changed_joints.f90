@@ -1,6 +1,6 @@
 !> Models by TREE whose joints have stiffnesses that differ by a share from those of some_stiffnesses, and loads on what moves.
 module changed_joints
-   use case_control, only: solver_tree
+   use control_words, only: solver_tree
    use deck_models, only: model_of_cards, sample_cards, some_forces, some_stiffnesses
    use equations, only: equation_system, form_body_stiffness, form_structure_stiffness, start_equations
    use equation_solver, only: failure_type

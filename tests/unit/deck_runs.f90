@@ -1,7 +1,8 @@
 !> Decks solved as the main program does, by STEP or by NEWTON, without any output.
 module deck_runs
    use analysis_state, only: analysis_type, interface_stiffness, start_analysis
-   use case_control, only: case_control_type, method_newton
+   use case_control, only: case_control_type
+   use control_words, only: method_newton
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use deck_models, only: read_lines

@@ -5,7 +5,8 @@ module dense_structure
    use element_kinds, only: max_nodes
    use isoparametric, only: lump, shape_products
    use kinds, only: wp
-   use model_data, only: corners_of, model_type, n_bars
+   use mesh_queries, only: element_points
+   use model_data, only: model_type, n_bars
    implicit none
    private
 
@@ -34,7 +35,7 @@ contains
       allocate (k(model%mesh%dimension*model%mesh%n_nodes, model%mesh%dimension*model%mesh%n_nodes), source=0.0_wp)
       do e = 1, model%mesh%n_elements
          call coupled_stiffness(model, e, k_e)
-         call add(rows_of(model, corners_of(model%mesh, e)), k_e)
+         call add(rows_of(model, element_points(model%mesh, e)), k_e)
       end do
       do i = 1, n_bars(model%mesh)
          if (model%mesh%bars(i)%bolt > 0) cycle
@@ -70,7 +71,7 @@ contains
 
       allocate (m(model%mesh%dimension*model%mesh%n_nodes, model%mesh%dimension*model%mesh%n_nodes), source=0.0_wp)
       do e = 1, model%mesh%n_elements
-         associate (corners => corners_of(model%mesh, e))
+         associate (corners => element_points(model%mesh, e))
             call shape_products(law_of(model%mesh, e), model%mesh%x(:model%mesh%dimension, corners), m_e)
             associate (n => size(corners))
                m_e(:n, :n) = model%mesh%properties(model%mesh%element_property(e))%rho*m_e(:n, :n)

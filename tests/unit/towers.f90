@@ -5,6 +5,7 @@ module towers
    use interface_operator, only: connect_nodes
    use joint_laws, only: joint_law
    use kinds, only: wp
+   use mesh_queries, only: start_parts
    use model_data, only: model_type
    use normal_curve, only: normal_law
    use shear_curves, only: one_cubic
@@ -30,6 +31,7 @@ contains
       type(failure_type) :: failure
       integer :: i
 
+      call start_parts(model)
       model%mesh%n_nodes = n
       allocate (model%mesh%node_id(n), model%mesh%x(3, n), model%freedoms%used(n), model%freedoms%held(2, n), &
          model%mesh%element_nodes(4, 0))

@@ -2,9 +2,7 @@
 !! Case control and JINCR cards give them: modes, response to an oscillating load, and the damping of a table.
 module stage_plan
    use bulk_data, only: eigrl_card, frequency_card, jampl_card, tabdmp1_card
-   use case_control, only: method_back, method_newton
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use control_words, only: method_back, method_newton
    use kinds, only: wp
    use stage_entries, only: output_all, output_last, output_request
    use text_tools, only: integer_text
@@ -12,7 +10,7 @@ module stage_plan
    implicit none
    private
 
-   public :: loss_at, asked_frequencies, merged, plan_stages, where_in_plan, factorisations_of, has_unloading_modes, shows_bodies
+   public :: loss_at, asked_frequencies, merged, where_in_plan, factorisations_of, has_unloading_modes, shows_bodies
 
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping
 
@@ -134,32 +132,6 @@ contains
       end do
       if (size(f) > 1) f = pack(f, [.true., f(2:) - f(:size(f) - 1) > same_frequency*f(size(f))])
    end function merged
-
-   !> Plan the stages. A stage without INCR has one increment; so has METHOD = BACK.
-   subroutine plan_stages(deck, plan, errors)
-      type(deck_type), intent(in)          :: deck
-      type(stage_plan_type), intent(out)   :: plan
-      type(deck_error_list), intent(inout) :: errors
-      integer :: s, k
-
-      allocate (plan%stages(size(deck%control%stages)))
-      do s = 1, size(plan%stages)
-         associate (stage => plan%stages(s), given => deck%control%stages(s))
-            stage%id = given%id
-            stage%label = given%label
-            stage%output = given%output
-            stage%shown_words = ''
-            stage%fractions = [1.0_wp]
-            if (given%increments%id == 0) cycle
-            k = findloc(deck%bulk%jincr%id, given%increments%id, dim=1)
-            if (k == 0) then
-               call errors%add(given%increments%line, 'INCR: there is no JINCR '//integer_text(given%increments%id))
-            else if (deck%control%method /= method_back) then
-               stage%fractions = deck%bulk%jincr(k)%fractions
-            end if
-         end associate
-      end do
-   end subroutine plan_stages
 
    !> Text such as 'stage 2, increment 7', for messages.
    pure function where_in_plan(plan, stage, increment) result(words)
