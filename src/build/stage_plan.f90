@@ -53,12 +53,14 @@ module stage_plan
       integer, allocatable :: watched(:)    !! positions of the nodes of WATCH; not allocated: none
       character(:), allocatable :: shown_words !! text of this limit, behind a title
       real(wp), allocatable :: fractions(:)    !! of the load change of the stage, one per increment, sum 1
+      logical :: follows_path = .false.        !! NEWTON divides its increment so that the parts follow the path
       character(:), allocatable :: path        !! words for its load where this is not that of the stage, as in loops
       type(vibration_plan_type), allocatable :: vibration !! after the stage; not allocated: not requested
    end type planned_stage
 
    type, public :: stage_plan_type
       type(planned_stage), allocatable :: stages(:)
+      logical :: measures_path = .false.      !! NEWTON: increments are printed with their error of path
       ! whether any stage has
       logical :: has_modes = .false.          !! natural modes
       logical :: has_backbones = .false.      !! a backbone
@@ -142,6 +144,7 @@ contains
       type(deck_error_list), intent(inout) :: errors
       integer :: s, k
 
+      plan%measures_path = deck%control%method == method_newton
       allocate (plan%stages(size(deck%control%stages)))
       do s = 1, size(plan%stages)
          associate (stage => plan%stages(s), given => deck%control%stages(s))
@@ -150,6 +153,7 @@ contains
             stage%output = given%output
             stage%shown_words = ''
             stage%fractions = [1.0_wp]
+            stage%follows_path = plan%measures_path .and. given%increments%id == 0
             if (given%increments%id == 0) cycle
             k = findloc(deck%bulk%jincr%id, given%increments%id, dim=1)
             if (k == 0) then
