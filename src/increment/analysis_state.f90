@@ -56,10 +56,12 @@ module analysis_state
 
    !> The error of path of an increment: how far its end is from the limit of many increments, see path_error.
    type, public :: path_error_type
-      real(wp) :: deflection = 0.0_wp               !! of the joints, relative to the largest so far [-]
-      real(wp) :: pressure = 0.0_wp                 !! or shear stress, likewise
-      real(wp) :: contact = 0.0_wp                  !! share of the area of a joint that is open in one of both states only
-      integer  :: deflected = 0, pressed = 0        !! interface elements with the largest errors, 0: none
+      ! root mean squares over the joint where they are largest, relative to the largest value so far of all joints [-]
+      real(wp) :: deflection = 0.0_wp               !! of lambda
+      real(wp) :: pressure = 0.0_wp
+      real(wp) :: contact = 0.0_wp                  !! share of the area of a joint that is open in one of both states, and pressed
+                                                    !! by more than PATHTOL of the largest pressure in the other [-]
+      logical  :: lets_go = .false.                 !! any element is open in one of both states only
    end type path_error_type
 
    !> The record of the last increment for output; no later result depends on it.

@@ -3,7 +3,7 @@
 !! of INCR is divided only where it does not converge. The whole increment is then repeated from the result of its parts, so that
 !! the answer does not depend on the division.
 module newton_method
-   use analysis_state, only: all_held, analysis_type, free_norm, path_error_type
+   use analysis_state, only: all_held, analysis_type, free_norm
    use equations, only: equation_system, form_structure_stiffness
    use equation_solver, only: failure_type
    use joint_laws, only: element_state, is_apart, stiffness_at_rest, stiffness_matrices
@@ -14,7 +14,7 @@ module newton_method
    use newton_trial, only: attempt_type
    use node_coupling, only: forces_on_unknowns
    use normal_stiffness, only: at_rest, branch_name, branch_open
-   use path_error, only: go_to_start, is_within, measure_path, note_start, path_start_type
+   use path_error, only: measure_path, note_start, path_start_type
    use shear_stiffness, only: shear_state
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
@@ -23,17 +23,22 @@ module newton_method
    private
 
    public :: newton_increment, seat_joints, crosses_gaps, close_gaps
+   public :: try_part, fail ! for path_following
 
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
    integer, parameter  :: most_halvings = 12
-   real(wp), parameter :: shortest_of_path = 1.0_wp/64.0_wp ! of an increment: a shorter part is not divided to follow the path
 
-   !> The end of a part that follows the path, and displacements near it.
-   type :: goal_type
-      real(wp) :: at = 1.0_wp               ! of the increment [-]
-      real(wp), allocatable :: u(:, :)      ! (dimension, retained) [length]; not allocated: unknown
-   end type goal_type
+   interface
+      !> Go from equilibrium to equilibrium along the path, see path_following.
+      module subroutine follow_path(model, analysis, system, attempt, failure)
+         type(model_type), intent(in)          :: model
+         type(analysis_type), intent(inout)    :: analysis
+         class(equation_system), intent(inout) :: system
+         type(attempt_type), intent(inout)     :: attempt
+         type(failure_type), intent(inout)     :: failure
+      end subroutine follow_path
+   end interface
 
 contains
 
@@ -195,67 +200,6 @@ contains
       end associate
    end function is_idle
 
-   !> Go from equilibrium to equilibrium by ATTEMPTs whose ends follow the path of many increments: commit an attempt that converges
-   !! with a small error of path, divide another one. The next goals are the ends of the divided attempts; displacements near them
-   !! are known, so that their iterations are few.
-   subroutine follow_path(model, analysis, system, attempt, failure)
-      type(model_type), intent(in)          :: model
-      type(analysis_type), intent(inout)    :: analysis
-      class(equation_system), intent(inout) :: system
-      type(attempt_type), intent(inout)     :: attempt
-      type(failure_type), intent(inout)     :: failure
-      type(goal_type) :: goals(most_halvings + 1) ! the next one is the last
-      type(element_state), allocatable :: trial(:), way(:)
-      type(path_error_type) :: error(2)
-      type(path_start_type) :: start
-      real(wp), allocatable :: half(:, :), u_start(:, :)
-      real(wp) :: done, part
-      integer  :: before_open, n
-
-      u_start = analysis%u
-      before_open = count(analysis%states%normal%branch == branch_open)
-      way = analysis%states
-      done = 0.0_wp
-      analysis%record%n_parts = 0
-      analysis%record%follows_path = .true.
-      n = 1
-      do while (n > 0)
-         part = goals(n)%at - done
-         call note_start(analysis, start)
-         if (allocated(goals(n)%u)) then
-            call try_part(model, system, analysis, 1.0_wp - goals(n)%at, attempt, goals(n)%u)
-            if (.not. attempt%converged) deallocate (goals(n)%u)
-         end if
-         if (.not. allocated(goals(n)%u)) call try_part(model, system, analysis, 1.0_wp - goals(n)%at, attempt)
-         if (attempt%converged) then
-            trial = way
-            call measure_path(model, system, start, part, analysis, attempt, trial, error, half)
-            write (99, '(2f9.6,i4,2(2x,3es10.2,2i5))') done, part, analysis%record%n_iterations, error !DEBUG
-            if (part <= shortest_of_path .or. &
-                is_within(error(1), part*analysis%increment_fraction, analysis%path_tolerance, n == 1)) then
-               call move_alloc(trial, way)
-               analysis%record%path_error = error(2)
-               analysis%record%n_parts = analysis%record%n_parts + 1
-               done = goals(n)%at
-               n = n - 1
-               cycle
-            end if
-            goals(n)%u = analysis%u
-            call go_to_start(start, analysis)
-            goals(n + 1) = goal_type(done + 0.5_wp*part, half)
-         else if (part > 0.5_wp**most_halvings) then
-            goals(n + 1) = goal_type(done + 0.5_wp*part)
-         else
-            attempt%left_over = 1.0_wp - done
-            call fail(model, analysis, attempt, failure)
-            return
-         end if
-         n = n + 1
-      end do
-      analysis%du = analysis%u - u_start
-      analysis%record%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
-   end subroutine follow_path
-
    !> Go from equilibrium to equilibrium by ATTEMPTs: commit an attempt that converges, divide one that does not. A divided
    !! increment is repeated as a whole, from its start and the displacements that its parts have reached: the laws depend on the
    !! path, and rounding decides on the division. If the whole does not converge, the parts stand.
@@ -268,7 +212,6 @@ contains
       logical, intent(in)                  :: measures !! the error of path
       type(analysis_type), allocatable :: whole
       type(element_state), allocatable :: way(:)
-      type(path_error_type) :: error(2)
       type(path_start_type) :: start
       real(wp), allocatable :: half(:, :), u_start(:, :)
       real(wp) :: done, part
@@ -277,7 +220,7 @@ contains
       allocate (u_start, source=analysis%u)
       before_open = count(analysis%states%normal%branch == branch_open)
       if (measures) call note_start(analysis, start)
-      if (measures) way = analysis%states
+      if (measures) allocate (way, source=analysis%states)
       done = 0.0_wp
       part = 1.0_wp
       analysis%record%n_parts = 0
@@ -308,8 +251,7 @@ contains
             analysis%record%is_whole = .false.
          end if
       end if
-      if (measures) call measure_path(model, system, start, 1.0_wp, analysis, attempt, way, error, half)
-      if (measures) analysis%record%path_error = error(2)
+      if (measures) call measure_path(model, system, start, 1.0_wp, analysis, attempt, way, analysis%record%path_error, half)
       analysis%du = analysis%u - u_start
       analysis%record%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
    end subroutine find_equilibrium

@@ -1,9 +1,9 @@
-!> The error of path of METHOD = NEWTON: how far the end of an increment, or of a part of it, is from the limit of many increments.
-!! An increment takes every interface element from its start to its end in one movement. An element that the load presses and lets
-!! go meanwhile, or whose shear and pressure do not grow in proportion, has another force at the end. The way is found from the
-!! displacements half way: a few corrections with the factor of the last iteration, from the mean of both ends under the mean load.
-!! The exact laws, followed along the parabola through the three states, give the forces that the path leads to; one more solution
-!! with the factor gives the displacements that their difference causes.
+!> The error of path of METHOD = NEWTON: how far the end of an increment is from the limit of many increments.
+!! An increment, or a part of it, takes every interface element from its start to its end in one movement. An element that the load
+!! presses and lets go meanwhile, or whose shear and pressure do not grow in proportion, would come to another force along the path.
+!! The path is found without a factorisation. The displacements half way follow from the mean of both ends under the mean load, by
+!! corrections with the factor of the last iteration. The exact laws are followed along the parabola through the three states up to
+!! three quarters of it, and from there to the equilibrium at its end, by corrections again. These states go on from part to part.
 module path_error
    use analysis_state, only: analysis_type, path_error_type, turning_point
    use equations, only: equation_system, solve_coupled_again, solve_equations
@@ -15,14 +15,15 @@ module path_error
    use newton_trial, only: attempt_type, evaluate_at, trial_type
    use normal_stiffness, only: branch_open
    use straight_laws, only: direction_digits
-   use tolerances, only: contact_pressure, tight_direction
+   use tolerances, only: loose_direction, no_contact
    implicit none
    private
 
-   public :: note_start, go_to_start, measure_path, is_within
+   public :: note_start, go_to_start, measure_path, is_within, error_size
 
-   integer, parameter  :: most_corrections = 3, most_shortenings = 3
-   real(wp), parameter :: close_enough = 1.0e-3_wp   ! of the residual of the mean of both ends: left half way
+   integer, parameter  :: most_corrections = 8       ! where the error decides on the division
+   integer, parameter  :: some_corrections = 4       ! where it is only printed
+   real(wp), parameter :: close_enough = 1.0e-4_wp   ! of the residual of the mean of both ends: left half way
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
    real(wp), parameter :: equal_shares = 1.0e-6_wp   ! of the limit: rounding of a sum of areas
 
@@ -68,8 +69,8 @@ contains
       analysis%record%kind = start%kind
    end subroutine go_to_start
 
-   !> The ERROR of path of the committed ATTEMPT at a PART of the increment from START, alone and in all, and displacements HALF way.
-   !! WAY goes on along the path, from the states to which it has led up to the start.
+   !> Follow the WAY from the start of the increment along the committed ATTEMPT at a PART of it, from START, whose displacements
+   !! HALF way are found. ERROR is that of the committed states from the end of the WAY.
    subroutine measure_path(model, system, start, part, analysis, attempt, way, error, half)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system   !! with the factor of the last iteration
@@ -78,45 +79,30 @@ contains
       type(analysis_type), intent(inout)    :: analysis !! likewise
       type(attempt_type), intent(inout)     :: attempt
       type(element_state), allocatable, intent(inout) :: way(:)
-      type(path_error_type), intent(out)    :: error(2) !! of the part, from the start of WAY
-      real(wp), allocatable, intent(out)    :: half(:, :) !! (dimension, retained) [length]
-      type(element_state), allocatable :: along(:)
-      type(trial_type) :: trial
-
-      half = 0.5_wp*(start%u + analysis%u)
-      if (size(way) == 0 .or. attempt%iteration == 0) return ! at rest: there is no factor
-      along = start%states
-      call approach(model, system, attempt%load - 0.5_wp*part*analysis%change, half, along, analysis, attempt, trial)
-      half = trial%u
-      call find_error(model, system, start, half, analysis, attempt, along, error(1))
-      call find_error(model, system, start, half, analysis, attempt, way, error(2))
-   end subroutine measure_path
-
-   !> The ERROR of the committed states: their difference from those ALONG the way over HALF, in equilibrium at its end.
-   subroutine find_error(model, system, start, half, analysis, attempt, along, error)
-      type(model_type), intent(in)          :: model
-      class(equation_system), intent(inout) :: system
-      type(path_start_type), intent(in)     :: start
-      real(wp), intent(in)                  :: half(:, :)
-      type(analysis_type), intent(inout)    :: analysis
-      type(attempt_type), intent(inout)     :: attempt
-      type(element_state), allocatable, intent(inout) :: along(:)
       type(path_error_type), intent(out)    :: error
+      real(wp), allocatable, intent(out)    :: half(:, :) !! (dimension, retained) [length]
       type(trial_type) :: trial
       integer :: i
 
-      call follow_way(model, system, start, half, analysis, along)
-      call approach(model, system, attempt%load, analysis%u, along, analysis, attempt, trial)
-      along = trial%states
-      do i = 1, size(along)
-         call rest_when_open(along(i), joint_movement(system%interface(i), trial%u))
+      half = 0.5_wp*(start%u + analysis%u)
+      if (size(way) == 0) return
+      if (attempt%iteration > 0) then ! otherwise there may be no factor
+         call approach(model, system, attempt%load - 0.5_wp*part*analysis%change, half, start%states, analysis, attempt, trial)
+         half = trial%u
+      end if
+      call follow_way(model, system, start, half, analysis, way)
+      call approach(model, system, attempt%load, analysis%u, way, analysis, attempt, trial)
+      way = trial%states
+      do i = 1, size(way)
+         call rest_when_open(way(i), joint_movement(system%interface(i), trial%u))
       end do
-      call compare_states(model, system, analysis%states, along, trial%u - analysis%u, error)
-   end subroutine find_error
+      error = difference(model, analysis%states, way, analysis%path_tolerance)
+   end subroutine measure_path
 
-   !> The TRIAL near equilibrium under the LOAD, to which the states BEFORE lead: from the displacements U, a few corrections with
-   !! the factor of the last iteration. A correction that does not reduce the residual is shortened: the factor may be that of
-   !! loading where elements unload.
+   !> The TRIAL near equilibrium under the LOAD, to which the states BEFORE lead: from the displacements U by a few corrections with
+   !! the factor of the last iteration. The factor is that of the end of the increment; what the corrections so far have changed in the
+   !! residual replaces it where it errs. Source: Anderson, J. ACM 12 (1965) 547-560, in the form of Walker, Ni, SIAM J. Numer.
+   !! Anal. 49 (2011) 1715-1735, with the factor as preconditioner.
    subroutine approach(model, system, load, u, before, analysis, attempt, trial)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -125,23 +111,41 @@ contains
       type(analysis_type), intent(inout)    :: analysis            !! likewise
       type(attempt_type), intent(inout)     :: attempt
       type(trial_type), intent(out)         :: trial
-      type(trial_type) :: next
-      real(wp) :: direction(size(u, 1), size(u, 2)), first
+      type(trial_type) :: next, last
+      real(wp) :: steps(size(u, 1), size(u, 2), most_corrections), gains(size(u, 1), size(u, 2), most_corrections)
+      real(wp) :: direction(size(u, 1), size(u, 2)), left(size(u, 1), size(u, 2)), share, enough
       integer  :: i, k
 
       call exchange_states(before, analysis%states)
       call evaluate_at(model, system, load, analysis, u, trial)
-      first = trial%size
-      do i = 1, most_corrections
-         if (attempt%trouble%raised .or. trial%size <= max(close_enough*first, analysis%tolerance)) exit
-         call correction(model, system, trial%residual, attempt, direction)
-         if (attempt%trouble%raised) exit
-         do k = 0, most_shortenings
-            call evaluate_at(model, system, load, analysis, trial%u + 0.25_wp**k*direction, next)
-            if (next%size < trial%size) exit
+      enough = max(close_enough*trial%size, analysis%tolerance)
+      last = trial
+      do i = 1, merge(most_corrections, some_corrections, analysis%record%follows_path)
+         if (trial%size <= enough .or. attempt%iteration == 0) exit
+         left = merge(0.0_wp, last%residual, analysis%held)
+         steps(:, :, i) = 0.0_wp
+         do k = 1, i - 1
+            share = sum(gains(:, :, k)*left)
+            left = left - share*gains(:, :, k)
+            steps(:, :, i) = steps(:, :, i) + share*steps(:, :, k)
          end do
-         if (.not. next%size < trial%size) exit
-         trial = next
+         call correction(model, system, left, attempt, direction)
+         if (attempt%trouble%raised) exit
+         steps(:, :, i) = steps(:, :, i) + direction
+         call evaluate_at(model, system, load, analysis, last%u + steps(:, :, i), next)
+         if (.not. next%size < huge(1.0_wp)) exit
+         gains(:, :, i) = merge(0.0_wp, last%residual - next%residual, analysis%held)
+         do k = 1, i - 1
+            share = sum(gains(:, :, k)*gains(:, :, i))
+            gains(:, :, i) = gains(:, :, i) - share*gains(:, :, k)
+            steps(:, :, i) = steps(:, :, i) - share*steps(:, :, k)
+         end do
+         share = norm2(gains(:, :, i))
+         if (.not. share > 0.0_wp) exit
+         gains(:, :, i) = gains(:, :, i)/share
+         steps(:, :, i) = steps(:, :, i)/share
+         last = next
+         if (last%size < trial%size) trial = last
       end do
       call exchange_states(before, analysis%states)
    end subroutine approach
@@ -164,9 +168,8 @@ contains
       real(wp), intent(out)                 :: direction(:, :)
 
       direction = merge(residual, 0.0_wp, attempt%coupled)
-      attempt%tolerance = tight_direction
       if (attempt%coupled) then
-         call solve_coupled_again(model, attempt%tolerance, system, direction, attempt%trouble)
+         call solve_coupled_again(model, loose_direction, system, direction, attempt%trouble)
       else
          call solve_equations(model, system, residual, direction, attempt%trouble, digits=direction_digits)
       end if
@@ -201,70 +204,54 @@ contains
       end do
    end subroutine follow_way
 
-   !> The largest pressure or shear stress so far.
-   pure real(wp) function pressure_scale(states) result(scale)
-      type(element_state), intent(in) :: states(:)
+   !> The error of the STATES from those along the WAY: root mean square over each joint, the largest of all joints. Elements that
+   !! are open in both do not count.
+   pure type(path_error_type) function difference(model, states, way, tolerance) result(error)
+      type(model_type), intent(in)    :: model
+      type(element_state), intent(in) :: states(:), way(:)
+      real(wp), intent(in)            :: tolerance !! PATHTOL
+      real(wp) :: lambda, open_area, p, squares(2)
+      logical  :: is_open(2)
+      integer  :: i, j
 
-      scale = max(maxval(states%normal%p_a), maxval(states%normal%pressure), maxval(abs(states%shear(1)%tau)), &
-                  maxval(abs(states%shear(2)%tau)))
-   end function pressure_scale
-
-   !> The ERROR of the committed STATES, from those ALONG the way, whose displacements are larger by DIFFERENCE.
-   subroutine compare_states(model, system, states, along, difference, error)
-      type(model_type), intent(in)       :: model
-      class(equation_system), intent(in) :: system
-      type(element_state), intent(in)    :: states(:), along(:)
-      real(wp), intent(in)               :: difference(:, :)
-      type(path_error_type), intent(out) :: error
-      real(wp) :: area(size(model%joints%list)), force(3), movement(3), lambda, stress, moved
-      logical  :: closed(2)
-      integer  :: i
-
-      area = 0.0_wp
-      stress = pressure_scale(along)
-      lambda = max(maxval(along%normal%lambda_a), maxval(along%normal%lambda))
-      if (.not. (stress > 0.0_wp .and. lambda > 0.0_wp)) return
-      moved = max(lambda, maxval(abs(along%shear(1)%delta)), maxval(abs(along%shear(2)%delta)))
-      do i = 1, size(states)
-         associate (element => model%joints%element(i))
-            closed = [states(i)%normal%branch, along(i)%normal%branch] /= branch_open
-            if (.not. any(closed)) cycle
-            movement = joint_movement(system%interface(i), difference)
-            call note_larger(abs(movement(3))/lambda, i, error%deflection, error%deflected)
-            call note_larger(maxval(abs(movement(:2)))/moved, i, error%deflection, error%deflected)
-            force = force_of(element%area, along(i)) - force_of(element%area, states(i))
-            call note_larger(maxval(abs(force))/(element%area*stress), i, error%pressure, error%pressed)
-            if (closed(1) .neqv. closed(2)) then
-               if (max(states(i)%normal%pressure, along(i)%normal%pressure) > contact_pressure*stress) &
-                  area(element%joint) = area(element%joint) + element%area
-            end if
-         end associate
+      lambda = max(maxval(way%normal%lambda_a), maxval(way%normal%lambda))
+      p = max(maxval(way%normal%p_a), maxval(way%normal%pressure))
+      if (.not. (lambda > 0.0_wp .and. p > 0.0_wp)) return
+      do j = 1, size(model%joints%list)
+         squares = 0.0_wp
+         open_area = 0.0_wp
+         do i = model%joints%list(j)%first, model%joints%list(j)%last
+            associate (area => model%joints%element(i)%area, a => states(i)%normal, b => way(i)%normal)
+               is_open = [a%branch, b%branch] == branch_open
+               if (all(is_open)) cycle
+               squares = squares + area*([a%lambda - b%lambda, a%pressure - b%pressure]/[lambda, p])**2
+               if (.not. any(is_open)) cycle
+               error%lets_go = error%lets_go .or. max(a%pressure, b%pressure) > no_contact*p
+               if (max(a%pressure, b%pressure) > tolerance*p) open_area = open_area + area
+            end associate
+         end do
+         squares = squares/model%joints%list(j)%area
+         error%deflection = max(error%deflection, sqrt(squares(1)))
+         error%pressure = max(error%pressure, sqrt(squares(2)))
+         error%contact = max(error%contact, open_area/model%joints%list(j)%area)
       end do
-      error%contact = maxval(area/model%joints%list%area)
-   end subroutine compare_states
+   end function difference
 
-   !> Let VALUE of ELEMENT be the LARGEST, found AT that element, where it is larger; of equal ones the first counts.
-   pure subroutine note_larger(value, element, largest, at)
-      real(wp), intent(in)    :: value
-      integer, intent(in)     :: element
-      real(wp), intent(inout) :: largest
-      integer, intent(inout)  :: at
-
-      if (.not. value > largest*(1.0_wp + equal_shares)) return
-      largest = value
-      at = element
-   end subroutine note_larger
-
-   !> Whether the ERROR of a PART of an increment is within TOLERANCE; errors of parts add up like independent ones. The contact is
-   !! asked of states that are printed: elements of little pressure open and close meanwhile without effect on the end.
-   pure logical function is_within(error, part, tolerance, at_end)
+   !> Whether the ERROR of an increment in N_PARTS is within TOLERANCE. An increment that lets an element go, of whatever pressure, is
+   !! not taken in one part.
+   pure logical function is_within(error, n_parts, tolerance)
       type(path_error_type), intent(in) :: error
-      real(wp), intent(in)              :: part      !! of the change of load of the stage [-]
+      integer, intent(in)               :: n_parts
       real(wp), intent(in)              :: tolerance !! PATHTOL
-      logical, intent(in)               :: at_end    !! of the increment
 
-      is_within = max(error%deflection, error%pressure) <= tolerance*sqrt(part)
-      if (at_end) is_within = is_within .and. error%contact <= contact_per_tol*tolerance*(1.0_wp + equal_shares)
+      is_within = .not. (error%lets_go .and. n_parts == 1) .and. error_size(error) <= tolerance*(1.0_wp + equal_shares)
    end function is_within
+
+   !> The ERROR as a number to compare with PATHTOL.
+   pure real(wp) function error_size(error) result(size)
+      type(path_error_type), intent(in) :: error
+
+      size = max(error%deflection, error%pressure, error%contact/contact_per_tol)
+   end function error_size
 
 end module path_error

@@ -238,8 +238,7 @@ contains
       call stream%item('deflection', error%deflection)
       call stream%item('pressure', error%pressure)
       call stream%item('contact', error%contact)
-      call stream%item('deflected', error%deflected)
-      call stream%item('pressed', error%pressed)
+      call stream%item('lets_go', error%lets_go)
    end subroutine record_path_error
 
    subroutine record_condition(stream, condition)
