@@ -23,7 +23,7 @@ module newton_method
    private
 
    public :: newton_increment, seat_joints, crosses_gaps, close_gaps
-   public :: try_part, fail ! for path_following
+   public :: reach ! for path_following
 
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
@@ -31,12 +31,11 @@ module newton_method
 
    interface
       !> Go from equilibrium to equilibrium along the path, see path_following.
-      module subroutine follow_path(model, analysis, system, attempt, failure)
+      module subroutine follow_path(model, analysis, system, attempt)
          type(model_type), intent(in)          :: model
          type(analysis_type), intent(inout)    :: analysis
          class(equation_system), intent(inout) :: system
-         type(attempt_type), intent(inout)     :: attempt
-         type(failure_type), intent(inout)     :: failure
+         type(attempt_type), intent(inout)     :: attempt !! not converged: there is no equilibrium
       end subroutine follow_path
    end interface
 
@@ -68,11 +67,7 @@ contains
             attempt%growth = fractions(i)/fractions(i - 1)
          end associate
       end if
-      if (plan%stages(analysis%stage)%follows_path) then
-         call follow_path(model, analysis, system, attempt, failure)
-      else
-         call find_equilibrium(model, analysis, system, attempt, failure, plan%measures_path)
-      end if
+      call find_equilibrium(model, analysis, system, attempt, failure, plan%stages(analysis%stage)%follows_path, plan%measures_path)
       if (failure%raised) then
          call go_back(plan, attempt%left_over, analysis)
          if (analysis%record%ends_early .and. .not. allocated(plan%stages(analysis%stage)%path)) &
@@ -159,7 +154,7 @@ contains
       attempt%seats = .true.
       attempt%seat_force = norm2(pack(analysis%states%normal%p_av*model%joints%element%area, model%joints%element%gap < 0.0_wp))
       attempt%where = 'interference (JGAP), before the first load'
-      call find_equilibrium(model, analysis, system, attempt, failure, measures=.false.)
+      call find_equilibrium(model, analysis, system, attempt, failure, follows=.false., measures=.false.)
       call free_idle_joints(model, analysis)
    end subroutine press_apart
 
@@ -200,33 +195,69 @@ contains
       end associate
    end function is_idle
 
-   !> Go from equilibrium to equilibrium by ATTEMPTs: commit an attempt that converges, divide one that does not. A divided
-   !! increment is repeated as a whole, from its start and the displacements that its parts have reached: the laws depend on the
-   !! path, and rounding decides on the division. If the whole does not converge, the parts stand.
-   subroutine find_equilibrium(model, analysis, system, attempt, failure, measures)
+   !> Go from equilibrium to equilibrium: along the path, or in one step, whose error of path is MEASURED.
+   subroutine find_equilibrium(model, analysis, system, attempt, failure, follows, measures)
       type(model_type), intent(in)         :: model
       type(analysis_type), intent(inout)   :: analysis
       class(equation_system), intent(inout) :: system
       type(attempt_type), intent(inout)    :: attempt
       type(failure_type), intent(inout)    :: failure
-      logical, intent(in)                  :: measures !! the error of path
-      type(analysis_type), allocatable :: whole
+      logical, intent(in)                  :: follows, measures
       type(element_state), allocatable :: way(:)
       type(path_start_type) :: start
       real(wp), allocatable :: half(:, :), u_start(:, :)
-      real(wp) :: done, part
       integer  :: before_open
 
       allocate (u_start, source=analysis%u)
       before_open = count(analysis%states%normal%branch == branch_open)
-      if (measures) call note_start(analysis, start)
-      if (measures) allocate (way, source=analysis%states)
-      done = 0.0_wp
-      part = 1.0_wp
       analysis%record%n_parts = 0
-      do while (done < 1.0_wp)
-         part = min(part, 1.0_wp - done)
-         call try_part(model, system, analysis, merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp), attempt)
+      if (follows) then
+         call follow_path(model, analysis, system, attempt)
+      else
+         if (measures) call note_start(analysis, start)
+         if (measures) allocate (way, source=analysis%states)
+         call reach(model, analysis, system, attempt, [0.0_wp, 1.0_wp])
+         if (measures .and. attempt%converged) &
+            call measure_path(model, system, start, 1.0_wp, analysis, attempt, way, analysis%record%path_error, half)
+      end if
+      if (attempt%converged) then
+         analysis%du = analysis%u - u_start
+         analysis%record%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
+      else if (attempt%trouble%raised) then
+         call failure%raise(attempt%trouble%message) ! a mechanism explains more than any iteration
+      else
+         call give_up(model, analysis, attempt, failure)
+      end if
+   end subroutine find_equilibrium
+
+   !> Go from equilibrium to equilibrium between ENDS of the increment by ATTEMPTs: commit an attempt that converges, divide one that
+   !! does not. What was divided is repeated as a whole, from its start and the displacements that its parts have reached: the laws
+   !! depend on the path, and rounding decides on the division. If the whole does not converge, the parts stand. The first attempt
+   !! starts from GUESS, unless this is poor.
+   subroutine reach(model, analysis, system, attempt, ends, guess)
+      type(model_type), intent(in)         :: model
+      type(analysis_type), intent(inout)   :: analysis
+      class(equation_system), intent(inout) :: system
+      type(attempt_type), intent(inout)    :: attempt
+      real(wp), intent(in)                 :: ends(2) !! done before and after [-], 0 to 1
+      real(wp), intent(in), optional       :: guess(:, :) !! (dimension, retained) displacements at the end [length]
+      type(analysis_type), allocatable :: whole
+      real(wp) :: done, left, part
+
+      if (present(guess)) then
+         call try_part(model, system, analysis, 1.0_wp - ends(2), attempt, guess)
+         if (attempt%converged) then
+            analysis%record%n_parts = analysis%record%n_parts + 1
+            return
+         end if
+      end if
+      done = ends(1)
+      part = ends(2) - ends(1)
+      do while (done < ends(2))
+         part = min(part, ends(2) - done)
+         left = 1.0_wp - ends(2)
+         if (done + part < ends(2)) left = 1.0_wp - done - part
+         call try_part(model, system, analysis, left, attempt)
          if (attempt%converged) then
             done = done + part
             part = 2.0_wp*part
@@ -236,39 +267,21 @@ contains
             part = 0.5_wp*part
          else
             attempt%left_over = 1.0_wp - done
-            call fail(model, analysis, attempt, failure)
             return
          end if
       end do
-      if (allocated(whole)) then
-         whole%record = analysis%record
-         whole%tolerance = analysis%tolerance
-         call try_part(model, system, whole, 0.0_wp, attempt, analysis%u)
-         if (attempt%converged) then
-            analysis = whole
-         else
-            analysis%record = whole%record
-            analysis%record%is_whole = .false.
-         end if
-      end if
-      if (measures) call measure_path(model, system, start, 1.0_wp, analysis, attempt, way, analysis%record%path_error, half)
-      analysis%du = analysis%u - u_start
-      analysis%record%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
-   end subroutine find_equilibrium
-
-   !> No part of the increment is small enough: report the mechanism, or what is known of the ATTEMPT.
-   subroutine fail(model, analysis, attempt, failure)
-      type(model_type), intent(in)      :: model
-      type(analysis_type), intent(in)   :: analysis
-      type(attempt_type), intent(in)    :: attempt
-      type(failure_type), intent(inout) :: failure
-
-      if (attempt%trouble%raised) then
-         call failure%raise(attempt%trouble%message) ! a mechanism explains more than any iteration
+      if (.not. allocated(whole)) return
+      whole%record = analysis%record
+      whole%tolerance = analysis%tolerance
+      call try_part(model, system, whole, 1.0_wp - ends(2), attempt, analysis%u)
+      if (attempt%converged) then
+         analysis = whole
       else
-         call give_up(model, analysis, attempt, failure)
+         attempt%converged = .true.
+         analysis%record = whole%record
+         analysis%record%is_whole = .false.
       end if
-   end subroutine fail
+   end subroutine reach
 
    !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
    !! extrapolated last increment if this one continues it, otherwise from the committed state. If they cycle, a line search along

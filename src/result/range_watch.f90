@@ -87,7 +87,7 @@ contains
             call warn(watch, '  WARNING: '//upper(first)//': ', upper(second))
             watch%poor_condition = first//': '//second
          end if
-         if (record%n_parts > 1 .and. .not. (record%is_partial .or. record%follows_path)) then
+         if (record%n_parts > 1 .and. .not. (record%is_partial .or. record%follows_path .and. record%is_whole)) then
             first = page%place//': divided into '//integer_text(record%n_parts)//' parts'
             second = 'then repeated as a whole from the state that they reached'
             if (.not. record%is_whole) &
