@@ -34,6 +34,7 @@ contains
       call note_start(analysis, first)
       allocate (known(1))
       n = 0
+      is_whole = .true.
       do
          analysis%record%is_whole = .true.
          call reach_in_parts(model, analysis, system, attempt, known)
