@@ -110,6 +110,8 @@ module tolerances
    real(wp), parameter :: on_the_graph = 1.0e-6_wp   !! of the force: a point on the law; the next iteration corrects the rest
    real(wp), parameter :: least_rho = 1.0e-3_wp      !! of the first rho: a softer straight law gains nothing
    real(wp), parameter :: stand_in_stiffness = 1.0e-7_wp !! of the elastic stiffness: of an element that has none, to hold its body
+   real(wp), parameter :: on_the_path = 1.0e-4_wp    !! of the residual of the first guess: left at a state of the path, far below PATHTOL
+   real(wp), parameter :: equal_shares = 1.0e-6_wp   !! of a limit: the rounding of a sum of areas
    real(wp), parameter :: no_contact = 1.0e-6_wp     !! of the largest pressure: an element pressed by less may as well be open
    real(wp), parameter :: least_scale = 1.0e-9_wp    !! of the largest value so far: what a difference to the law is relative to
    real(wp), parameter :: slip_at_once = 1.0e-6_wp   !! of the way: slip that begins before it begins at once; error: its square

@@ -15,7 +15,7 @@ module path_error
    use newton_trial, only: attempt_type, evaluate_at, trial_type
    use normal_stiffness, only: branch_open
    use straight_laws, only: direction_digits
-   use tolerances, only: loose_direction, no_contact
+   use tolerances, only: equal_shares, loose_direction, no_contact, on_the_path
    implicit none
    private
 
@@ -23,9 +23,7 @@ module path_error
 
    integer, parameter  :: most_corrections = 8       ! where the error decides on the division
    integer, parameter  :: some_corrections = 4       ! where it is only printed
-   real(wp), parameter :: close_enough = 1.0e-4_wp   ! of the residual of the mean of both ends: left half way
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
-   real(wp), parameter :: equal_shares = 1.0e-6_wp   ! of the limit: rounding of a sum of areas
 
    !> What an attempt changes when it is committed.
    type, public :: path_start_type
@@ -118,7 +116,7 @@ contains
 
       call exchange_states(before, analysis%states)
       call evaluate_at(model, system, load, analysis, u, trial)
-      enough = max(close_enough*trial%size, analysis%tolerance)
+      enough = max(on_the_path*trial%size, analysis%tolerance)
       last = trial
       do i = 1, merge(most_corrections, some_corrections, analysis%record%follows_path)
          if (trial%size <= enough .or. attempt%iteration == 0) exit

@@ -139,7 +139,7 @@ contains
 
       if (.not. table%has_begun()) call table%start('ERROR OF PATH, '//page%stage// &
          ': DISTANCE FROM MANY INCREMENTS, OF THE LARGEST LAMBDA, P, AND OF THE AREA', &
-         [column('INCR', 'i6'), column('PARTS', 'i7'), column(headings, 'f12.3')])
+         [column('INCR', 'i6'), column('PARTS', 'i7'), column(headings, 'f12.2')])
       associate (record => analysis%record)
          call table%put('INCR', analysis%increment)
          call table%put('PARTS', record%n_parts)
