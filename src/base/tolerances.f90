@@ -80,6 +80,7 @@ module tolerances
 
    ! ---- default and limit of TOL
    real(wp), parameter :: newton_tol = 1.0e-10_wp    !! of the largest load: unbalanced force by NEWTON, far below what is printed
+   real(wp), parameter :: path_tol = 1.0e-3_wp       !! of the largest deflection and pressure: default of PATHTOL, three digits
    real(wp), parameter :: back_tol = 1.0e-6_wp       !! of pressures: change in an iteration of BACK, which converges linearly
    real(wp), parameter :: amplitude_tol = 1.0e-4_wp  !! of frequency and loss: default of JAMPL, four digits
    real(wp), parameter :: least_tol = 1.0e-14_wp     !! the least TOL: rounding allows no less
@@ -108,6 +109,9 @@ module tolerances
    real(wp), parameter :: on_the_graph = 1.0e-6_wp   !! of the force: a point on the law; the next iteration corrects the rest
    real(wp), parameter :: least_rho = 1.0e-3_wp      !! of the first rho: a softer straight law gains nothing
    real(wp), parameter :: stand_in_stiffness = 1.0e-7_wp !! of the elastic stiffness: of an element that has none, to hold its body
+   real(wp), parameter :: on_the_path = 1.0e-4_wp    !! of the residual of the first guess: left at a state of the path, far below PATHTOL
+   real(wp), parameter :: equal_shares = 1.0e-6_wp   !! of a limit: the rounding of a sum of areas
+   real(wp), parameter :: no_contact = 1.0e-6_wp     !! of the largest pressure: an element pressed by less may as well be open
    real(wp), parameter :: least_scale = 1.0e-9_wp    !! of the largest value so far: what a difference to the law is relative to
    real(wp), parameter :: slip_at_once = 1.0e-6_wp   !! of the way: slip that begins before it begins at once; error: its square
    real(wp), parameter :: end_of_way = 1.0e-9_wp     !! of the way: a zero at its end counts as the end

@@ -2,7 +2,7 @@
 !! OUTPUT may limit the tables of a stage to sets of nodes or marked surfaces; WATCH names nodes that are followed.
 module stage_build
    use case_entries, only: limit_type, number_set, numbers_in_set
-   use control_words, only: method_back
+   use control_words, only: method_back, method_newton
    use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
@@ -25,6 +25,7 @@ contains
       type(deck_error_list), intent(inout) :: errors
       integer :: s, k
 
+      plan%measures_path = deck%control%method == method_newton
       allocate (plan%stages(size(deck%control%stages)))
       do s = 1, size(plan%stages)
          associate (stage => plan%stages(s), given => deck%control%stages(s))
@@ -33,6 +34,7 @@ contains
             stage%output = given%output
             stage%shown_words = ''
             stage%fractions = [1.0_wp]
+            stage%follows_path = plan%measures_path .and. given%increments%id == 0
             if (given%increments%id == 0) cycle
             k = findloc(deck%bulk%jincr%id, given%increments%id, dim=1)
             if (k == 0) then

@@ -11,7 +11,7 @@ module case_control
    use nastran_compatibility, only: ignored_entries_type, parameters_type, read_echo, read_habit
    use stage_entries, only: check_vibration, read_stage_entry, stage_type
    use text_tools, only: integer_text, upper
-   use tolerances, only: back_tol, least_tol, newton_tol
+   use tolerances, only: back_tol, least_tol, newton_tol, path_tol
    implicit none
    private
 
@@ -28,6 +28,7 @@ module case_control
       logical :: average = .true.                        !! BACK: average two consecutive sets of results
       integer :: solver = solver_auto
       real(wp) :: tolerance = newton_tol           !! NEWTON: unbalanced force over largest load; BACK: change of pressures
+      real(wp) :: path_tolerance = path_tol              !! NEWTON without INCR: of the largest deflection and pressure
       integer :: restart = no_restart                    !! increments of a stage between restart files
       logical :: echo  = .true.
       logical :: echo_asked = .false.                    !! by ECHO: for any number of cards
@@ -198,6 +199,9 @@ contains
          call parse_real(upper(entry%value), control%tolerance, ok)
          if (.not. ok .or. control%tolerance < least_tol .or. control%tolerance > 0.01_wp) &
             call value_error(entry, 'a real number from 1.E-14 to 0.01', errors)
+      case ('PATHTOL')
+         call parse_real(upper(entry%value), control%path_tolerance, ok)
+         if (.not. ok .or. .not. control%path_tolerance > 0.0_wp) call value_error(entry, 'a real number > 0', errors)
       case ('PRESSURE')
          call choose(entry, pressure_words, control%pressure, errors)
       case ('CARRY')

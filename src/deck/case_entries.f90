@@ -13,8 +13,8 @@ module case_entries
    public :: cut_entry, choose, read_number, value_error, read_set, numbers_in_set, read_limit
 
    !> Keys for all stages, and keys of a stage.
-   character(8), parameter, public :: global_keys(13) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
-      'CARRY', 'AVERAGE', 'SOLVER', 'ECHO', 'RESTART', 'MASS', 'MODEL']
+   character(8), parameter, public :: global_keys(14) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
+      'CARRY', 'AVERAGE', 'PATHTOL', 'SOLVER', 'ECHO', 'RESTART', 'MASS', 'MODEL']
    character(11), parameter, public :: stage_keys(16) = [character(11) :: 'SPC', 'MPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', &
       'TEMPERATURE', 'WATCH', 'MODES', 'STIFFNESS', 'AMPLITUDE', 'BACKBONE', 'FREQUENCY', 'DLOAD', 'SDAMPING', 'RESPONSE']
    character(11), parameter :: short_keys(3) = [character(11) :: 'TEMPERATURE', 'FREQUENCY', 'SDAMPING'] ! four letters suffice

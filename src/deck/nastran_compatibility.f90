@@ -168,7 +168,7 @@ contains
             call ignored%add(control_habit(entry%key))
          else
             call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is not a key of case control; expected '// &
-               'TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, MASS, RESTART, ECHO, SPC, '// &
+               'TITLE, UNITS, METHOD, TOL, PATHTOL, PRESSURE, CARRY, AVERAGE, SOLVER, MASS, RESTART, ECHO, SPC, '// &
                             'MPC, SUBCASE, LABEL, LOAD, TEMPERATURE(LOAD), INCR, OUTPUT, WATCH, MODES, STIFFNESS, AMPLITUDE, '// &
                             'FREQUENCY, DLOAD, SDAMPING, RESPONSE or BEGIN BULK')
          end if

@@ -15,7 +15,7 @@ module analysis_state
    use numbers, only: is_measure
    use terminal, only: show_line
    use text_tools, only: integer_text, real_text
-   use tolerances, only: newton_tol, rounding_of_forces
+   use tolerances, only: newton_tol, path_tol, rounding_of_forces
    implicit none
    private
 
@@ -55,6 +55,16 @@ module analysis_state
       real(wp), allocatable  :: condensed_load(:, :) !! (dimension, retained) condensed load, with moved supports [force]
    end type load_state
 
+   !> The error of path of an increment: how far its end is from the limit of many increments, see path_error.
+   type, public :: path_error_type
+      ! root mean squares over the joint where they are largest, relative to the largest value so far of all joints [-]
+      real(wp) :: deflection = 0.0_wp               !! of lambda
+      real(wp) :: pressure = 0.0_wp
+      real(wp) :: contact = 0.0_wp                  !! share of the area of a joint that is open in one of both states, and pressed
+                                                    !! by more than PATHTOL of the largest pressure in the other [-]
+      logical  :: lets_go = .false.                 !! any element is open in one of both states only
+   end type path_error_type
+
    !> The record of the last increment for output; no later result depends on it.
    type, public :: increment_record
       type(iteration_record), allocatable :: iterations(:)
@@ -65,8 +75,10 @@ module analysis_state
       integer  :: n_iterations = 0
       integer  :: n_removed = 0                       !! interface elements removed
       integer  :: n_parts   = 1                       !! NEWTON: number of parts of the increment
+      type(path_error_type) :: path_error             !! NEWTON
       logical  :: is_iterated = .false.               !! to equilibrium, by NEWTON, or by STEP where gaps close
       logical  :: is_whole  = .true.                  !! ... and the whole increment was repeated from where the parts led
+      logical  :: follows_path = .false.              !! ... or its parts follow the path and stand
       logical  :: ends_early = .false.                !! NEWTON has stopped: this is the last state in equilibrium
       logical  :: is_partial = .false.                !! ... and it lies within an increment
       logical  :: is_settled = .true.                 !! BACK: whether the last secants agree with their results
@@ -89,7 +101,8 @@ module analysis_state
       logical  :: average = .true.                  !! BACK: averages two consecutive sets of results
       real(wp) :: load_tolerance = newton_tol         !! NEWTON: share of the largest load that may be left unbalanced; BACK: of the
                                                     !! largest pressure by which the laws may differ from the secants
-      real(wp) :: tolerance = 0.0_wp                !! the same as a force, for the largest load so far
+      real(wp) :: path_tolerance = path_tol         !! NEWTON without INCR: share of the largest deflection and pressure
+      real(wp) :: tolerance = 0.0_wp                !! LOAD_TOLERANCE as a force, for the largest load so far
       logical  :: is_loose = .false.                !! interference has pushed a body away until nothing presses it
       real(wp) :: loose_force = 0.0_wp              !! then p_av a_i of its joints: a small part of it counts as zero [force]
       ! over all nodes, from the last recover_bodies
@@ -135,6 +148,7 @@ contains
       analysis%eq10 = control%pressure == pressure_eq10
       analysis%average = control%average
       analysis%load_tolerance = control%tolerance
+      analysis%path_tolerance = control%path_tolerance
       allocate (analysis%all_u(model%mesh%dimension, model%mesh%n_nodes), source=0.0_wp)
       allocate (analysis%all_unbalanced, analysis%now%load, analysis%now%moved, source=analysis%all_u)
       allocate (analysis%retained_index, source=system%retained_index)

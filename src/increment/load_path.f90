@@ -1,6 +1,6 @@
 !> The load path over stages and increments, and the recovery of displacements and forces of the bodies.
 module load_path
-   use analysis_state, only: all_held, analysis_type, load_state, subtract_joint_forces
+   use analysis_state, only: all_held, analysis_type, load_state, path_error_type, subtract_joint_forces
    use body_elements, only: add_thermal_forces, internal_forces
    use bolt_locking, only: lock_bolts
    use equations, only: condense_load, equation_system, forces_in_bodies, recover_displacements
@@ -151,6 +151,8 @@ contains
       analysis%record%slips = analysis%record%slips(:0)
       analysis%record%n_parts = 1
       analysis%record%is_whole = .true.
+      analysis%record%follows_path = .false.
+      analysis%record%path_error = path_error_type()
    end subroutine start_increment
 
    !> Set the loads and movements of an increment that ended early, with LEFT of it still to do. Where none of it was done, the

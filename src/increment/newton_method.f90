@@ -1,11 +1,12 @@
 !> METHOD = NEWTON: each increment is iterated to equilibrium with the exact branch laws. The states of the joints are committed
-!! only at equilibrium. An increment that does not converge is divided. The whole increment is then repeated from the result of
-!! its parts, so that the answer does not depend on the division.
+!! only at equilibrium. The increment of a stage without INCR is divided so that its parts follow the path; they stand. An increment
+!! of INCR is divided only where it does not converge. The whole increment is then repeated from the result of its parts, so that
+!! the answer does not depend on the division.
 module newton_method
    use analysis_state, only: all_held, analysis_type, free_norm
    use equations, only: equation_system, form_structure_stiffness
    use equation_solver, only: failure_type
-   use joint_laws, only: is_apart, stiffness_at_rest, stiffness_matrices
+   use joint_laws, only: element_state, is_apart, stiffness_at_rest, stiffness_matrices
    use kinds, only: wp
    use load_path, only: go_back
    use model_data, only: joint_node_id, model_type
@@ -13,6 +14,7 @@ module newton_method
    use newton_trial, only: attempt_type
    use node_coupling, only: forces_on_unknowns
    use normal_stiffness, only: at_rest, branch_name, branch_open
+   use path_error, only: measure_path, note_start, path_start_type
    use shear_stiffness, only: shear_state
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
@@ -21,12 +23,23 @@ module newton_method
    private
 
    public :: newton_increment, seat_joints, crosses_gaps, close_gaps
+   public :: reach ! for path_following
 
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
    integer, parameter  :: most_halvings = 12
    integer, parameter  :: most_cuts = 3           ! to the share of a load that the limits seem to bear, without one that they bear
    real(wp), parameter :: least_share = 1.0e-3_wp ! of an increment: limits of friction that bear less of it are at their end
+
+   interface
+      !> Go from equilibrium to equilibrium along the path, see path_following.
+      module subroutine follow_path(model, analysis, system, attempt)
+         type(model_type), intent(in)          :: model
+         type(analysis_type), intent(inout)    :: analysis
+         class(equation_system), intent(inout) :: system
+         type(attempt_type), intent(inout)     :: attempt !! not converged: there is no equilibrium
+      end subroutine follow_path
+   end interface
 
 contains
 
@@ -56,7 +69,7 @@ contains
             attempt%growth = fractions(i)/fractions(i - 1)
          end associate
       end if
-      call find_equilibrium(model, analysis, system, attempt, failure)
+      call find_equilibrium(model, analysis, system, attempt, failure, plan%stages(analysis%stage)%follows_path, plan%measures_path)
       if (failure%raised) then
          call go_back(plan, attempt%left_over, analysis)
          if (analysis%record%ends_early .and. .not. allocated(plan%stages(analysis%stage)%path)) &
@@ -143,7 +156,7 @@ contains
       attempt%seats = .true.
       attempt%seat_force = norm2(pack(analysis%states%normal%p_av*model%joints%element%area, model%joints%element%gap < 0.0_wp))
       attempt%where = 'interference (JGAP), before the first load'
-      call find_equilibrium(model, analysis, system, attempt, failure)
+      call find_equilibrium(model, analysis, system, attempt, failure, follows=.false., measures=.false.)
       call free_idle_joints(model, analysis)
    end subroutine press_apart
 
@@ -184,29 +197,71 @@ contains
       end associate
    end function is_idle
 
-   !> Go from equilibrium to equilibrium by ATTEMPTs: commit an attempt that converges, divide one that does not. A divided
-   !! increment is repeated as a whole, from its start and the displacements that its parts have reached: the laws depend on the
-   !! path, and rounding decides on the division. If the whole does not converge, the parts stand.
-   subroutine find_equilibrium(model, analysis, system, attempt, failure)
+   !> Go from equilibrium to equilibrium: along the path, or in one step, whose error of path is MEASURED.
+   subroutine find_equilibrium(model, analysis, system, attempt, failure, follows, measures)
       type(model_type), intent(in)         :: model
       type(analysis_type), intent(inout)   :: analysis
       class(equation_system), intent(inout) :: system
       type(attempt_type), intent(inout)    :: attempt
       type(failure_type), intent(inout)    :: failure
-      type(analysis_type), allocatable :: whole
-      real(wp), allocatable :: u_start(:, :)
-      real(wp) :: done, part
-      integer  :: before_open, n_cut
+      logical, intent(in)                  :: follows, measures
+      type(element_state), allocatable :: way(:)
+      type(path_start_type) :: start
+      real(wp), allocatable :: half(:, :), u_start(:, :)
+      integer  :: before_open
 
       allocate (u_start, source=analysis%u)
       before_open = count(analysis%states%normal%branch == branch_open)
-      done = 0.0_wp
-      part = 1.0_wp
-      n_cut = 0
       analysis%record%n_parts = 0
-      do while (done < 1.0_wp)
-         part = min(part, 1.0_wp - done)
-         call try_part(model, system, analysis, merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp), attempt)
+      if (follows) then
+         call follow_path(model, analysis, system, attempt)
+      else
+         if (measures) call note_start(analysis, start)
+         if (measures) allocate (way, source=analysis%states)
+         call reach(model, analysis, system, attempt, [0.0_wp, 1.0_wp])
+         if (measures .and. attempt%converged) &
+            call measure_path(model, system, start, 1.0_wp, analysis, attempt, way, analysis%record%path_error, half)
+      end if
+      if (attempt%converged) then
+         analysis%du = analysis%u - u_start
+         analysis%record%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
+      else if (attempt%trouble%raised) then
+         call failure%raise(attempt%trouble%message) ! a mechanism explains more than any iteration
+      else
+         call give_up(model, analysis, attempt, failure)
+      end if
+   end subroutine find_equilibrium
+
+   !> Go from equilibrium to equilibrium between ENDS of the increment by ATTEMPTs: commit an attempt that converges, divide one that
+   !! does not. What was divided is repeated as a whole, from its start and the displacements that its parts have reached: the laws
+   !! depend on the path, and rounding decides on the division. If the whole does not converge, the parts stand. The first attempt
+   !! starts from GUESS, unless this is poor.
+   subroutine reach(model, analysis, system, attempt, ends, guess)
+      type(model_type), intent(in)         :: model
+      type(analysis_type), intent(inout)   :: analysis
+      class(equation_system), intent(inout) :: system
+      type(attempt_type), intent(inout)    :: attempt
+      real(wp), intent(in)                 :: ends(2) !! done before and after [-], 0 to 1
+      real(wp), intent(in), optional       :: guess(:, :) !! (dimension, retained) displacements at the end [length]
+      type(analysis_type), allocatable :: whole
+      real(wp) :: done, left, part
+      integer  :: n_cut
+
+      if (present(guess)) then
+         call try_part(model, system, analysis, 1.0_wp - ends(2), attempt, guess)
+         if (attempt%converged) then
+            analysis%record%n_parts = analysis%record%n_parts + 1
+            return
+         end if
+      end if
+      done = ends(1)
+      part = ends(2) - ends(1)
+      n_cut = 0
+      do while (done < ends(2))
+         part = min(part, ends(2) - done)
+         left = 1.0_wp - ends(2)
+         if (done + part < ends(2)) left = 1.0_wp - done - part
+         call try_part(model, system, analysis, left, attempt)
          if (attempt%converged) then
             done = done + part
             part = 2.0_wp*part
@@ -219,28 +274,21 @@ contains
             part = part*merge(0.999_wp*attempt%bearable, 0.5_wp, attempt%runs)
          else
             attempt%left_over = 1.0_wp - done
-            if (attempt%trouble%raised) then
-               call failure%raise(attempt%trouble%message) ! a mechanism explains more than any iteration
-            else
-               call give_up(model, analysis, attempt, failure)
-            end if
             return
          end if
       end do
-      if (allocated(whole)) then
-         whole%record = analysis%record
-         whole%tolerance = analysis%tolerance
-         call try_part(model, system, whole, 0.0_wp, attempt, analysis%u)
-         if (attempt%converged) then
-            analysis = whole
-         else
-            analysis%record = whole%record
-            analysis%record%is_whole = .false.
-         end if
+      if (.not. allocated(whole)) return
+      whole%record = analysis%record
+      whole%tolerance = analysis%tolerance
+      call try_part(model, system, whole, 1.0_wp - ends(2), attempt, analysis%u)
+      if (attempt%converged) then
+         analysis = whole
+      else
+         attempt%converged = .true.
+         analysis%record = whole%record
+         analysis%record%is_whole = .false.
       end if
-      analysis%du = analysis%u - u_start
-      analysis%record%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
-   end subroutine find_equilibrium
+   end subroutine reach
 
    !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
    !! extrapolated last increment if this one continues it, otherwise from the committed state. If they cycle, a line search along

@@ -51,12 +51,14 @@ module stage_plan
       integer, allocatable :: watched(:)    !! positions of the nodes of WATCH; not allocated: none
       character(:), allocatable :: shown_words !! text of this limit, behind a title
       real(wp), allocatable :: fractions(:)    !! of the load change of the stage, one per increment, sum 1
+      logical :: follows_path = .false.        !! NEWTON divides its increment so that the parts follow the path
       character(:), allocatable :: path        !! words for its load where this is not that of the stage, as in loops
       type(vibration_plan_type), allocatable :: vibration !! after the stage; not allocated: not requested
    end type planned_stage
 
    type, public :: stage_plan_type
       type(planned_stage), allocatable :: stages(:)
+      logical :: measures_path = .false.      !! NEWTON: increments are printed with their error of path
       ! whether any stage has
       logical :: has_modes = .false.          !! natural modes
       logical :: has_backbones = .false.      !! a backbone

@@ -153,7 +153,8 @@ contains
             call file%put('  METHOD STEP   PRESSURE '//one_of(control%pressure == pressure_eq10, 'EQ10', 'SUMF')// &
                           '   CARRY '//one_of(control%carry, 'YES', 'NO')//'   SOLVER '//solver%name)
          case (method_newton)
-            call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   SOLVER '//solver%name)
+            call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   PATHTOL '// &
+                          real_text(control%path_tolerance)//'   SOLVER '//solver%name)
          case default
             call file%put('  METHOD BACK   AVERAGE '//one_of(control%average, 'YES', 'NO')//'   TOL '// &
                           real_text(control%tolerance)//'   SOLVER '//solver%name)

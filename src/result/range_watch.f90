@@ -5,7 +5,8 @@
 module range_watch
    use analysis_state, only: analysis_type, free_norm
    use branch_cubic, only: cubic_slope
-   use control_words, only: method_back
+   use control_words, only: method_back, method_newton
+   use distance_watch, only: farthest_type, record_farthest, watch_distances, watch_path
    use element_kinds, only: kind_tetra4
    use joint_laws, only: friction_excess, friction_limit
    use joint_values, only: joint_values_type
@@ -26,19 +27,11 @@ module range_watch
    implicit none
    private
 
-   public :: start_watch, watch_increment, watch_stage, print_warnings, record_watch, tetra_words, distance_words
+   public :: start_watch, watch_increment, watch_stage, print_warnings, record_watch, tetra_words
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: a smaller remainder gives no warning
-   real(wp), parameter :: far = 0.02_wp  ! of the largest deflection or stress: beyond it the answer is not that of the laws
 
    integer, parameter :: beyond_p = 1, beyond_d = 2, no_slope = 3 ! bounds of a shear law
-
-   !> The largest distance from a law in a run.
-   type, public :: farthest_type
-      real(wp) :: relative = 0.0_wp           !! of the largest deflection or stress of the joint in the increment
-      integer  :: node = 0                    !! its number
-      character(:), allocatable :: quantity, place !! in words
-   end type farthest_type
 
    type, public :: range_watch_type
       integer :: n_warnings = 0               !! total
@@ -84,6 +77,7 @@ contains
       integer :: power
 
       first = '' ! without this gfortran 12 warns of its length
+      second = ''
       associate (record => analysis%record)
          if (record%condition%is_new) then
             power = nint(log10(record%condition%number))
@@ -93,7 +87,7 @@ contains
             call warn(watch, '  WARNING: '//upper(first)//': ', upper(second))
             watch%poor_condition = first//': '//second
          end if
-         if (record%n_parts > 1 .and. .not. record%is_partial) then
+         if (record%n_parts > 1 .and. .not. (record%is_partial .or. record%follows_path .and. record%is_whole)) then
             first = page%place//': divided into '//integer_text(record%n_parts)//' parts'
             second = 'then repeated as a whole from the state that they reached'
             if (.not. record%is_whole) &
@@ -102,34 +96,17 @@ contains
             watch%divided = first//', '//second
          end if
       end associate
-      call watch_distances(page%place, model, joints, watch%farthest)
+      if (method == method_newton) then
+         call watch_path(page%place, analysis%record%path_error, watch%farthest, first)
+         if (first /= '') call warn(watch, '  WARNING: '//upper(first))
+      else
+         call watch_distances(page%place, model, joints, watch%farthest)
+      end if
       call watch_ranges(model, analysis, watch)
       if (method == method_back) return
       if (any(watch%first_of < 0)) call watch_closures(model, watch)
       call watch_unloading(page%place, model, analysis, watch)
    end subroutine watch_increment
-
-   !> Note where JOINTS are FARTHEST from their laws, at this PLACE or before.
-   subroutine watch_distances(place, model, joints, farthest)
-      character(*), intent(in)            :: place
-      type(model_type), intent(in)        :: model
-      type(joint_values_type), intent(in) :: joints(:)
-      type(farthest_type), intent(inout)  :: farthest
-      character(12), parameter :: quantities(2) = [character(12) :: 'deflection', 'shear stress']
-      integer :: j, k
-
-      do j = 1, size(joints)
-         do k = 1, 2
-            associate (distance => joints(j)%distances(k))
-               if (.not. distance%is_there .or. distance%relative <= farthest%relative) cycle
-               farthest%relative = distance%relative
-               farthest%node = joint_node_id(model, distance%element, 1)
-               farthest%quantity = trim(quantities(k))
-               farthest%place = place
-            end associate
-         end do
-      end do
-   end subroutine watch_distances
 
    !> Warn of the stage just completed: a line for each joint and bound of its shear law that elements have exceeded; the unbalanced
    !! force, and the remaining excess over the friction limits.
@@ -346,17 +323,6 @@ contains
       end do
    end subroutine watch_unloading
 
-   !> The line on the screen after a run FAR from its laws; '' otherwise.
-   pure function distance_words(farthest) result(words)
-      type(farthest_type), intent(in) :: farthest
-      character(:), allocatable :: words
-
-      words = ''
-      if (farthest%relative > far) words = 'STEP is up to '//real_text(0.1_wp*anint(1000.0_wp*farthest%relative))// &
-         ' % of the largest '//farthest%quantity//' away from its law, at node '//integer_text(farthest%node)//' in '// &
-         farthest%place//'; METHOD = NEWTON follows the laws'
-   end function distance_words
-
    !> Write the state of the warnings to a restart file, or read it.
    subroutine record_watch(stream, watch)
       type(restart_stream_type), intent(inout) :: stream
@@ -383,16 +349,5 @@ contains
       end do
       call record_farthest(stream, watch%farthest)
    end subroutine record_watch
-
-   subroutine record_farthest(stream, farthest)
-      type(restart_stream_type), intent(inout) :: stream
-      type(farthest_type), intent(inout)       :: farthest
-
-      call stream%part('farthest_type', 1)
-      call stream%item('relative', farthest%relative)
-      call stream%item('node', farthest%node)
-      call stream%text('quantity', farthest%quantity)
-      call stream%text('place', farthest%place)
-   end subroutine record_farthest
 
 end module range_watch

@@ -39,6 +39,7 @@ contains
       call note_increment(page, model, analysis, joints, tables(increment_rows))
       if (allocated(analysis%exact) .and. size(joints) > 0) &
          call note_distances(page, model, analysis, joints, tables(distance_rows))
+      if (method == method_newton .and. size(joints) > 0) call note_path(page, analysis, tables(distance_rows))
       call note_passes(page, method, analysis, tables(pass_rows))
       call note_slips(page, model, analysis, tables(slip_rows))
       call note_resultants(page, model, analysis, joints, tables(resultant_rows))
@@ -129,6 +130,24 @@ contains
          call table%keep_row()
       end do
    end subroutine note_distances
+
+   !> The error of path of NEWTON, and the parts of the increment.
+   subroutine note_path(page, analysis, table)
+      type(page_type), intent(in)     :: page
+      type(analysis_type), intent(in) :: analysis
+      type(table_type), intent(inout) :: table
+      character(9), parameter :: headings(3) = [character(9) :: 'LAMBDA %', 'P %', 'CONTACT %']
+
+      if (.not. table%has_begun()) call table%start('ERROR OF PATH, '//page%stage// &
+         ': DISTANCE FROM MANY INCREMENTS, OF THE LARGEST LAMBDA, P, AND OF THE AREA', &
+         [column('INCR', 'i6'), column('PARTS', 'i7'), column(headings, 'f12.2')])
+      associate (record => analysis%record)
+         call table%put('INCR', analysis%increment)
+         call table%put('PARTS', record%n_parts)
+         call table%put(headings, 100.0_wp*[record%path_error%deflection, record%path_error%pressure, record%path_error%contact])
+      end associate
+      call table%keep_row()
+   end subroutine note_path
 
    !> The slipping elements before and after each re-analysis, t_1 and t_1' of Fig. 5(b).
    subroutine note_slips(page, model, analysis, table)

@@ -1,7 +1,8 @@
 !> Names the components of the state of an analysis in a restart file: one routine for each type.
 !! A component of all interface elements is one item. A change of what a routine names counts the version of its part up.
 module analysis_record
-   use analysis_state, only: analysis_type, increment_record, iteration_record, load_state, slip_record, turning_point
+   use analysis_state, only: analysis_type, increment_record, iteration_record, load_state, path_error_type, slip_record, &
+                             turning_point
    use condition_estimate, only: condition_type
    use joint_laws, only: element_state
    use joint_work, only: joint_energy
@@ -24,7 +25,7 @@ contains
       type(analysis_type), intent(inout)       :: a
       integer :: n, i
 
-      call stream%part('analysis_type', 1)
+      call stream%part('analysis_type', 2)
       call stream%item('stage', a%stage)
       call stream%item('increment', a%increment)
       call stream%item('increment_fraction', a%increment_fraction)
@@ -40,6 +41,7 @@ contains
       call stream%item('eq10', a%eq10)
       call stream%item('average', a%average)
       call stream%item('load_tolerance', a%load_tolerance)
+      call stream%item('path_tolerance', a%path_tolerance)
       call stream%item('tolerance', a%tolerance)
       call stream%item('is_loose', a%is_loose)
       call stream%item('loose_force', a%loose_force)
@@ -207,15 +209,17 @@ contains
       type(increment_record), intent(inout)      :: record
       integer :: n_slips
 
-      call stream%part('increment_record', 1)
+      call stream%part('increment_record', 2)
       call stream%item('kind', record%kind)
       call stream%item('n_removed', record%n_removed)
       call stream%item('n_parts', record%n_parts)
       call stream%item('is_iterated', record%is_iterated)
       call stream%item('is_whole', record%is_whole)
+      call stream%item('follows_path', record%follows_path)
       call stream%item('ends_early', record%ends_early)
       call stream%item('is_partial', record%is_partial)
       call stream%item('is_settled', record%is_settled)
+      call record_path_error(stream, record%path_error)
       call record_condition(stream, record%condition)
       call stream%extent('n_iterations', record%n_iterations, 32)
       if (record%n_iterations > size(record%iterations)) record%iterations = spread(iteration_record(), 1, record%n_iterations)
@@ -225,6 +229,17 @@ contains
       if (n_slips /= size(record%slips)) record%slips = spread(slip_record(), 1, n_slips)
       call record_slips(stream, record%slips)
    end subroutine record_increment
+
+   subroutine record_path_error(stream, error)
+      type(restart_stream_type), intent(inout) :: stream
+      type(path_error_type), intent(inout)     :: error
+
+      call stream%part('path_error_type', 1)
+      call stream%item('deflection', error%deflection)
+      call stream%item('pressure', error%pressure)
+      call stream%item('contact', error%contact)
+      call stream%item('lets_go', error%lets_go)
+   end subroutine record_path_error
 
    subroutine record_condition(stream, condition)
       type(restart_stream_type), intent(inout) :: stream

@@ -7,6 +7,7 @@ module run_of_deck
    use command_line, only: command_type, deck_argument, is_result_of
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
+   use distance_watch, only: distance_words
    use distribution, only: leave_processes, memory_of_all
    use equation_solver, only: failure_type, solver_description
    use error_report, only: print_errors
@@ -19,7 +20,7 @@ module run_of_deck
    use openblas, only: kernel_words
    use output_file, only: output_file_type
    use page_lines, only: heading
-   use range_watch, only: distance_words, tetra_words
+   use range_watch, only: tetra_words
    use restart_stream, only: restart_stream_type
    use result_page, only: history_ending
    use result_names, only: listing_ending, restart_ending

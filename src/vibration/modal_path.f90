@@ -81,6 +81,8 @@ contains
       modal%rest%tolerance = modal%rest%tolerance*min(1.0_wp, exact_tol/modal%rest%load_tolerance) ! TOL of BACK is of pressures
       modal%rest%load_tolerance = min(exact_tol, modal%rest%load_tolerance)
       modal%plan = plan
+      modal%plan%measures_path = .false.
+      modal%plan%stages%follows_path = .false.
       modal%plan%stages(analysis%stage)%path = 'start of the loops'
       modal%phi = phi
       allocate (modal%force, inside, mold=phi)

@@ -55,7 +55,7 @@ run_input prism_history && for stage in 1 2; do
    near "prism_history: stiffness after stage $stage" "$(of prism_history stage rows "stage = $stage" print tangent_n)" \
       "$(value prism_history rows "stage = $stage + 1 and increment = 1" print 'sum(k_n)')" 1e-12
 done
-sed 's/^ *OUTPUT.*//; s/^SUBCASE.*/&\nOUTPUT = LAST, STRESS/' input/prism_newton.bdf > "$work/prism_answer.bdf"
+sed 's/^ *OUTPUT.*//; s/^SUBCASE.*/&\nOUTPUT = LAST, STRESS\nINCR = 1/; s/^BEGIN.*/&\nJINCR,1,1/' input/prism_newton.bdf > "$work/prism_answer.bdf"
 run prism_answer && {
    one_joint prism_answer 1 1 0
    of prism_answer stage print u_max print u_node print mises_centre print mises_element > "$work/said"

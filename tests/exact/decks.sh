@@ -196,11 +196,12 @@ blocks_apart() { # KIND, the name of the deck too: coarse_first, overhang, pairs
 
 # ---- beams ----
 
-# A slender beam on a joint, one half, 200 x 10 mm, the load's half at the plane of symmetry.
+# A slender beam on a joint, one half, 200 x 10 mm, the load's half at the plane of symmetry. In one increment no element is let go:
+# the joint is a nonlinear elastic foundation.
 beam_moment='sum(force*x)'
 beam() { # NAME ELEMENTS M C P REFERENCE [HEIGHT]: E I stays the same
    awk -v n="$2" -v m="$3" -v c="$4" -v p="$5" -v h="${7:-10}" 'BEGIN {
-      print "METHOD = NEWTON\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  OUTPUT = NONE\nBEGIN BULK"
+      print "METHOD = NEWTON\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 1\n  OUTPUT = NONE\nBEGIN BULK\nJINCR,1,1"
       print "BLOCK2,1,1," n ",1,0.0,0.0"
       printf "+,200.0,%.6f\n+,20,,,21\nPMARK,20\nPMARK,21\nPSHELL,1,1,20.0\nMAT1,1,%.6f,,0.0\n", h, 9500 * (10 / h)^3
       print "JOINT,1,1,20\nPJOINT,1,1"

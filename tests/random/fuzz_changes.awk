@@ -197,7 +197,7 @@ function change_entry(   k, entry, what) {
 }
 
 function add_entry_text() {
-   return chance("METHOD=STEP METHOD=NEWTON METHOD=BACK PRESSURE=EQ10 CARRY=YES SOLVER=TREE SOLVER=SKYLINE AVERAGE=NO TOL=1E-3 TOL=1E-30 TOL=0.0 " \
+   return chance("METHOD=STEP METHOD=NEWTON METHOD=BACK PRESSURE=EQ10 CARRY=YES SOLVER=TREE SOLVER=SKYLINE AVERAGE=NO PATHTOL=1E-2 PATHTOL=0.0 TOL=1E-3 TOL=1E-30 TOL=0.0 " \
                  "SPC=1 MPC=4 LOAD=10 INCR=5 OUTPUT=ALL,STRESS,STATE,CONDENSED,PLOT TEMPERATURE(LOAD)=7 SUBCASE SUBCASE=2 SUBCOM=3 ECHO=NONE " \
                  "SET RESTART=1 RESTART=0 MODES=4 LOAD=20 OUTPUT=ALL,SET MODES=1 ,5 9 TITLE= INCLUDE BEGIN SET=1 SOL=103")
 }
@@ -317,7 +317,7 @@ function change_law(   k, what) {
 
 # An entry for all stages, in the place of the one that is there
 function change_method(   entry, key, k) {
-   entry = chance("METHOD=STEP METHOD=NEWTON METHOD=BACK PRESSURE=EQ10 CARRY=YES SOLVER=TREE SOLVER=SKYLINE AVERAGE=NO TOL=1E-6")
+   entry = chance("METHOD=STEP METHOD=NEWTON METHOD=BACK PRESSURE=EQ10 CARRY=YES SOLVER=TREE SOLVER=SKYLINE AVERAGE=NO PATHTOL=1E-5 TOL=1E-6")
    key = substr(entry, 1, index(entry, "=") - 1)
    for (k = 1; k < stage; k++) if (toupper(line[k]) ~ "^ *" key " *=") line[k] = gone
    global_entry[key] = entry

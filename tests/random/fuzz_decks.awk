@@ -92,4 +92,4 @@ END {
       print copy, kind, name[source] ": " substr(what, 1, 200)
    }
 }
-BEGIN { line_end = "\n"; gone = "\001gone\001"; global_entries = split("METHOD PRESSURE CARRY SOLVER AVERAGE TOL", global_key, " ") }
+BEGIN { line_end = "\n"; gone = "\001gone\001"; global_entries = split("METHOD PRESSURE CARRY SOLVER AVERAGE PATHTOL TOL", global_key, " ") }

@@ -1,0 +1,259 @@
+!> The error of path of METHOD = NEWTON: how far the end of an increment is from the limit of many increments.
+!! An increment, or a part of it, takes every interface element from its start to its end in one movement. An element that the load
+!! presses and lets go meanwhile, or whose shear and pressure do not grow in proportion, would come to another force along the path.
+!! The path is found without a factorisation. The displacements half way follow from the mean of both ends under the mean load, by
+!! corrections with the factor of the last iteration. The exact laws are followed along the parabola through the three states up to
+!! three quarters of it, and from there to the equilibrium at its end, by corrections again. These states go on from part to part.
+module path_error
+   use analysis_state, only: analysis_type, path_error_type, turning_point
+   use equations, only: equation_system, solve_coupled_again, solve_equations
+   use interface_operator, only: joint_movement
+   use joint_laws, only: element_state, follow_element, force_of, rest_when_open
+   use joint_work, only: joint_energy
+   use kinds, only: wp
+   use model_data, only: model_type
+   use newton_trial, only: attempt_type, evaluate_at, trial_type
+   use normal_stiffness, only: branch_open
+   use straight_laws, only: direction_digits
+   use tolerances, only: equal_shares, loose_direction, no_contact, on_the_path
+   implicit none
+   private
+
+   public :: note_start, go_to_start, measure_path, is_within, error_size
+
+   integer, parameter  :: most_corrections = 8       ! where the error decides on the division
+   integer, parameter  :: some_corrections = 4       ! where it is only printed
+   real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
+
+   !> What an attempt changes when it is committed.
+   type, public :: path_start_type
+      private
+      real(wp), allocatable :: u(:, :), body(:, :), unbalanced(:, :), movement(:, :)
+      type(element_state), allocatable :: states(:)
+      type(joint_energy), allocatable  :: energy(:)
+      type(turning_point), allocatable :: turns(:, :)
+      integer, allocatable :: kind(:)
+   end type path_start_type
+
+contains
+
+   !> Note the state from which an attempt starts.
+   subroutine note_start(analysis, start)
+      type(analysis_type), intent(in)    :: analysis
+      type(path_start_type), intent(out) :: start
+
+      start%u = analysis%u
+      start%body = analysis%body
+      start%unbalanced = analysis%unbalanced
+      start%movement = analysis%movement
+      start%states = analysis%states
+      start%energy = analysis%energy
+      start%turns = analysis%turns
+      start%kind = analysis%record%kind
+   end subroutine note_start
+
+   !> Return to the state from which an attempt has started.
+   subroutine go_to_start(start, analysis)
+      type(path_start_type), intent(in)  :: start
+      type(analysis_type), intent(inout) :: analysis
+
+      analysis%u = start%u
+      analysis%body = start%body
+      analysis%unbalanced = start%unbalanced
+      analysis%movement = start%movement
+      analysis%states = start%states
+      analysis%energy = start%energy
+      analysis%turns = start%turns
+      analysis%record%kind = start%kind
+   end subroutine go_to_start
+
+   !> Follow the WAY from the start of the increment along the committed ATTEMPT at a PART of it, from START, whose displacements
+   !! HALF way are found. ERROR is that of the committed states from the end of the WAY.
+   subroutine measure_path(model, system, start, part, analysis, attempt, way, error, half)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system   !! with the factor of the last iteration
+      type(path_start_type), intent(inout)  :: start    !! returned as it was
+      real(wp), intent(in)                  :: part     !! of the increment [-]
+      type(analysis_type), intent(inout)    :: analysis !! likewise
+      type(attempt_type), intent(inout)     :: attempt
+      type(element_state), allocatable, intent(inout) :: way(:)
+      type(path_error_type), intent(out)    :: error
+      real(wp), allocatable, intent(out)    :: half(:, :) !! (dimension, retained) [length]
+      type(trial_type) :: trial
+      integer :: i
+
+      half = 0.5_wp*(start%u + analysis%u)
+      if (size(way) == 0) return
+      if (attempt%iteration > 0) then ! otherwise there may be no factor
+         call approach(model, system, attempt%load - 0.5_wp*part*analysis%change, half, start%states, analysis, attempt, trial)
+         half = trial%u
+      end if
+      call follow_way(model, system, start, half, analysis, way)
+      call approach(model, system, attempt%load, analysis%u, way, analysis, attempt, trial)
+      way = trial%states
+      do i = 1, size(way)
+         call rest_when_open(way(i), joint_movement(system%interface(i), trial%u))
+      end do
+      error = difference(model, analysis%states, way, analysis%path_tolerance)
+   end subroutine measure_path
+
+   !> The TRIAL near equilibrium under the LOAD, to which the states BEFORE lead: from the displacements U by a few corrections with
+   !! the factor of the last iteration. The factor is that of the end of the increment; what the corrections so far have changed in the
+   !! residual replaces it where it errs. Source: Anderson, J. ACM 12 (1965) 547-560, in the form of Walker, Ni, SIAM J. Numer.
+   !! Anal. 49 (2011) 1715-1735, with the factor as preconditioner.
+   subroutine approach(model, system, load, u, before, analysis, attempt, trial)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      real(wp), intent(in)                  :: load(:, :), u(:, :)
+      type(element_state), allocatable, intent(inout) :: before(:) !! returned as they were
+      type(analysis_type), intent(inout)    :: analysis            !! likewise
+      type(attempt_type), intent(inout)     :: attempt             !! likewise
+      type(trial_type), intent(out)         :: trial
+      real(wp), allocatable :: goal(:, :) ! the load of the attempt
+      type(trial_type) :: next, last
+      real(wp) :: steps(size(u, 1), size(u, 2), most_corrections), gains(size(u, 1), size(u, 2), most_corrections)
+      real(wp) :: direction(size(u, 1), size(u, 2)), left(size(u, 1), size(u, 2)), share, enough
+      integer  :: i, k
+
+      allocate (goal, source=attempt%load)
+      attempt%load = load
+      call exchange_states(before, analysis%states)
+      call evaluate_at(model, system, attempt, analysis, u, trial)
+      enough = max(on_the_path*trial%size, analysis%tolerance)
+      last = trial
+      do i = 1, merge(most_corrections, some_corrections, analysis%record%follows_path)
+         if (trial%size <= enough .or. attempt%iteration == 0) exit
+         left = merge(0.0_wp, last%residual, analysis%held)
+         steps(:, :, i) = 0.0_wp
+         do k = 1, i - 1
+            share = sum(gains(:, :, k)*left)
+            left = left - share*gains(:, :, k)
+            steps(:, :, i) = steps(:, :, i) + share*steps(:, :, k)
+         end do
+         call correction(model, system, left, attempt, direction)
+         if (attempt%trouble%raised) exit
+         steps(:, :, i) = steps(:, :, i) + direction
+         call evaluate_at(model, system, attempt, analysis, last%u + steps(:, :, i), next)
+         if (.not. next%size < huge(1.0_wp)) exit
+         gains(:, :, i) = merge(0.0_wp, last%residual - next%residual, analysis%held)
+         do k = 1, i - 1
+            share = sum(gains(:, :, k)*gains(:, :, i))
+            gains(:, :, i) = gains(:, :, i) - share*gains(:, :, k)
+            steps(:, :, i) = steps(:, :, i) - share*steps(:, :, k)
+         end do
+         share = norm2(gains(:, :, i))
+         if (.not. share > 0.0_wp) exit
+         gains(:, :, i) = gains(:, :, i)/share
+         steps(:, :, i) = steps(:, :, i)/share
+         last = next
+         if (last%size < trial%size) trial = last
+      end do
+      call exchange_states(before, analysis%states)
+      call move_alloc(goal, attempt%load)
+   end subroutine approach
+
+   subroutine exchange_states(a, b)
+      type(element_state), allocatable, intent(inout) :: a(:), b(:)
+      type(element_state), allocatable :: c(:)
+
+      call move_alloc(a, c)
+      call move_alloc(b, a)
+      call move_alloc(c, b)
+   end subroutine exchange_states
+
+   !> The DIRECTION that balances the RESIDUAL with the factor of the last iteration.
+   subroutine correction(model, system, residual, attempt, direction)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      real(wp), intent(in)                  :: residual(:, :)
+      type(attempt_type), intent(inout)     :: attempt
+      real(wp), intent(out)                 :: direction(:, :)
+
+      direction = merge(residual, 0.0_wp, attempt%coupled)
+      if (attempt%coupled) then
+         call solve_coupled_again(model, loose_direction, system, direction, attempt%trouble)
+      else
+         call solve_equations(model, system, residual, direction, attempt%trouble, digits=direction_digits)
+      end if
+   end subroutine correction
+
+   !> Follow the states ALONG the way from START over HALF up to three quarters of it.
+   subroutine follow_way(model, system, start, half, analysis, along)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(path_start_type), intent(in)  :: start
+      real(wp), intent(in)               :: half(:, :)
+      type(analysis_type), intent(in)    :: analysis
+      type(element_state), intent(inout) :: along(:)
+      real(wp), parameter :: weights(3, 3) = reshape([0.375_wp, 0.75_wp, -0.125_wp, 0.0_wp, 1.0_wp, 0.0_wp, &
+                                                      -0.125_wp, 0.75_wp, 0.375_wp], [3, 3])
+      type(element_state) :: after
+      real(wp) :: at(3, 3), movement(3), tangent(3, 3)
+      integer  :: i, k
+
+      do i = 1, size(along)
+         associate (element => model%joints%element(i))
+            at(:, 1) = start%movement(:, i)
+            at(:, 2) = joint_movement(system%interface(i), half)
+            at(:, 3) = analysis%movement(:, i)
+            do k = 1, 3
+               movement = matmul(at, weights(:, k))
+               call follow_element(model%joints%list(element%joint)%law, element%area, along(i), movement, after, tangent)
+               call rest_when_open(after, movement)
+               along(i) = after
+            end do
+         end associate
+      end do
+   end subroutine follow_way
+
+   !> The error of the STATES from those along the WAY: root mean square over each joint, the largest of all joints. Elements that
+   !! are open in both do not count.
+   pure type(path_error_type) function difference(model, states, way, tolerance) result(error)
+      type(model_type), intent(in)    :: model
+      type(element_state), intent(in) :: states(:), way(:)
+      real(wp), intent(in)            :: tolerance !! PATHTOL
+      real(wp) :: lambda, open_area, p, squares(2)
+      logical  :: is_open(2)
+      integer  :: i, j
+
+      lambda = max(maxval(way%normal%lambda_a), maxval(way%normal%lambda))
+      p = max(maxval(way%normal%p_a), maxval(way%normal%pressure))
+      if (.not. (lambda > 0.0_wp .and. p > 0.0_wp)) return
+      do j = 1, size(model%joints%list)
+         squares = 0.0_wp
+         open_area = 0.0_wp
+         do i = model%joints%list(j)%first, model%joints%list(j)%last
+            associate (area => model%joints%element(i)%area, a => states(i)%normal, b => way(i)%normal)
+               is_open = [a%branch, b%branch] == branch_open
+               if (all(is_open)) cycle
+               squares = squares + area*([a%lambda - b%lambda, a%pressure - b%pressure]/[lambda, p])**2
+               if (.not. any(is_open)) cycle
+               error%lets_go = error%lets_go .or. max(a%pressure, b%pressure) > no_contact*p
+               if (max(a%pressure, b%pressure) > tolerance*p) open_area = open_area + area
+            end associate
+         end do
+         squares = squares/model%joints%list(j)%area
+         error%deflection = max(error%deflection, sqrt(squares(1)))
+         error%pressure = max(error%pressure, sqrt(squares(2)))
+         error%contact = max(error%contact, open_area/model%joints%list(j)%area)
+      end do
+   end function difference
+
+   !> Whether the ERROR of an increment in N_PARTS is within TOLERANCE. An increment that lets an element go, of whatever pressure, is
+   !! not taken in one part.
+   pure logical function is_within(error, n_parts, tolerance)
+      type(path_error_type), intent(in) :: error
+      integer, intent(in)               :: n_parts
+      real(wp), intent(in)              :: tolerance !! PATHTOL
+
+      is_within = .not. (error%lets_go .and. n_parts == 1) .and. error_size(error) <= tolerance*(1.0_wp + equal_shares)
+   end function is_within
+
+   !> The ERROR as a number to compare with PATHTOL.
+   pure real(wp) function error_size(error) result(size)
+      type(path_error_type), intent(in) :: error
+
+      size = max(error%deflection, error%pressure, error%contact/contact_per_tol)
+   end function error_size
+
+end module path_error

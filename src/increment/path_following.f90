@@ -1,0 +1,103 @@
+!> Follows the path in the increment of a stage without INCR: NEWTON divides it into ever more equal parts until its end no longer
+!! depends on them.
+submodule(newton_method) path_following
+   use analysis_state, only: path_error_type
+   use path_error, only: error_size, go_to_start, is_within
+   implicit none
+
+   integer, parameter  :: most_parts = 64   ! of an increment
+   real(wp), parameter :: falling = 0.75_wp ! of the error of path with half as many parts: one that is larger does not fall
+
+   !> Displacements that the last division has found.
+   type :: known_type
+      real(wp), allocatable :: u(:, :)      ! (dimension, retained) at the end of a part [length]
+      real(wp), allocatable :: half(:, :)   ! likewise half way to it
+   end type known_type
+
+contains
+
+   !> Go from equilibrium to equilibrium along the path: in one ATTEMPT, and while the error of path at its end is above PATHTOL and
+   !! falls, in twice as many parts, which start from the displacements that the last division has found. The parts stand. If a finer
+   !! division does not converge, the last one stands.
+   module subroutine follow_path(model, analysis, system, attempt)
+      type(model_type), intent(in)          :: model
+      type(analysis_type), intent(inout)    :: analysis
+      class(equation_system), intent(inout) :: system
+      type(attempt_type), intent(inout)     :: attempt
+      type(known_type), allocatable :: known(:)
+      type(path_start_type) :: first, last
+      type(path_error_type) :: error
+      integer :: n
+      logical :: falls, is_whole
+
+      analysis%record%follows_path = .true.
+      call note_start(analysis, first)
+      allocate (known(1))
+      n = 0
+      is_whole = .true.
+      do
+         analysis%record%is_whole = .true.
+         call reach_in_parts(model, analysis, system, attempt, known)
+         if (.not. attempt%converged) exit
+         falls = n < 2 .or. error_size(analysis%record%path_error) < falling*error_size(error)
+         n = size(known)
+         is_whole = analysis%record%is_whole
+         error = analysis%record%path_error
+         if (is_within(error, n, analysis%path_tolerance) .or. .not. falls .or. 2*n > most_parts) exit
+         call note_start(analysis, last)
+         call go_to_start(first, analysis)
+         call halve_parts(known)
+      end do
+      if (n == 0) return
+      if (.not. attempt%converged) call go_to_start(last, analysis)
+      attempt%converged = .true.
+      analysis%record%is_whole = is_whole
+      analysis%record%path_error = error
+      analysis%record%n_parts = n
+   end subroutine follow_path
+
+   !> Reach the end of the increment in equal parts, as many as KNOWN has, with the error of path there.
+   subroutine reach_in_parts(model, analysis, system, attempt, known)
+      type(model_type), intent(in)          :: model
+      type(analysis_type), intent(inout)    :: analysis
+      class(equation_system), intent(inout) :: system
+      type(attempt_type), intent(inout)     :: attempt
+      type(known_type), intent(inout)       :: known(:) !! of the last division; becomes that of this one
+      type(element_state), allocatable :: way(:)
+      type(path_start_type) :: start
+      real(wp) :: ends(2)
+      integer  :: k, n
+
+      allocate (way, source=analysis%states)
+      n = size(known)
+      do k = 1, n
+         ends = [real(k - 1, wp), real(k, wp)]/real(n, wp)
+         analysis%record%n_parts = k - 1
+         call note_start(analysis, start)
+         if (allocated(known(k)%u)) then
+            call reach(model, analysis, system, attempt, ends, known(k)%u)
+         else
+            call reach(model, analysis, system, attempt, ends)
+         end if
+         if (.not. attempt%converged) return
+         known(k)%u = analysis%u
+         call measure_path(model, system, start, ends(2) - ends(1), analysis, attempt, way, analysis%record%path_error, &
+                           known(k)%half)
+      end do
+   end subroutine reach_in_parts
+
+   !> Halve the parts: twice as many have KNOWN displacements.
+   pure subroutine halve_parts(known)
+      type(known_type), allocatable, intent(inout) :: known(:)
+      type(known_type), allocatable :: halves(:)
+      integer :: k
+
+      allocate (halves(2*size(known)))
+      do k = 1, size(known)
+         call move_alloc(known(k)%half, halves(2*k - 1)%u)
+         call move_alloc(known(k)%u, halves(2*k)%u)
+      end do
+      call move_alloc(halves, known)
+   end subroutine halve_parts
+
+end submodule path_following

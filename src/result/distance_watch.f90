@@ -1,0 +1,108 @@
+!> How far a run is from what it should follow: STEP from its laws, NEWTON from the path of many increments. The largest distance is
+!! told on the screen; that of NEWTON is warned of in the listing too.
+module distance_watch
+   use analysis_state, only: path_error_type
+   use joint_values, only: joint_values_type
+   use kinds, only: wp
+   use model_data, only: joint_node_id, model_type
+   use restart_stream, only: restart_stream_type
+   use text_tools, only: integer_text, real_text
+   implicit none
+   private
+
+   public :: watch_distances, watch_path, distance_words, record_farthest
+
+   real(wp), parameter :: far = 0.02_wp      ! of the largest deflection or stress: beyond it the answer is not that of the laws
+   real(wp), parameter :: off_path = 0.01_wp ! of the largest deflection or pressure, of the area of a joint: likewise of the path
+
+   !> The largest distance from a law, or from the path, in a run.
+   type, public :: farthest_type
+      real(wp) :: relative = 0.0_wp           !! of the largest deflection or stress of the joint in the increment
+      integer  :: node = 0                    !! its number; 0: of the path
+      character(:), allocatable :: quantity, place !! in words
+   end type farthest_type
+
+contains
+
+   !> Note where JOINTS are FARTHEST from their laws, at this PLACE or before.
+   subroutine watch_distances(place, model, joints, farthest)
+      character(*), intent(in)            :: place
+      type(model_type), intent(in)        :: model
+      type(joint_values_type), intent(in) :: joints(:)
+      type(farthest_type), intent(inout)  :: farthest
+      character(12), parameter :: quantities(2) = [character(12) :: 'deflection', 'shear stress']
+      integer :: j, k
+
+      do j = 1, size(joints)
+         do k = 1, 2
+            associate (distance => joints(j)%distances(k))
+               if (.not. distance%is_there .or. distance%relative <= farthest%relative) cycle
+               farthest%relative = distance%relative
+               farthest%node = joint_node_id(model, distance%element, 1)
+               farthest%quantity = trim(quantities(k))
+               farthest%place = place
+            end associate
+         end do
+      end do
+   end subroutine watch_distances
+
+   !> Note where the ERROR of path is largest, at this PLACE or before. WORDS for a warning where it is above the limit and above
+   !! what was warned of before; '' otherwise.
+   subroutine watch_path(place, error, farthest, words)
+      character(*), intent(in)               :: place
+      type(path_error_type), intent(in)      :: error
+      type(farthest_type), intent(inout)     :: farthest
+      character(:), allocatable, intent(out) :: words
+      character(23), parameter :: quantities(3) = [character(23) :: 'of the largest lambda', 'of the largest pressure', &
+                                                   'of the area in contact']
+      real(wp) :: shares(3)
+      integer  :: k
+
+      words = ''
+      shares = [error%deflection, error%pressure, error%contact]
+      k = maxloc(shares, dim=1)
+      if (shares(k) <= farthest%relative) return
+      farthest%relative = shares(k)
+      farthest%quantity = trim(quantities(k))
+      farthest%place = place
+      if (shares(k) > off_path) words = place//': error of path '//percent(shares(k))//' '//farthest%quantity// &
+         ': see the table of the errors of path'
+   end subroutine watch_path
+
+   !> The line on the screen after a run FARTHEST from its laws or from the path; '' where this is not far.
+   pure function distance_words(farthest) result(words)
+      type(farthest_type), intent(in) :: farthest
+      character(:), allocatable :: words
+
+      words = ''
+      if (farthest%node > 0) then
+         if (farthest%relative > far) words = 'STEP is up to '//percent(farthest%relative)//' of the largest '// &
+            farthest%quantity//' away from its law, at node '//integer_text(farthest%node)//' in '//farthest%place// &
+            '; METHOD = NEWTON follows the laws'
+      else if (farthest%relative > off_path) then
+         words = 'NEWTON is up to '//percent(farthest%relative)//' '//farthest%quantity// &
+                 ' away from the path of many increments, in '//farthest%place//'; without INCR it follows the path'
+      end if
+   end function distance_words
+
+   !> SHARE in per cent, with one decimal.
+   pure function percent(share) result(words)
+      real(wp), intent(in)      :: share
+      character(:), allocatable :: words
+
+      words = real_text(0.1_wp*anint(1000.0_wp*share))//' %'
+   end function percent
+
+   !> Write the FARTHEST distance to a restart file, or read it.
+   subroutine record_farthest(stream, farthest)
+      type(restart_stream_type), intent(inout) :: stream
+      type(farthest_type), intent(inout)       :: farthest
+
+      call stream%part('farthest_type', 1)
+      call stream%item('relative', farthest%relative)
+      call stream%item('node', farthest%node)
+      call stream%text('quantity', farthest%quantity)
+      call stream%text('place', farthest%place)
+   end subroutine record_farthest
+
+end module distance_watch
