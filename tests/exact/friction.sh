@@ -47,6 +47,11 @@ for method in NEWTON STEP; do
       done
    done
 done
+# What no limit bears: the missing force is that of statics, and it is found in few iterations.
+for push in 20.2 30.0 60.0; do
+   small_block missing-$push NEWTON 5 100.0 $push 3 && near "5 elements pushed by $push of 20: missing" \
+      "$(sed -n 's/.*: \([0-9.E+-]*\) of force are missing.*/\1/p' "$work/missing-$push.log")" "$push - 20" 1e-2
+done
 for elements in 1 2 5; do
    small_block pulled-$elements NEWTON $elements -1.0 0.0 3 && says "$elements elements pulled off, NEWTON: names a node" "$work/pulled-$elements.log" 'node [0-9]'
    small_block sticks NEWTON $elements 100.0 19.8 0 &&
