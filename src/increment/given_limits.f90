@@ -13,7 +13,7 @@ module given_limits
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate, trial_type
    use normal_stiffness, only: branch_load
-   use tolerances, only: pressure_floor
+   use tolerances, only: pressure_floor, same_work
    implicit none
    private
 
@@ -24,7 +24,6 @@ module given_limits
    real(wp), parameter :: converges = 0.1_wp   ! of the residual: an iteration of the exact laws that leaves more does not converge
    real(wp), parameter :: close = 0.2_wp       ! of the work of the first unbalanced forces: what a line search may leave
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
-   real(wp), parameter :: close_to_flat = 1.0e-3_wp ! of the work: what falls less in a trial does not fall
    integer, parameter  :: most_flat = 4        ! such trials, one behind the other
    integer, parameter  :: most_trials = 20     ! of a line search
    integer, parameter  :: patience = 25        ! iterations in which a problem is solved
@@ -129,7 +128,7 @@ contains
          if (next%size <= 0.5_wp*now%size .or. abs(work) <= close*abs(first)) return
          if (.not. first > 0.0_wp) exit
          if (work > 0.0_wp) then
-            flat = merge(flat + 1, 0, work > (1.0_wp - close_to_flat)*low(2))
+            flat = merge(flat + 1, 0, work > (1.0_wp - same_work)*low(2))
             low = [attempt%step, work]
             if (flat == most_flat .and. high(1) < 0.0_wp) exit
          else

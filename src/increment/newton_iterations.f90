@@ -1,5 +1,6 @@
 !> The iterations of METHOD = NEWTON from a committed state, or from a guess, to equilibrium. An iteration takes full steps under
-!! the tangents of straight_laws: the first one with new tangents, then corrections with these tangents while they pay.
+!! the tangents of straight_laws: the first one with new tangents, then corrections with these tangents while they pay. Under given
+!! limits of friction a line search follows the direction of an iteration.
 module newton_iterations
    use analysis_state, only: analysis_type, force_noise, free_norm, iteration_record, record_iteration
    use equations, only: equation_system, forces_in_bodies, solve_coupled_again, solve_equations
@@ -111,7 +112,8 @@ contains
       call commit(model, system, now, analysis)
    end subroutine iterate
 
-   !> Go from NOW along DIRECTION to NEXT: by a line search, or by a full step. The step that moves the supports is a full one; from
+   !> Go from NOW along DIRECTION to NEXT: to the least energy under given limits of friction, by a line search where the caller
+   !! SEARCHES, or by a full step. The step that moves the supports is a full one; from
    !! there on the support forces are the reference load.
    subroutine advance(model, system, analysis, attempt, now, direction, searches, next)
       type(model_type), intent(in)       :: model

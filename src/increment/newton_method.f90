@@ -18,6 +18,7 @@ module newton_method
    use shear_stiffness, only: shear_state
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
+   use tolerances, only: least_share
    use unknowns, only: unknown_name
    implicit none
    private
@@ -29,7 +30,6 @@ module newton_method
       'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
    integer, parameter  :: most_halvings = 12
    integer, parameter  :: most_cuts = 3           ! to the share of a load that the limits seem to bear, without one that they bear
-   real(wp), parameter :: least_share = 1.0e-3_wp ! of an increment: limits of friction that bear less of it are at their end
 
    interface
       !> Go from equilibrium to equilibrium along the path, see path_following.
@@ -291,8 +291,8 @@ contains
    end subroutine reach
 
    !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
-   !! extrapolated last increment if this one continues it, otherwise from the committed state. If they cycle, a line search along
-   !! the tangents follows. If a joint has slipped entirely, the attempt is repeated with the joints held.
+   !! extrapolated last increment if this one continues it, otherwise from the committed state. If they do not lead quickly to
+   !! equilibrium, the attempt is repeated with given limits of friction.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system

@@ -12,10 +12,10 @@
 module straight_laws
    use analysis_state, only: analysis_type
    use equations, only: equation_system, form_structure_stiffness, solve_coupled, solve_equations
-   use interface_operator, only: add_force, joint_movement, nodes_of_end
+   use held_parts, only: find_held_parts, is_needed
+   use interface_operator, only: add_force, joint_movement
    use joint_laws, only: element_state, follow_element, force_of, friction_limit, is_apart, joint_law, stiffness_at_rest
    use kinds, only: wp
-   use mesh_queries, only: n_points
    use model_data, only: model_type
    use newton_trial, only: attempt_type, trial_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_law, normal_tangent
@@ -32,7 +32,6 @@ module straight_laws
    real(wp), parameter :: right = 0.1_wp    !! of it: error up to which a straight law has crossed no kink
    real(wp), parameter :: farthest = 1.0e30_wp  !! point of rest from the movement: powers of it are finite [length]
    real(wp), parameter :: most  = 3.0_wp    !! times the residual: limit of the force of a movement
-   real(wp), parameter :: along = 0.5_wp  !! cosine of a normal and an axis from which on it holds along the axis
    real(wp), parameter :: far = 1.0e3_wp    !! times the last direction: the body is not held
    integer, parameter, public :: direction_digits = 6 !! the next iteration corrects the direction
 
@@ -82,16 +81,15 @@ contains
       integer :: d, i
       logical :: is_first, closes, unloads, rests(model%mesh%dimension, model%freedoms%n_parts + 1)
 
-      rests = held_parts(model, now%states)
+      rests = find_held_parts(model, now%states)
       do i = 1, size(model%joints%element)
          associate (element => model%joints%element(i), joint => model%joints%list(model%joints%element(i)%joint), &
                     state => now%states(i)%normal, tangent => laws(i)%tangent, k => laws(i)%elastic)
             is_first = abs(state%lambda_a) <= 0.0_wp .and. abs(element%gap) <= 0.0_wp
             closes = is_apart(now%states(i))
-            if (closes) closes = all(now%states(joint%first:joint%last)%normal%pressure <= &
-                                     pressure_floor*now%states(joint%first:joint%last)%normal%p_av) .and. &
-                                 any(is_along(model, i) .and. .not. (rests(:, part_at(model, i, 1)) .and. &
-                                                                      rests(:, part_at(model, i, 2))))
+            if (closes) closes = is_needed(model, rests, i) .and. &
+                                 all(now%states(joint%first:joint%last)%normal%pressure <= &
+                                     pressure_floor*now%states(joint%first:joint%last)%normal%p_av)
             unloads = elastic .and. state%branch /= branch_open
             if (is_first .or. closes) then
                tangent(3, 3) = k(3)
@@ -108,48 +106,6 @@ contains
          end associate
       end do
    end subroutine first_laws
-
-   !> Along which axes a part is held by supports or pressed by interface elements; the rigid base is behind the last part.
-   pure function held_parts(model, states) result(rests)
-      type(model_type), intent(in)    :: model
-      type(element_state), intent(in) :: states(:)
-      logical :: rests(model%mesh%dimension, model%freedoms%n_parts + 1)
-      integer :: end, i, node
-
-      rests = .false.
-      rests(:, size(rests, 2)) = .true.
-      do node = 1, n_points(model%mesh)
-         associate (part => model%freedoms%part(node))
-            rests(:, part) = rests(:, part) .or. model%freedoms%held(:, node)
-         end associate
-      end do
-      do i = 1, size(states)
-         if (states(i)%normal%pressure <= pressure_floor*states(i)%normal%p_av) cycle
-         do end = 1, 2
-            rests(:, part_at(model, i, end)) = rests(:, part_at(model, i, end)) .or. is_along(model, i)
-         end do
-      end do
-   end function held_parts
-
-   !> Which axes the normal of interface element I is near to.
-   pure function is_along(model, i)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: i
-      logical :: is_along(model%mesh%dimension)
-
-      is_along = abs(model%joints%element(i)%axes(:model%mesh%dimension, 3)) > along
-   end function is_along
-
-   !> The part of the first node of END 1 or 2 of interface element I, or the rigid base.
-   pure integer function part_at(model, i, end) result(part)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: i, end
-
-      part = model%freedoms%n_parts + 1
-      associate (nodes => nodes_of_end(model%joints%element(i), end))
-         if (size(nodes) > 0) part = model%freedoms%part(nodes(1))
-      end associate
-   end function part_at
 
    !> The straight laws for the next iteration, from the result NOW of the last ones with the residual UNBALANCED [force].
    !! Iterations that cycle get another rho.
@@ -250,8 +206,8 @@ contains
    !! This part is shifted where an eigenvalue is negative (a slipping element has one where its two shear laws differ), and has a
    !! small stiffness where an element has none. solve_coupled adds the remaining part.
    !! A joint that slips at all nodes first has its elastic stiffness, as if no element slipped: this finds nodes that turn back,
-   !! which no tangent shows. When no node turns back any more, the tangent is used, which gives quadratic convergence, unless
-   !! nothing else holds the body in its direction of movement.
+   !! which no tangent shows. When no node turns back any more, the tangent is used, which gives quadratic convergence. Under given
+   !! limits of friction no joint is held.
    subroutine find_direction(model, residual, analysis, system, attempt, laws, direction)
       type(model_type), intent(in)          :: model
       real(wp), intent(in)                  :: residual(:, :)
