@@ -20,10 +20,11 @@ program write_matrix
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use element_kinds, only: max_dofs
+   use element_unknowns, only: nodes_of_unknowns
    use joint_laws, only: stiffness_at_rest
    use kinds, only: wp
    use model_build, only: build_model
-   use model_data, only: corners_of, model_type, n_bars, n_sections
+   use model_data, only: model_type, n_bars, n_sections
    use skyline_solver, only: skyline_solver_type
    use stage_plan, only: stage_plan_type
    implicit none
@@ -110,7 +111,7 @@ contains
       allocate (k(max_dofs, max_dofs), source=0.0_wp)
       do e = 1, model%mesh%n_elements
          if (present(rows)) call coupled_stiffness(model, e, k)
-         call visit(equations_of(corners_of(model%mesh, e)), k, place, rows, values)
+         call visit(equations_of(nodes_of_unknowns(model%freedoms, e)), k, place, rows, values)
       end do
       do i = 1, size(model%joints%element)
          associate (element => model%joints%element(i))
