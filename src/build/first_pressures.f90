@@ -16,7 +16,7 @@ module first_pressures
 
    public :: find_first_pressures
 
-   real(wp), parameter :: far_decades = 2.0_wp ! between P0 and the pressure of statics
+   real(wp), parameter :: far_above = 0.01_wp ! of P0: a pressure of statics below it
    real(wp), parameter :: same_way = 0.5_wp ! cosine of the normals of two joints that share the load of a body
 
 contains
@@ -63,9 +63,9 @@ contains
             if (joint%determinate) resultant = first_share*carried_resultant(mesh, freedoms, joint, loads)
             if (joint%p0 > 0.0_wp) then
                joint%p_av = joint%p0
-               if (guess_will_do) then ! P0 is a first guess: one far from that of statics is not taken
+               if (guess_will_do) then ! P0 is a first guess: one far above the pressure of statics is not taken
                   first = resting_pressure(mesh, joints, freedoms, loads, on_side, j)
-                  if (first > 0.0_wp .and. abs(log10(first/joint%p0)) > far_decades) joint%p_av = first
+                  if (first > 0.0_wp .and. first < far_above*joint%p0) joint%p_av = first
                end if
             else if (guess_will_do .and. (.not. joint%determinate .or. resultant <= zero_resultant*first_share*total)) then
                joint%p_av = resting_pressure(mesh, joints, freedoms, loads, on_side, j)

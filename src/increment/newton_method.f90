@@ -347,6 +347,7 @@ contains
          end associate
       else if (attempt%imprecise) then
          words = words//': '//no_balance
+         if (all(attempt%worst > 0)) words = words//', most at '//unknown_name(model, attempt%worst(1), attempt%worst(2))
       else if (analysis%record%n_iterations > 0) then
          words = words//', '//real_text(analysis%record%iterations(analysis%record%n_iterations)%after)// &
                  ' of force remain unbalanced'
