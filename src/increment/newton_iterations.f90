@@ -100,7 +100,6 @@ contains
       ! for the message about an attempt that fails
       attempt%imprecise = attempt%noise > most_rounding_of_forces*attempt%load_size .and. .not. attempt%carried
       attempt%loose = loose_joint(model, now%states)
-      attempt%slides = attempt%loose > 0 .and. any(now%states%slips)
       attempt%worst = 0
       at = first_largest(pack(abs(now%residual), .true.), pack(.not. analysis%held, .true.))
       if (at > 0) attempt%worst = [system%retained((at - 1)/model%mesh%dimension + 1), modulo(at - 1, model%mesh%dimension) + 1]
@@ -278,8 +277,8 @@ contains
                                          progress*minval(sizes(n - 2*patience + 1:n - patience))
    end function leads_nowhere
 
-   !> Whether the last iterations with residuals SIZES have left more than WORTH_WHILE of the least before them, or, where a joint
-   !! is loose, three of them.
+   !> Whether the last QUICK iterations with residuals SIZES have left more than WORTH_WHILE of the one before them, or, where a joint is
+   !! loose, the last three.
    pure logical function is_slow(sizes, is_loose)
       real(wp), intent(in) :: sizes(:) !! [force]
       logical, intent(in)  :: is_loose

@@ -14,7 +14,7 @@ module newton_trial
    implicit none
    private
 
-   public :: evaluate, evaluate_at, swap, search, commit
+   public :: evaluate, evaluate_at, follow_law, given_law, swap, search, commit
 
    real(wp), parameter :: longest = 10.0_wp           ! line search: largest extension of a step at once
    real(wp), parameter :: enough = 0.8_wp             ! line search: a step with more of the unbalanced work left is searched
@@ -65,7 +65,6 @@ module newton_trial
       type(failure_type) :: trouble               !! a matrix that could not be factorised
       real(wp) :: left_over = 1.0_wp              !! fraction of the increment left where no part of it was possible [-]
       integer  :: loose = 0                       !! a joint that is open or slips entirely at the end, 0: none
-      logical  :: slides = .false.                !! ... and the friction limit is reached somewhere
       integer  :: worst(2) = 0                    !! node and direction of the largest residual at the end
       logical  :: imprecise = .false.             !! rounding in the bodies is not small compared with the load
    end type attempt_type
@@ -99,26 +98,45 @@ contains
       type(attempt_type), intent(in)     :: attempt
       type(analysis_type), intent(in)    :: analysis
       type(trial_type), intent(inout)    :: trial
-      type(joint_law) :: law
       integer :: i
 
       do i = 1, size(system%interface)
          associate (element => system%interface(i), state => trial%states(i), tangent => trial%tangent(:, :, i))
-            if (allocated(attempt%seen)) then
-               law = model%joints%list(element%joint)%law
-               law%has_friction = law%has_friction .and. .not. attempt%sticks
-               call follow_element(law, element%area, analysis%states(i), joint_movement(element, trial%u), state, tangent, &
-                                   attempt%seen(i))
-            else
-               call follow_element(model%joints%list(element%joint)%law, element%area, analysis%states(i), &
-                                   joint_movement(element, trial%u), state, tangent)
-            end if
+            call follow_law(model%joints%list(element%joint)%law, element%area, attempt, i, analysis%states(i), &
+                            joint_movement(element, trial%u), state, tangent)
          end associate
       end do
       trial%residual = attempt%load - trial%body
       call subtract_joint_forces(system%interface, trial%states, trial%residual)
       trial%size = free_norm(trial%residual, analysis%held)
    end subroutine evaluate
+
+   !> The STATE of interface element I at MOVEMENT, from BEFORE, and its TANGENT: under the exact LAW, or under what ATTEMPT gives.
+   pure subroutine follow_law(law, area, attempt, i, before, movement, state, tangent)
+      type(joint_law), intent(in)      :: law
+      real(wp), intent(in)             :: area
+      type(attempt_type), intent(in)   :: attempt
+      integer, intent(in)              :: i
+      type(element_state), intent(in)  :: before
+      real(wp), intent(in)             :: movement(3)   !! [length]
+      type(element_state), intent(out) :: state
+      real(wp), intent(out)            :: tangent(3, 3) !! [force/length]
+
+      if (.not. allocated(attempt%seen)) then
+         call follow_element(law, area, before, movement, state, tangent)
+      else
+         call follow_element(given_law(law, attempt), area, before, movement, state, tangent, attempt%seen(i))
+      end if
+   end subroutine follow_law
+
+   !> LAW as ATTEMPT gives it: without a limit of friction where nothing slips.
+   pure type(joint_law) function given_law(law, attempt)
+      type(joint_law), intent(in)    :: law
+      type(attempt_type), intent(in) :: attempt
+
+      given_law = law
+      given_law%has_friction = law%has_friction .and. .not. attempt%sticks
+   end function given_law
 
    !> Put TRIAL at the displacements U.
    subroutine evaluate_at(model, system, attempt, analysis, u, trial)

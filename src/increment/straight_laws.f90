@@ -14,10 +14,10 @@ module straight_laws
    use equations, only: equation_system, form_structure_stiffness, solve_coupled, solve_equations
    use held_parts, only: find_held_parts, is_needed
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: element_state, follow_element, force_of, friction_limit, is_apart, joint_law, stiffness_at_rest
+   use joint_laws, only: element_state, force_of, friction_limit, is_apart, joint_law, stiffness_at_rest
    use kinds, only: wp
    use model_data, only: model_type
-   use newton_trial, only: attempt_type, trial_type
+   use newton_trial, only: attempt_type, follow_law, given_law, trial_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_law, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, follow_normal, normal_state
    use shear_path, only: follow_shear
@@ -117,7 +117,6 @@ contains
       real(wp), intent(in)               :: unbalanced
       type(attempt_type), intent(inout)  :: attempt
       type(straight_law), intent(inout)  :: laws(:)
-      type(joint_law) :: law
       real(wp) :: force(3), movement(3), rho(3), shift(3), softer, true_force(3)
       integer  :: i
       logical  :: slipped
@@ -131,9 +130,8 @@ contains
       softer = 1.0_wp
       if (attempt%n_slow > 0) softer = merge(10.0_wp, 0.1_wp, modulo(attempt%n_slow, 2) == 1)
       do i = 1, size(laws)
-         law = model%joints%list(model%joints%element(i)%joint)%law
-         if (allocated(attempt%seen)) law%has_friction = law%has_friction .and. .not. attempt%sticks
-         associate (straight => laws(i), area => model%joints%element(i)%area)
+         associate (straight => laws(i), area => model%joints%element(i)%area, &
+            law => model%joints%list(model%joints%element(i)%joint)%law)
             movement = joint_movement(system%interface(i), now%u)
             force = straight%force + matmul(straight%tangent, movement - straight%point)
             true_force = force_of(area, now%states(i))
@@ -142,7 +140,8 @@ contains
                rho = straight%rho*softer*straight%elastic
                rho = max(min(rho, most*unbalanced/max(abs(movement - straight%point), tiny(1.0_wp))), tiny(1.0_wp))
                if (allocated(attempt%seen)) then
-                  shift = point_of_rest(law, area, analysis%states(i), movement, force, rho, attempt%seen(i)) - movement
+                  shift = point_of_rest(given_law(law, attempt), area, analysis%states(i), movement, force, rho, &
+                                        attempt%seen(i)) - movement
                else
                   shift = point_of_rest(law, area, analysis%states(i), movement, force, rho) - movement
                end if
@@ -152,11 +151,7 @@ contains
                movement = movement + shift
             end if
             slipped = straight%state%slips
-            if (allocated(attempt%seen)) then
-               call follow_element(law, area, analysis%states(i), movement, straight%state, straight%tangent, attempt%seen(i))
-            else
-               call follow_element(law, area, analysis%states(i), movement, straight%state, straight%tangent)
-            end if
+            call follow_law(law, area, attempt, i, analysis%states(i), movement, straight%state, straight%tangent)
             straight%point = movement
             straight%shift = shift
             straight%force = force_of(area, straight%state)
