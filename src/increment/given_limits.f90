@@ -7,7 +7,7 @@
 !! Where the limits are those of the trial itself, its equilibrium is that of the exact laws: the answer is the same.
 !! Source: P. D. Panagiotopoulos, Ing.-Arch. 44 (1975) 421-432; N. Kikuchi, J. T. Oden, Contact Problems in Elasticity, SIAM 1988.
 module given_limits
-   use analysis_state, only: analysis_type
+   use analysis_state, only: analysis_type, subtract_joint_forces
    use equations, only: equation_system, forces_in_bodies
    use kinds, only: wp
    use model_data, only: model_type
@@ -19,34 +19,46 @@ module given_limits
 
    public :: give_first_limits, renew_limits, take_exact_laws, falls_back, is_exact, minimise, moves_on
 
-   real(wp), parameter :: solved = 1.0e-2_wp   ! of the residual with the first trial under given limits: time for new limits
+   real(wp), parameter :: solved = 1.0e-1_wp   ! of the residual with the first trial under given limits: time for new limits
    real(wp), parameter :: below_tol = 0.1_wp   ! of the tolerance: likewise
    real(wp), parameter :: converges = 0.1_wp   ! of the residual: an iteration of the exact laws that leaves more does not converge
    real(wp), parameter :: close = 0.2_wp       ! of the work of the first unbalanced forces: what a line search may leave
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
+   real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave
    integer, parameter  :: most_flat = 4        ! such trials, one behind the other
    integer, parameter  :: most_trials = 20     ! of a line search
-   integer, parameter  :: patience = 25        ! iterations in which a problem is solved
+   integer, parameter  :: patience = 40        ! iterations in which a problem is solved
    integer, parameter  :: settled = 2          ! limits after which the exact laws try to finish
 
 contains
 
-   !> The normal states that the laws along x and y see first: those of the start, under which nothing slips. An element that has never
-   !! been pressed has the pressure of Eq. (9).
-   subroutine give_first_limits(analysis, attempt)
-      type(analysis_type), intent(in)   :: analysis
-      type(attempt_type), intent(inout) :: attempt
+   !> The normal states that the laws along x and y see first: those of the first trial NOW where it is the best one of straight laws,
+   !! otherwise those of the start, under which nothing slips. An element that has never been pressed then has the pressure of Eq. (9).
+   subroutine give_first_limits(model, system, analysis, attempt, now)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(attempt_type), intent(inout)  :: attempt
+      type(trial_type), intent(inout)    :: now
 
+      attempt%n_limits = 0
+      attempt%runs = .false.
+      attempt%bearable = 1.0_wp
+      attempt%asked = attempt%load - analysis%body
+      call subtract_joint_forces(system%interface, analysis%states, attempt%asked)
+      if (attempt%from_best) then
+         call give_limits(model, system, analysis, attempt, now)
+         return
+      end if
       attempt%seen = analysis%states%normal
       where (attempt%seen%branch == branch_load .and. attempt%seen%pressure <= pressure_floor*attempt%seen%p_av) &
          attempt%seen%pressure = attempt%seen%p_av
       attempt%sticks = .true.
-      attempt%n_limits = 0
       attempt%sees_own = .false.
       attempt%to_solve = 0.0_wp
-      attempt%runs = .false.
-      attempt%bearable = 1.0_wp
       attempt%since = 0
+      attempt%released = 0.0_wp
+      call evaluate(model, system, attempt, analysis, now)
    end subroutine give_first_limits
 
    !> Take the limits of the trial NOW where it is almost in equilibrium under the present ones; after some of them, the exact laws.
@@ -83,6 +95,7 @@ contains
       call evaluate(model, system, attempt, analysis, now)
       attempt%to_solve = now%size
       attempt%since = attempt%iteration
+      attempt%released = 0.0_wp
    end subroutine give_limits
 
    !> Let the laws see the trial NOW itself.
@@ -98,8 +111,10 @@ contains
    end subroutine take_exact_laws
 
    !> The step along DIRECTION from NOW to NEXT at which the energy under the given limits is (almost) least: where the work of the
-   !! unbalanced forces on DIRECTION, which falls all the way, has fallen to CLOSE of the first. Where it has not after many
-   !! extensions, the body moves without end.
+   !! unbalanced forces on DIRECTION, which falls all the way, has fallen to CLOSE of the first. A full step that goes beyond is taken
+   !! too where the energy rises by no more than the last step has released: least energies along kinks follow each other closely.
+   !! Where the work has not fallen after many extensions, the body moves without end.
+   !! Source: Grippo, Lampariello, Lucidi, SIAM J. Numer. Anal. 23 (1986) 707-716, with a memory of one step.
    subroutine minimise(model, system, analysis, attempt, now, direction, next)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -108,8 +123,9 @@ contains
       type(trial_type), intent(in)       :: now
       real(wp), intent(in)               :: direction(:, :) !! (dimension, retained) [length]
       type(trial_type), intent(inout)    :: next
+      type(trial_type), allocatable :: there
       real(wp), allocatable :: body(:, :)
-      real(wp) :: first, work, low(2), high(2) ! steps and the works there
+      real(wp) :: first, released, work, low(2), high(2) ! steps and the works there
       integer  :: flat, i
 
       flat = 0
@@ -125,7 +141,12 @@ contains
          call evaluate(model, system, attempt, analysis, next)
          work = -huge(1.0_wp)**0.25_wp
          if (next%size < huge(1.0_wp)) work = sum(next%residual*direction, mask=.not. analysis%held)
-         if (next%size <= 0.5_wp*now%size .or. abs(work) <= close*abs(first)) return
+         released = released_energy(work)
+         if (next%size <= 0.5_wp*now%size .or. abs(work) <= close*abs(first) .or. &
+             (i == 1 .and. first > 0.0_wp .and. work <= enough*first .and. released >= -attempt%released)) then
+            attempt%released = max(0.0_wp, released)
+            return
+         end if
          if (.not. first > 0.0_wp) exit
          if (work > 0.0_wp) then
             flat = merge(flat + 1, 0, work > (1.0_wp - same_work)*low(2))
@@ -145,6 +166,7 @@ contains
             end associate
          end if
       end do
+      attempt%released = 0.0_wp
       if (first > 0.0_wp) then
          if (high(1) < 0.0_wp) call note_missing(low(2))
          return
@@ -153,6 +175,23 @@ contains
       attempt%step = 0.0_wp
 
    contains
+
+      !> The energy released from NOW to NEXT, by the trapezoidal rule on the WORK of the unbalanced forces there and between.
+      real(wp) function released_energy(work) result(released)
+         real(wp), intent(in) :: work
+         integer, parameter :: n = 4
+         integer  :: k
+
+         if (.not. allocated(there)) allocate (there, source=now)
+         released = 0.5_wp*(first + work)
+         do k = 1, n - 1
+            there%u = now%u + (k*attempt%step/n)*direction
+            there%body = now%body + (k*attempt%step/n)*body
+            call evaluate(model, system, attempt, analysis, there)
+            released = released + sum(there%residual*direction, mask=.not. analysis%held)
+         end do
+         released = attempt%step*released/n
+      end function released_energy
 
       !> The limits do not bear the load: the WORK of the unbalanced forces does not vanish however far the body moves.
       subroutine note_missing(work)

@@ -10,7 +10,7 @@ module newton_iterations
    use model_data, only: model_type
    use newton_trial, only: attempt_type, commit, evaluate, evaluate_at, most_iterations, search, swap, trial_type
    use numbers, only: first_largest
-   use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, laws_at, loose_joint, next_laws, &
+   use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, laws_at, loose_joints, next_laws, &
                             residual_of, straight_law
    use tolerances, only: far_below_tol, finest_direction, loose_direction, most_rounding_of_forces, pressure_floor, &
                          rounding_of_forces, tight_direction
@@ -49,7 +49,6 @@ contains
       attempt%displacement_scale = max(maxval(abs(analysis%now%moved)), maxval(abs(analysis%u)))
       attempt%load_size = analysis%tolerance/analysis%load_tolerance ! the largest so far
       guessed = present(from)
-      if (attempt%with_limits) call give_first_limits(analysis, attempt)
       allocate (now)
       if (guessed) then
          attempt%moves = .false.
@@ -58,7 +57,7 @@ contains
       else
          call evaluate_at(model, system, attempt, analysis, analysis%u, now)
       end if
-      if (attempt%with_limits) attempt%asked = now%residual
+      if (attempt%with_limits) call give_first_limits(model, system, analysis, attempt, now)
       allocate (next, source=now)
       if (attempt%growth > 0.0_wp) then
          moves = attempt%moves
@@ -71,6 +70,10 @@ contains
       do
          if (attempt%with_limits) call renew_limits(model, system, analysis, attempt, now)
          call judge(model, system, analysis, attempt, now)
+         if (.not. (attempt%with_limits .or. attempt%moves) .and. now%size < attempt%least) then
+            attempt%best = now%u
+            attempt%least = now%size
+         end if
          if (attempt%converged .or. attempt%ends) exit
          anew = attempt%iteration == 0
          if (attempt%with_limits) anew = anew .or. is_exact(attempt) .or. attempt%step < 1.0_wp
@@ -99,7 +102,7 @@ contains
 
       ! for the message about an attempt that fails
       attempt%imprecise = attempt%noise > most_rounding_of_forces*attempt%load_size .and. .not. attempt%carried
-      attempt%loose = loose_joint(model, now%states)
+      attempt%loose = findloc(loose_joints(model, now%states), .true., dim=1)
       attempt%worst = 0
       at = first_largest(pack(abs(now%residual), .true.), pack(.not. analysis%held, .true.))
       if (at > 0) attempt%worst = [system%retained((at - 1)/model%mesh%dimension + 1), modulo(at - 1, model%mesh%dimension) + 1]
@@ -233,7 +236,7 @@ contains
             attempt%ends = attempt%ends .or. moves_on(attempt)
          else
             attempt%ends = attempt%ends .or. leads_nowhere(attempt%sizes(:n)) .or. &
-                           is_slow(attempt%sizes(:n), loose_joint(model, now%states) > 0)
+                           is_slow(attempt%sizes(:n), any(loose_joints(model, now%states)))
          end if
          if (attempt%ends) attempt%converged = attempt%converged .or. &
                                                now%size <= idle*max(attempt%seat_force, analysis%loose_force)

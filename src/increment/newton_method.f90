@@ -29,6 +29,7 @@ module newton_method
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
    integer, parameter  :: most_halvings = 12
+   real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
    integer, parameter  :: most_cuts = 3           ! to the share of a load that the limits seem to bear, without one that they bear
 
    interface
@@ -292,7 +293,8 @@ contains
 
    !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
    !! extrapolated last increment if this one continues it, otherwise from the committed state. If they do not lead quickly to
-   !! equilibrium, the attempt is repeated with given limits of friction.
+   !! equilibrium, the attempt is repeated with given limits of friction: from the best trial of the straight laws if this has left
+   !! less than their first, and if that fails too, from a structure in which nothing slips.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -300,19 +302,26 @@ contains
       real(wp), intent(in)                  :: left
       type(attempt_type), intent(inout)     :: attempt
       real(wp), intent(in), optional        :: from(:, :) !! (dimension, retained) initial displacements, supports moved [length]
+      integer, parameter :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4
       type(failure_type) :: none
-      integer :: i
+      real(wp), allocatable :: u(:, :)
+      real(wp) :: first
+      integer  :: way
 
       attempt%left = left
       attempt%load = analysis%now%condensed_load - left*analysis%change
       if (attempt%seats) analysis%states%normal%gap = merge((1.0_wp - left)*model%joints%element%gap, model%joints%element%gap, &
                                                             model%joints%element%gap < 0.0_wp)
-      do i = merge(0, 1, attempt%growth > 0.0_wp), 2
-         if (i > 0) attempt%growth = 0.0_wp
+      attempt%least = huge(1.0_wp)
+      first = 0.0_wp
+      do way = merge(extrapolated, straight, attempt%growth > 0.0_wp), sticking
+         if (way == from_best .and. .not. attempt%least < promising*first) cycle
+         if (way /= extrapolated) attempt%growth = 0.0_wp
          attempt%moves = analysis%moves
          attempt%move = merge(analysis%now%moved(:, system%retained) - left*analysis%move - analysis%u, 0.0_wp, &
                               system%number(:, system%retained) == 0)
-         attempt%with_limits = i == 2
+         attempt%with_limits = way >= from_best
+         attempt%from_best = way == from_best
          if (allocated(attempt%seen)) deallocate (attempt%seen)
          attempt%settled = .false.
          attempt%iteration = 0
@@ -323,8 +332,12 @@ contains
          attempt%largest_noise = 0.0_wp
          attempt%converged = .false.
          attempt%trouble = none
-         call iterate(model, system, analysis, attempt, from)
+         if (present(from)) u = from
+         if (way == from_best) u = attempt%best
+         call iterate(model, system, analysis, attempt, u)
          if (attempt%converged) exit
+         if (way == straight) first = attempt%sizes(0)
+         if (allocated(u)) deallocate (u)
       end do
    end subroutine try_part
 

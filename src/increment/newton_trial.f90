@@ -32,6 +32,7 @@ module newton_trial
       logical  :: seats = .false.                 !! interference at rest without load
       real(wp) :: seat_force = 0.0_wp             !! then the reference force: p_av on the pressed elements [force]
       logical  :: with_limits = .false.           !! friction by a sequence of given limits
+      logical  :: from_best = .false.             !! the first ones are those of BEST; otherwise nothing slips at first
       ! the course of the iterations
       integer  :: iteration = 0
       real(wp) :: sizes(0:most_iterations) = 0.0_wp !! residuals [force]
@@ -43,6 +44,8 @@ module newton_trial
       logical  :: settled = .false.               !! no element has begun or stopped slipping in the last iteration
       integer  :: n_slow = 0                      !! iterations that did not halve the residual
       integer, allocatable :: flips(:)            !! changes of branch of each interface element
+      real(wp), allocatable :: best(:, :)         !! displacements of the least residual along straight laws, (dimension, retained) [length]
+      real(wp) :: least = 0.0_wp                  !! this residual [force]
       real(wp) :: load_size = 0.0_wp              !! reference force of the residuals [force]
       real(wp) :: noise = 0.0_wp                  !! present rounding error of the forces in the bodies [force]
       real(wp) :: largest_noise = 0.0_wp          !! its largest value since these forces were computed [force]
@@ -55,6 +58,7 @@ module newton_trial
       real(wp) :: to_solve = 0.0_wp               !! residual of the first trial under the present limits [force]
       integer  :: n_limits = 0                    !! limits given so far
       integer  :: since = 0                       !! iteration at which the present ones were given
+      real(wp) :: released = 0.0_wp               !! energy that the last step under them has released [force*length]
       real(wp), allocatable :: asked(:, :)        !! the load that the part adds, (dimension, retained) [force]
       logical  :: runs = .false.                  !! the body moves without end: the limits do not bear the load
       real(wp) :: bearable = 1.0_wp               !! share of the load of the part that they bear [-]

@@ -26,7 +26,7 @@ module straight_laws
    implicit none
    private
 
-   public :: first_laws, laws_at, next_laws, choose_sides, residual_of, find_direction, loose_joint, point_of_rest
+   public :: first_laws, laws_at, next_laws, choose_sides, residual_of, find_direction, loose_joints, point_of_rest
 
    integer, parameter  :: most_steps = 40
    real(wp), parameter :: right = 0.1_wp    !! of it: error up to which a straight law has crossed no kink
@@ -200,7 +200,7 @@ contains
    !> The DIRECTION that balances the RESIDUAL of the straight LAWS. The factorised matrix has the symmetric part of the tangents.
    !! This part is shifted where an eigenvalue is negative (a slipping element has one where its two shear laws differ), and has a
    !! small stiffness where an element has none. solve_coupled adds the remaining part.
-   !! A joint that slips at all nodes first has its elastic stiffness, as if no element slipped: this finds nodes that turn back,
+   !! A joint that slips or is open at all nodes first has its elastic stiffness, as if no element slipped: this finds nodes that turn back,
    !! which no tangent shows. When no node turns back any more, the tangent is used, which gives quadratic convergence. Under given
    !! limits of friction no joint is held.
    subroutine find_direction(model, residual, analysis, system, attempt, laws, direction)
@@ -214,14 +214,14 @@ contains
       real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
       real(wp) :: least ! eigenvalue
       integer  :: i, k
-      logical  :: holds, is_loose
+      logical  :: holds, is_loose(size(model%joints%list))
 
       allocate (matrix(3, 3, size(laws)), rest(3, 3, size(laws)), source=0.0_wp)
-      is_loose = loose_joint(model, laws%state) > 0
-      holds = is_loose .and. .not. (attempt%settled .or. attempt%with_limits)
+      is_loose = loose_joints(model, laws%state)
+      holds = any(is_loose) .and. .not. (attempt%settled .or. attempt%with_limits)
       do
          do i = 1, size(laws)
-            associate (tangent => laws(i)%tangent, elastic => laws(i)%elastic)
+            associate (tangent => laws(i)%tangent, elastic => laws(i)%elastic, element => model%joints%element(i))
                analysis%k(:, i) = [tangent(1, 1), tangent(2, 2), tangent(3, 3)]
                matrix(3, 3, i) = max(tangent(3, 3), stand_in_stiffness*elastic(3))
                matrix(:2, :2, i) = 0.5_wp*(tangent(:2, :2) + transpose(tangent(:2, :2)))
@@ -229,10 +229,10 @@ contains
                        hypot(0.5_wp*(matrix(1, 1, i) - matrix(2, 2, i)), matrix(1, 2, i))
                do k = 1, 2
                   matrix(k, k, i) = matrix(k, k, i) - min(0.0_wp, least) + stand_in_stiffness*elastic(k)
-                  if (holds) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
+                  if (holds .and. is_loose(element%joint)) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
                end do
                rest(:2, :, i) = tangent(:2, :) - matrix(:2, :, i)
-               if (holds) rest(:2, :2, i) = 0.0_wp
+               if (holds .and. is_loose(element%joint)) rest(:2, :2, i) = 0.0_wp
             end associate
          end do
          direction = 0.0_wp ! where the equations cannot be solved
@@ -246,7 +246,7 @@ contains
             call solve_equations(model, system, residual, direction, attempt%trouble, moved=attempt%move, &
                                  digits=direction_digits)
          end if
-         if (holds .or. .not. is_loose .or. attempt%with_limits .or. .not. norm2(direction) > far*attempt%length) exit
+         if (holds .or. .not. any(is_loose) .or. attempt%with_limits .or. .not. norm2(direction) > far*attempt%length) exit
          holds = .true.
       end do
       do i = 1, size(laws)
@@ -255,18 +255,19 @@ contains
       attempt%length = norm2(direction)
    end subroutine find_direction
 
-   !> The first joint whose elements are all open or slip in STATES, 0 for none.
-   pure integer function loose_joint(model, states) result(joint)
+   !> Which joints are loose: all their elements are open or slip in STATES.
+   pure function loose_joints(model, states) result(loose)
       type(model_type), intent(in)    :: model
       type(element_state), intent(in) :: states(:)
+      logical :: loose(size(model%joints%list))
+      integer :: j
 
-      do joint = 1, size(model%joints%list)
-         associate (of_joint => states(model%joints%list(joint)%first:model%joints%list(joint)%last))
-            if (size(of_joint) > 0 .and. all(of_joint%slips .or. of_joint%normal%branch == branch_open)) return
+      do j = 1, size(loose)
+         associate (of_joint => states(model%joints%list(j)%first:model%joints%list(j)%last))
+            loose(j) = size(of_joint) > 0 .and. all(of_joint%slips .or. of_joint%normal%branch == branch_open)
          end associate
       end do
-      joint = 0
-   end function loose_joint
+   end function loose_joints
 
    !> The movement at which an element would come to rest: that of the point of its graph, from the state BEFORE, on the line of
    !! slope -RHO through MOVEMENT and FORCE of its straight law. The normal direction is independent of the others and comes
