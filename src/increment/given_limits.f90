@@ -2,8 +2,9 @@
 !! equilibrium.
 !! With given limits of friction, and given pressures for the shear laws, the force of every joint is a monotone function of its
 !! movement: the equilibrium is the minimum of a convex energy, which Newton's method with a line search finds. The pressures of that
-!! equilibrium give new limits, and so on. At first nothing slips. From the second equilibrium on the full tangents, which know that
-!! the limit grows with the pressure, try to finish; where one of them leaves more than a tenth of the residual, new limits follow.
+!! equilibrium give new limits, and so on. The first limits are those of the best trial of the straight laws, or nothing slips. From the
+!! second equilibrium on the full tangents, which know that the limit grows with the pressure, try to finish; where one of them leaves
+!! more than a tenth of the residual, new limits follow.
 !! Where the limits are those of the trial itself, its equilibrium is that of the exact laws: the answer is the same.
 !! Source: P. D. Panagiotopoulos, Ing.-Arch. 44 (1975) 421-432; N. Kikuchi, J. T. Oden, Contact Problems in Elasticity, SIAM 1988.
 module given_limits
