@@ -25,6 +25,44 @@ for n in 5 10 15 20 25 40 50; do
    same "shear loop in $n increments: branch there" "$(cell loop 4 $((n / 5)) 1 branch_x)" UNLOAD
 done
 
+# ORIGIN BRANCH with B = C = 2 A(d/2), A = 60 d - 2500 d^2 + 5E4 d^3 at p = 0.5, all coefficients growing with p: loads A(d)*100 for d = 0.003,
+# 0.006, 0.009 and their opposites. Each cycle ends where it began, at growing and falling amplitude, by both methods; its energy from the
+# listing is -(4/3) a2 d^3 - 2 a3 d^4, times a.
+origin() { # NAME METHOD INCREMENTS ORIGIN
+   awk -v method="$2" -v n="$3" -v origin="$4" 'function load(d) { return d < 0 ? -load(-d) : 100*(60*d - 2500*d^2 + 5e4*d^3) }
+      BEGIN { print "METHOD = " method "\nUNITS = MM, KGF"
+         split("0 .003 -.003 .003 .006 -.006 .006 .009 -.009 .009", d, " ")
+         for (i = 1; i <= 10; i++) printf "SUBCASE %d\n LOAD = %d\n INCR = 7\n", i, 100 + i
+         print "BEGIN BULK\nGRID,1\nCJOINT,1,1,1,,100.,0.,1.\nPJOINT,1,1,1\nJNORM,1,8.-3,.5,9500.\nFORCE,1,1,,50.,0.,-1.\nJINCR,7," n ",ARITH," 1/n
+         print "JSHEAR,1,50.,20.,-2000.,-1000.,4.+4,2.+4\n+,50.,20.,-1000.,-500.,1.+4,5.+3\n+,50.,20.,-1000.,-500.,1.+4,5.+3\n+,,0.5,0.01," origin
+         for (i = 1; i <= 10; i++) printf "LOAD,%d,1.,1.,1,1.,%d\nFORCE,%d,1,,%.14E,1.\n", 100 + i, 200 + i, 200 + i, load(d[i])
+         print "ENDDATA" }' > "$work/$1.bdf"
+}
+origin origin NEWTON 7 BRANCH
+run origin && {
+   near 'ORIGIN BRANCH: closure' "$(awk '/^ +CLOSURE/ { print $2 }' "$work/origin.out")" 0 1e-6
+   says 'ORIGIN BRANCH: the listing says so' "$work/origin.out" 'ORIGIN BRANCH: D OF UNLOAD AND RELOAD COUNTS FROM THEIR START'
+   for i in 1 2 3; do
+      for k in 1 2 3; do
+         near "ORIGIN BRANCH: delta at the end of stage $((3*i + k - 2))" "$(cell origin $((3*i + k - 2)) 7 1 delta_x)" $((k == 2 ? -1 : 1))*0.003*$i 1e-8
+      done
+      kept=$(awk -v s=$((3*i - 0)) '$0 ~ "ENERGY OF JOINTS, STAGE (" s "|" s + 1 ")([^0-9]|$)" { for (i = 1; i <= 5; i++) getline; kept += $NF } END { print kept }' "$work/origin.out")
+      near "ORIGIN BRANCH: energy of the cycle to 0.003*$i" "$kept" "100*((4/3)*2500*(0.003*$i)^3 - 2*5e4*(0.003*$i)^4)" 1e-5
+   done
+}
+for n in 40 160; do
+   origin origin_step STEP $n BRANCH
+   run origin_step || continue
+   near "ORIGIN BRANCH: STEP in $n increments tends to the same" "$(cell origin_step 10 $n 1 delta_x)" 0.009 "8/$n"
+done
+origin origin_curve NEWTON 7 CURVE
+run origin_curve && same 'ORIGIN CURVE: another path' "$(cmp -s "$work/origin.joint.csv" "$work/origin_curve.joint.csv" || echo other)" other
+sed 's/,CURVE$//' "$work/origin_curve.bdf" > "$work/origin_blank.bdf"
+run origin_blank && same 'ORIGIN blank is CURVE' "$(cksum < "$work/origin_blank.joint.csv")" "$(cksum < "$work/origin_curve.joint.csv")"
+# a law that unloads less steeply than it was loaded: warned of at the slopes where the branch begins
+sed 's/^+,50.,20.,-1000.*$/+,30.,10.,0.,0.,0.,0./' "$work/origin.bdf" > "$work/origin_soft.bdf"
+run origin_soft && says 'ORIGIN BRANCH: soft unloading' "$work/origin_soft.out" 'UNLOADING IS LESS STEEP THAN LOADING'
+
 # k_b = E a/h = 1000 x 100/50 a node; a = 100
 reopen reopen STEP && judge 'opens and closes again, STEP' -F, '
    FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
