@@ -28,17 +28,7 @@ done
 # ORIGIN BRANCH with B = C = 2 A(d/2), A = 60 d - 2500 d^2 + 5E4 d^3 at p = 0.5, all coefficients growing with p: loads A(d)*100 for d = 0.003,
 # 0.006, 0.009 and their opposites. Each cycle ends where it began, at growing and falling amplitude, by both methods; its energy from the
 # listing is -(4/3) a2 d^3 - 2 a3 d^4, times a.
-origin() { # NAME METHOD INCREMENTS ORIGIN
-   awk -v method="$2" -v n="$3" -v origin="$4" 'function load(d) { return d < 0 ? -load(-d) : 100*(60*d - 2500*d^2 + 5e4*d^3) }
-      BEGIN { print "METHOD = " method "\nUNITS = MM, KGF"
-         split("0 .003 -.003 .003 .006 -.006 .006 .009 -.009 .009", d, " ")
-         for (i = 1; i <= 10; i++) printf "SUBCASE %d\n LOAD = %d\n INCR = 7\n", i, 100 + i
-         print "BEGIN BULK\nGRID,1\nCJOINT,1,1,1,,100.,0.,1.\nPJOINT,1,1,1\nJNORM,1,8.-3,.5,9500.\nFORCE,1,1,,50.,0.,-1.\nJINCR,7," n ",ARITH," 1/n
-         print "JSHEAR,1,50.,20.,-2000.,-1000.,4.+4,2.+4\n+,50.,20.,-1000.,-500.,1.+4,5.+3\n+,50.,20.,-1000.,-500.,1.+4,5.+3\n+,,0.5,0.01," origin
-         for (i = 1; i <= 10; i++) printf "LOAD,%d,1.,1.,1,1.,%d\nFORCE,%d,1,,%.14E,1.\n", 100 + i, 200 + i, 200 + i, load(d[i])
-         print "ENDDATA" }' > "$work/$1.bdf"
-}
-origin origin NEWTON 7 BRANCH
+masing_cycles origin NEWTON 7 BRANCH
 run origin && {
    near 'ORIGIN BRANCH: closure' "$(awk '/^ +CLOSURE/ { print $2 }' "$work/origin.out")" 0 1e-6
    says 'ORIGIN BRANCH: the listing says so' "$work/origin.out" 'ORIGIN BRANCH: D OF UNLOAD AND RELOAD COUNTS FROM THEIR START'
@@ -51,11 +41,11 @@ run origin && {
    done
 }
 for n in 40 160; do
-   origin origin_step STEP $n BRANCH
+   masing_cycles origin_step STEP $n BRANCH
    run origin_step || continue
    near "ORIGIN BRANCH: STEP in $n increments tends to the same" "$(cell origin_step 10 $n 1 delta_x)" 0.009 "8/$n"
 done
-origin origin_curve NEWTON 7 CURVE
+masing_cycles origin_curve NEWTON 7 CURVE
 run origin_curve && same 'ORIGIN CURVE: another path' "$(cmp -s "$work/origin.joint.csv" "$work/origin_curve.joint.csv" || echo other)" other
 sed 's/,CURVE$//' "$work/origin_curve.bdf" > "$work/origin_blank.bdf"
 run origin_blank && same 'ORIGIN blank is CURVE' "$(cksum < "$work/origin_blank.joint.csv")" "$(cksum < "$work/origin_curve.joint.csv")"
