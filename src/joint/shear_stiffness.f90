@@ -253,15 +253,16 @@ contains
    end function slid_from
 
    !> b0 or c0: the shift by which the curve of the branch of STATE under the pressure P passes through the point (DELTA, TAU)
-   !! where the branch began; zero on the loading curve and of branches that count from this point [pressure].
+   !! where the branch began, or s TAU of a branch that counts from this point; zero on the loading curve [pressure].
    pure real(wp) function branch_shift(law, state, p, delta, tau) result(shift)
       type(shear_law), intent(in)   :: law
       type(shear_state), intent(in) :: state
       real(wp), intent(in)          :: p, delta, tau
 
       shift = 0.0_wp
-      if (state%branch == branch_load .or. law%from_branch) return
-      shift = state%sense*tau - cubic_value(cubic_of(law, state%branch), state%sense*(delta - state%delta_0), p)
+      if (state%branch == branch_load) return
+      shift = state%sense*tau
+      if (.not. law%from_branch) shift = shift - cubic_value(cubic_of(law, state%branch), state%sense*(delta - state%delta_0), p)
    end function branch_shift
 
    !> The cubic of the branch of STATE, and from where and in which sense its d counts.
