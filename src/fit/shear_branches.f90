@@ -93,6 +93,7 @@ contains
          integer  :: before(size(rows)), i
 
          before = max(1, rows - 1)
+         from = 0.0_wp
          is_done = .false.
          associate (d => data%value(column_d, :), p => data%value(column_p, :), tolerance => command%fit%p_tolerance)
             follows = run > 0 .and. data%part(before) == data%part(rows) .and. data%run(before) /= run .and. &
