@@ -49,6 +49,13 @@ sed -E -e 's/^METHOD.*/METHOD = STEP/' -e 's/^  LOAD = 2/  LOAD = 3/' \
    awk '/^SUBCASE [3-9]/ { off = 1 } /^BEGIN BULK/ { off = 0 } !off' > "$work/friction_curve.bdf"
 "$program" -q -o "$work" "$work/friction_curve.bdf" > /dev/null
 
+# Fig. 1(b) both ways: B = C = 2 A(d/2), d from zero and from the start of the branch
+for origin in CURVE BRANCH; do
+   awk -v origin=$origin '/^JSHEAR/ { print; for (i = 1; i <= 2; i++) print "+,20.,200.,-1000.,-6000.,12500.,75000."
+      print "+,1.,0.012," origin; skip = 3; next } skip-- > 0 { next } { print }' input/shear_cycles.bdf > "$work/origin_$origin.bdf"
+   "$program" -q -o "$work" "$work/origin_$origin.bdf" > /dev/null 2>&1
+done
+
 # how far the contact of the clamped flange pair reaches beside its bolt circle, radius 40, with rings of different thickness
 echo 'thickness,flexible,stiff' > "$work/flange.csv"
 for t in 2 3 4 5 6 7 8 9 10 11 12; do

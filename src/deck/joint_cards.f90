@@ -158,8 +158,8 @@ contains
       end associate
    end subroutine read_jnorm
 
-   !> JSHEAR: the shear law of one direction. The card has the loading coefficients A. The first continuation has the coefficients of
-   !! unloading (B), the second those of reloading (C); a blank one is as loading. The third has the tested range.
+   !> JSHEAR: the shear law of one direction. The card has the loading coefficients A. The first continuation has the coefficients
+   !! of unloading (B), the second those of reloading (C); a blank one is as loading. The third has the tested range and ORIGIN.
    subroutine read_jshear(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -167,13 +167,15 @@ contains
       type(card_type) :: as_given
       type(cubic)     :: curves(3)
       character(1)    :: branch
+      character(8)    :: origin
       real(wp) :: x(6)
       integer  :: k, n
       logical  :: lacks(2:3)
 
       as_given = card%card_type
       do k = 8, 24, 8 ! a continuation that begins in field 2 stands under A11, in field 3
-         n = merge(6, 2, k < 24)
+         n = merge(6, 3, k < 24)
+         if (k == 24 .and. card%text_at(28) == '' .and. scan(card%text_at(27), '0123456789') > 0) n = 2 ! without ORIGIN
          if (k + 1 + n > card%n) cycle
          associate (fields => card%fields(k + 1:k + 1 + n))
             if (fields(1)%length == 0 .and. fields(1 + n)%length > 0) fields = cshift(fields, 1)
@@ -195,6 +197,8 @@ contains
          law = shear_law(given=.true., load=curves(1), unload=curves(2), reload=curves(3))
          call card%field('PMAX', law%p_max, positive, default=huge(1.0_wp))
          call card%field('DMAX', law%d_max, positive, default=huge(1.0_wp))
+         call card%word('ORIGIN', '|CURVE|BRANCH|', origin)
+         law%from_branch = origin == 'BRANCH'
          call card%finish(jshear%line)
          card%card_type = as_given
          do k = 2, 3

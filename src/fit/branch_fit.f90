@@ -67,6 +67,7 @@ module branch_fit
       type(residual_type) :: of_coefficients(3)            !! of the coefficients of the cubics about LINES
       real(wp) :: p_low = 0.0_wp, p_high = 0.0_wp          !! range of the data [pressure]
       real(wp) :: d_low = 0.0_wp, d_high = 0.0_wp          !! [length]
+      real(wp), allocatable :: sense(:), from(:) !! (points) the fit is to sense tau over sense (d - from); 1 and 0 but for BRANCH
    end type branch_fit_type
 
 contains

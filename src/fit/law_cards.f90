@@ -5,7 +5,7 @@ module law_cards
    use terminal, only: version
    use data_columns, only: branch_letters, branch_words, column_d, column_p, column_symbols, data_normal, fit_load, fit_reload, &
                            fit_unload, n_columns
-   use field_rules, only: parse_real
+   use field_rules, only: real_field_text
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
@@ -56,7 +56,8 @@ contains
       if (fit%kind == data_normal) then
          call put_lines(out, '', jnorm_card(id, fit%normal%c, fit%normal%m, fit%normal%loops%e_u, command%small))
       else if (fit%has_loading) then
-         call put_lines(out, '', jshear_card(id, fit%card, fit%branch%n_points > 0, fit%p_max, fit%d_max, command%small))
+         call put_lines(out, '', jshear_card(id, fit%card, fit%branch%n_points > 0, fit%p_max, fit%d_max, command%small, &
+                                          fit%from_branch))
       else
          do k = fit_unload, fit_reload
             if (fit%branch(k)%n_points == 0) cycle
@@ -112,9 +113,14 @@ contains
             cycle
          end if
          is_used(fit%branch(b)%row) = .true.
+         if (fit%one_shape .and. b == fit_reload) then
+            call comment(out, branch_words(b), 'one shape with unloading, fitted together with it')
+            cycle
+         end if
          if (fit%source(b) /= b) call comment(out, branch_words(b), 'taken from the '//trim(branch_words(fit%source(b)))//' data')
          call describe_branch(data, fit, b, command%fit%one_step, out)
       end do
+      if (allocated(fit%origin)) call comment(out, 'origin', fit%origin)
       if (fit%has_loading) then
          words = 'unloading does not reach tau = 0'
          if (fit%closure%is_known) words = real_text(0.01_wp*nint(1.0e4_wp*min(fit%closure%share, 1.0e4_wp)))//' % of tau_r, '// &
@@ -158,7 +164,7 @@ contains
             do i = 1, size(branch%group_p)
                cells = [character(14) :: real_text(branch%group_p(i)), '', real_text(branch%cubic(1, i)), &
                         real_text(branch%cubic(2, i)), real_text(branch%cubic(3, i)), integer_text(count(branch%group == i))]
-               if (first == 2) cells(2) = real_text(branch%start(branch%curve(findloc(branch%group, i, 1))))
+               if (first == 2) cells(2) = real_text(start_of(branch, branch%curve(findloc(branch%group, i, 1))))
                call comment_row(out, [cells(1), cells(first:last)])
             end do
             if (by_run) then
@@ -166,7 +172,7 @@ contains
                do i = 1, size(branch%start)
                   associate (at => branch%curve_at(i), of_run => branch%curve == i, d => data%value(column_d, branch%row))
                      cells = [character(14) :: integer_text(data%run(branch%row(at))), &
-                              real_text(branch%group_p(branch%group(at))), real_text(branch%start(i)), &
+                              real_text(branch%group_p(branch%group(at))), real_text(start_of(branch, i)), &
                               real_text(minval(d, of_run)), real_text(maxval(d, of_run)), integer_text(count(of_run))]
                   end associate
                   call comment_row(out, cells)
@@ -184,6 +190,14 @@ contains
       end associate
 
    contains
+
+      !> tau of the curve I at d = 0, or where the branch began.
+      pure real(wp) function start_of(branch, i)
+         type(branch_fit_type), intent(in) :: branch
+         integer, intent(in)               :: i
+
+         start_of = branch%sense(branch%curve_at(i))*branch%start(i)
+      end function start_of
 
       function residual_words(residual) result(words)
          type(residual_type), intent(in) :: residual
@@ -271,12 +285,13 @@ contains
       lines = card_lines('JNORM', fields, small)
    end function jnorm_card
 
-   !> JSHEAR SID A11 A12 A21 A22 A31 A32, the continuations B11 to B32, C11 to C32, and PMAX DMAX. The continuation of a branch that
-   !! is not GIVEN is blank, which means as loading. A zero D_MAX leaves its field blank.
-   function jshear_card(id, coefficients, given, p_max, d_max, small) result(lines)
+   !> JSHEAR SID A11 A12 A21 A22 A31 A32, the continuations B11 to B32, C11 to C32, and PMAX DMAX ORIGIN. The continuation of a
+   !! branch that is not GIVEN is blank, which means as loading. A zero D_MAX leaves its field blank.
+   function jshear_card(id, coefficients, given, p_max, d_max, small, from_branch) result(lines)
       integer, intent(in)  :: id
       real(wp), intent(in) :: coefficients(2, 3, 3) !! (., k, branch): a_k1 and a_k2 for load, unload, reload
       logical, intent(in)  :: given(3)              !! the first must be true
+      logical, intent(in), optional :: from_branch  !! ORIGIN BRANCH
       real(wp), intent(in) :: p_max, d_max          !! tested range [pressure], [length]
       logical, intent(in)  :: small
       character(80), allocatable :: lines(:)
@@ -291,6 +306,7 @@ contains
       end do
       fields(25:26) = number_fields([p_max, d_max], small)
       if (d_max <= 0.0_wp) fields(26) = ''
+      if (present(from_branch)) fields(27) = one_of(from_branch, 'BRANCH', '')
       lines = card_lines('JSHEAR', fields, small)
    end function jshear_card
 
@@ -357,44 +373,5 @@ contains
       name = head
       write (line, '(9a)') name, fields(:)(:width)
    end function joined
-
-   !> VALUE in at most WIDTH columns as in NASTRAN: the nearest number that fits, as 0.0125, 260.8628 or, where that is nearer, in
-   !! the short form with an exponent, 1.2346-5. It always has a decimal point, and parse_real reads it.
-   function real_field_text(value, width) result(text)
-      real(wp), intent(in)      :: value !! |value| below 1E99 and not below 1E-99, or zero
-      integer, intent(in)       :: width !! 7 to 16
-      character(:), allocatable :: text
-      character(40) :: entry, best
-      character(16) :: layout
-      real(wp) :: error, least, read_back
-      logical  :: ok
-      integer  :: e, k
-
-      best = '0.0'
-      least = huge(least)
-      do k = 1, 2*width - 1
-         if (k <= width) then                ! a zero before the point if there is room
-            if (abs(value) >= 1.0e16_wp) cycle
-            write (layout, '(a, i0, a)') '(f0.', modulo(k, width), ')'
-            write (entry, layout) value
-            if (len_trim(entry) < width .and. entry(1:1) == '.') entry = '0'//trim(entry)
-            if (len_trim(entry) < width .and. entry(1:2) == '-.') entry = '-0'//trim(entry(2:))
-         else                                ! one digit before the point, and an exponent without E: -1.25+7
-            write (layout, '(a, i0, a)') '(es40.', k - width - 1, 'e3)'
-            write (entry, layout) value
-            entry = adjustl(entry)
-            e = index(entry, 'E')
-            entry = entry(:e - 1)//entry(e + 1:e + 1)//entry(min(verify(entry(e + 2:), '0'), 3) + e + 1:)
-         end if
-         if (len_trim(entry) > width) cycle
-         call parse_real(trim(entry), read_back, ok)
-         if (.not. ok) cycle
-         error = abs(read_back - value)
-         if (error >= least) cycle
-         least = error
-         best = entry
-      end do
-      text = trim(best)
-   end function real_field_text
 
 end module law_cards

@@ -2,24 +2,25 @@
 !! Warns where the slope of a fitted cubic turns negative in the range of the card: a joint has no negative stiffness.
 module surface_fit
    use branch_cubic, only: cubic
-   use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_none, fault_one_pressure, fit_lines_only, &
-                         fit_points
-   use data_columns, only: branch_words, column_c, column_d, column_p, column_tau, data_normal, data_shear, data_stiffness, &
-                           fit_load, fit_reload, fit_unload
+   use branch_fit, only: branch_fit_type, fault_none
+   use data_columns, only: branch_words, column_tau, data_normal, data_shear, data_stiffness, fit_load, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
    use field_rules, only: largest_size, smallest_size
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
    use normal_fit, only: check_residual, fit_normal_test, normal_fit_type
+   use shear_branches, only: fit_branch
    use shear_loops, only: loop_closure, wide_gap, worst_closure
    use shear_stiffness, only: shear_law
-   use text_tools, only: one_of, plural, real_text
-   use tolerances, only: same_deflection
+   use text_tools, only: one_of, real_text
+   use tolerances, only: equal_readings
    implicit none
    private
 
    public :: fit_surface, check_slopes, find_slope_loss, normal_fit_type
+
+   real(wp), parameter :: nearer = 0.9_wp          ! share of the residual of one ORIGIN below which the other is better
 
    type, public :: surface_fit_type
       integer :: kind = 0                          !! data_normal, or a shear law
@@ -29,6 +30,11 @@ module surface_fit
       logical  :: has_loading = .false.            !! false: the card is incomplete
       real(wp) :: p_max = 0.0_wp                   !! range of the loading data [pressure]
       real(wp) :: d_max = 0.0_wp                   !! [length], 0: unknown
+      logical  :: from_branch = .false.            !! ORIGIN of the card: d of unloading and reloading from the start of the branch
+      logical  :: one_shape = .false.              !! one cubic for unloading and reloading, its fit in both
+      character(:), allocatable :: origin          !! why this ORIGIN; not allocated: nothing to compare
+      type(branch_fit_type) :: other(3)            !! the branches by the other ORIGIN, n_points 0: none
+      real(wp) :: other_card(2, 3, 3) = 0.0_wp
       type(loop_closure) :: closure                !! of the law on the card
       type(normal_fit_type) :: normal
       type(deck_error_list) :: warnings
@@ -66,7 +72,7 @@ contains
       if (errors%any() .or. .not. fit%has_loading) return
       from = merge([fit_load, fit_unload, fit_reload], fit_load, fit%branch%n_points > 0)
       law = shear_law(given=.true., load=cubic(fit%card(:, :, fit_load)), unload=cubic(fit%card(:, :, from(fit_unload))), &
-                      reload=cubic(fit%card(:, :, from(fit_reload))), p_max=fit%p_max)
+                      reload=cubic(fit%card(:, :, from(fit_reload))), p_max=fit%p_max, from_branch=fit%from_branch)
       if (fit%d_max > 0.0_wp) law%d_max = fit%d_max
       fit%closure = worst_closure(law, fit%p_max)
       if (fit%closure%is_known .and. fit%closure%share > wide_gap) &
@@ -79,7 +85,8 @@ contains
       type(fit_command_type), intent(in)    :: command
       type(surface_fit_type), intent(inout) :: fit
       type(deck_error_list), intent(inout)  :: errors
-      type(branch_fit_type) :: nothing
+      type(surface_fit_type) :: other
+      type(deck_error_list)  :: ignored
       integer :: b
 
       fit%source = [1, 2, 3]
@@ -91,17 +98,18 @@ contains
             return
          end if
       end if
+      call fit_branches(data, command, fit, errors)
+      if (errors%any()) return
+      if (data%kind == data_shear .and. command%only == 0 .and. any(fit%branch(fit_unload:)%n_points > 0)) then
+         other = fit
+         other%from_branch = .true.
+         call fit_branches(data, command, other, ignored)
+         if (.not. ignored%any() .and. all(other%branch%n_points > 0 .eqv. fit%branch%n_points > 0)) &
+            call choose_origin(maxval(abs(data%value(column_tau, :data%n))), command%fit%one_step, other, fit)
+      end if
+      if (fit%from_branch) call try_one_shape(data, command, fit)
       do b = fit_load, fit_reload
-         if (count(data%branch(:data%n) == fit%source(b)) == 0) cycle
-         if (data%is_record .and. b /= fit_load) then      ! a record may contain a short part of a branch
-            call fit_branch(data, command, fit%source(b), fit%branch(b), fit%warnings)
-            if (fit%branch(b)%fault /= fault_none) fit%branch(b) = nothing
-         else
-            call fit_branch(data, command, fit%source(b), fit%branch(b), errors)
-         end if
-         fit%card(:, :, b) = fit%branch(b)%lines
-         if (.not. fit%branch(b)%from_points) cycle
-         if (command%fit%one_step) fit%card(:, :, b) = fit%branch(b)%joint
+         if (.not. fit%branch(b)%from_points .or. (fit%one_shape .and. b == fit_reload)) cycle
          call check_residual(trim(branch_words(fit%source(b)))//': tau', 'tau', merge(fit%branch(b)%of_joint%largest, &
                              fit%branch(b)%of_lines%largest, command%fit%one_step), maxval(abs(data%value(column_tau, :data%n))), &
                              fit%warnings)
@@ -116,77 +124,98 @@ contains
       if (command%d_max > 0.0_wp) fit%d_max = command%d_max
    end subroutine fit_shear
 
-   !> Fit a branch of the card to the rows of branch SOURCE.
-   subroutine fit_branch(data, command, source, fit, errors)
-      type(test_data_type), intent(in)     :: data
-      type(fit_command_type), intent(in)   :: command
-      integer, intent(in)                  :: source
-      type(branch_fit_type), intent(out)   :: fit
-      type(deck_error_list), intent(inout) :: errors
-      integer, allocatable :: rows(:)
-      character(:), allocatable :: help, name
-      integer :: i
-      logical :: met(data%n)
+   !> Fit all branches of the card by the ORIGIN of FIT.
+   subroutine fit_branches(data, command, fit, errors)
+      type(test_data_type), intent(in)      :: data
+      type(fit_command_type), intent(in)    :: command
+      type(surface_fit_type), intent(inout) :: fit
+      type(deck_error_list), intent(inout)  :: errors
+      type(branch_fit_type) :: nothing
+      integer :: b
 
-      rows = pack([(i, i = 1, data%n)], data%branch(:data%n) == source)
-      name = trim(branch_words(source))
-      if (data%kind == data_shear) then
-         call fit_rows(rows, data%run(rows))
-         met = .false.
-         if (fit%fault /= fault_none .and. data%in_order .and. source == fit_reload) met = [(returns(i), i = 1, data%n)]
-         if (any(met)) then
-            rows = pack([(i, i = 1, data%n)], met .or. data%branch(:data%n) == source)
-            call fit_rows(rows, merge(data%run(max(1, rows - 1)), data%run(rows), met(rows)))
+      do b = fit_load, fit_reload
+         if (count(data%branch(:data%n) == fit%source(b)) == 0) cycle
+         if (data%is_record .and. b /= fit_load) then      ! a record may contain a short part of a branch
+            call fit_branch(data, command, [fit%source(b)], fit%from_branch, fit%branch(b), fit%warnings)
+            if (fit%branch(b)%fault /= fault_none) fit%branch(b) = nothing
+         else
+            call fit_branch(data, command, [fit%source(b)], fit%from_branch, fit%branch(b), errors)
          end if
+         fit%card(:, :, b) = fit%branch(b)%lines
+         if (command%fit%one_step .and. fit%branch(b)%from_points) fit%card(:, :, b) = fit%branch(b)%joint
+      end do
+   end subroutine fit_branches
+
+   !> Take OTHER, fitted with ORIGIN BRANCH, in place of FIT, with CURVE, where its residual on the unloading and reloading branches
+   !! is smaller by a tenth, and by more than equal readings of stresses up to TAU.
+   subroutine choose_origin(tau, one_step, other, fit)
+      real(wp), intent(in)                  :: tau
+      logical, intent(in)                   :: one_step
+      type(surface_fit_type), intent(in)    :: other
+      type(surface_fit_type), intent(inout) :: fit
+      character(:), allocatable :: words
+      real(wp) :: rms(2)
+      logical  :: is_nearer
+
+      rms = [misfit(fit%branch(fit_unload:), one_step), misfit(other%branch(fit_unload:), one_step)]
+      words = 'rms on unloading and reloading: '//percent(rms(1))//' of the largest tau where d counts from zero (CURVE), '// &
+              percent(rms(2))//' from the start of the branch (BRANCH); '
+      is_nearer = rms(2) < nearer*rms(1) .and. rms(1) - rms(2) > equal_readings*tau
+      fit%other = fit%branch
+      fit%other_card = fit%card
+      if (is_nearer) then
+         fit%branch = other%branch
+         fit%card = other%card
+         fit%from_branch = .true.
+         fit%origin = words//'BRANCH is nearer'
       else
-         call fit_lines_only(data%value(column_c, rows), data%value(column_p, rows), command%fit%one_pressure, fit)
+         fit%other = other%branch
+         fit%other_card = other%card
+         fit%origin = words//one_of(rms(1) < nearer*rms(2) .and. rms(2) - rms(1) > equal_readings*tau, 'CURVE is nearer', &
+                                    'no difference: CURVE, the default')
       end if
-      fit%row = rows
-      help = ''                   ! where measured pressures are close to each other but count as different
-      associate (p => fit%group_p, n => size(fit%group_p))
-         if (any(p(2:) < 1.05_wp*p(:n - 1))) help = ', --p-tolerance 0.05 counts pressures within 5 % as one'
-      end associate
-      select case (fit%fault)
-      case (fault_one_pressure)
-         call errors%add(data%line(rows(1)), name//': all data at one pressure, p = '//real_text(fit%p_high)// &
-                         ', expected two pressures or more; --one-pressure makes a card that does not depend on the pressure')
-      case (fault_few_points)
-         i = findloc(fit%group, fit%fault_at, 1)
-         call errors%add(data%line(rows(i)), name//', p = '//real_text(fit%group_p(fit%fault_at))//': '// &
-                         plural(count(fit%group == fit%fault_at), 'point')//' that fix no cubic, expected '// &
-                         one_of(fit%constant, 'four different d or more', 'three different d or more, not zero')// &
-                         '; --joint-fit needs no cubic of each pressure'//help)
-      case (fault_dependent)
-         call errors%add(data%line(rows(1)), name//': '//plural(size(rows), 'point')// &
-                         ' that do not fix the coefficients: expected more different d and p'//help)
-      end select
 
    contains
 
-      subroutine fit_rows(rows, run)
-         integer, intent(in) :: rows(:), run(:)
+      pure function percent(stress) result(words)
+         real(wp), intent(in)      :: stress
+         character(:), allocatable :: words
 
-         call fit_points(data%value(column_d, rows), data%value(column_tau, rows), data%value(column_p, rows), run, &
-                         source /= fit_load, command%fit, fit)
-      end subroutine fit_rows
+         words = real_text(0.01_wp*anint(1.0e4_wp*stress/max(tau, tiny(tau))))//' %'
+      end function percent
 
-      !> Whether reloading returns to point A at row I: it is a point of loading, and also of reloading where reloading has few
-      !! points.
-      logical function returns(i)
-         integer, intent(in) :: i
-         integer :: a
+   end subroutine choose_origin
 
-         returns = .false.
-         if (i == 1) return
-         if (data%branch(i) /= fit_load .or. data%branch(i - 1) /= fit_reload) return
-         a = findloc(data%branch(:i - 1), fit_load, 1, back=.true.)
-         if (a == 0) return
-         associate (d => data%value(column_d, [a, i]))
-            returns = abs(d(2) - d(1)) <= same_deflection*abs(d(1))
-         end associate
-      end function returns
+   !> The residual of tau about the laws of BRANCHES on the card, over all their points [stress].
+   pure real(wp) function misfit(branches, one_step)
+      type(branch_fit_type), intent(in) :: branches(:)
+      logical, intent(in)               :: one_step
+      real(wp) :: rms(size(branches))
 
-   end subroutine fit_branch
+      rms = branches%of_lines%rms
+      if (one_step) rms = branches%of_joint%rms
+      misfit = sqrt(sum(branches%n_points*rms**2)/sum(branches%n_points))
+   end function misfit
+
+   !> The paper's "same shape": one cubic for unloading and reloading where it fits both as well as two, so that loops close; also
+   !! where only one of them has data.
+   subroutine try_one_shape(data, command, fit)
+      type(test_data_type), intent(in)      :: data
+      type(fit_command_type), intent(in)    :: command
+      type(surface_fit_type), intent(inout) :: fit
+      type(deck_error_list) :: ignored
+      type(branch_fit_type) :: both
+      real(wp) :: rms(2)
+
+      call fit_branch(data, command, [fit_unload, fit_reload], .true., both, ignored)
+      if (ignored%any()) return
+      rms = [misfit([both], command%fit%one_step), misfit(fit%branch(fit_unload:), command%fit%one_step)]
+      fit%one_shape = nearer*rms(1) <= rms(2) + equal_readings*maxval(abs(data%value(column_tau, :data%n)))
+      if (.not. fit%one_shape) return
+      fit%branch(fit_unload:) = both
+      fit%card(:, :, fit_unload) = merge(both%joint, both%lines, command%fit%one_step)
+      fit%card(:, :, fit_reload) = fit%card(:, :, fit_unload)
+   end subroutine try_one_shape
 
    !> Check the slope of every fitted branch in the range of its data and, if it is positive there, in the range of the card: p from
    !! 0 to PMAX, d to DMAX, and d below zero too for unloading and reloading, because these branches extend past zero to the mirror
@@ -202,7 +231,7 @@ contains
       if (d_max <= 0.0_wp) d_max = huge(d_max)
       do b = fit_load, fit_reload
          associate (branch => fit%branch(b))
-            if (branch%n_points == 0) cycle
+            if (branch%n_points == 0 .or. (fit%one_shape .and. b == fit_reload)) cycle
             do k = 1, merge(2, 1, fit%has_loading)
                way = [0.0_wp, d_max]
                if (k == 1) then
@@ -212,10 +241,11 @@ contains
                   words = ', inside the tested range'
                else
                   pressures = [0.0_wp, fit%p_max]
-                  if (b /= fit_load .and. fit%d_max > 0.0_wp) way(1) = -d_max
+                  if (b /= fit_load .and. fit%d_max > 0.0_wp) way = merge([0.0_wp, 2.0_wp*d_max], [-d_max, d_max], fit%from_branch)
                   words = ', outside the tested range of the branch, but inside the range of the card, which --dmax sets'
                end if
-               if (b == fit_unload .and. merge(branch%from_points, fit%d_max > 0.0_wp, k == 1)) way = way([2, 1])
+               if (b == fit_unload .and. .not. fit%from_branch .and. merge(branch%from_points, fit%d_max > 0.0_wp, k == 1)) &
+                  way = way([2, 1])
                call find_slope_loss(fit%card(:, :, b), pressures(1), pressures(2), way(1), way(2), lost, p, d)
                if (lost) call fit%warnings%add(0, trim(branch_words(b))//': the slope of tau becomes zero or negative at p = '// &
                                                real_text(p)//', d = '//real_text(d)//words)

@@ -82,7 +82,7 @@ contains
       real(wp), intent(in)        :: p    !! [pressure]
       real(wp), intent(in)        :: d    !! [length]
       type(zero_list) :: zeros
-      real(wp) :: stress, unloading(0:4), slopes(2)
+      real(wp) :: rise, stress, unloading(0:4), slopes(2)
 
       closure%p = p
       closure%d = d
@@ -95,11 +95,14 @@ contains
       stress = d*cubic_secant(law%load, d, p)
       if (stress <= 0.0_wp) return
       unloading = value_on_way(law%unload, [d, -d], [p, 0.0_wp]) ! over f, d from d to -d
+      if (law%from_branch) unloading = -value_on_way(law%unload, [0.0_wp, d], [p, 0.0_wp])
       unloading(0) = stress
       call find_zeros(unloading, 0.0_wp, 2.0_wp, zeros)
       closure%is_known = zeros%n > 0
-      if (closure%is_known) closure%share = abs((cubic_value(law%reload, d, p) &
-                                                 - cubic_value(law%reload, d*(1.0_wp - zeros%x(1)), p))/stress - 1.0_wp)
+      if (.not. closure%is_known) return
+      rise = cubic_value(law%reload, d, p) - cubic_value(law%reload, d*(1.0_wp - zeros%x(1)), p)
+      if (law%from_branch) rise = cubic_value(law%reload, d*zeros%x(1), p)
+      closure%share = abs(rise/stress - 1.0_wp)
    end function closure_at
 
    !> Loss of one cycle of shear per area of the joint [pressure x length], not below zero.
@@ -177,7 +180,7 @@ contains
    end function skeleton_end
 
    !> K = (k_sx, k_sy, k_n) under the present pressure p and shear deflections d [force/length]: E_u a_i and a_i B'(d; p), the
-   !! slope of the unloading cubic. ON_LOADING: dp/dlambda a_i and a_i A'(d; p) of the loading curves.
+   !! slope of the unloading cubic where it would begin. ON_LOADING: dp/dlambda a_i and a_i A'(d; p) of the loading curves.
    pure function oscillation_stiffness(law, area, state, on_loading) result(k)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area       !! a_i [length^2]
@@ -193,8 +196,9 @@ contains
          if (on_loading) k(3) = normal_tangent(law%normal, area, p, state%normal%p_av)
          do i = 1, 2
             associate (d => curve_deflection(state%shear(i)), shear => law%shear(i))
-               if (shear%given) &
-                  k(i) = area*merge(cubic_slope(shear%load, abs(d), p), cubic_slope(shear%unload, d, p), on_loading)
+               if (.not. shear%given) cycle
+               k(i) = area*cubic_slope(shear%unload, merge(0.0_wp, d, shear%from_branch), p)
+               if (on_loading) k(i) = area*cubic_slope(shear%load, abs(d), p)
             end associate
          end do
       end associate

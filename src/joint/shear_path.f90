@@ -4,12 +4,12 @@
 !! path every curve is a polynomial in the fraction f of the path. Hence a piece ends exactly where a branch meets a loading
 !! curve.
 module shear_path
-   use branch_cubic, only: cubic, cubic_slope, cubic_slope_derivatives, cubic_value, slope_on_way, value_on_way
+   use branch_cubic, only: cubic_slope, cubic_slope_derivatives, cubic_value, slope_on_way, value_on_way
    use kinds, only: wp
    use normal_stiffness, only: branch_load
    use numbers, only: derivative, enclosed_zero, find_zeros, polynomial, zero_list
-   use shear_stiffness, only: cubic_of, goal_sense, join_loading, least_movement, least_stress, leave_offset, shear_law, &
-                              shear_slope, shear_state, turn
+   use shear_stiffness, only: curve_of, followed_curve, goal_sense, join_loading, least_movement, least_stress, leave_offset, &
+                              shear_law, shear_slope, shear_state, turn
    use tolerances, only: rounding_of_path
    implicit none
    private
@@ -24,8 +24,7 @@ module shear_path
    !> A piece of the path, from the fraction FROM to TO, on which tau follows the slope of one cubic.
    type :: piece_type
       real(wp)    :: from = 0.0_wp, to = 1.0_wp
-      type(cubic) :: curve
-      real(wp)    :: sense = 1.0_wp          ! its d is sense*(delta - delta_0)
+      type(followed_curve) :: on             ! its origin counts from delta_0, as the place on the way
       logical     :: meets = .false.         ! it ends on the loading curve that the branch approaches
       logical     :: ends_at_a = .false.     ! it ends at d_r
    end type piece_type
@@ -87,8 +86,9 @@ contains
       real(wp) :: d(2), goal, at_a, least, slope(0:4), goal_slope(0:4), excess(0:4), ends(0:5)
       integer  :: i
 
-      piece = piece_type(from=piece%from, curve=cubic_of(law, state%branch), sense=state%sense)
-      slope = slope_on_way(piece%curve, piece%sense*way(1, :), way(2, :))
+      piece = piece_type(from=piece%from, on=curve_of(law, state))
+      piece%on%origin = piece%on%origin - state%delta_0
+      slope = slope_on_way(piece%on%curve, piece%on%sense*[way(1, 1) - piece%on%origin, way(1, 2)], way(2, :))
       piece%to = first_zero(slope)
       if (state%branch == branch_load) return
       goal = goal_sense(state)
@@ -113,8 +113,7 @@ contains
          piece%to = first_zero(goal_slope)
          piece%to = first_zero(slope - goal_slope)
          if (polynomial(goal_slope, 0.5_wp*(piece%from + piece%to)) > polynomial(slope, 0.5_wp*(piece%from + piece%to))) then
-            piece%curve = law%load
-            piece%sense = goal
+            piece%on = followed_curve(law%load, goal, 0.0_wp)
             slope = goal_slope
          end if
       end if
@@ -176,7 +175,7 @@ contains
       goal = goal_sense(state)
       place = way(:, 1) + piece%to*way(:, 2)
       d = goal*place(1)
-      slopes = [cubic_slope(piece%curve, piece%sense*place(1), place(2)), cubic_slope(law%load, d, place(2))]
+      slopes = [slope_at(piece, place), cubic_slope(law%load, d, place(2))]
       curve = cubic_value(law%load, d, place(2))
       if (.not. piece%meets) then
          if (goal*state%tau - state%offset > curve) then
@@ -220,9 +219,9 @@ contains
       do i = 1, 2
          f = piece%from + step*gauss_2(i)
          place = way(:, 1) + f*way(:, 2)
-         slope = cubic_slope(piece%curve, piece%sense*place(1), place(2))
-         call cubic_slope_derivatives(piece%curve, piece%sense*place(1), place(2), slope_by_d, slope_by_p)
-         by_delta = by_delta + 0.5_wp*step*(slope + f*way(1, 2)*piece%sense*slope_by_d)
+         slope = slope_at(piece, place)
+         call cubic_slope_derivatives(piece%on%curve, piece%on%sense*(place(1) - piece%on%origin), place(2), slope_by_d, slope_by_p)
+         by_delta = by_delta + 0.5_wp*step*(slope + f*way(1, 2)*piece%on%sense*slope_by_d)
          by_p = by_p + 0.5_wp*step*f*way(1, 2)*slope_by_p
       end do
       state%tau = state%tau + stress_gain(piece%to)
@@ -238,10 +237,18 @@ contains
          gain = 0.0_wp
          do i = 1, 2
             place = way(:, 1) + (piece%from + (to - piece%from)*gauss_2(i))*way(:, 2)
-            gain = gain + 0.5_wp*(to - piece%from)*way(1, 2)*cubic_slope(piece%curve, piece%sense*place(1), place(2))
+            gain = gain + 0.5_wp*(to - piece%from)*way(1, 2)*slope_at(piece, place)
          end do
       end function stress_gain
 
    end subroutine follow_piece
+
+   !> d tau/d delta of PIECE at the PLACE (delta - delta_0, p) [pressure/length].
+   pure real(wp) function slope_at(piece, place) result(slope)
+      type(piece_type), intent(in) :: piece
+      real(wp), intent(in)         :: place(2)
+
+      slope = cubic_slope(piece%on%curve, piece%on%sense*(place(1) - piece%on%origin), place(2))
+   end function slope_at
 
 end module shear_path

@@ -19,6 +19,9 @@
 !! U and R end where they meet the loading curve that they approach (M, and A or a point before it). A branch that reaches d_r
 !! without meeting that curve becomes the loading branch where it is above the curve. Below the curve it continues along the
 !! steeper of the two slopes until it meets the curve.
+!!
+!! ORIGIN BRANCH: B and C count d from the point where the branch began, in the sense of the movement, without b0 and c0:
+!! tau = tau_r - B(d_r - d) of U, tau = tau_s + C(d - d_s) of R.
 module shear_stiffness
    use branch_cubic, only: cubic, cubic_slope, cubic_value, deflection_at
    use kinds, only: wp
@@ -28,7 +31,7 @@ module shear_stiffness
    private
 
    public :: shear, shear_slope, least_movement, least_stress, turn, goal_sense, join_loading, leave_offset
-   public :: cubic_of, curve_deflection, slid_from, stand_at_limit, branch_shift
+   public :: cubic_of, curve_deflection, curve_of, slid_from, stand_at_limit, branch_shift
 
    real(wp), parameter :: past_peaks = 1.0e6_wp ! along the initial slope: a cubic without a peak reaches that stress far beyond d
 
@@ -37,7 +40,15 @@ module shear_stiffness
       type(cubic) :: load, unload, reload      !! A, B, C
       real(wp)    :: p_max = huge(1.0_wp)      !! tested range [pressure], [length]
       real(wp)    :: d_max = huge(1.0_wp)
+      logical     :: from_branch = .false.     !! ORIGIN BRANCH: d of B and C counts from where the branch began
    end type shear_law
+
+   !> The cubic that an element follows: d tau/d delta = P'(d; p), d = sense (delta - origin).
+   type, public :: followed_curve
+      type(cubic) :: curve
+      real(wp)    :: sense = 1.0_wp
+      real(wp)    :: origin = 0.0_wp           !! [length]
+   end type followed_curve
 
    !> State of one interface element in one shear direction. Point A, o and d are in the sense s, so d_r >= 0.
    type, public :: shear_state
@@ -47,6 +58,7 @@ module shear_stiffness
       real(wp) :: delta_0 = 0.0_wp             !! the origin, which slip moves: d = s (delta - delta_0) [length]
       real(wp) :: slid   = 0.0_wp              !! sliding part of delta [length]
       real(wp) :: delta_before = 0.0_wp        !! before the last increment
+      real(wp) :: delta_start = 0.0_wp         !! where the unloading or reloading branch began [length]
       real(wp) :: tau    = 0.0_wp              !! shear stress [pressure]
       real(wp) :: tau_before = 0.0_wp
       real(wp) :: d_r    = 0.0_wp, tau_r = 0.0_wp !! point A, where the last unloading left the loading curve
@@ -131,7 +143,9 @@ contains
       else if (branch == branch_unload) then
          state%branch = branch_reload
       end if
-      if (state%branch /= branch) state%side = 0.0_wp
+      if (state%branch == branch) return
+      state%side = 0.0_wp
+      state%delta_start = state%delta_before
    end subroutine turn
 
    !> The sense of the loading curve that a branch approaches: opposite for unloading, its own for reloading.
@@ -187,8 +201,10 @@ contains
       type(shear_law), intent(in)   :: law
       type(shear_state), intent(in) :: state
       real(wp), intent(in)          :: pressure
+      type(followed_curve) :: on
 
-      slope = cubic_slope(cubic_of(law, state%branch), curve_deflection(state), pressure)
+      on = curve_of(law, state)
+      slope = cubic_slope(on%curve, on%sense*(state%delta - on%origin), pressure)
       if (state%branch == branch_load) return
       if (is_past_a(state)) slope = max(slope, cubic_slope(law%load, goal_sense(state)*(state%delta - state%delta_0), pressure))
    end function shear_slope
@@ -237,7 +253,7 @@ contains
    end function slid_from
 
    !> b0 or c0: the shift by which the curve of the branch of STATE under the pressure P passes through the point (DELTA, TAU)
-   !! where the branch began; zero on the loading curve [pressure].
+   !! where the branch began, or s TAU of a branch that counts from this point; zero on the loading curve [pressure].
    pure real(wp) function branch_shift(law, state, p, delta, tau) result(shift)
       type(shear_law), intent(in)   :: law
       type(shear_state), intent(in) :: state
@@ -245,8 +261,20 @@ contains
 
       shift = 0.0_wp
       if (state%branch == branch_load) return
-      shift = state%sense*tau - cubic_value(cubic_of(law, state%branch), state%sense*(delta - state%delta_0), p)
+      shift = state%sense*tau
+      if (.not. law%from_branch) shift = shift - cubic_value(cubic_of(law, state%branch), state%sense*(delta - state%delta_0), p)
    end function branch_shift
+
+   !> The cubic of the branch of STATE, and from where and in which sense its d counts.
+   pure type(followed_curve) function curve_of(law, state) result(on)
+      type(shear_law), intent(in)   :: law
+      type(shear_state), intent(in) :: state
+
+      on = followed_curve(cubic_of(law, state%branch), state%sense, state%delta_0)
+      if (.not. law%from_branch .or. state%branch == branch_load) return
+      on%sense = goal_sense(state)
+      on%origin = state%delta_start
+   end function curve_of
 
    !> The cubic of a branch.
    pure type(cubic) function cubic_of(law, branch) result(curve)

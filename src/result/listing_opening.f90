@@ -233,6 +233,7 @@ contains
                      call table%put(cubic_names, pack(curve%coefficients, .true.))
                      call table%print_row(file)
                   end do
+                  if (shear%from_branch) call file%put(behind//'ORIGIN BRANCH: D OF UNLOAD AND RELOAD COUNTS FROM THEIR START')
                   if (shear%p_max < huge(1.0_wp)) call file%put(behind//'TESTED UP TO P ='//in_form(shear%p_max, '(es13.5)', 13))
                   if (shear%d_max < huge(1.0_wp)) call file%put(behind//'TESTED UP TO D ='//in_form(shear%d_max, '(es13.5)', 13))
                   closure = worst_closure(shear, model%joints%list(j)%p_av) ! of the loops: the widest gap and its place

@@ -201,6 +201,7 @@ contains
       type(shear_law), intent(in) :: a, b
 
       is_same_law = b%given .and. abs(a%p_max - b%p_max) <= 0.0_wp .and. abs(a%d_max - b%d_max) <= 0.0_wp &
+                    .and. (a%from_branch .eqv. b%from_branch) &
                     .and. all(abs(a%load%coefficients - b%load%coefficients) <= 0.0_wp) &
                     .and. all(abs(a%unload%coefficients - b%unload%coefficients) <= 0.0_wp) &
                     .and. all(abs(a%reload%coefficients - b%reload%coefficients) <= 0.0_wp)
@@ -297,8 +298,8 @@ contains
             if (watch%soft_unloading(law)) cycle
             associate (curves => model%joints%list(model%joints%element(i)%joint)%law%shear(k), &
                state => analysis%states(i)%shear(k), p => max(0.0_wp, analysis%states(i)%normal%pressure))
-               if (state%branch /= branch_unload .or. cubic_slope(curves%unload, state%d_r, p) >= &
-                   (1.0_wp - equal_slopes)*cubic_slope(curves%load, state%d_r, p)) cycle
+               if (state%branch /= branch_unload .or. cubic_slope(curves%unload, merge(0.0_wp, state%d_r, curves%from_branch), p) &
+                   >= (1.0_wp - equal_slopes)*cubic_slope(curves%load, state%d_r, p)) cycle
                watch%soft_unloading(law) = .true.
                call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(place)//': SHEAR LAW OF JOINT '// &

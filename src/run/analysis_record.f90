@@ -116,13 +116,14 @@ contains
       type(restart_stream_type), intent(inout) :: stream
       type(shear_state), intent(inout)           :: states(:)
 
-      call stream%part('shear_state', 1)
+      call stream%part('shear_state', 2)
       call stream%item('branch', states%branch)
       call stream%item('sense', states%sense)
       call stream%item('delta', states%delta)
       call stream%item('delta_0', states%delta_0)
       call stream%item('slid', states%slid)
       call stream%item('delta_before', states%delta_before)
+      call stream%item('delta_start', states%delta_start)
       call stream%item('tau', states%tau)
       call stream%item('tau_before', states%tau_before)
       call stream%item('d_r', states%d_r)

@@ -60,6 +60,11 @@ JSHEAR,2,100.0,,-2.0E3,,1.0E4;$b" &&
       judge_rows masing 1 '100*(100 - 2e3*x + 1e4*x*x)' '100*(4/3*2e3*x^3 - 2*1e4*x^4)'
 done
 
+# ORIGIN BRANCH: with B = C = 2 A(d/2), b1 = a1, b2 = a2/2, b3 = a3/4, that is so at every amplitude of one deck, and in the second cycle
+pushed_mass every JAMPL,6,1,0.015,12,0.05 "CJOINT,1,1,1,,100.0,0.0,-1.0;PJOINT,1,1,2;JNORM,1,8.0-3,0.5,500.0
+JSHEAR,2,100.0,,-2.0E3,,1.0E4;+,100.0,,-1.0E3,,2.5E3;+,100.0,,-1.0E3,,2.5E3;+,,,BRANCH" &&
+   judge_rows every 12 '100*(100 - 2e3*x + 1e4*x*x)' '100*(4/3*2e3*x^3 - 2*1e4*x^4)'
+
 # ---- One-sided contact: a linear joint of stiffness 12500, pressed by its share of 130, and a spring 1000 across it. Beyond 130 upwards
 # the spring alone bears; half the distance of the turning points is x
 for n in 1 8; do

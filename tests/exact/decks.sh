@@ -470,3 +470,16 @@ furthest_apart() {
       { d = p[place] - $at["pressure"]; if (d < 0) d = -d; if (d > worst) worst = d; m++ }
       END { print (n == m && n > 0 ? worst/most : -1) }' "$work/$1.joint.csv" "$work/$2.joint.csv"
 }
+
+# One element at p = 0.5 under ORIGIN BRANCH or CURVE with B = C = 2 A(d/2), A = 60 d - 2500 d^2 + 5E4 d^3: the loads at 0.003, -0.003, 0.003, then
+# the same of 0.006 and 0.009 as stages 2 to 10
+masing_cycles() { # NAME METHOD INCREMENTS ORIGIN
+   awk -v method="$2" -v n="$3" -v origin="$4" 'function load(d) { return d < 0 ? -load(-d) : 100*(60*d - 2500*d^2 + 5e4*d^3) }
+      BEGIN { print "METHOD = " method "\nUNITS = MM, KGF"
+         split("0 .003 -.003 .003 .006 -.006 .006 .009 -.009 .009", d, " ")
+         for (i = 1; i <= 10; i++) printf "SUBCASE %d\n LOAD = %d\n INCR = 7\n", i, 100 + i
+         print "BEGIN BULK\nGRID,1\nCJOINT,1,1,1,,100.,0.,1.\nPJOINT,1,1,1\nJNORM,1,8.-3,.5,9500.\nFORCE,1,1,,50.,0.,-1.\nJINCR,7," n ",ARITH," 1/n
+         print "JSHEAR,1,50.,20.,-2000.,-1000.,4.+4,2.+4\n+,50.,20.,-1000.,-500.,1.+4,5.+3\n+,50.,20.,-1000.,-500.,1.+4,5.+3\n+,,0.5,0.01," origin
+         for (i = 1; i <= 10; i++) printf "LOAD,%d,1.,1.,1,1.,%d\nFORCE,%d,1,,%.14E,1.\n", 100 + i, 200 + i, 200 + i, load(d[i])
+         print "ENDDATA" }' > "$work/$1.bdf"
+}

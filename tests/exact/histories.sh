@@ -25,6 +25,34 @@ for n in 5 10 15 20 25 40 50; do
    same "shear loop in $n increments: branch there" "$(cell loop 4 $((n / 5)) 1 branch_x)" UNLOAD
 done
 
+# ORIGIN BRANCH with B = C = 2 A(d/2), A = 60 d - 2500 d^2 + 5E4 d^3 at p = 0.5, all coefficients growing with p: loads A(d)*100 for d = 0.003,
+# 0.006, 0.009 and their opposites. Each cycle ends where it began, at growing and falling amplitude, by both methods; its energy from the
+# listing is -(4/3) a2 d^3 - 2 a3 d^4, times a.
+masing_cycles origin NEWTON 7 BRANCH
+run origin && {
+   near 'ORIGIN BRANCH: closure' "$(awk '/^ +CLOSURE/ { print $2 }' "$work/origin.out")" 0 1e-6
+   says 'ORIGIN BRANCH: the listing says so' "$work/origin.out" 'ORIGIN BRANCH: D OF UNLOAD AND RELOAD COUNTS FROM THEIR START'
+   for i in 1 2 3; do
+      for k in 1 2 3; do
+         near "ORIGIN BRANCH: delta at the end of stage $((3*i + k - 2))" "$(cell origin $((3*i + k - 2)) 7 1 delta_x)" $((k == 2 ? -1 : 1))*0.003*$i 1e-8
+      done
+      kept=$(awk -v s=$((3*i - 0)) '$0 ~ "ENERGY OF JOINTS, STAGE (" s "|" s + 1 ")([^0-9]|$)" { for (i = 1; i <= 5; i++) getline; kept += $NF } END { print kept }' "$work/origin.out")
+      near "ORIGIN BRANCH: energy of the cycle to 0.003*$i" "$kept" "100*((4/3)*2500*(0.003*$i)^3 - 2*5e4*(0.003*$i)^4)" 1e-5
+   done
+}
+for n in 40 160; do
+   masing_cycles origin_step STEP $n BRANCH
+   run origin_step || continue
+   near "ORIGIN BRANCH: STEP in $n increments tends to the same" "$(cell origin_step 10 $n 1 delta_x)" 0.009 "8/$n"
+done
+masing_cycles origin_curve NEWTON 7 CURVE
+run origin_curve && same 'ORIGIN CURVE: another path' "$(cmp -s "$work/origin.joint.csv" "$work/origin_curve.joint.csv" || echo other)" other
+sed 's/,CURVE$//' "$work/origin_curve.bdf" > "$work/origin_blank.bdf"
+run origin_blank && same 'ORIGIN blank is CURVE' "$(cksum < "$work/origin_blank.joint.csv")" "$(cksum < "$work/origin_curve.joint.csv")"
+# a law that unloads less steeply than it was loaded: warned of at the slopes where the branch begins
+sed 's/^+,50.,20.,-1000.*$/+,30.,10.,0.,0.,0.,0./' "$work/origin.bdf" > "$work/origin_soft.bdf"
+run origin_soft && says 'ORIGIN BRANCH: soft unloading' "$work/origin_soft.out" 'UNLOADING IS LESS STEEP THAN LOADING'
+
 # k_b = E a/h = 1000 x 100/50 a node; a = 100
 reopen reopen STEP && judge 'opens and closes again, STEP' -F, '
    FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }

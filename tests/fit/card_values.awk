@@ -2,6 +2,8 @@
 # lines of a card, as jointfem counts them (1 is the id, B11 is 9, C11 is 17, PMAX is 25). Reads small and large fields; a card
 # beyond column 80 and any other text is an error.
 #
+# The words of ORIGIN are printed as they are.
+#
 #    awk -f card_values.awk [-v name=JSHEAR] cards.bdf
 function number(text) {
    gsub(/ /, "", text)
@@ -21,6 +23,7 @@ length($0) > 80 { print "past column 80: " $0; exit 1 }
    for (i = 0; i < 64 / width; i++) {
       field++
       entry = substr($0, 9 + i * width, width)
+      if (entry ~ /^(BRANCH|CURVE) *$/ && (name == "" || name == card)) { sub(/ +$/, "", entry); print card, field, entry; continue }
       if (entry !~ /^ *$/ && (name == "" || name == card)) printf "%s %d %.17g\n", card, field, number(entry)
    }
 }

@@ -104,8 +104,17 @@ for lesson in 2d 2a 2b 2c; do # LAMBDA of the row of NODE 1 = 51
 done
 answer 2 "$lambdas mm; by NEWTON $limit mm"
 answer 2 "errors $errors"
-answer 3 "LARGEST DISPLACEMENT $(largest 3 2) mm"
-answer 3 "SLIPPING $(value lesson3 rows 'stage = 2 and increment = 10' print 'sum(slip)') node"
+answer '3 \(a\)' "LARGEST DISPLACEMENT $(largest 3 2) mm"
+answer '3 \(a\)' "SLIPPING $(value lesson3 rows 'stage = 2 and increment = 10' print 'sum(slip)') node"
+for origin in 'BRANCH 3b' 'CURVE 3c'; do
+   halves=$(awk -F, -v w=: 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } $c["element"] == 1 { t[$1, $2] = $c["tau_x"] }
+      END { for (k in t) if (split(k, s, SUBSEP) && s[1] == 2) top = t[k] > top ? t[k] : top
+            printf "falls by %.2f and %.2f, rises by %.2f and %.2f", top - t[3, 1], t[3, 1] - t[3, 2], t[4, 1] - t[3, 2], t[4, 2] - t[4, 1] }' \
+      "$work/lesson${origin#* }.joint.csv")
+   answer '3 \(b\)' "${origin% *}: tau $halves"
+   answer '3 \(b\)' "${origin% *} $(awk '/ENERGY OF JOINTS, STAGE [34]/ { on = 1 } /ANSWER/ { on = 0 } on && $1 == 1 { kept += $NF }
+      END { printf "%.5f", kept }' "$work/lesson${origin#* }.out")"
+done
 # field of the answer of the last stage: behind the joint or bolt number
 answer 4 "CONTACT $(awk '/JOINT CONTACT %/ { n = NR + 2 } NR == n { v = $2 } END { print v }' "$work/lesson4.out") %"
 answer 4 "CHANGE/LOAD $(awk '/BOLT +ELEMENT +SURFACE/ { n = NR + 2 } NR == n { v = $6 } END { print v }' "$work/lesson4.out") of the load"
@@ -115,8 +124,8 @@ reference() { awk -v title="$2" -v c="$3" '$0 ~ title { n = NR + 2 } NR == n { v
 largest_there() { awk '/LARGEST DISPLACEMENT +[0-9]/ { print $3 }' "reference_output/$1.out" | sed -n "$2p"; }
 answer '1 \(a\)' "half of $(largest_there one_element 1); after"
 answer '1 \(a\)' "more than half of $(largest_there one_element 2) "
-answer 3 "instead of $(reference friction_full 'JOINT CONTACT %' 6);"
-answer 3 "mm instead of $(largest_there friction_full 2) "
+answer '3 \(a\)' "instead of $(reference friction_full 'JOINT CONTACT %' 6);"
+answer '3 \(a\)' "mm instead of $(largest_there friction_full 2) "
 answer 4 "instead of $(reference flange_pair 'JOINT CONTACT %' 2) %;"
 answer 4 "instead of $(reference flange_pair 'BOLT +ELEMENT +SURFACE' 6) "
 for preload in 02 08 32; do answer 5 "$(awk -F, '$1 == 2 && $2 == 1 { printf "%.1f", $3 }' reference_output/column_modes_$preload.modes.csv)"; done

@@ -6,6 +6,7 @@ data_seeds() {
    cp "$tests/sanad.dat" "$1"
    awk -v form=record -v n=4 -f "$tests/fig1b.awk" > "$1/record.dat"
    awk -v form=words -v n=4 -f "$tests/fig1b.awk" > "$1/words.dat"
+   awk -v form=zero -v n=4 -f "$tests/masing.awk" > "$1/masing.dat"
    awk -v noise=0.01 -v seed=1 -f "$tests/normal_loops.awk" | awk 'NR == 1 || NR % 4 == 0' > "$1/loops.dat"
    awk -v into="$1/example_" '/^```/ { on = !on; next }
       on && /^(lambda|d) \[um\]/ { n++; file = into n ".dat" }

@@ -183,7 +183,7 @@ function write_variant(name,   i, k, s, j, file, n, text, f, set, e, kept, t, cd
    if (sheared) {
       if (on["cubic"]) {
          put("JSHEAR,1," real(a11 * law) "," real(a12 / s_l) "," real(-0.5 * a11 / d_ref * law / s_l) "," real(-0.5 * a12 / d_ref / s_l ^ 2) "," real(0.25 * a11 / d_ref ^ 2 * law / s_l ^ 2) "," real(0.25 * a12 / d_ref ^ 2 / s_l ^ 3) \
-             "\n+," real(a11 * law) "," real(a12 / s_l) ",,,,\n+," real(a11 * law) "," real(a12 / s_l) ",,,,")
+             (n_spc % 2 ? "\n+," real(a11 * law) "," real(a12 / s_l) ",,,,\n+," real(a11 * law) "," real(a12 / s_l) ",,,," : masing_branches()))
       } else put("JSHEAR,1," real(a11 * law) "," real(a12 / s_l))
    }
    if (on["gap"]) write_gap()
@@ -279,3 +279,10 @@ function write_gap(   k, n, text, sgn, list, s1, b) {
 
 # y of a joint is its normal cross x: in the model the normal of side 1 points down or up
 function y_sense() { return 1 }
+
+# ORIGIN BRANCH with B = C = 2 A(d/2)
+function masing_branches(   b) {
+   b = "\n+," real(a11 * stress / s_l) "," real(a12 / s_l) "," real(-0.25 * a11 / d_ref * stress / s_l ^ 2) "," real(-0.25 * a12 / d_ref / s_l ^ 2) "," \
+       real(0.0625 * a11 / d_ref ^ 2 * stress / s_l ^ 3) "," real(0.0625 * a12 / d_ref ^ 2 / s_l ^ 3)
+   return b b "\n+,,,BRANCH"
+}

@@ -53,6 +53,7 @@ deck prism_cycle   newton      'RESTART = 3; SOLVER = SKYLINE'
 deck prism_back    back        'RESTART = 0'
 deck friction_once friction    'RESTART = 1; OUTPUT = JOINT'
 deck shear_cycles  cycles      'RESTART = 4'
+sed -i 's/^+ *1\.0 *0\.012 *$/+,1.0,0.012,BRANCH/' decks/cycles.bdf # branches that remember where they began
 deck gib           gaps        'RESTART = 1; SOLVER = TREE'
 deck flange_warm   warm        'RESTART = 1; SOLVER = TREE'
 deck bolted_cantilever bolts   'RESTART = 2; SOLVER = SKYLINE'
