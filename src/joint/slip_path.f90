@@ -45,6 +45,7 @@ contains
 
       first = max(limits(1), norm2(before))
       call meet_limit(before, gain, limits, f, c)
+      begins = before + f*gain
       f_change = 0.0_wp
       if (f > 0.0_wp) f_change = -f*[begins, -(first + f*(limits(2) - first))]/ &
                                    max(c(1) + c(2)*f, no_stress_direction*first**2)
