@@ -180,6 +180,7 @@ module tolerances
    real(wp), parameter :: same_unit = 1.0e-9_wp      !! of a unit: units of force, stress and length that agree
    real(wp), parameter :: settled_curve = 1.0e-14_wp !! of ln c and m: change in the last step, a few roundings
    real(wp), parameter :: settled_offset = 1.0e-13_wp !! of the unknowns with an offset: likewise, more unknowns
+   real(wp), parameter :: settled_iwan = 1.0e-9_wp   !! of its unknowns: change in the last step, by differences of the law
    real(wp), parameter :: m_at_one = 1.0e-9_wp       !! of m: the fit of a straight line gives 1 but for rounding
 
 end module tolerances
