@@ -14,8 +14,7 @@ module straight_laws
    use equations, only: equation_system, form_structure_stiffness, solve_coupled, solve_equations
    use held_parts, only: find_held_parts, is_needed
    use interface_operator, only: add_force, joint_movement
-   use iwan_law, only: limit_share, rest_of_slices
-   use joint_laws, only: element_state, force_of, friction_limit, is_apart, joint_law, slices_of, stiffness_at_rest
+   use joint_laws, only: element_state, force_of, friction_limit, is_apart, joint_law, stiffness_at_rest
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, follow_law, given_law, trial_type
@@ -285,7 +284,6 @@ contains
       type(normal_state) :: normal
       real(wp) :: bounds(2), excess, goal(3), limit, slope, start, t(2), there(2), work
       integer  :: i, step
-      logical  :: finds
 
       goal = force + rho*movement
       point = movement
@@ -293,13 +291,7 @@ contains
       call follow_normal(law%normal, area, before%normal, point(3) - before%normal%gap, normal, slope, work)
       if (present(seen)) normal = seen
       if (normal%branch == branch_open .or. before%normal%branch == branch_open) return
-      if (law%iwan%given) then
-         if (.not. law%has_friction) return ! a straight law
-         call rest_of_slices(law%iwan, slices_of(before), limit_share(law%iwan, [before%normal%pressure, normal%pressure]), &
-                             rho(:2)/area, (goal(:2) - rho(:2)*before%origin)/area, there, finds)
-         if (finds) point(:2) = there + before%origin
-         return
-      end if
+      if (law%iwan%given) return ! its kinks are small
       t = 0.0_wp
       there = 0.0_wp
       do i = 1, 2

@@ -18,15 +18,14 @@
 module iwan_law
    use kinds, only: wp
    use slip_path, only: meet_limit, turn_slip
-   use tolerances, only: flag_margin, on_the_graph, slip_margin
+   use tolerances, only: flag_margin, slip_margin
    implicit none
    private
 
-   public :: make_slices, greatest_phi, limit_share, follow_slices, rest_of_slices, slices_work, energy_gain, monotone_stress, &
+   public :: make_slices, greatest_phi, limit_share, follow_slices, slices_work, energy_gain, monotone_stress, &
              slices_loss, loading_slopes, slides_as_whole, stresses
 
    real(wp), parameter :: spacing = 1.6_wp  ! c
-   integer, parameter  :: most_steps = 40
    real(wp), parameter, public :: point(5) = 0.5_wp + 0.5_wp*[-0.906179845938664_wp, -0.538469310105683_wp, 0.0_wp, &
                                               0.538469310105683_wp, 0.906179845938664_wp] !! of Gauss, on 0..1
    real(wp), parameter, public :: weight(5) = 0.5_wp*[0.236926885056189_wp, 0.478628670499366_wp, 0.568888888888889_wp, &
@@ -149,42 +148,6 @@ contains
                                             - spread(by_limit, 2, 2)*spread(by_limit, 1, 2))
       end if
    end subroutine move_slice
-
-   !> The movement DELTA at which the slices would come to rest, area tau + rho delta = GOAL, from BEFORE; OK is false where it is
-   !! not found. The stress is the gradient of a convex function of DELTA: Newton's method, halved where it goes too far.
-   pure subroutine rest_of_slices(law, before, share, stiffness, goal, delta, ok)
-      type(iwan_type), intent(in)  :: law
-      type(iwan_state), intent(in) :: before
-      real(wp), intent(in)         :: share(2)
-      real(wp), intent(in)         :: stiffness(2) !! rho over the area [pressure/length]
-      real(wp), intent(in)         :: goal(2)      !! over the area [pressure]
-      real(wp), intent(out)        :: delta(2)     !! [length]
-      logical, intent(out)         :: ok
-      type(iwan_state) :: there
-      real(wp) :: excess(2), left, matrix(2, 2), step(2), unused(2)
-      integer  :: i
-
-      delta = before%delta
-      step = 0.0_wp
-      left = huge(1.0_wp)
-      do i = 1, most_steps
-         call follow_slices(law, before, delta, share, .false., there, matrix, unused)
-         excess = sum(there%tau, dim=2) + stiffness*delta - goal
-         ok = norm2(excess) <= on_the_graph*(norm2(sum(there%tau, dim=2)) + norm2(goal - stiffness*delta))
-         if (ok) return
-         if (norm2(excess) < left) then
-            left = norm2(excess)
-            matrix(1, 1) = matrix(1, 1) + stiffness(1)
-            matrix(2, 2) = matrix(2, 2) + stiffness(2)
-            step = [matrix(2, 2)*excess(1) - matrix(1, 2)*excess(2), matrix(1, 1)*excess(2) - matrix(2, 1)*excess(1)]/ &
-                   (matrix(1, 1)*matrix(2, 2) - matrix(1, 2)*matrix(2, 1))
-            delta = delta - step
-         else
-            step = 0.5_wp*step
-            delta = delta + step
-         end if
-      end do
-   end subroutine rest_of_slices
 
    !> The stress TAU of the slices at the fraction F of a straight way of length MOVED from BEFORE, and their WORK up to there. A
    !! slice sticks up to the fraction at which it meets its limit; its power is linear there, and after it along one axis.

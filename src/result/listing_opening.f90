@@ -260,7 +260,7 @@ contains
    subroutine write_iwan_laws(file, model)
       type(output_file_type), intent(inout) :: file
       type(model_type), intent(in)          :: model
-      character(7), parameter :: names(6) = [character(7) :: 'FS', 'KT', 'CHI', 'BETA', 'PREF', 'PHI_MAX']
+      character(7), parameter :: names(6) = [character(7) :: 'FS', 'KT', 'CHI', 'BETA', 'PHI_MAX', 'PREF']
       type(table_type) :: table
       integer :: j
 
@@ -272,11 +272,9 @@ contains
          associate (law => model%joints%list(j)%law%iwan)
             if (.not. law%given) cycle
             call table%put('JOINT', model%joints%list(j)%id)
-            call table%put(names(:4), [law%f_s, law%k_t, law%chi, law%beta])
+            call table%put(names(:5), [law%f_s, law%k_t, law%chi, law%beta, greatest_phi(law)])
             call table%put('PREF', law%p_ref, where=law%p_ref > 0.0_wp)
-            call table%put('PHI_MAX', greatest_phi(law))
-            call table%put('SLICES', size(law%stiffness))
-            call table%put('RE-ANALYSES', model%joints%list(j)%n_reanalyses)
+            call table%put(['SLICES     ', 'RE-ANALYSES'], [size(law%stiffness), model%joints%list(j)%n_reanalyses])
             call table%print_row(file)
          end associate
       end do
