@@ -13,7 +13,7 @@ module iwan_fit
    use kinds, only: wp
    use numbers, only: solve_least_squares
    use text_tools, only: plural, real_text
-   use tolerances, only: settled_iwan
+   use tolerances, only: iwan_difference, not_fixed, settled_iwan
    implicit none
    private
 
@@ -22,9 +22,6 @@ module iwan_fit
    integer, parameter  :: fine = 100          ! slices of the loops
    integer, parameter  :: most_steps = 100
    integer, parameter  :: beyond = 3          ! readings beyond phi_max that fix beta
-   real(wp), parameter :: change = 1.0e-5_wp  ! of an unknown: derivatives
-   real(wp), parameter :: no_beta = 1.0e-3_wp ! a smaller beta is none
-   real(wp), parameter :: dependent = 1.0e-3_wp ! part of a derivative that is not that of the others, of it: not fixed by the data
    character(4), parameter :: names(4) = [character(4) :: 'FS', 'KT', 'CHI', 'BETA']
 
    type, public :: iwan_fit_type
@@ -73,8 +70,8 @@ contains
          call set_law(q, fit%law%p_ref, fit%law)
          if (free == 4) fixed(4) = fixed(4) .and. beyond <= count(abs(data%value(column_d, :data%n)) > &
                                    greatest_phi(fit%law)*data%value(column_p, :data%n)/fit%law%p_ref)
-         if (all(fixed(:free)) .and. (free == 3 .or. exp(q(4)) > no_beta)) exit
-         if (free == 4 .and. exp(q(4)) > no_beta) call warnings%add(0, 'the data do not fix BETA, it is set to 0: expected '// &
+         if (all(fixed(:free)) .and. (free == 3 .or. exp(q(4)) > not_fixed)) exit
+         if (free == 4 .and. exp(q(4)) > not_fixed) call warnings%add(0, 'the data do not fix BETA, it is set to 0: expected '// &
             'amplitudes beyond phi_max, where the joint slides as a whole')
       end do
       if (.not. all(fixed(:min(free, 4)))) call errors%add(0, 'the data do not fix '//trim(names(findloc(fixed, .false., 1)))// &
@@ -118,7 +115,7 @@ contains
       associate (d => abs(data%value(column_d, :data%n)), tau => abs(data%value(column_tau, :data%n)), &
                  loss => data%value(column_loss, :data%n), share => data%value(column_p, :data%n)/p_ref)
          f_s = 1.1_wp*maxval(tau/share)
-         k_t = 1.1_wp*maxval(tau/max(d, 1.0e-3_wp*maxval(d)))
+         k_t = 1.1_wp*maxval(tau/max(d, not_fixed*maxval(d)))
          if (.not. f_s > 0.0_wp) then
             f_s = 1.2_wp*maxval(loss/(4.0_wp*d*share))
             k_t = 3.0_wp*f_s/(times*maxval(d))
@@ -186,8 +183,8 @@ contains
 
       do k = 1, size(q)
          there = q
-         there(k) = q(k) + change
-         jacobian(:, k) = (residuals(data, p_ref, there) - r)/change
+         there(k) = q(k) + iwan_difference
+         jacobian(:, k) = (residuals(data, p_ref, there) - r)/iwan_difference
       end do
    end function derivatives
 
@@ -211,9 +208,10 @@ contains
          jacobian = derivatives(data, p_ref, q(:free), r)
          do
             do k = 1, free
-               unit(k, k) = sqrt(damping)*max(norm2(jacobian(:, k)), 1.0e-6_wp)
+               unit(k, k) = sqrt(damping)*max(norm2(jacobian(:, k)), settled_iwan)
             end do
-            call solve_least_squares(joined_rows(jacobian, unit), [-r, spread(0.0_wp, 1, free)], step, ok)
+            call solve_least_squares(transpose(reshape([transpose(jacobian), unit], [free, size(r) + free])), &
+                                     [-r, spread(0.0_wp, 1, free)], step, ok)
             if (.not. ok) return
             trial = q(:free) + min(max(step, -1.0_wp), 1.0_wp)
             trial(3:) = min(max(trial(3:), -12.0_wp), 12.0_wp)
@@ -223,21 +221,13 @@ contains
             damping = 10.0_wp*damping
          end do
          if (now > total) return
-         damping = max(0.1_wp*damping, 1.0e-12_wp)
+         damping = max(0.1_wp*damping, settled_iwan)
          step = trial - q(:free)
          q(:free) = trial
          total = now
          if (maxval(abs(step)) <= settled_iwan) return
       end do
    end subroutine minimise
-
-   pure function joined_rows(a, b) result(both)
-      real(wp), intent(in) :: a(:, :), b(:, :)
-      real(wp) :: both(size(a, 1) + size(b, 1), size(a, 2))
-
-      both(:size(a, 1), :) = a
-      both(size(a, 1) + 1:, :) = b
-   end function joined_rows
 
    !> Standard ERROR of each unknown Q, and whether the data FIX it: by the part of its derivative that the others do not replace.
    subroutine take_errors(data, p_ref, q, total, error, fixed)
@@ -260,7 +250,7 @@ contains
          own = jacobian(:, k)
          call solve_least_squares(jacobian(:, others), own, shares, ok)
          if (ok) own = own - matmul(jacobian(:, others), shares)
-         fixed(k) = norm2(own) > dependent*norm2(jacobian(:, k)) .and. size(r) >= size(q)
+         fixed(k) = norm2(own) > not_fixed*norm2(jacobian(:, k)) .and. size(r) >= size(q)
          error(k) = scatter/max(norm2(own), tiny(1.0_wp)*1.0e10_wp)
       end do
       error(3) = error(3)*exp(-abs(q(3)))/(1.0_wp + exp(-abs(q(3))))**2 ! d chi/dq
