@@ -1,7 +1,7 @@
-!> jointfit: the cards of a joint's laws, JNORM and JSHEAR, fitted to test data.
+!> jointfit: the cards of a joint's laws, JNORM, JSHEAR and JIWAN, fitted to test data.
 program jointfit
    use c_library, only: end_run, tell_failed_writes
-   use data_columns, only: branch_words, data_normal, fit_reload, fit_unload
+   use data_columns, only: branch_words, data_loss, data_normal, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
    use error_report, only: print_errors
    use fit_command, only: fit_command_type, read_fit_command
@@ -96,7 +96,7 @@ contains
          do k = 1, fit%warnings%n
             write (error_unit, '(3a)') file%name, ': WARNING: ', fit%warnings%items(k)%message
          end do
-         if (fit%kind == data_normal .or. fit%has_loading) return
+         if (any(fit%kind == [data_normal, data_loss]) .or. fit%has_loading) return
          exit_status = max(exit_status, status_data)
          k = merge(fit_reload, fit_unload, fit%branch(fit_reload)%n_points > 0)
          write (error_unit, '(5a)') file%name, ': no LOAD data, and a JSHEAR card needs the loading coefficients: those of the'// &

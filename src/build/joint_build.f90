@@ -1,6 +1,7 @@
-!> Joints: laws from PJOINT, JNORM and JSHEAR cards, and interface elements from JOINT and CJOINT cards.
+!> Joints: laws from PJOINT, JNORM, JSHEAR and JIWAN cards, and interface elements from JOINT and CJOINT cards.
 !! The elements lie between two facing surfaces, between a surface and a rigid base, or are given one by one.
 module joint_build
+   use branch_cubic, only: cubic
    use bulk_data, only: cjoint_card
    use deck_check, only: checked_deck
    use interface_operator, only: connect_nodes, interface_element, nodes_of_end, weights_of_end
@@ -10,6 +11,7 @@ module joint_build
    use model_data, only: joint_type, joints_type, mesh_type
    use model_kind, only: space_hint
    use node_build, only: find_nodes
+   use shear_stiffness, only: shear_law
    use text_tools, only: integer_text, real_text
    use tolerances, only: closed_joint
    implicit none
@@ -23,18 +25,20 @@ module joint_build
       type(id_table_type) :: side    !! the sides of the JOINT cards, those of card j at 2 j - 1 and 2 j
       type(id_table_type) :: surface !! the surfaces of the model
       type(id_table_type) :: group   !! the CJOINT cards, by their PJOINT
-      type(id_table_type) :: pjoint, jnorm, jshear
+      type(id_table_type) :: pjoint, jnorm, jshear, jiwan
    end type joint_tables
 
 contains
 
    !> The laws of a joint, by the id of its PJOINT.
-   subroutine resolve_laws(deck, tables, id, joint)
+   subroutine resolve_laws(deck, tables, id, dimension, joint)
       type(checked_deck), intent(in)  :: deck
       type(joint_tables), intent(in)  :: tables
       integer, intent(in)             :: id
+      integer, intent(in)             :: dimension !! of the model
       type(joint_type), intent(inout) :: joint
       integer :: direction, i, k
+      type(cubic) :: elastic
 
       i = 0
       if (id > 0) i = tables%pjoint%find(id)
@@ -54,6 +58,14 @@ contains
             if (k == 0 .or. pjoint%shear_laws(direction) == 0) cycle
             law%shear(direction) = deck%bulk%jshear(k)%law
          end do
+         k = tables%jiwan%find(pjoint%iwan_law)
+         if (k == 0 .or. pjoint%iwan_law == 0) return
+         law%iwan = deck%bulk%jiwan(k)%law
+         law%iwan%p_ref = pjoint%p_ref
+         law%has_friction = .true.
+         if (pjoint%p_ref > 0.0_wp) law%mu = law%iwan%f_s/pjoint%p_ref
+         elastic%coefficients(1, 1) = law%iwan%k_t
+         law%shear(:dimension - 1) = shear_law(given=.true., load=elastic, unload=elastic, reload=elastic)
       end associate
    end subroutine resolve_laws
 
@@ -140,6 +152,7 @@ contains
          call tables%pjoint%build(deck%bulk%pjoint%id)
          call tables%jnorm%build(deck%bulk%jnorm%id)
          call tables%jshear%build(deck%bulk%jshear%id)
+         call tables%jiwan%build(deck%bulk%jiwan%id)
          leader = [(tables%group%find(cjoints(i)%law), i = 1, size(cjoints))] ! the first card of the group
          allocate (joints%list(size(cards) + count(leader == [(i, i = 1, size(cjoints))])), joints%element(0))
          highest = max(0, maxval(cjoints%id))
@@ -148,7 +161,7 @@ contains
             call joint_elements(deck, tables, j, mesh, joints, highest, elements)
             call add_elements(joints, n, j, cards(j)%id, cards(j)%line, elements)
             joints%list(j)%side_1 = tables%surface%find(cards(j)%sides(1))
-            call resolve_laws(deck, tables, cards(j)%law, joints%list(j))
+            call resolve_laws(deck, tables, cards(j)%law, mesh%dimension, joints%list(j))
          end do
          call list_owners(size(cjoints), reshape(leader, [1, size(cjoints)]), first, members)
          j = size(cards)
@@ -157,7 +170,7 @@ contains
             j = j + 1
             call cjoint_elements(deck, cjoints(members(first(i):first(i + 1) - 1)), mesh, elements)
             call add_elements(joints, n, j, group_number(deck, tables%joint, cjoints(i)%law), cjoints(i)%line, elements)
-            call resolve_laws(deck, tables, cjoints(i)%law, joints%list(j))
+            call resolve_laws(deck, tables, cjoints(i)%law, mesh%dimension, joints%list(j))
          end do
       end associate
       joints%element = joints%element(:n)

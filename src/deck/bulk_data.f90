@@ -8,6 +8,7 @@ module bulk_data
    use kinds, only: wp
    use nastran_compatibility, only: ignored_entries_type, parameters_type
    use normal_curve, only: normal_law
+   use iwan_law, only: iwan_type
    use shear_stiffness, only: shear_law
    implicit none
    private
@@ -282,7 +283,8 @@ module bulk_data
       integer  :: line = 0, id = 0, normal_law = 0
       integer  :: shear_laws(2) = 0                     ! along x and y of the joint, 0: none
       integer  :: n_reanalyses = 1
-      real(wp) :: mu = 0.0_wp, p0 = 0.0_wp
+      integer  :: iwan_law = 0                          ! 0: none
+      real(wp) :: mu = 0.0_wp, p0 = 0.0_wp, p_ref = 0.0_wp
       logical  :: mu_given = .false., p0_given = .false.
    end type pjoint_card
 
@@ -296,6 +298,11 @@ module bulk_data
       integer  :: line = 0, id = 0
       type(shear_law) :: law
    end type jshear_card
+
+   type, public :: jiwan_card
+      integer :: line = 0, id = 0
+      type(iwan_type) :: law                            ! p_ref is that of PJOINT
+   end type jiwan_card
 
    type, public :: jgap_card
       integer  :: line = 0, joint = 0
@@ -389,6 +396,7 @@ module bulk_data
       type(pjoint_card), allocatable       :: pjoint(:)
       type(jnorm_card), allocatable        :: jnorm(:)
       type(jshear_card), allocatable       :: jshear(:)
+      type(jiwan_card), allocatable        :: jiwan(:)
       type(jgap_card), allocatable         :: jgap(:)
       type(jincr_card), allocatable        :: jincr(:)
       type(eigrl_card), allocatable        :: eigrl(:)

@@ -112,6 +112,7 @@ contains
          call self%report_repeated('PJOINT', bulk%pjoint%id, bulk%pjoint%line)
          call self%report_repeated('JNORM', bulk%jnorm%id, bulk%jnorm%line)
          call self%report_repeated('JSHEAR', bulk%jshear%id, bulk%jshear%line)
+         call self%report_repeated('JIWAN', bulk%jiwan%id, bulk%jiwan%line)
          call self%report_repeated('JGAP of joint', bulk%jgap%joint, bulk%jgap%line)
          call self%report_repeated('JINCR', bulk%jincr%id, bulk%jincr%line)
          call self%report_repeated('EIGRL', bulk%eigrl%id, bulk%eigrl%line)
@@ -130,6 +131,7 @@ contains
             associate (card => bulk%pjoint(i))
                call check_reference(card%line, 'SIDX', card%shear_laws(1), 'JSHEAR', bulk%jshear%id)
                call check_reference(card%line, 'SIDY', card%shear_laws(2), 'JSHEAR', bulk%jshear%id)
+               call check_reference(card%line, 'IID', card%iwan_law, 'JIWAN', bulk%jiwan%id)
                call check_reference(card%line, 'NID', card%normal_law, 'JNORM', bulk%jnorm%id)
             end associate
          end do

@@ -8,7 +8,7 @@ module deck_input
    use deck_parameters, only: parameter_type
    use deck_text, only: deck_text_of_bytes, deck_text_type, is_include, read_deck_text
    use, intrinsic :: iso_fortran_env, only: int8
-   use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
+   use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
    use lists, only: id_table_type
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
@@ -104,6 +104,7 @@ contains
       call add(['PJOINT'], read_pjoint)
       call add(['JNORM'], read_jnorm)
       call add(['JSHEAR'], read_jshear)
+      call add(['JIWAN'], read_jiwan)
       call add(['JGAP'], read_jgap)
       call add(['JINCR'], read_jincr)
       call add(['EIGRL'], read_eigrl)
@@ -146,7 +147,7 @@ contains
          bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
          bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
          bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
-         bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
+         bulk%jiwan(n('JIWAN')), bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
          bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')))
 
    contains

@@ -10,8 +10,8 @@ module field_rules
    implicit none
    private
 
-   public :: parse_integer, parse_real, real_field_text, integer_fault, real_fault, real_words, in_range, is_component_list, &
-             has_component, list_of
+   public :: parse_integer, parse_real, integer_fault, real_fault, real_words, in_range, is_component_list, has_component, &
+             list_of
 
    integer, parameter :: most_digits = 15, max_exact = 22 ! numbers of so many digits, and 10**22, are exact in real(wp)
    integer :: k
@@ -244,44 +244,5 @@ contains
 
       has_component = any([(modulo(components/10**k, 10) == d, k = 0, 5)])
    end function has_component
-
-   !> VALUE in at most WIDTH columns as in NASTRAN: the nearest number that fits, as 0.0125, 260.8628 or, where that is nearer, in
-   !! the short form with an exponent, 1.2346-5. It always has a decimal point, and parse_real reads it.
-   function real_field_text(value, width) result(text)
-      real(wp), intent(in)      :: value !! |value| below 1E99 and not below 1E-99, or zero
-      integer, intent(in)       :: width !! 7 to 16
-      character(:), allocatable :: text
-      character(40) :: entry, best
-      character(16) :: layout
-      real(wp) :: error, least, read_back
-      logical  :: ok
-      integer  :: e, k
-
-      best = '0.0'
-      least = huge(least)
-      do k = 1, 2*width - 1
-         if (k <= width) then                ! a zero before the point if there is room
-            if (abs(value) >= 1.0e16_wp) cycle
-            write (layout, '(a, i0, a)') '(f0.', modulo(k, width), ')'
-            write (entry, layout) value
-            if (len_trim(entry) < width .and. entry(1:1) == '.') entry = '0'//trim(entry)
-            if (len_trim(entry) < width .and. entry(1:2) == '-.') entry = '-0'//trim(entry(2:))
-         else                                ! one digit before the point, and an exponent without E: -1.25+7
-            write (layout, '(a, i0, a)') '(es40.', k - width - 1, 'e3)'
-            write (entry, layout) value
-            entry = adjustl(entry)
-            e = index(entry, 'E')
-            entry = entry(:e - 1)//entry(e + 1:e + 1)//entry(min(verify(entry(e + 2:), '0'), 3) + e + 1:)
-         end if
-         if (len_trim(entry) > width) cycle
-         call parse_real(trim(entry), read_back, ok)
-         if (.not. ok) cycle
-         error = abs(read_back - value)
-         if (error >= least) cycle
-         least = error
-         best = entry
-      end do
-      text = trim(best)
-   end function real_field_text
 
 end module field_rules

@@ -1,4 +1,4 @@
-!> Reads the cards of joints: JGAP, JOINT, CJOINT, PJOINT, JNORM, JSHEAR and JINCR.
+!> Reads the cards of joints: JGAP, JOINT, CJOINT, PJOINT, JNORM, JSHEAR, JIWAN and JINCR.
 !! JGAP gives the initial gap of a joint in one of five ways.
 module joint_cards
    use branch_cubic, only: cubic
@@ -6,6 +6,7 @@ module joint_cards
    use card_fields, only: card_fields_type
    use deck_cards, only: card_type
    use field_rules, only: not_negative, positive, real_range
+   use iwan_law, only: make_slices
    use kinds, only: wp
    use load_cards, only: arithmetic_fractions, geometric_fractions
    use normal_curve, only: least_power
@@ -15,10 +16,10 @@ module joint_cards
    implicit none
    private
 
-   public :: read_jgap, read_joint, read_cjoint, read_pjoint, read_jnorm, read_jshear, read_jincr
+   public :: read_jgap, read_joint, read_cjoint, read_pjoint, read_jnorm, read_jshear, read_jiwan, read_jincr
 
    integer, parameter :: list_from = 9 ! data field where the lists of TABLE and NODES begin: the first continuation
-   integer, parameter :: most_increments = 100000, most_reanalyses = 1000
+   integer, parameter :: most_increments = 100000, most_reanalyses = 1000, most_slices = 1000
    real(wp), parameter :: most_p0 = 1.0e30_wp ! above this pressure the stiffness of the joint leaves no digits to the bodies
 
 contains
@@ -129,6 +130,8 @@ contains
    subroutine read_pjoint(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
+      character(4), parameter :: replaced(3) = [character(4) :: 'SIDX', 'SIDY', 'MU'] ! by IID
+      integer :: k
 
       associate (pjoint => bulk%pjoint(card%i))
          call card%field('PJID', pjoint%id)
@@ -137,7 +140,15 @@ contains
          call card%field('MU', pjoint%mu, not_negative, default=0.0_wp)
          call card%field('NREAN', pjoint%n_reanalyses, default=1, least=-1, most=most_reanalyses)
          call card%field('P0', pjoint%p0, real_range(0.0_wp, most_p0, above=.true.), default=0.0_wp)
+         call card%field('IID', pjoint%iwan_law, default=0)
+         call card%field('PREF', pjoint%p_ref, positive, default=0.0_wp)
          call card%finish(pjoint%line)
+         do k = 1, merge(3, 0, card%given('IID'))
+            if (card%given(replaced(k))) call card%error(trim(replaced(k)), 'expected blank beside IID: its JIWAN '// &
+                                                         'is the law of shear and of friction')
+         end do
+         if (card%given('PREF') .and. .not. card%given('IID')) &
+            call card%error('PREF', 'expected blank without IID: it is the pressure at which FS of a JIWAN holds')
          pjoint%mu_given = card%given('MU')
          pjoint%p0_given = card%given('P0')
       end associate
@@ -207,6 +218,25 @@ contains
          end do
       end associate
    end subroutine read_jshear
+
+   !> JIWAN: Segalman's Iwan law of shear and friction, divided into N slices.
+   subroutine read_jiwan(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      integer :: n
+
+      associate (jiwan => bulk%jiwan(card%i), law => bulk%jiwan(card%i)%law)
+         law%given = .true.
+         call card%field('IID', jiwan%id)
+         call card%field('FS', law%f_s, positive)
+         call card%field('KT', law%k_t, positive)
+         call card%field('CHI', law%chi, real_range(-1.0_wp, 0.0_wp, above=.true.))
+         call card%field('BETA', law%beta, not_negative)
+         call card%field('N', n, default=20, least=1, most=most_slices)
+         call card%finish(jiwan%line)
+         if (.not. card%is_faulty()) call make_slices(n, law)
+      end associate
+   end subroutine read_jiwan
 
    !> JINCR: the increments of a stage as fractions that add up to 1; an error leaves one increment.
    subroutine read_jincr(card, bulk)

@@ -39,19 +39,21 @@ module data_columns
 
    !> The columns of a file, each a power of stress times a power of length, and the kinds of file.
    integer, parameter, public :: column_d = 1, column_tau = 2, column_p = 3, column_lambda = 4, column_c(3) = [5, 6, 7], &
-                                 column_branch = 8, column_run = 9, column_k = 10, n_columns = 10
+                                 column_branch = 8, column_run = 9, column_k = 10, column_loss = 11, n_columns = 11
    character(6), parameter, public :: column_names(n_columns) = [character(6) :: 'D', 'TAU', 'P', 'LAMBDA', 'C1', 'C2', 'C3', &
-                                                                 'BRANCH', 'RUN', 'K']
+                                                                 'BRANCH', 'RUN', 'K', 'LOSS']
    character(6), parameter, public :: column_symbols(n_columns) = [character(6) :: 'd', 'tau', 'p', 'lambda', 'c1', 'c2', 'c3', &
-                                                                   'branch', 'run', 'k'] !! the names in running text
-   integer, parameter         :: stress_power(n_columns) = [0, 1, 1, 0, 1, 1, 1, 0, 0, 1]
-   integer, parameter         :: length_power(n_columns) = [1, 0, 0, 1, -1, -2, -3, 0, 0, -1]
-   integer, parameter, public :: data_shear = 1, data_normal = 2, data_cubics = 3, data_stiffness = 4
-   integer, parameter         :: needed(4) = [sum(2**[column_d, column_tau, column_p]), sum(2**[column_lambda, column_p]), &
-                                              sum(2**[column_c, column_p, column_branch]), sum(2**[column_k, column_p])]
-   integer, parameter         :: allowed(4) = needed + sum(2**[column_branch, column_run])*[1, 1, 0, 0]
+                                                                   'branch', 'run', 'k', 'loss'] !! the names in running text
+   integer, parameter         :: stress_power(n_columns) = [0, 1, 1, 0, 1, 1, 1, 0, 0, 1, 1]
+   integer, parameter         :: length_power(n_columns) = [1, 0, 0, 1, -1, -2, -3, 0, 0, -1, 1]
+   integer, parameter, public :: data_shear = 1, data_normal = 2, data_cubics = 3, data_stiffness = 4, data_loss = 5
+   integer, parameter         :: needed(5) = [sum(2**[column_d, column_tau, column_p]), sum(2**[column_lambda, column_p]), &
+                                              sum(2**[column_c, column_p, column_branch]), sum(2**[column_k, column_p]), &
+                                              sum(2**[column_d, column_loss, column_p])]
+   integer, parameter         :: allowed(5) = needed + sum(2**[column_branch, column_run])*[1, 1, 0, 0, 0] &
+                                         + [0, 0, 0, 0, 2**column_tau]
    character(*), parameter, public :: known_headers = 'expected a line with the names of the columns: '// &
-      '''d tau p branch'', ''lambda p'', ''k p'' or ''c1 c2 c3 p branch'', or --columns with them'
+      '''d tau p branch'', ''lambda p'', ''k p'', ''d loss p'' or ''c1 c2 c3 p branch'', or --columns with them'
 
    !> The options of the command for reading its files.
    type, public :: reading_type
@@ -64,7 +66,7 @@ module data_columns
    type, public :: header_type
       integer :: line   = 0                     !! in the text of the file
       integer :: part   = 0                     !! part of the file that the header begins, 0: no header yet
-      integer :: kind   = 0                     !! data_shear, data_normal, data_cubics or data_stiffness
+      integer :: kind   = 0                     !! data_shear, data_normal, data_cubics, data_stiffness or data_loss
       logical :: of_force = .false.             !! the column of p holds a force: p is the force over the area
       integer :: holds  = 0                     !! sum of 2**column
       logical :: decimal_comma = .false.        !! of the rows below the header
@@ -146,6 +148,16 @@ contains
       length = unit_value(word(middle + 1:slash - 1), of_length)
       value = merge(value/max(length, tiny(length)), 0.0_wp, length > 0.0_wp)
    end function stiffness_value
+
+   !> UNIT of a loss per area in SI units, as MPa*um; 0 where it is none.
+   pure real(wp) function loss_value(unit) result(value)
+      character(*), intent(in) :: unit
+      integer :: star
+
+      star = index(unit, '*')
+      value = 0.0_wp
+      if (star > 1) value = unit_value(unit(:star - 1), of_stress)*unit_value(unit(star + 1:), of_length)
+   end function loss_value
 
    !> Whether a unit of force exists with which LENGTH and STRESS [SI] are consistent units of a deck.
    pure logical function has_force(length, stress)
@@ -256,6 +268,7 @@ contains
          unit = unit_in(file, column)
          if (header%units(column) /= '' .and. length_power(column) >= 0) &
             unit = unit_value(trim(header%units(column)), stress_power(column))
+         if (header%units(column) /= '' .and. column == column_loss) unit = loss_value(trim(header%units(column)))
          if (header%units(column) /= '' .and. column == column_k) unit = stiffness_value(trim(header%units(column)))
          if (header%of_force .and. column == column_p) unit = unit_value(trim(header%units(column)), of_force)/ &
                                                               (reading%area*reading%deck%length**2)

@@ -34,6 +34,8 @@ module fit_command
       '   lambda p            points of normal tests: a JNORM card'//nl// &
       '   k p                 stiffnesses k = dp/dlambda of normal tests: a JNORM card'//nl// &
       '   c1 c2 c3 p branch   cubics tau = c1 d + c2 d^2 + c3 d^3 published for several p: a JSHEAR card'//nl// &
+      '   d loss p            loss of a cycle per area, as MPa*um, at the amplitude d, with its tau if known: a JIWAN'//nl// &
+      '                       card'//nl// &
       ''//nl// &
       'A column f in place of p holds the normal force; --area is the area under it. Points may have two further'//nl// &
       'columns:'//nl// &
@@ -71,6 +73,7 @@ module fit_command
       '                     offset that an F test finds significant is told'//nl// &
       ''//nl// &
       'shear:'//nl// &
+      '   --iwan            a JIWAN card from points `d tau p` in the order of time, in place of JSHEAR'//nl// &
       '   --joint-fit       fit the coefficients to all points of a branch at once, instead of straight lines'//nl// &
       '                     through the coefficients of the cubics of each pressure'//nl// &
       '   --one-pressure    accept data at one pressure; the card then does not depend on the pressure'//nl// &
@@ -100,6 +103,7 @@ module fit_command
       logical  :: zero      = .false.    !! --zero: subtract the first reading of a test from all its readings
       logical  :: seat      = .false.    !! --seat: fit the offset of a normal test
       real(wp) :: bulk      = 0.0_wp     !! --bulk: compression of the specimens under unit pressure [length/pressure]
+      logical  :: iwan      = .false.    !! --iwan: a JIWAN card from points of shear tests
       logical  :: unordered = .false.    !! --unordered: rows that do not name their branch are loading
       character(:), allocatable :: plot  !! --plot: a file for gnuplot, empty: none
       type(fit_choice)   :: fit          !! --p-tolerance, --joint-fit, --one-pressure
@@ -142,6 +146,8 @@ contains
             command%zero = .true.
          case ('--seat')
             command%seat = .true.
+         case ('--iwan')
+            command%iwan = .true.
          case ('--unordered')
             command%unordered = .true.
          case ('--decimal-comma')

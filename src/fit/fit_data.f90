@@ -15,7 +15,7 @@ module fit_data
    public :: read_test_data
 
    type, public :: test_data_type
-      integer :: kind = 0                        !! data_shear, data_normal, data_cubics or data_stiffness
+      integer :: kind = 0                        !! data_shear, data_normal, data_cubics, data_stiffness or data_loss
       integer :: n    = 0                        !! rows
       logical :: has_branch = .false.            !! the rows name their branches
       logical :: has_run = .false.               !! the rows have run numbers

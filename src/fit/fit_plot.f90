@@ -2,8 +2,8 @@
 module fit_plot
    use branch_cubic, only: cubic, cubic_value
    use branch_fit, only: branch_fit_type
-   use data_columns, only: branch_letters, branch_words, column_d, column_k, column_lambda, column_p, column_symbols, column_tau, &
-                           data_normal, data_shear, data_stiffness, fit_load, fit_reload, fit_unload
+   use data_columns, only: branch_letters, branch_words, column_d, column_k, column_lambda, column_p, column_loss, column_symbols, &
+                           column_tau, data_loss, data_normal, data_shear, data_stiffness, fit_load, fit_reload, fit_unload
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
@@ -61,6 +61,12 @@ contains
             end do
          end associate
       end if
+      if (fit%kind == data_loss) then
+         axes = [column_d, merge(column_loss, column_tau, data%kind == data_loss)]
+         rows = [(i, i = 1, data%n)]
+         call put_block(out, plots, trim(column_symbols(axes(2))), [fit_load, fit_load], data%value(column_d, rows), &
+                        data%value(axes(2), rows), data%value(column_d, rows), fit%iwan%fitted)
+      end if
       do b = fit_load, fit_reload
          associate (branch => fit%branch(b))
             if (branch%n_points == 0 .or. (fit%one_shape .and. b == fit_reload)) cycle
@@ -96,7 +102,7 @@ contains
       call out%put('set terminal svg size 900,600 noenhanced background "white"')
       call out%put('set output '//quoted(picture//'.svg'))
       call out%put('set title '//quoted(command%files(number)%name))
-      axes = [column_p, 0] ! 0: coefficients
+      if (fit%kind /= data_loss) axes = [column_p, 0] ! 0: coefficients
       if (fit%kind == data_normal) axes = [column_lambda, column_p]
       if (data%kind == data_stiffness) axes = [column_p, column_k]
       if (fit%kind == data_shear) axes = [column_d, column_tau]
@@ -105,6 +111,7 @@ contains
          if (data%unit(axes(k)) /= '') label = trim(label)//' ['//trim(data%unit(axes(k)))//']'
          call out%put('set '//merge('x', 'y', k == 1)//'label '//quoted(label))
       end do
+      if (data%kind == data_loss) call out%put('set logscale xy')
       call out%put('set key outside right')
       call out%put('set grid')
       call out%put('plot '//plots(3:))

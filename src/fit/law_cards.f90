@@ -1,11 +1,11 @@
-!> Writes the fitted JNORM and JSHEAR cards below comments: data, residuals, range, coefficients and warnings.
+!> Writes the fitted JNORM, JSHEAR and JIWAN cards below comments: data, residuals, range, coefficients and warnings.
 !! The numbers on the cards have as many digits as the columns hold.
 module law_cards
    use branch_fit, only: branch_fit_type, residual_type
    use terminal, only: version
-   use data_columns, only: branch_letters, branch_words, column_d, column_p, column_symbols, data_normal, fit_load, fit_reload, &
-                           fit_unload, n_columns
-   use field_rules, only: real_field_text
+   use data_columns, only: branch_letters, branch_words, column_d, column_p, column_symbols, data_loss, data_normal, fit_load, &
+                           fit_reload, fit_unload, n_columns
+   use card_text, only: card_lines, number_fields, real_field_text
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
@@ -47,6 +47,10 @@ contains
       end do
       if (fit%kind == data_normal) then
          call describe_normal(fit%normal, out)
+      else if (fit%kind == data_loss) then
+         do k = 1, fit%iwan%comments%n
+            call comment(out, 'law', fit%iwan%comments%items(k)%message)
+         end do
       else
          call describe_shear(data, command, fit, out)
       end if
@@ -55,6 +59,10 @@ contains
       end do
       if (fit%kind == data_normal) then
          call put_lines(out, '', jnorm_card(id, fit%normal%c, fit%normal%m, fit%normal%loops%e_u, command%small))
+      else if (fit%kind == data_loss) then
+         associate (law => fit%iwan%law)
+            call put_lines(out, '', jiwan_card(id, [law%f_s, law%k_t, law%chi, law%beta], command%small))
+         end associate
       else if (fit%has_loading) then
          call put_lines(out, '', jshear_card(id, fit%card, fit%branch%n_points > 0, fit%p_max, fit%d_max, command%small, &
                                           fit%from_branch))
@@ -285,6 +293,20 @@ contains
       lines = card_lines('JNORM', fields, small)
    end function jnorm_card
 
+   !> JIWAN IID FS KT CHI BETA, the NUMBERS.
+   function jiwan_card(id, numbers, small) result(lines)
+      integer, intent(in)  :: id
+      real(wp), intent(in) :: numbers(4)
+      logical, intent(in)  :: small
+      character(80), allocatable :: lines(:)
+      character(16) :: fields(8)
+
+      fields = ''
+      fields(1) = integer_text(id)
+      fields(2:5) = number_fields(numbers, small)
+      lines = card_lines('JIWAN', fields, small)
+   end function jiwan_card
+
    !> JSHEAR SID A11 A12 A21 A22 A31 A32, the continuations B11 to B32, C11 to C32, and PMAX DMAX ORIGIN. The continuation of a
    !! branch that is not GIVEN is blank, which means as loading. A zero D_MAX leaves its field blank.
    function jshear_card(id, coefficients, given, p_max, d_max, small, from_branch) result(lines)
@@ -321,57 +343,5 @@ contains
       fields(:6) = number_fields([coefficients], small)
       lines = card_lines('+', fields, small)
    end function coefficient_line
-
-   !> NUMBERS in all columns of a small field, or all but one of a large field, so that a blank separates them.
-   function number_fields(numbers, small) result(fields)
-      real(wp), intent(in) :: numbers(:)
-      logical, intent(in)  :: small
-      character(16) :: fields(size(numbers))
-      integer :: k
-
-      do k = 1, size(numbers)
-         fields(k) = real_field_text(numbers(k), merge(8, 15, small))
-      end do
-   end function number_fields
-
-   !> A card NAME (or + for a continuation) with its FIELDS, eight on a line, in large field eight on a pair of lines. Eight blank
-   !! fields are a single +.
-   function card_lines(name, fields, small) result(lines)
-      character(*), intent(in)  :: name
-      character(16), intent(in) :: fields(:) !! (8, 16, ...)
-      logical, intent(in)       :: small
-      character(80), allocatable :: lines(:)
-      character(8) :: head
-      integer :: first
-
-      allocate (lines(0))
-      head = name
-      do first = 1, size(fields), 8
-         associate (eight => fields(first:first + 7))
-            if (all(eight == '')) then
-               lines = [character(80) :: lines, joined('+', eight(:0), 8)]
-            else if (small) then
-               lines = [character(80) :: lines, joined(head, eight, 8)]
-            else
-               if (head == '+') head = ''
-               lines = [character(80) :: lines, joined(trim(head)//'*', eight(:4), 16)]
-               if (any(eight(5:) /= '') .or. first + 8 <= size(fields)) lines = [character(80) :: lines, joined('*', eight(5:), 16)]
-            end if
-         end associate
-         head = '+'
-      end do
-   end function card_lines
-
-   !> One line: HEAD in eight columns, then the FIELDS, each WIDTH columns wide.
-   pure function joined(head, fields, width) result(line)
-      character(*), intent(in)  :: head
-      character(16), intent(in) :: fields(:)
-      integer, intent(in)       :: width
-      character(80) :: line
-      character(8)  :: name
-
-      name = head
-      write (line, '(9a)') name, fields(:)(:width)
-   end function joined
 
 end module law_cards

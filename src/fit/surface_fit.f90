@@ -3,11 +3,13 @@
 module surface_fit
    use branch_cubic, only: cubic
    use branch_fit, only: branch_fit_type, fault_none
-   use data_columns, only: branch_words, column_tau, data_normal, data_shear, data_stiffness, fit_load, fit_reload, fit_unload
+   use data_columns, only: branch_words, column_tau, data_loss, data_normal, data_shear, data_stiffness, fit_load, fit_reload, &
+                           fit_unload
    use deck_errors, only: deck_error_list
    use field_rules, only: largest_size, smallest_size
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
+   use iwan_fit, only: fit_iwan, iwan_fit_type
    use kinds, only: wp
    use normal_fit, only: check_residual, fit_normal_test, normal_fit_type
    use shear_branches, only: fit_branch
@@ -23,7 +25,7 @@ module surface_fit
    real(wp), parameter :: nearer = 0.9_wp          ! share of the residual of one ORIGIN below which the other is better
 
    type, public :: surface_fit_type
-      integer :: kind = 0                          !! data_normal, or a shear law
+      integer :: kind = 0                          !! data_normal, data_loss: Iwan's law, or a shear law
       type(branch_fit_type) :: branch(3)           !! load, unload, reload of the card; n_points 0: no data
       integer  :: source(3) = 0                    !! branch of the data used for each branch of the card
       real(wp) :: card(2, 3, 3) = 0.0_wp           !! (., k, branch): a_k1 and a_k2 for the card
@@ -37,6 +39,7 @@ module surface_fit
       real(wp) :: other_card(2, 3, 3) = 0.0_wp
       type(loop_closure) :: closure                !! of the law on the card
       type(normal_fit_type) :: normal
+      type(iwan_fit_type)   :: iwan                !! kind data_loss, and of shear by --iwan too
       type(deck_error_list) :: warnings
    end type surface_fit_type
 
@@ -54,6 +57,12 @@ contains
 
       fit%kind = data%kind
       fit%warnings = data%warnings
+      if (data%kind == data_loss .or. (data%kind == data_shear .and. command%iwan)) then
+         fit%kind = data_loss ! the card
+         call fit_iwan(data, fit%iwan, errors, fit%warnings)
+         return
+      end if
+      if (command%iwan) call errors%add(0, '--iwan is for points of shear tests: expected the columns d tau p or d loss p')
       if (any(data%kind == [data_normal, data_stiffness])) then
          fit%kind = data_normal ! the card
          if (command%only > 0) call errors%add(0, 'points of normal tests have no branch: --branch is for shear tests')

@@ -3,8 +3,8 @@
 module test_branches
    use branch_cubic, only: cubic, cubic_value
    use branch_fit, only: find_turns, fit_cubic, group_by_pressure, scatter_of
-   use data_columns, only: column_d, column_lambda, column_p, column_symbols, column_tau, data_cubics, data_normal, data_shear, &
-                           data_stiffness, fit_load, fit_reload, fit_unload
+   use data_columns, only: column_d, column_lambda, column_p, column_symbols, column_tau, data_cubics, data_loss, data_normal, &
+                           data_shear, data_stiffness, fit_load, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
@@ -41,7 +41,7 @@ contains
       logical :: faulty, is_noisy
 
       if (data%kind == data_stiffness) data%branch = fit_load
-      if (any(data%kind == [data_cubics, data_stiffness]) .or. data%n == 0) return
+      if (any(data%kind == [data_cubics, data_stiffness, data_loss]) .or. data%n == 0) return
       faulty = errors%any()
       data%in_order = .not. (data%has_branch .or. command%unordered)
       data%is_record = data%in_order .and. .not. data%has_run
@@ -61,8 +61,12 @@ contains
       do t = 1, n_tests
          rows = pack([(i, i = 1, data%n)], test == t)
          call take_off_offset(data, rows, command%zero)
-         if (data%in_order) call take_branches(data, rows, runs)
+         if (data%in_order .and. .not. command%iwan) call take_branches(data, rows, runs)
       end do
+      if (command%iwan) then ! its slices follow each test, whatever it does
+         if (data%is_record) data%joined(2:data%n) = test(2:) == test(:data%n - 1)
+         return
+      end if
       call check_signs(data, errors)
       if (faulty .or. .not. data%is_record) return
 

@@ -14,7 +14,7 @@ module back_method
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use equation_solver, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: back_stiffness, exceeds_limit, limit_cuts, stiffness_matrices
+   use joint_laws, only: back_stiffness, exceeds_limit, limit_cuts, slices_to, stiffness_matrices
    use joint_work, only: work_of_secants
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
@@ -130,7 +130,11 @@ contains
             state%shear%tau = state%shear%k_s*deflection(:2)/element%area
             state%slips = exceeds_limit(law, state, rest_margin) .or. &
                           limit_cuts(law, state%normal%pressure, deflection(:2))
-            if (state%slips) then
+            if (law%iwan%given) then
+               state%shear%slid = state%shear%delta - state%shear%tau/law%iwan%k_t
+               if (allocated(state%iwan)) deallocate (state%iwan)
+               state%iwan = slices_to(law, state)
+            else if (state%slips) then
                call stand_at_limit(law%shear, max(0.0_wp, state%normal%pressure), state%shear)
                state%shear%slid = state%shear%delta_0
             end if

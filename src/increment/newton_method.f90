@@ -175,6 +175,7 @@ contains
                     states => analysis%states(model%joints%list(j)%first:model%joints%list(j)%last)%normal)
             do i = model%joints%list(j)%first, model%joints%list(j)%last ! their sliding under almost no pressure is arbitrary
                analysis%states(i)%shear = shear_state()
+               if (allocated(analysis%states(i)%iwan)) deallocate (analysis%states(i)%iwan)
                analysis%states(i)%origin = analysis%movement(:2, i)
             end do
             if (.not. any(elements%gap < 0.0_wp)) cycle

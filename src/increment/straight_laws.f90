@@ -292,6 +292,7 @@ contains
       call follow_normal(law%normal, area, before%normal, point(3) - before%normal%gap, normal, slope, work)
       if (present(seen)) normal = seen
       if (normal%branch == branch_open .or. before%normal%branch == branch_open) return
+      if (law%iwan%given) return ! its kinks are small
       t = 0.0_wp
       there = 0.0_wp
       do i = 1, 2

@@ -2,9 +2,10 @@
 !! these element by element: STEP for stiffnesses, NEWTON for the exact law, BACK for secants.
 module joint_laws
    use branch_cubic, only: cubic_secant
+   use iwan_law, only: follow_slices, iwan_state, iwan_type, limit_share, monotone_stress, slides_as_whole, stresses
    use kinds, only: wp
    use normal_curve, only: loading_pressure, normal_law, normal_secant
-   use normal_stiffness, only: branch_open, closed_share, follow_normal, is_virgin, norm, normal_state
+   use normal_stiffness, only: branch_load, branch_open, branch_unload, closed_share, follow_normal, is_virgin, norm, normal_state
    use shear_path, only: follow_shear
    use slip_path, only: turn_slip
    use shear_stiffness, only: shear, shear_law, shear_state, slid_from, stand_at_limit
@@ -16,12 +17,14 @@ module joint_laws
    public :: rest_when_open, is_apart
    public :: friction_limit, friction_excess, exceeds_limit, limit_cuts
    public :: back_stiffness
+   public :: slices_of, slices_to, limit_scales
 
    type, public :: joint_law
       type(normal_law) :: normal
       type(shear_law)  :: shear(2)           !! along x and y of the joint
       logical  :: has_friction = .false.
       real(wp) :: mu = 0.0_wp                !! coefficient of friction
+      type(iwan_type) :: iwan                !! in place of Coulomb's law; SHEAR is then its K_T, and MU is F_S/P_REF
    end type joint_law
 
    !> State of one interface element. Directions are its axes: x, y, z.
@@ -31,7 +34,10 @@ module joint_laws
       logical  :: slips = .false.            !! the limit was exceeded in the last increment
       logical  :: turns = .false.            !! slip turns the stress within an increment: paths of loops
       real(wp) :: origin(2) = 0.0_wp         !! tangential movement at which delta = 0: that of the last closing
+      type(iwan_state), allocatable :: iwan  !! of Iwan's law; not allocated: at rest
    end type element_state
+
+   real(wp), parameter :: sticks = sqrt(huge(1.0_wp)) ! limit of a slice that does not slide, of its strength
 
 contains
 
@@ -50,7 +56,15 @@ contains
       k(:2) = 0.0_wp
       call norm(law%normal, area, eq10, state%normal, k(3))
       call start_shear(law, area, was_open, movement, state, p)
-      if (state%normal%branch /= branch_open) call shear(law%shear, area, p, state%shear, k(:2))
+      if (state%normal%branch == branch_open) return
+      if (law%iwan%given) then
+         if (.not. allocated(state%iwan)) allocate (state%iwan)
+         call name_branches(state%shear%delta - state%iwan%delta, state%shear)
+         state%iwan = slices_to(law, state)
+         where (law%shear%given) k(:2) = area*law%iwan%k_t
+      else
+         call shear(law%shear, area, p, state%shear, k(:2))
+      end if
    end subroutine norm_and_shear
 
    !> Prepare SHEAR after NORM: where the element has opened or closed, its shear law begins anew; a slipping element stands at the
@@ -70,7 +84,7 @@ contains
          state%origin = movement(:2) - closed_share(state%normal)*(movement(:2) - state%origin)
          state%shear%delta = movement(:2) - state%origin
       end if
-      if (state%slips) call stand_at_limit(law%shear, p, state%shear)
+      if (state%slips .and. .not. law%iwan%given) call stand_at_limit(law%shear, p, state%shear)
       if (is_virgin(area, state%normal)) p = state%normal%p_av
    end subroutine start_shear
 
@@ -114,6 +128,7 @@ contains
 
       if (state%normal%branch /= branch_open) return
       state%shear = shear_state()
+      if (allocated(state%iwan)) deallocate (state%iwan)
       state%origin = movement(:2)
    end subroutine rest_when_open
 
@@ -124,25 +139,65 @@ contains
       is_apart = state%normal%branch == branch_open .and. state%normal%gap > 0.0_wp
    end function is_apart
 
+   !> The slices of STATE.
+   pure type(iwan_state) function slices_of(state) result(slices)
+      type(element_state), intent(in) :: state
+
+      if (allocated(state%iwan)) slices = state%iwan
+   end function slices_of
+
+   !> The slices of STATE moved to its delta under its pressure.
+   pure type(iwan_state) function slices_to(law, state) result(slices)
+      type(joint_law), intent(in)     :: law
+      type(element_state), intent(in) :: state
+      real(wp) :: by_delta(2, 2), by_share(2)
+
+      call follow_slices(law%iwan, slices_of(state), state%shear%delta, &
+                         spread(limit_share(law%iwan, state%normal%pressure), 1, 2), .false., slices, by_delta, by_share)
+   end function slices_to
+
+   !> LOAD along x or y where the stress of SHEAR has grown by what has MOVED, UNLOAD where it has fallen. Iwan's law asks for no more.
+   elemental subroutine name_branches(moved, shear)
+      real(wp), intent(in)             :: moved
+      type(shear_state), intent(inout) :: shear
+
+      if (abs(moved) > 0.0_wp) shear%branch = merge(branch_load, branch_unload, moved*shear%tau >= 0.0_wp)
+   end subroutine name_branches
+
+   !> Whether the limit of friction is in proportion to the pressure.
+   elemental logical function limit_scales(law)
+      type(joint_law), intent(in) :: law
+
+      limit_scales = law%has_friction .and. .not. (law%iwan%given .and. law%iwan%p_ref <= 0.0_wp)
+   end function limit_scales
+
    !> The Coulomb limit tau_f = mu p (section 4.4) of the resultant of tau [pressure].
    pure real(wp) function friction_limit(law, pressure) result(limit)
       type(joint_law), intent(in) :: law
       real(wp), intent(in)        :: pressure
 
       limit = law%mu*max(0.0_wp, pressure)
+      if (law%iwan%given .and. law%iwan%p_ref <= 0.0_wp) limit = law%iwan%f_s
    end function friction_limit
 
-   !> Whether the shear stress is above the limit by more than the share MARGIN of it.
+   !> Whether the shear stress is above the limit by more than the share MARGIN of it; with Iwan's law, whether all slices slide.
    pure logical function exceeds_limit(law, state, margin)
       type(joint_law), intent(in)     :: law
       type(element_state), intent(in) :: state
       real(wp), intent(in)            :: margin
+      type(iwan_state) :: slices
 
       exceeds_limit = .false.
+      if (law%iwan%given) then
+         if (state%normal%branch /= branch_open) slices = slices_to(law, state)
+         exceeds_limit = slices%slides
+         return
+      end if
       if (law%has_friction) exceeds_limit = norm2(state%shear%tau) > friction_limit(law, state%normal%pressure)*(1.0_wp + margin)
    end function exceeds_limit
 
-   !> The shear force above the limit: a vector in the direction of tau, zero within the limit [force].
+   !> The shear force above the limit: a vector in the direction of tau, zero within the limit; with Iwan's law, above what its
+   !! slices bear after the movement [force].
    pure function friction_excess(law, area, state) result(excess)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area
@@ -150,6 +205,13 @@ contains
       real(wp) :: excess(2), tau(2)
 
       excess = 0.0_wp
+      if (law%iwan%given) then
+         if (state%normal%branch == branch_open) return
+         excess = state%shear%tau - sum(stresses(law%iwan, slices_to(law, state)), dim=2)
+         if (norm2(excess) <= slip_margin*friction_limit(law, state%normal%pressure)) excess = 0.0_wp
+         excess = excess*area
+         return
+      end if
       if (.not. exceeds_limit(law, state, slip_margin)) return
       tau = state%shear%tau
       excess = tau*(1.0_wp - friction_limit(law, state%normal%pressure)/norm2(tau))*area
@@ -183,6 +245,7 @@ contains
       end if
       if (normal%branch == branch_open) then
          after%shear%tau = 0.0_wp
+         if (allocated(after%iwan)) deallocate (after%iwan)
          return
       end if
       share = 1.0_wp
@@ -191,6 +254,10 @@ contains
          share = closed_share(normal)
          after%origin = movement(:2) - share*(movement(:2) - before%origin)
          if (.not. present(seen)) share_by_lambda = (1.0_wp - share)/max(normal%lambda - before%normal%lambda, tiny(1.0_wp))
+      end if
+      if (law%iwan%given) then
+         call follow_iwan(law, area, before, movement, [normal%pressure, slope], [share, share_by_lambda], after, tangent)
+         return
       end if
       do i = 1, 2
          call follow_shear(law%shear(i), before%shear(i), movement(i) - after%origin(i), &
@@ -220,6 +287,35 @@ contains
       call stand_at_limit(law%shear, max(0.0_wp, normal%pressure), after%shear)
    end subroutine follow_element
 
+   !> The part of follow_element that is Iwan's law.
+   pure subroutine follow_iwan(law, area, before, movement, p, closing, after, tangent)
+      type(joint_law), intent(in)        :: law
+      real(wp), intent(in)               :: area
+      type(element_state), intent(in)    :: before
+      real(wp), intent(in)               :: movement(3)
+      real(wp), intent(in)               :: p(2)       !! that of the limits at MOVEMENT, and its derivative along z
+      real(wp), intent(in)               :: closing(2) !! share of the movement since the faces closed, likewise
+      type(element_state), intent(inout) :: after
+      real(wp), intent(inout)            :: tangent(3, 3)
+      real(wp) :: by_delta(2, 2), by_share(2), delta(2), share(2)
+
+      delta = movement(:2) - after%origin
+      share = sticks
+      if (law%has_friction) share = limit_share(law%iwan, [before%normal%pressure, p(1)])
+      if (.not. allocated(after%iwan)) allocate (after%iwan)
+      call follow_slices(law%iwan, slices_of(before), delta, share, before%turns, after%iwan, by_delta, by_share)
+      after%slips = after%iwan%slides
+      after%shear%delta_before = before%shear%delta
+      after%shear%tau_before = before%shear%tau
+      call name_branches(delta - before%shear%delta, after%shear)
+      after%shear%delta = delta
+      after%shear%tau = sum(after%iwan%tau, dim=2)
+      after%shear%slid = delta - after%shear%tau/law%iwan%k_t
+      tangent(:2, :2) = area*closing(1)*by_delta
+      tangent(:2, 3) = area*closing(2)*matmul(by_delta, movement(:2) - before%origin)
+      if (law%iwan%p_ref > 0.0_wp .and. p(1) > 0.0_wp) tangent(:2, 3) = tangent(:2, 3) + area*p(2)/law%iwan%p_ref*by_share
+   end subroutine follow_iwan
+
    !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves at the DEFLECTION: p(lambda)/lambda, P(d)/d under this p and cut to
    !! the Coulomb limit, times the area [force/length]; none where the element is open.
    pure function back_stiffness(law, area, p_av, deflection) result(k)
@@ -232,9 +328,14 @@ contains
       if (deflection(3) < 0.0_wp) return
       p = max(loading_pressure(law%normal, deflection(3)), pressure_floor*p_av)
       moved = norm2(deflection(:2))
+      k(3) = normal_secant(law%normal, area, p)
+      if (law%iwan%given) then
+         k(:2) = area*law%iwan%k_t
+         if (moved > 0.0_wp) k(:2) = area*monotone_stress(law%iwan, limit_share(law%iwan, p), moved)/moved
+         return
+      end if
       k(:2) = area*cubic_secant(law%shear%load, abs(deflection(:2)), p)
       if (law%has_friction .and. moved > 0.0_wp) k(:2) = min(k(:2), friction_limit(law, p)*area/moved)
-      k(3) = normal_secant(law%normal, area, p)
    end function back_stiffness
 
    !> Whether the Coulomb limit cuts the secants of BACK at this DEFLECTION and PRESSURE, as in back_stiffness: the element slides.
@@ -243,6 +344,10 @@ contains
       real(wp), intent(in)        :: pressure, deflection(2) !! [pressure], along x and y [length]
 
       cuts = .false.
+      if (law%iwan%given) then
+         cuts = slides_as_whole(law%iwan, limit_share(law%iwan, pressure), norm2(deflection))
+         return
+      end if
       if (law%has_friction) cuts = any(friction_limit(law, pressure) < &
          (1.0_wp - settled_secant)*norm2(deflection)*cubic_secant(law%shear%load, abs(deflection), pressure))
    end function limit_cuts

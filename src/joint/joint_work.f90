@@ -15,10 +15,11 @@
 !!          0     f_s       1
 !!
 !! NEWTON follows the branches themselves. STEP follows its tangents: a branch is a spring of the stiffness k_s. BACK goes from
-!! rest along the loading curves. Each gives back what its states say, so that KEPT has no error that grows with the increments.
+!! rest along the loading curves. Iwan's slices are followed by all three. Each gives back what its states say, so that KEPT has no error that grows with the increments.
 module joint_work
    use branch_cubic, only: cubic, cubic_slope, cubic_value, cubic_work, deflection_at, value_on_way
-   use joint_laws, only: element_state, follow_element, friction_limit, joint_law
+   use iwan_law, only: energy_gain, iwan_state, limit_share, point, slices_work, weight
+   use joint_laws, only: element_state, follow_element, friction_limit, joint_law, slices_of, slices_to
    use kinds, only: wp
    use normal_curve, only: curve_work
    use normal_stiffness, only: branch_open, follow_normal, normal_state
@@ -32,11 +33,7 @@ module joint_work
 
    public :: work_along, work_of_tangents, work_of_secants
 
-   integer, parameter  :: by_branches = 1, by_tangents = 2, by_curves = 3
-   real(wp), parameter :: point(5) = 0.5_wp + 0.5_wp*[-0.906179845938664_wp, -0.538469310105683_wp, 0.0_wp, 0.538469310105683_wp, &
-                                                      0.906179845938664_wp]
-   real(wp), parameter :: weight(5) = 0.5_wp*[0.236926885056189_wp, 0.478628670499366_wp, 0.568888888888889_wp, &
-                                              0.478628670499366_wp, 0.236926885056189_wp]
+   integer, parameter  :: by_branches = 1, by_tangents = 2, by_curves = 3, by_slices = 4
 
    !> Work done on an interface element, or on the elements of a joint [force x length].
    type, public :: joint_energy
@@ -53,6 +50,7 @@ module joint_work
    type :: way_type
       integer           :: follows = by_branches
       type(shear_state) :: before(2)
+      type(iwan_state)  :: slices               ! by_slices: before
       logical  :: turns    = .false.            ! see element_state; then
       real(wp) :: trial(2) = 0.0_wp             ! stress at the end as if nothing slid [pressure]
       real(wp) :: moved(2) = 0.0_wp             ! change of delta [length]
@@ -113,9 +111,30 @@ contains
          after%slips = law%has_friction
          after%shear%tau = 0.0_wp
       end if
+      if (law%iwan%given) then
+         way%slices = slices_of(before)
+         call share_by_slices(law, area, slices_of(after), way, energy)
+         return
+      end if
       if (way%turns .and. after%slips) call go(law, way, 1.0_wp, way%trial, work)
       call share_out(law, area, way, after%slips, after%shear%tau, energy)
    end function work_along
+
+   !> Add the work of shear of Iwan's slices on WAY, which leads them to AFTER, to ENERGY. The springs of the slices keep energy, and
+   !! what they do not keep is lost.
+   pure subroutine share_by_slices(law, area, after, way, energy)
+      type(joint_law), intent(in)       :: law
+      real(wp), intent(in)              :: area
+      type(iwan_state), intent(in)      :: after
+      type(way_type), intent(inout)     :: way
+      type(joint_energy), intent(inout) :: energy
+      real(wp) :: work(2)
+
+      way%follows = by_slices
+      call share_out(law, area, way, .false., [0.0_wp, 0.0_wp], energy)
+      work = energy%net()
+      energy%lost = max(0.0_wp, work(1) - area*energy_gain(law%iwan, way%slices, after))
+   end subroutine share_by_slices
 
    !> Work in the increment of STEP that has led to STATE, before NORM and SHEAR have seen it: forces along the tangents of the
    !! increment, and what the re-analyses have made slide. No force below zero does work.
@@ -133,11 +152,17 @@ contains
             if (any([normal%sigmaf, normal%sumf] < 0.0_wp)) work = work*sum(pressed)/abs(normal%sumf - normal%sigmaf)
             call tally(2, work, energy)
          end if
-         way%follows = by_tangents
          way%before = shear
          way%before%tau = shear%tau_before
-         way%moved = shear%delta - shear%delta_before
          way%p = [normal%sigmaf/area, normal%pressure]
+         if (law%iwan%given) then
+            way%slices = slices_of(state)
+            way%moved = shear%delta - way%slices%delta
+            if (normal%branch /= branch_open) call share_by_slices(law, area, slices_to(law, state), way, energy)
+            return
+         end if
+         way%follows = by_tangents
+         way%moved = shear%delta - shear%delta_before
          way%slope = shear%k_s/area
          tau = shear%tau_before + way%slope*way%moved
          call share_out(law, area, way, any(abs(tau - shear%tau) > zero_stress*maxval(abs([tau, shear%tau]))), shear%tau, energy)
@@ -156,6 +181,10 @@ contains
       way%follows = by_curves
       way%moved = state%shear%delta
       way%p = [0.0_wp, state%normal%pressure]
+      if (law%iwan%given) then
+         call share_by_slices(law, area, slices_of(state), way, energy)
+         return
+      end if
       call share_out(law, area, way, state%slips, state%shear%tau, energy)
    end function work_of_secants
 
@@ -220,6 +249,10 @@ contains
       real(wp) :: c(0:4), by_delta, by_p, part
       integer  :: i
 
+      if (way%follows == by_slices) then
+         call slices_work(law%iwan, way%slices, way%moved, limit_share(law%iwan, way%p), way%turns, f, tau, work)
+         return
+      end if
       work = 0.0_wp
       do i = 1, 2
          associate (before => way%before(i), moved => f*way%moved(i))

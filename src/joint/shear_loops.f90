@@ -28,7 +28,8 @@
 !! of loading belongs to a slowly growing load. An open element has no stiffness.
 module shear_loops
    use branch_cubic, only: cubic, cubic_loop, cubic_secant, cubic_slope, cubic_value, slope_on_way, value_on_way
-   use joint_laws, only: element_state, friction_limit, joint_law
+   use iwan_law, only: limit_share, loading_slopes, slices_loss
+   use joint_laws, only: element_state, friction_limit, joint_law, slices_of
    use kinds, only: wp
    use normal_curve, only: normal_tangent
    use normal_stiffness, only: branch_open
@@ -133,6 +134,10 @@ contains
       real(wp) :: bounds(2), d(2), limit, reach(2)
       integer  :: i
 
+      if (law%iwan%given) then
+         loss = slices_loss(law%iwan, limit_share(law%iwan, p), norm2(merge(movement, 0.0_wp, law%shear%given)))
+         return
+      end if
       limit = no_limit
       if (law%has_friction) limit = friction_limit(law, p)
       d = merge(abs(movement), 0.0_wp, law%shear%given)
@@ -194,6 +199,10 @@ contains
       associate (p => max(0.0_wp, state%normal%pressure))
          k(3) = law%normal%e_u*area
          if (on_loading) k(3) = normal_tangent(law%normal, area, p, state%normal%p_av)
+         if (law%iwan%given .and. on_loading) then
+            k(:2) = merge(area*loading_slopes(law%iwan, slices_of(state), limit_share(law%iwan, p)), 0.0_wp, law%shear%given)
+            return
+         end if
          do i = 1, 2
             associate (d => curve_deflection(state%shear(i)), shear => law%shear(i))
                if (.not. shear%given) cycle

@@ -14,7 +14,7 @@ module slip_path
    implicit none
    private
 
-   public :: turn_slip
+   public :: turn_slip, meet_limit
 
    real(wp), parameter :: far = 100.0_wp    ! x of a stress that has turned entirely
 
@@ -43,16 +43,8 @@ contains
          return
       end if
 
-      ! f_s, from which on c(0) + 2 c(1) f + c(2) f**2 > 0
       first = max(limits(1), norm2(before))
-      c = [sum(before**2) - first**2, dot_product(before, gain) - first*(limits(2) - first), sum(gain**2) - (limits(2) - first)**2]
-      f = sqrt(max(0.0_wp, c(1)**2 - c(0)*c(2)))
-      if (c(1) > 0.0_wp) then
-         f = -c(0)/(c(1) + f)
-      else
-         f = (f - c(1))/max(c(2), tiny(1.0_wp))
-      end if
-      f = min(f, 1.0_wp)
+      call meet_limit(before, gain, limits, f, c)
       begins = before + f*gain
       f_change = 0.0_wp
       if (f > 0.0_wp) f_change = -f*[begins, -(first + f*(limits(2) - first))]/ &
@@ -81,6 +73,23 @@ contains
       by_gain = spread([-n(2), n(1)], 2, 2)*spread(turned(:2), 1, 2)
       by_limit = n + [-n(2), n(1)]*turned(3)
    end subroutine turn_slip
+
+   !> f_s: from there on |BEFORE + f GAIN|**2 - l**2 = c(0) + 2 c(1) f + c(2) f**2 > 0, at most 1.
+   pure subroutine meet_limit(before, gain, limits, f, c)
+      real(wp), intent(in)  :: before(2), gain(2), limits(2) !! as in turn_slip
+      real(wp), intent(out) :: f, c(0:2)
+      real(wp) :: first
+
+      first = max(limits(1), norm2(before))
+      c = [sum(before**2) - first**2, dot_product(before, gain) - first*(limits(2) - first), sum(gain**2) - (limits(2) - first)**2]
+      f = sqrt(max(0.0_wp, c(1)**2 - c(0)*c(2)))
+      if (c(1) > 0.0_wp) then
+         f = -c(0)/(c(1) + f)
+      else
+         f = (f - c(1))/max(c(2), tiny(1.0_wp))
+      end if
+      f = min(f, 1.0_wp)
+   end subroutine meet_limit
 
    !> The unit vector E turned by the angle of this COSINE and SINE.
    pure function rotated(e, cosine, sine) result(n)

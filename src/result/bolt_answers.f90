@@ -10,6 +10,7 @@ module bolt_answers
    use bolt_places, only: bolt_place, distance, find_places
    use element_kinds, only: max_section_dofs, max_nodes
    use interface_operator, only: at_first_end
+   use joint_laws, only: limit_scales
    use kinds, only: wp
    use mesh_queries, only: element_points
    use model_data, only: model_type, section_type, temperature_type
@@ -176,7 +177,7 @@ contains
             answer%joint = model%joints%list(bolt%joint)%id
             answer%clamping = above(clamping(i), floor)
             if (history%clamped(i) > floor) answer%loss = above(1.0_wp - clamping(i)/history%clamped(i), zero_remainder)
-            answer%has_safety = model%joints%list(bolt%joint)%law%has_friction .and. shear(i) > floor
+            answer%has_safety = limit_scales(model%joints%list(bolt%joint)%law) .and. shear(i) > floor
             if (answer%has_safety) answer%safety = model%joints%list(bolt%joint)%law%mu*max(0.0_wp, clamping(i))/shear(i)
          end associate
       end do

@@ -5,6 +5,7 @@
 module joint_answers
    use analysis_state, only: analysis_type
    use interface_operator, only: at_first_end
+   use joint_laws, only: limit_scales
    use joint_values, only: joint_resultant, joint_values_type
    use kinds, only: wp
    use law_error, only: tangents_now
@@ -82,7 +83,7 @@ contains
          if (cut%n > 0) unbalanced = above([free_part(along, answer%force(:3)), axis_part(along, answer%force(4:))], &
                                            floor*[1.0_wp, 1.0_wp, 1.0_wp, frame%extent, frame%extent, frame%extent])
          answer%moment = norm2(unbalanced(4:))
-         answer%has_safety = joint%law%has_friction .and. answer%shear > 0.0_wp
+         answer%has_safety = limit_scales(joint%law) .and. answer%shear > 0.0_wp
          if (answer%has_safety) answer%safety = joint%law%mu*max(0.0_wp, answer%normal)/answer%shear
          least = zero_remainder*analysis%largest_lambda
          least(4:) = least(4:)/max(frame%extent, tiny(1.0_wp))

@@ -5,6 +5,7 @@ module listing_opening
    use equation_solver, only: equation_system
    use facing_bodies, only: body_type, list_bodies
    use interface_operator, only: named_node
+   use iwan_law, only: greatest_phi
    use joint_sides, only: is_coarser
    use kinds, only: wp
    use listing_summary, only: write_echo, write_summary
@@ -215,13 +216,15 @@ contains
       type(cubic) :: curve
       integer :: b, j, k
 
-      if (.not. any(model%joints%list%law%shear(1)%given .or. model%joints%list%law%shear(2)%given &
-         .or. model%joints%list%law%has_friction)) return
+      call write_iwan_laws(file, model)
+      if (.not. any(.not. model%joints%list%law%iwan%given .and. (model%joints%list%law%shear(1)%given .or. &
+                    model%joints%list%law%shear(2)%given .or. model%joints%list%law%has_friction))) return
       call table%start('SHEAR LAWS: TAU = (C11 + C12 P) D + (C21 + C22 P) D**2 + (C31 + C32 P) D**3', &
                        [column('JOINT', 'i11', heading_shift=-1), column('AXIS', 'a4'), column('BRANCH', 'a8'), &
                         column(cubic_names, 'es13.5')], file)
       do j = 1, size(model%joints%list)
          associate (law => model%joints%list(j)%law)
+            if (law%iwan%given) cycle
             do k = 1, model%mesh%dimension - 1
                associate (shear => law%shear(k))
                   if (.not. shear%given) cycle
@@ -253,5 +256,29 @@ contains
          end associate
       end do
    end subroutine write_shear_laws
+
+   !> The Iwan laws of the joints that have them.
+   subroutine write_iwan_laws(file, model)
+      type(output_file_type), intent(inout) :: file
+      type(model_type), intent(in)          :: model
+      character(7), parameter :: names(6) = [character(7) :: 'FS', 'KT', 'CHI', 'BETA', 'PHI_MAX', 'PREF']
+      type(table_type) :: table
+      integer :: j
+
+      if (.not. any(model%joints%list%law%iwan%given)) return
+      call table%start('IWAN LAWS OF SHEAR AND FRICTION: PHI_MAX = FS (1+BETA)/(KT (BETA + (CHI+1)/(CHI+2))), AT PREF', &
+                       [column('JOINT', 'i11', heading_shift=-1), column(names, 'es13.5'), column('SLICES', 'i8'), &
+                        column('RE-ANALYSES', 'i13')], file)
+      do j = 1, size(model%joints%list)
+         associate (law => model%joints%list(j)%law%iwan)
+            if (.not. law%given) cycle
+            call table%put('JOINT', model%joints%list(j)%id)
+            call table%put(names(:5), [law%f_s, law%k_t, law%chi, law%beta, greatest_phi(law)])
+            call table%put('PREF', law%p_ref, where=law%p_ref > 0.0_wp)
+            call table%put(['SLICES     ', 'RE-ANALYSES'], [size(law%stiffness), model%joints%list(j)%n_reanalyses])
+            call table%print_row(file)
+         end associate
+      end do
+   end subroutine write_iwan_laws
 
 end module listing_opening

@@ -82,8 +82,9 @@ contains
    subroutine record_elements(stream, states)
       type(restart_stream_type), intent(inout) :: stream
       type(element_state), intent(inout)         :: states(:)
+      integer :: i, owners ! of slices
 
-      call stream%part('element_state', 1)
+      call stream%part('element_state', 2)
       call stream%item('slips', states%slips)
       call stream%item('turns', states%turns)
       call stream%item('origin 1', states%origin(1))
@@ -91,7 +92,33 @@ contains
       call record_normal(stream, states%normal)
       call record_shear(stream, states%shear(1))
       call record_shear(stream, states%shear(2))
+      owners = count([(allocated(states(i)%iwan), i = 1, size(states))])
+      call stream%item('owners of slices', owners)
+      if (owners > 0) call record_slices(stream, states)
    end subroutine record_elements
+
+   !> The slices of the elements with Iwan's law: how many they are, and their values.
+   subroutine record_slices(stream, states)
+      type(restart_stream_type), intent(inout) :: stream
+      type(element_state), intent(inout)       :: states(:)
+      integer :: i, n
+
+      call stream%part('iwan_state', 1)
+      do i = 1, size(states)
+         n = 0
+         if (stream%writes .and. allocated(states(i)%iwan)) n = size(states(i)%iwan%tau, 2)
+         call stream%extent('slices', n, 16)
+         if (.not. stream%writes .and. allocated(states(i)%iwan)) deallocate (states(i)%iwan)
+         if (n == 0) cycle
+         if (.not. stream%writes) then
+            allocate (states(i)%iwan)
+            allocate (states(i)%iwan%tau(2, n))
+         end if
+         call stream%item('slides', states(i)%iwan%slides)
+         call stream%item('delta', states(i)%iwan%delta)
+         call stream%item('tau', states(i)%iwan%tau)
+      end do
+   end subroutine record_slices
 
    subroutine record_normal(stream, states)
       type(restart_stream_type), intent(inout) :: stream

@@ -14,7 +14,8 @@ module modal_loops
    use element_mapping, only: two_pi
    use equation_solver, only: failure_type
    use equations, only: recover_displacements
-   use joint_laws, only: element_state, force_of
+   use iwan_law, only: energy_gain
+   use joint_laws, only: element_state, force_of, slices_of
    use kinds, only: wp
    use mass_matrix, only: mass_times
    use modal_path, only: begin_path, coordinate, follow_path, modal_load_type, path_type, reverse, start_path
@@ -232,9 +233,11 @@ contains
             force(:, 1) = force_of(element%area, start(e))
             force(:, 2) = force_of(element%area, state)
             elastic = 0.0_wp
+            if (law%iwan%given) k(:2) = 0.0_wp ! its slices know what they hold
             where (k > 0.0_wp) elastic = (force(:, 2) - force(:, 1))/k
             lost(e) = dot_product(modal%rest_forces(:, e), now%movement(:, e) - from(:, e) - elastic) &
                       - dot_product(0.5_wp*sum(force, dim=2) - modal%rest_forces(:, e), elastic)
+            if (law%iwan%given) lost(e) = lost(e) - element%area*energy_gain(law%iwan, slices_of(start(e)), slices_of(state))
          end associate
       end do
    end function at_rest

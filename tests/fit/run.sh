@@ -347,6 +347,7 @@ near 'several files: ids count up' 1e-10 both
 
 . "$here/records.sh"
 . "$here/corrections.sh"
+. "$here/iwan.sh"
 
 # ---- the cards are read by jointfem ----
 

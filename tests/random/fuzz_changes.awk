@@ -284,7 +284,7 @@ function wild_change(   k) {
 
 # A real number of a law, a load, a material, a place becomes another.
 function change_value(   k, f, i, old, factor) {
-   if (!(k = some_card("^(JNORM|JSHEAR|PJOINT|MAT1|FORCE|PSHELL|LOAD|GRAV|PLOAD|SPCD|JGAP|TEMP|TEMPP1|BOLT|CELAS2|PBUSH|PELAS|CONM2|RBE3|MPC|MOMENT|CONROD|PROD|JOINT|CJOINT)")))
+   if (!(k = some_card("^(JNORM|JSHEAR|JIWAN|PJOINT|MAT1|FORCE|PSHELL|LOAD|GRAV|PLOAD|SPCD|JGAP|TEMP|TEMPP1|BOLT|CELAS2|PBUSH|PELAS|CONM2|RBE3|MPC|MOMENT|CONROD|PROD|JOINT|CJOINT)")))
       return ""
    for (i = 1; i <= 20; i++) {
       f = 1 + random(fields)

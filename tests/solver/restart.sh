@@ -64,9 +64,12 @@ deck column_tetra10 bodies     'RESTART = 1'
 deck by_hand       hand        'RESTART = 1'
 deck bolted_lap    backbone   'RESTART = 0; SOLVER = TREE'
 deck meshed_apart  apart       'RESTART = 0; SOLVER = SKYLINE'
+deck bolted_lap    iwan        'RESTART = 1; SOLVER = TREE' # its friction by Iwan's law
+awk '/^PJOINT/ { print "PJOINT,1,1,,,,,12.0,9"; print "+,12.0"; print "JIWAN,9,1.2,2000.,-0.5,0.1"; next } { print }' decks/iwan.bdf > iwan.new
+mv iwan.new decks/iwan.bdf
 # the factor of an increment serves others: 1,300 unknowns of joints
 "$make_deck" hex8_18x18x6 TREE NONE | sed 's/^SPC = .*/&\nRESTART = 3/' > decks/factors.bdf
-decks='step skyline steps newton back friction cycles gaps warm bolts spiders sector solid bodies hand apart backbone factors'
+decks='step skyline steps newton back friction cycles gaps warm bolts spiders sector solid bodies hand apart backbone iwan factors'
 
 # whole NAME: the run in peace, in NAME.whole, what it says in NAME.said, and how many calls it makes
 whole() {
