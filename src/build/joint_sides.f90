@@ -15,7 +15,7 @@ module joint_sides
    use numbers, only: cross
    use surface_build, only: side_influence, surface_node_list, surface_nodes
    use text_tools, only: integer_text, one_of, plural, real_text
-   use tolerances, only: no_inertia, zero_cosine
+   use tolerances, only: no_inertia, parallel_in_mesh, zero_cosine
    implicit none
    private
 
@@ -207,26 +207,29 @@ contains
    end function is_coarser
 
    !> The normal of a CJOINT in the sense from node 1 to node 2: out of the body at node 1, else into the body at node 2,
-   !! else as given. The card gives the line of the normal; the bodies give its sense.
+   !! else as given. The card gives the line of the normal; the bodies give its sense, those in the plane of the joint give none.
    pure function outward(mesh, nodes, normal) result(z)
       type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: nodes(2)
       real(wp), intent(in)         :: normal(3)
-      real(wp) :: z(3), along, to_body(3)
+      real(wp) :: z(3), along, reach, to_body(3), to_centre(3)
       integer  :: i, side
 
       z = normal
       do side = 1, 2
          if (nodes(side) == 0) cycle
          to_body = 0.0_wp ! from the node to the centres of its elements
+         reach = 0.0_wp
          do i = mesh%first_at(nodes(side)), mesh%first_at(nodes(side) + 1) - 1
             associate (corners => element_points(mesh, mesh%elements_at(i)))
                if (any(corners == 0)) cycle
-               to_body = to_body + sum(mesh%x(:, corners), dim=2)/size(corners) - mesh%x(:, nodes(side))
+               to_centre = sum(mesh%x(:, corners), dim=2)/size(corners) - mesh%x(:, nodes(side))
+               to_body = to_body + to_centre
+               reach = reach + norm2(to_centre)
             end associate
          end do
          along = dot_product(to_body, normal)
-         if (.not. abs(along) > 0.05_wp*norm2(to_body)) cycle
+         if (.not. abs(along) > max(0.05_wp*norm2(to_body), parallel_in_mesh*reach)) cycle
          if ((side == 1) .eqv. (along > 0.0_wp)) z = -normal
          return
       end do
