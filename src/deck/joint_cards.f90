@@ -104,7 +104,6 @@ contains
          call card%word('PRESSURE', '|CONSTANT|LINEAR|', pressure)
          call card%finish(joint%line)
          joint%is_linear = pressure == 'LINEAR'
-         if (joint%is_linear .and. fit == 'YES') call card%error('PRESSURE', 'LINEAR needs pairs of nodes; expected no FIT = YES')
          joint%fit = findloc([character(4) :: 'AUTO', 'YES', 'NO'], fit, dim=1)
          if (joint%sides(1) > 0 .and. joint%sides(1) == joint%sides(2)) call card%error('SIDE2', 'the same surface as SIDE1')
       end associate
