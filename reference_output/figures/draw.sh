@@ -85,6 +85,9 @@ column 8000 > "$work/welded.csv"
 sed -E 's/^JAMPL.*/JAMPL,6,1,1.0,3,0.03,2,16/' input/bolted_lap.bdf > "$work/bolted_loops.bdf"
 "$program" -q -o "$work" "$work/bolted_loops.bdf" > /dev/null 2>&1
 
+# the Brake-Reuss beam beside the published points
+"$program" -q -o "$work" input/brake_reuss.bdf > /dev/null 2>&1
+
 rm -rf "$work/drawn"
 mkdir "$work/drawn"
 for table in "$work"/*.csv; do awk -f "$here/rounded.awk" "$table" "$table" > "$work/drawn/${table##*/}"; done

@@ -7,7 +7,7 @@ module free_structure
    use interface_operator, only: named_node
    use kinds, only: wp
    use mesh_queries, only: element_points, is_face_node, node_kind, place_in_kind
-   use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, mesh_type, support_group
+   use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, mesh_type, n_sections, support_group
    use numbers, only: cross, first_largest
    use support_build, only: hold
    use tolerances, only: balanced
@@ -31,7 +31,8 @@ contains
       logical  :: may_be(mesh%n_nodes)
       real(wp) :: along(3), off(mesh%n_nodes), turn(3)
 
-      if (.not. any(deck%control%stages%vibration%free) .or. any(freedoms%held)) return
+      if (.not. any(deck%control%stages%vibration%free) .or. any(freedoms%held(:, :mesh%n_nodes - n_sections(mesh)))) &
+         return
       if (any(deck%control%stages%vibration%modes%id > 0 .and. .not. deck%control%stages%vibration%free)) return
       if (any(deck%bulk%spring%nodes(1) == 0 .or. deck%bulk%spring%nodes(2) == 0)) return ! a grounded spring
       do i = 1, size(joints%element)

@@ -15,7 +15,7 @@ module joint_sides
    use numbers, only: cross
    use surface_build, only: side_influence, surface_node_list, surface_nodes
    use text_tools, only: integer_text, one_of, plural, real_text
-   use tolerances, only: no_inertia, zero_cosine
+   use tolerances, only: no_inertia, parallel_in_mesh, zero_cosine
    implicit none
    private
 
@@ -62,7 +62,13 @@ contains
             if (aside%n > 0 .and. card%fit /= fit_no) fault = aside_words(mesh, aside)
          end if
          lack = ''
-         if (fault == '') then
+         if (card%is_linear .and. (fault /= '' .or. any(mesh%surfaces(surface(1))%n_nodes(:mesh%surfaces(surface(1))%n) > &
+                                                        mesh%surfaces(surface(1))%corners(:mesh%surfaces(surface(1))%n)))) then
+            call deck%field_error(card%line, 'PRESSURE', 'LINEAR needs pairs of nodes on faces of first order'// &
+                                  one_of(fault == '', '', '; '//fault))
+         else if (card%is_linear) then
+            call linear_elements(mesh, mesh%surfaces(surface(1)), side1, partner, elements)
+         else if (fault == '') then
             call pair_elements(mesh, mesh%surfaces(surface(1)), side1, partner, elements, lack)
          else if (card%fit == fit_no) then
             fault = fault//'; FIT = AUTO joins faces that do not match'
@@ -147,6 +153,64 @@ contains
       end do
    end subroutine pair_elements
 
+   !> PRESSURE LINEAR: elements at the Gauss points of the sides, 2 on an edge, 3 on a triangle, 2 x 2 on a quadrilateral. The
+   !! movement of an element is the linear interpolation of those of its pairs, so that the sum of the elements of a side is the
+   !! consistent matrix of this side, the integral of N^T k N. PARTNER as of pair_elements.
+   subroutine linear_elements(mesh, surface, side, partner, elements)
+      type(mesh_type), intent(in) :: mesh
+      type(surface_type), intent(in)                      :: surface
+      type(surface_node_list), intent(in)                 :: side
+      integer, intent(in)                                 :: partner(:) !! (nodes of SIDE)
+      type(interface_element), allocatable, intent(inout) :: elements(:)
+      type(id_table_type) :: place
+      integer  :: at(4), e, g, n, nodes(4), opposite(4), s
+      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), shape(4), size_of(4), z(3)
+
+      call place%build(side%node)
+      deallocate (elements)
+      allocate (elements(sum(surface%corners(:surface%n))))
+      e = 0
+      do s = 1, surface%n
+         n = surface%corners(s)
+         call side_influence(mesh, surface, s, area, normal)
+         nodes(:n) = surface%nodes(:n, s)
+         at(:n) = [(place%find(nodes(g)), g = 1, n)]
+         opposite(:n) = nodes(:n) ! a node at the edge of a split surface is its own partner
+         where (at(:n) > 0) opposite(:n) = partner(max(1, at(:n)))
+         do g = 1, n
+            shape(:n) = shape_at(n, g)
+            size_of(g) = dot_product(shape(:n), area(:n)) ! of a quadrilateral; equal ones where it is a parallelogram
+            if (mesh%axisymmetric) size_of(g) = dot_product(shape(:n), mesh%x(1, nodes(:n)))
+         end do
+         size_of(:n) = size_of(:n)*sum(area(:n))/sum(size_of(:n))
+         do g = 1, n
+            e = e + 1
+            shape(:n) = shape_at(n, g)
+            associate (element => elements(e))
+               element%n_1 = n
+               element%named = nodes(g)
+               element%node = pack([nodes(:n), opposite(:n)], [spread(.true., 1, n), opposite(:n) > 0])
+               element%weight = pack([shape(:n), -shape(:n)], [spread(.true., 1, n), opposite(:n) > 0])
+               element%area = size_of(g)
+               z = matmul(normal(:, :n), shape(:n))
+               element%axes = joint_axes(mesh, z/norm2(z))
+            end associate
+         end do
+      end do
+   end subroutine linear_elements
+
+   !> The shape functions of a side of N corners at Gauss point G, the one nearest to corner G.
+   pure function shape_at(n, g) result(shape)
+      integer, intent(in) :: n, g
+      real(wp) :: shape(n)
+      real(wp), parameter :: near = 0.5_wp + 0.5_wp/sqrt(3.0_wp), far = 1.0_wp - near
+      integer :: k
+
+      if (n == 2) shape = [(merge(near, far, k == g), k = 1, n)]
+      if (n == 3) shape = [(merge(2.0_wp/3.0_wp, 1.0_wp/6.0_wp, k == g), k = 1, n)]
+      if (n == 4) shape = [(merge(near*near, merge(far*far, near*far, abs(k - g) == 2), k == g), k = 1, n)]
+   end function shape_at
+
    !> The elements of SUMS at the nodes of SIDE, in their order.
    subroutine summed_elements(mesh, side, sums, may_lack, elements, lack)
       type(mesh_type), intent(in) :: mesh
@@ -207,26 +271,29 @@ contains
    end function is_coarser
 
    !> The normal of a CJOINT in the sense from node 1 to node 2: out of the body at node 1, else into the body at node 2,
-   !! else as given. The card gives the line of the normal; the bodies give its sense.
+   !! else as given. The card gives the line of the normal; the bodies give its sense, those in the plane of the joint give none.
    pure function outward(mesh, nodes, normal) result(z)
       type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: nodes(2)
       real(wp), intent(in)         :: normal(3)
-      real(wp) :: z(3), along, to_body(3)
+      real(wp) :: z(3), along, reach, to_body(3), to_centre(3)
       integer  :: i, side
 
       z = normal
       do side = 1, 2
          if (nodes(side) == 0) cycle
          to_body = 0.0_wp ! from the node to the centres of its elements
+         reach = 0.0_wp
          do i = mesh%first_at(nodes(side)), mesh%first_at(nodes(side) + 1) - 1
             associate (corners => element_points(mesh, mesh%elements_at(i)))
                if (any(corners == 0)) cycle
-               to_body = to_body + sum(mesh%x(:, corners), dim=2)/size(corners) - mesh%x(:, nodes(side))
+               to_centre = sum(mesh%x(:, corners), dim=2)/size(corners) - mesh%x(:, nodes(side))
+               to_body = to_body + to_centre
+               reach = reach + norm2(to_centre)
             end associate
          end do
          along = dot_product(to_body, normal)
-         if (.not. abs(along) > 0.05_wp*norm2(to_body)) cycle
+         if (.not. abs(along) > max(0.05_wp*norm2(to_body), parallel_in_mesh*reach)) cycle
          if ((side == 1) .eqv. (along > 0.0_wp)) z = -normal
          return
       end do

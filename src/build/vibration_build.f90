@@ -3,7 +3,7 @@
 module vibration_build
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: freedoms_type, mesh_type, stage_load_type
+   use model_data, only: freedoms_type, mesh_type, n_sections, stage_load_type, supported
    use stage_plan, only: stage_plan_type, backbone_plan, merged, response_plan, vibration_plan_type
    use stage_build, only: find_limited_nodes
    use text_tools, only: integer_text
@@ -72,8 +72,10 @@ contains
       type(backbone_plan) :: backbone
       integer :: k, i
 
-      if (asked%free) call deck%errors%add(asked%backbone%line, &
-         'BACKBONE: expected also MODES = set, not MODES(FREE): a structure without supports has no equilibrium under a load')
+      if (asked%free .and. .not. freedoms%floats .and. &
+          any([(supported(mesh, freedoms, i), i = 1, mesh%n_nodes - n_sections(mesh))])) call deck%errors%add(asked%backbone%line, &
+         'BACKBONE with MODES(FREE): expected a deck without supports and all its MODES (FREE): the supports of this deck '// &
+         'would bear a part of the inertia forces of the mode')
       k = findloc(deck%bulk%jampl%id, asked%backbone%id, dim=1)
       if (k == 0) then
          call deck%errors%add(asked%backbone%line, 'BACKBONE: there is no JAMPL '//integer_text(asked%backbone%id))

@@ -272,6 +272,7 @@ module bulk_data
    type, public :: joint_card
       integer  :: line = 0, id = 0, law = 0, sides(2) = 0, fit = fit_auto
       real(wp) :: tolerance = 0.0_wp                    ! 0: default
+      logical  :: is_linear = .false.                   ! PRESSURE LINEAR: elements at the Gauss points of the sides
    end type joint_card
 
    type, public :: cjoint_card

@@ -93,7 +93,7 @@ contains
    subroutine read_joint(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      character(8) :: fit
+      character(8) :: fit, pressure
 
       associate (joint => bulk%joint(card%i))
          call card%field('JID', joint%id)
@@ -102,7 +102,9 @@ contains
          call card%field('SIDE2', joint%sides(2), default=0)
          call card%field('TOL', joint%tolerance, positive, default=0.0_wp)
          call card%word('FIT', '|AUTO|YES|NO|', fit)
+         call card%word('PRESSURE', '|CONSTANT|LINEAR|', pressure)
          call card%finish(joint%line)
+         joint%is_linear = pressure == 'LINEAR'
          joint%fit = findloc([character(4) :: 'AUTO', 'YES', 'NO'], fit, dim=1)
          if (joint%sides(1) > 0 .and. joint%sides(1) == joint%sides(2)) call card%error('SIDE2', 'the same surface as SIDE1')
       end associate

@@ -50,7 +50,7 @@ contains
          call card%field('AMAX', jampl%largest, positive)
          call card%field('N', jampl%n, default=10, most=most_amplitudes)
          call card%field('RATIO', jampl%ratio, real_range(0.0_wp, 1.0_wp, above=.true., below=.true.), default=0.01_wp)
-         call card%field('CYCLES', jampl%cycles, default=5, least=0)
+         call card%field('CYCLES', jampl%cycles, default=20, least=0)
          call card%field('INCS', jampl%increments, default=2, most=most_amplitudes)
          call card%field('GID', jampl%node, default=0)
          call card%field('TOL', jampl%tolerance, positive, default=amplitude_tol)

@@ -233,16 +233,28 @@ contains
       end do
    end subroutine list_backbone
 
-   !> Notes and warnings on the loops of FOUND: gaps, negative losses, slip of single nodes. N_WARNINGS counts warnings.
+   !> Notes and warnings on the loops of FOUND: unsettled ones, gaps, negative losses, slip of single nodes. N_WARNINGS counts
+   !! warnings.
    subroutine judge_loops(page, model, found, n_warnings)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(backbone_type), intent(in) :: found
       integer, intent(inout)          :: n_warnings
       character(:), allocatable :: amplitude
-      integer :: i, n
+      integer :: i, k, n, n_unsettled
 
       n = size(model%joints%element)
+      k = 1 ! the amplitude whose loops are farthest from having settled
+      do i = 2, size(found%loops)
+         if (found%loops(i)%unsettled > found%loops(k)%unsettled) k = i
+      end do
+      if (size(found%loops) > 0) then
+         n_unsettled = count(found%loops%unsettled > least_loss_factor)
+         if (n_unsettled > 0) call warn('AT '//integer_text(n_unsettled)//' OF '//integer_text(size(found%loops))// &
+            ' AMPLITUDES THE LOOPS HAVE NOT SETTLED: AT AMPLITUDE '//real_text(found%loops(k)%q*found%peak)// &
+            ' LOOP '//integer_text(found%loops(k)%n_loops)//' HAS STILL CHANGED THE '// &
+            'LOSS FACTOR BY'//in_form(found%loops(k)%unsettled, '(es10.3)', 10)//'; CYCLES OF JAMPL REPEATS THEM')
+      end if
       do i = 1, size(found%loops)
          associate (loop => found%loops(i))
             amplitude = real_text(loop%q*found%peak)

@@ -130,7 +130,7 @@ contains
       real(wp), allocatable :: numbers(:)
 
       numbers = [loop%alpha, loop%q, loop%omega_squared, loop%loss, loop%centre, loop%gap, loop%distortion, loop%slipping, &
-                 loop%open, real(loop%n_loops, wp), loop%shares, loop%way]
+                 loop%open, real(loop%n_loops, wp), loop%unsettled, loop%shares, loop%way]
    end function numbers_of
 
    pure type(loop_type) function taken_up(n_joints, numbers) result(loop)
@@ -138,8 +138,8 @@ contains
       real(wp), intent(in) :: numbers(:)
 
       loop = loop_type(numbers(1), numbers(2), numbers(3), numbers(4), numbers(5), numbers(6), numbers(7), numbers(8), numbers(9), &
-                       nint(numbers(10)), shares=numbers(11:10 + n_joints), &
-                       way=reshape(numbers(11 + n_joints:), [2, (size(numbers) - 10 - n_joints)/2]))
+                       nint(numbers(10)), numbers(11), shares=numbers(12:11 + n_joints), &
+                       way=reshape(numbers(12 + n_joints:), [2, (size(numbers) - 11 - n_joints)/2]))
    end function taken_up
 
    !> The LOOP of this AMPLITUDE. Loops of coarse increments find about the load. From there on increments are halved to the

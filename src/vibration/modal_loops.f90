@@ -18,7 +18,8 @@ module modal_loops
    use joint_laws, only: element_state, force_of, slices_of
    use kinds, only: wp
    use mass_matrix, only: mass_times
-   use modal_path, only: begin_path, coordinate, follow_path, modal_load_type, path_type, reverse, start_path
+   use modal_path, only: begin_path, coordinate, follow_path, modal_load_type, path_type, remove_rigid_motion, reverse, &
+                         start_path
    use model_data, only: model_type
    use node_coupling, only: displacements, forces_on_unknowns
    use shear_stiffness, only: shear_slope
@@ -48,6 +49,7 @@ module modal_loops
       real(wp) :: distortion = 0.0_wp                !! part of the movement orthogonal to phi, norm of [M] [-]
       real(wp) :: slipping = 0.0_wp, open = 0.0_wp   !! shares of the interface elements, at any time of the loop [-]
       integer  :: n_loops = 0
+      real(wp) :: unsettled = 0.0_wp                 !! by what the last repetition has changed the loss factor; 0: it has settled [-]
       real(wp) :: lost = 0.0_wp                      !! D [force x length]
       real(wp), allocatable :: shares(:)             !! (joints) shares of D [-]
       real(wp), allocatable :: way(:, :)             !! (2, increments) alpha, q
@@ -126,6 +128,7 @@ contains
                                                                abs(loop%gap) > settled(1))])
          if (is_steady .and. (was_steady .or. .not. present(fine) .or. abs(loop%gap) <= settled(1))) exit
       end do
+      if (present(fine) .and. loop%n_loops > 1 .and. .not. is_steady) loop%unsettled = 2.0_wp*change(2)/(two_pi*loop%alpha*loop%q)
    end subroutine run_loops
 
    !> Take the tolerances of work and q of MODAL from the loop LIKE. Where D is small, an error of q is a large share of it; D of
@@ -254,6 +257,7 @@ contains
       allocate (d, f, mold=modal%phi)
       call recover_displacements(modal%system, forces_on_unknowns(model, loop%alpha*modal%force), half, d)
       d = displacements(model, d)
+      call remove_rigid_motion(model, modal, d)
       other = d - loop%q*modal%phi
       call mass_times(model, modal%mass, other, f)
       loop%distortion = max(0.0_wp, sum(other*f))

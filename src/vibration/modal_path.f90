@@ -4,6 +4,9 @@
 !! condensed bodies contribute to q: K_gg^-1 of their forces, which is linear in alpha, so that an increment costs no recovery.
 !! The work of an element counts the forces beyond those at rest: F - F_0 over the movement. Preloads times a movement of rounding
 !! would exceed the work of small loops. What the forces at rest contribute to the loss of a loop is in absorbed_at_rest.
+!! A free structure stands on the statically determinate supports of free_structure. [M] {phi} is orthogonal to all rigid-body
+!! motions, so that the inertia forces of the mode are in equilibrium without these supports; other supports give the same
+!! movement but for a rigid-body motion, which {phi}^T [M] does not contain.
 module modal_path
    use analysis_state, only: analysis_type, free_norm
    use equation_solver, only: equation_system, failure_type
@@ -15,15 +18,16 @@ module modal_path
    use mass_matrix, only: form_mass, mass_matrix_type, mass_times
    use model_data, only: model_type
    use newton_method, only: newton_increment
-   use node_coupling, only: forces_on_unknowns
+   use node_coupling, only: displacements, forces_on_unknowns
    use normal_stiffness, only: branch_load, branch_open, branch_unload
    use stage_plan, only: stage_plan_type
    use text_tools, only: real_text
-   use tolerances, only: closing_step, exact_tol, finest_step, finest_tol, rounding_of_forces
+   use tolerances, only: closing_step, exact_tol, finest_step, finest_tol, rounding_of_forces, rounding_of_sums
+   use unknowns, only: motions_of, n_motions
    implicit none
    private
 
-   public :: start_modal_load, start_path, begin_path, follow_path, coordinate, reverse
+   public :: start_modal_load, start_path, begin_path, follow_path, coordinate, reverse, remove_rigid_motion
 
    real(wp), parameter :: coarsest_step = 0.125_wp   ! likewise: a larger one is, for elements may slip and stick within it
    real(wp), parameter :: margin = 10.0_wp           ! of rounding errors
@@ -31,6 +35,8 @@ module modal_path
    !> The initial data of the paths of one mode.
    type, public :: modal_load_type
       real(wp), allocatable :: phi(:, :)             !! (dimension, n_nodes) generalised mass 1
+      real(wp), allocatable :: rigid(:, :, :)        !! (dimension, n_nodes, n) rigid-body motions of a free structure, of
+                                                     !! generalised mass 1 and orthogonal in [M]; n = 0: it has supports
       real(wp), allocatable :: force(:, :)           !! [M] {phi} on all nodes
       real(wp), allocatable :: condensed(:, :)       !! the same condensed on the retained nodes
       real(wp) :: inside = 0.0_wp                    !! q of the interior of the bodies, retained nodes fixed, for alpha = 1
@@ -85,6 +91,8 @@ contains
       modal%plan%stages%follows_path = .false.
       modal%plan%stages(analysis%stage)%path = 'start of the loops'
       modal%phi = phi
+      call find_rigid_motions(model, modal)
+      call remove_rigid_motion(model, modal, modal%phi)
       allocate (modal%force, inside, mold=phi)
       allocate (modal%condensed, mold=analysis%u)
       call mass_times(model, modal%mass, modal%phi, modal%force)
@@ -104,6 +112,51 @@ contains
                                                     sum(abs(modal%rest_forces(3, :)*states%normal%lambda)))
       end associate
    end subroutine start_modal_load
+
+   !> The rigid-body motions of a free structure, a ring's along its axis, orthogonal in [M] by Gram and Schmidt. A motion
+   !! without mass is left out.
+   subroutine find_rigid_motions(model, modal)
+      type(model_type), intent(in)         :: model
+      type(modal_load_type), intent(inout) :: modal
+      real(wp), allocatable :: moved(:, :, :), u(:, :), f(:, :)
+      real(wp) :: before, mass
+      integer  :: i
+
+      allocate (modal%rigid(model%mesh%dimension, model%mesh%n_nodes, 0))
+      if (.not. model%freedoms%floats) return
+      allocate (moved(model%mesh%dimension, n_motions(model%mesh%dimension), model%mesh%n_nodes))
+      allocate (u, f, mold=modal%phi)
+      do i = 1, model%mesh%n_nodes
+         moved(:, :, i) = motions_of(model, i)
+      end do
+      do i = merge(2, 1, model%mesh%axisymmetric), merge(2, size(moved, 2), model%mesh%axisymmetric)
+         u = displacements(model, moved(:, i, :))
+         call mass_times(model, modal%mass, u, f)
+         before = sum(u*f)
+         call remove_rigid_motion(model, modal, u)
+         call remove_rigid_motion(model, modal, u) ! orthogonal to rounding
+         call mass_times(model, modal%mass, u, f)
+         mass = sum(u*f)
+         if (mass > rounding_of_sums**2*before) &
+            modal%rigid = reshape([modal%rigid, u/sqrt(mass)], [shape(u), size(modal%rigid, 3) + 1])
+      end do
+   end subroutine find_rigid_motions
+
+   !> Remove the rigid-body motion of a free structure from the displacements U: [M] U is then in equilibrium.
+   subroutine remove_rigid_motion(model, modal, u)
+      type(model_type), intent(in)      :: model
+      type(modal_load_type), intent(in) :: modal
+      real(wp), contiguous, intent(inout) :: u(:, :)
+      real(wp), allocatable :: f(:, :)
+      integer :: i
+
+      if (size(modal%rigid, 3) == 0) return
+      allocate (f, mold=u)
+      call mass_times(model, modal%mass, u, f)
+      do i = 1, size(modal%rigid, 3)
+         u = u - sum(modal%rigid(:, :, i)*f)*modal%rigid(:, :, i)
+      end do
+   end subroutine remove_rigid_motion
 
    !> Reverse the sense of phi, and of alpha and q with it.
    pure subroutine reverse(modal)

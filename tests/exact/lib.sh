@@ -89,3 +89,25 @@ mode() { "$query" "$work/$1.modes.csv" rows "mode = $2 and stage = ${4:-1}" prin
 mode_energy() { awk -F, -v m="$2" -v kind="$3" -v id="$4" -v c="$5" 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k }
    $2 == m && $3 == kind && $4 == id { print $at[c] }' "$work/$1.modes.energy.csv"; }
 pi=3.14159265358979324
+
+# backbone NAME COLUMN [AMPLITUDE NUMBER, 1 the smallest]; loss_of, frequency_of: expected figures as expressions of the amplitude there
+backbone() { awk -F, -v name="$2" -v row="${3:-1}" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) c = i } NR == row + 1 { print $c }' \
+                "$work/$1.backbone.csv"; }
+
+# Against free decay, integrated in time by ring_down.awk
+# ring NAME V STEP TIME [OTHERS [RIGID]]: what ring_down.awk makes of the system in NAME.system, appended to NAME.rows
+ring() { awk -v V="$2" -v step="$3" -v time="$4" -v others="${5:-0}" -v rigid="${6:-0}" -v cycles=2 -v skip=1 -f tests/exact/ring_down.awk "$work/$1.system" >> "$work/$1.rows"; }
+# decays_like NAME: NAME.rows against the backbone of NAME, interpolated: frequency within 0.5 %, loss factor within 2 %. The energy at a turning
+# point grows with the tangent of the force there, x dF/dx, the loss factor of the backbone has the secant F/x ~ f^2: the decrement of
+# the same loop is that loss over 1 + 2 d(ln f)/d(ln x), up to 5 % more in what follows
+decays_like() {
+   judge "$1: free decay" -v name="$1" -F'[, ]' 'NR == FNR { if (FNR > 1) { x[++n] = log($3); f[n] = $4; d[n] = $5; if ($5 > largest) largest = $5 } next }
+      { a = log($1); for (i = 1; i < n - 1 && x[i + 1] < a; i++) ; w = (a - x[i])/(x[i + 1] - x[i])
+        if (w < 0 || w > 1) next
+        fb = f[i] + w*(f[i + 1] - f[i]); db = d[i] + w*(d[i + 1] - d[i])
+        if (db < 0.6*largest) next
+        db /= 1 + 2*log(f[i + 1]/f[i])/(x[i + 1] - x[i])
+        rows++
+        if (($2/fb - 1)^2 > 0.005^2 || ($3/db - 1)^2 > 0.02^2) print "amplitude " $1 ": frequency " $2 ", loss " $3 "; backbone " fb ", " db }
+      END { if (rows < 5) print rows " rows"; print "checked " rows }' "$work/$1.backbone.csv" "$work/$1.rows"
+}

@@ -5,7 +5,7 @@
 #                                 a unit of length; its axis passes H above its nodes
 #    element I J S LIMIT MU KN    with KN: a spring KN along I + 1 and J + 1, J above; the limit grows by MU times what it is pressed more
 # The motion begins at rest with the velocity V times the first mode phi (greatest value 1) of the system that sticks; OTHERS is a damping of all
-# other modes [1/time]. Prints amplitude, frequency and loss factor of q = phi M u/(phi M phi) over every CYCLES cycles: frequency from the
+# other modes [1/time]. A system without ground has RIGID motions (default 0): the mode is the first with strain. Prints amplitude, frequency and loss factor of q = phi M u/(phi M phi) over every CYCLES cycles: frequency from the
 # zeros of q, loss factor from the logarithmic decrement, 2 zeta = delta/pi.
 function dof(name) { if (name == 0) return 0; if (!(name in number)) number[name] = ++n; return number[name] }
 function add(s, i, j, x) { if (i && j) s[100*i + j] += x }
@@ -47,13 +47,21 @@ $1 == "element" {
 }
 END {
    pi = atan2(0, -1); h = step
-   for (i = 1; i <= n; i++) for (j = 1; j <= n; j++) { inverse[100*i + j] = k[100*i + j]; x[100*i + j] = k[100*i + j] + 4/h^2*m[100*i + j]; phi[i] = i }
+   for (i = 1; i <= n; i++) for (j = 1; j <= n; j++) { inverse[100*i + j] = k[100*i + j] + (rigid ? m[100*i + j] : 0); x[100*i + j] = k[100*i + j] + 4/h^2*m[100*i + j]; phi[i] = i }
    invert(inverse)
-   for (t = 1; t <= 60; t++) { # inverse iteration
+   for (mode = 0; mode <= rigid; mode++) for (t = 1; t <= 60; t++) { # inverse iteration, orthogonal in [M] to the modes before
       for (i = 1; i <= n; i++) { w[i] = 0; for (j = 1; j <= n; j++) w[i] += m[100*i + j]*phi[j] }
       peak = 0
-      for (i = 1; i <= n; i++) { phi[i] = 0; for (j = 1; j <= n; j++) phi[i] += inverse[100*i + j]*w[j]; if (phi[i]^2 > peak^2) peak = phi[i] }
+      for (i = 1; i <= n; i++) { phi[i] = 0; for (j = 1; j <= n; j++) phi[i] += inverse[100*i + j]*w[j] }
+      for (o = 0; o < mode; o++) {
+         d = 0; for (i = 1; i <= n; i++) d += of_mass[o, i]*phi[i]
+         for (i = 1; i <= n; i++) phi[i] -= d*old[o, i]
+      }
+      for (i = 1; i <= n; i++) if (phi[i]^2 > peak^2) peak = phi[i]
       for (i = 1; i <= n; i++) phi[i] /= peak
+      if (t < 60 || mode == rigid) continue
+      mass = 0; for (i = 1; i <= n; i++) { w[i] = 0; for (j = 1; j <= n; j++) w[i] += m[100*i + j]*phi[j]; mass += w[i]*phi[i] }
+      for (i = 1; i <= n; i++) { old[mode, i] = phi[i]/sqrt(mass); of_mass[mode, i] = w[i]/sqrt(mass); phi[i] = i^2 }
    }
    mass = 0
    for (i = 1; i <= n; i++) { w[i] = 0; for (j = 1; j <= n; j++) w[i] += m[100*i + j]*phi[j]; mass += w[i]*phi[i]; v[i] = V*phi[i] }

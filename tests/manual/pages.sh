@@ -119,6 +119,8 @@ done
 answer 4 "CONTACT $(awk '/JOINT CONTACT %/ { n = NR + 2 } NR == n { v = $2 } END { print v }' "$work/lesson4.out") %"
 answer 4 "CHANGE/LOAD $(awk '/BOLT +ELEMENT +SURFACE/ { n = NR + 2 } NR == n { v = $6 } END { print v }' "$work/lesson4.out") of the load"
 answer 5 "$(awk -v x="$(mode lesson5 1 frequency 2)" 'BEGIN { printf "%.1f", x }') Hz"
+answer 7 "CONTACT $(awk '/JOINT CONTACT %/ { n = NR + 2 } NR == n { v = $2 } END { print v }' "$work/lesson7.out") %"
+answer 7 "P MAX $(awk '/JOINT CONTACT %/ { n = NR + 2 } NR == n { v = $3 } END { print v }' "$work/lesson7.out") N/mm2"
 # what the references of the decks say: without the change
 reference() { awk -v title="$2" -v c="$3" '$0 ~ title { n = NR + 2 } NR == n { v = $c } END { print v }' "reference_output/$1.out"; }
 largest_there() { awk '/LARGEST DISPLACEMENT +[0-9]/ { print $3 }' "reference_output/$1.out" | sed -n "$2p"; }
@@ -127,6 +129,8 @@ answer '1 \(a\)' "more than half of $(largest_there one_element 2) "
 answer '3 \(a\)' "instead of $(reference friction_full 'JOINT CONTACT %' 6);"
 answer '3 \(a\)' "mm instead of $(largest_there friction_full 2) "
 answer 4 "instead of $(reference flange_pair 'JOINT CONTACT %' 2) %;"
+answer 7 "instead of $(reference hub 'JOINT CONTACT %' 2) %;"
+answer 7 "instead of $(reference hub 'JOINT CONTACT %' 3) |"
 answer 4 "instead of $(reference flange_pair 'BOLT +ELEMENT +SURFACE' 6) "
 for preload in 02 08 32; do answer 5 "$(awk -F, '$1 == 2 && $2 == 1 { printf "%.1f", $3 }' reference_output/column_modes_$preload.modes.csv)"; done
 for stress in lesson4:500 lesson5:408; do # of bolt 1 when it is tightened

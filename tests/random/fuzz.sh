@@ -53,7 +53,7 @@ seeds=()
 for deck in "$root"/input/*.bdf "$root"/tests/{random,bad/base,exact,solver,programs}/*.bdf "$folder"/meshes/*.bdf; do
    case ${deck##*/} in
    hexa_on_tetra.bdf | pin_in_bore.bdf | two_blocks.bdf | bracket*.bdf | flange*_*.bdf | flanged_column.bdf | column_foot.bdf | solid_bolt.bdf | \
-      bolted_lap.bdf | slideway_crown.bdf | column_modes_*.bdf | post_on_plate.bdf | boxes.bdf | strips.bdf | largest.bdf | bar_tetra10_large.bdf)
+      bolted_lap.bdf | brake_reuss*.bdf | konter*.bdf | slideway_crown.bdf | column_modes_*.bdf | post_on_plate.bdf | boxes.bdf | strips.bdf | largest.bdf | bar_tetra10_large.bdf)
       [[ $deck = */bad/base/two_blocks.bdf ]] || continue ;;
    esac
    seeds+=("$deck")
