@@ -85,7 +85,12 @@ contains
       do k = 1, size(kept)
          more(k) = kept(k)
       end do
-      more(size(more)) = kept_file(part//c_null_char, path//c_null_char, tail, length)
+      associate (last => more(size(more))) ! a constructor with texts put together here would lose their memory
+         last%part = part//c_null_char
+         last%path = path//c_null_char
+         last%tail = tail
+         last%length = length
+      end associate
       call move_alloc(more, kept)
       kept_words = words//new_line('a')
       call end_of_change()
