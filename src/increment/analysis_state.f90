@@ -63,6 +63,8 @@ module analysis_state
       real(wp) :: contact = 0.0_wp                  !! share of the area of a joint that is open in one of both states, and pressed
                                                     !! by more than PATHTOL of the largest pressure in the other [-]
       logical  :: lets_go = .false.                 !! any element is open in one of both states only
+      logical  :: slides = .false.                  !! a joint slips at all its nodes that press
+      real(wp) :: displacement = 0.0_wp             !! then: largest difference of a displacement, of the largest displacement [-]
    end type path_error_type
 
    !> The record of the last increment for output; no later result depends on it.

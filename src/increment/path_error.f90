@@ -19,11 +19,13 @@ module path_error
    implicit none
    private
 
-   public :: note_start, go_to_start, measure_path, is_within, error_size
+   public :: note_start, go_to_start, measure_path, is_within, error_size, distance
 
    integer, parameter  :: most_corrections = 8       ! where the error decides on the division
    integer, parameter  :: some_corrections = 4       ! where it is only printed
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
+
+   integer, parameter  :: sliding = 4                ! parts into which the error of displacements divides an increment
 
    !> What an attempt changes when it is committed.
    type, public :: path_start_type
@@ -95,6 +97,7 @@ contains
          call rest_when_open(way(i), joint_movement(system%interface(i), trial%u))
       end do
       error = difference(model, analysis%states, way, analysis%path_tolerance)
+      error%displacement = distance(trial%u, analysis%u)
    end subroutine measure_path
 
    !> The TRIAL near equilibrium under the LOAD, to which the states BEFORE lead: from the displacements U by a few corrections with
@@ -216,6 +219,7 @@ contains
       logical  :: is_open(2)
       integer  :: i, j
 
+      error%slides = slides(model, states) .or. slides(model, way)
       lambda = max(maxval(way%normal%lambda_a), maxval(way%normal%lambda))
       p = max(maxval(way%normal%p_a), maxval(way%normal%pressure))
       if (.not. (lambda > 0.0_wp .and. p > 0.0_wp)) return
@@ -239,14 +243,38 @@ contains
       end do
    end function difference
 
-   !> Whether the ERROR of an increment in N_PARTS is within TOLERANCE. An increment that lets an element go, of whatever pressure, is
-   !! not taken in one part.
+   !> Whether a joint slides in STATES: it slips at all its nodes that press.
+   pure logical function slides(model, states)
+      type(model_type), intent(in)    :: model
+      type(element_state), intent(in) :: states(:)
+      integer :: j
+
+      slides = .false.
+      do j = 1, size(model%joints%list)
+         associate (of_joint => states(model%joints%list(j)%first:model%joints%list(j)%last))
+            slides = slides .or. (any(of_joint%slips) .and. all(of_joint%slips .or. of_joint%normal%branch == branch_open))
+         end associate
+      end do
+   end function slides
+
+   !> The largest difference of displacements A and B, of the largest one.
+   pure real(wp) function distance(a, b)
+      real(wp), intent(in) :: a(:, :), b(:, :) !! (dimension, retained) [length]
+
+      distance = maxval(abs(a - b))/max(maxval(abs(a)), maxval(abs(b)), tiny(1.0_wp))
+   end function distance
+
+   !> Whether the ERROR of an increment in N_PARTS is within TOLERANCE. An increment in which a joint slides, or an element is let go, of
+   !! whatever pressure, is not taken in one part. The displacements of bodies that slide converge in the first order only, so that
+   !! further division costs more than it brings: their error divides an increment into SLIDING parts at most.
    pure logical function is_within(error, n_parts, tolerance)
       type(path_error_type), intent(in) :: error
       integer, intent(in)               :: n_parts
       real(wp), intent(in)              :: tolerance !! PATHTOL
 
-      is_within = .not. (error%lets_go .and. n_parts == 1) .and. error_size(error) <= tolerance*(1.0_wp + equal_shares)
+      is_within = n_parts > 1 .or. .not. (error%lets_go .or. error%slides)
+      if (is_within) is_within = error_size(error) <= tolerance*(1.0_wp + equal_shares)
+      if (is_within .and. error%slides .and. n_parts < sliding) is_within = error%displacement <= tolerance*(1.0_wp + equal_shares)
    end function is_within
 
    !> The ERROR as a number to compare with PATHTOL.

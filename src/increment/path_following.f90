@@ -2,7 +2,7 @@
 !! depends on them.
 submodule(newton_method) path_following
    use analysis_state, only: path_error_type
-   use path_error, only: error_size, go_to_start, is_within
+   use path_error, only: distance, error_size, go_to_start, is_within
    implicit none
 
    integer, parameter  :: most_parts = 64   ! of an increment
@@ -27,6 +27,7 @@ contains
       type(known_type), allocatable :: known(:)
       type(path_start_type) :: first, last
       type(path_error_type) :: error
+      real(wp), allocatable :: u(:, :)      ! (dimension, retained) at the end of the last division [length]
       integer :: n
       logical :: falls, is_whole
 
@@ -39,7 +40,11 @@ contains
          analysis%record%is_whole = .true.
          call reach_in_parts(model, analysis, system, attempt, known)
          if (.not. attempt%converged) exit
-         falls = n < 2 .or. error_size(analysis%record%path_error) < falling*error_size(error)
+         associate (displacement => analysis%record%path_error%displacement) ! of first order: as far from the last division as from many
+            if (n > 0) displacement = max(displacement, distance(analysis%u, u))
+         end associate
+         u = analysis%u
+         falls = n < 2 .or. error_size(analysis%record%path_error) < max(falling*error_size(error), analysis%path_tolerance)
          n = size(known)
          is_whole = analysis%record%is_whole
          error = analysis%record%path_error

@@ -53,20 +53,25 @@ contains
       type(path_error_type), intent(in)      :: error
       type(farthest_type), intent(inout)     :: farthest
       character(:), allocatable, intent(out) :: words
-      character(23), parameter :: quantities(3) = [character(23) :: 'of the largest lambda', 'of the largest pressure', &
-                                                   'of the area in contact']
-      real(wp) :: shares(3)
+      character(27), parameter :: quantities(4) = [character(27) :: 'of the largest lambda', 'of the largest pressure', &
+                                                   'of the area in contact', 'of the largest displacement']
+      real(wp) :: shares(4)
       integer  :: k
 
       words = ''
-      shares = [error%deflection, error%pressure, error%contact]
+      shares = [error%deflection, error%pressure, error%contact, merge(error%displacement, 0.0_wp, error%slides)]
       k = maxloc(shares, dim=1)
       if (shares(k) <= farthest%relative) return
       farthest%relative = shares(k)
       farthest%quantity = trim(quantities(k))
       farthest%place = place
-      if (shares(k) > off_path) words = place//': error of path '//percent(shares(k))//' '//farthest%quantity// &
-         ': see the table of the errors of path'
+      if (shares(k) <= off_path) return
+      words = place//': error of path '//percent(shares(k))//' '//farthest%quantity
+      if (k < size(shares)) then
+         words = words//': see the table of the errors of path'
+      else
+         words = words//': a joint slides, and more increments show how far'
+      end if
    end subroutine watch_path
 
    !> The line on the screen after a run FARTHEST from its laws or from the path; '' where this is not far.
