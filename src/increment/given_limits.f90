@@ -13,7 +13,7 @@ module given_limits
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate, trial_type
-   use normal_stiffness, only: branch_load
+   use normal_stiffness, only: branch_load, branch_open
    use tolerances, only: pressure_floor, same_work
    implicit none
    private
@@ -43,6 +43,7 @@ contains
       type(trial_type), intent(inout)    :: now
 
       attempt%n_limits = 0
+      attempt%n_returns = 0
       attempt%runs = .false.
       attempt%bearable = 1.0_wp
       attempt%asked = attempt%load - analysis%body
@@ -81,7 +82,8 @@ contains
       end if
    end subroutine renew_limits
 
-   !> The limits of the trial NOW itself.
+   !> The limits of the trial NOW itself. Where the exact laws have failed to finish again, new limits may overshoot, as under wedges:
+   !! the pressures are then the means of these and of the last ones.
    subroutine give_limits(model, system, analysis, attempt, now)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -89,9 +91,14 @@ contains
       type(attempt_type), intent(inout)  :: attempt
       type(trial_type), intent(inout)    :: now
 
+      if (allocated(attempt%seen)) call move_alloc(attempt%seen, attempt%last)
       attempt%seen = now%states%normal
+      attempt%sees_own = attempt%n_returns <= 1
+      if (.not. attempt%sees_own) then
+         where (attempt%seen%branch == branch_open) attempt%seen = attempt%last
+         attempt%seen%pressure = 0.5_wp*(attempt%last%pressure + now%states%normal%pressure)
+      end if
       attempt%sticks = .false.
-      attempt%sees_own = .true.
       attempt%n_limits = attempt%n_limits + 1
       call evaluate(model, system, attempt, analysis, now)
       attempt%to_solve = now%size
@@ -107,7 +114,7 @@ contains
       type(attempt_type), intent(inout)  :: attempt
       type(trial_type), intent(inout)    :: now
 
-      deallocate (attempt%seen)
+      call move_alloc(attempt%seen, attempt%last)
       call evaluate(model, system, attempt, analysis, now)
    end subroutine take_exact_laws
 
@@ -219,6 +226,7 @@ contains
       falls_back = attempt%with_limits .and. .not. allocated(attempt%seen)
       if (falls_back) falls_back = .not. next%size <= max(converges*now%size, analysis%tolerance)
       if (.not. falls_back) return
+      attempt%n_returns = attempt%n_returns + 1
       call give_limits(model, system, analysis, attempt, now)
       attempt%n_limits = settled - 1 ! two problems more before the exact laws try again
    end function falls_back

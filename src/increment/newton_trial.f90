@@ -53,6 +53,8 @@ module newton_trial
       logical  :: carried = .false.               !! bodies only move with supports, and no force acts
       ! ... with given limits
       type(normal_state), allocatable :: seen(:)  !! that the shear laws and friction see; unallocated: those of the trial
+      type(normal_state), allocatable :: last(:)  !! SEEN before the exact laws tried to finish
+      integer  :: n_returns = 0                   !! how often they did not
       logical  :: sees_own = .false.              !! SEEN is that of the trial
       logical  :: sticks = .false.                !! nothing slips
       real(wp) :: to_solve = 0.0_wp               !! residual of the first trial under the present limits [force]
