@@ -82,7 +82,7 @@ pushed_mass limit JAMPL,6,1,0.1,11,0.001 "$joint;JSHEAR,2,40.0" && {
 # ---- Against integration in time: free decay, whose frequency and decrement at each amplitude must be those of the backbone
 pushed_mass decay JAMPL,6,1,1.0,41,0.1 "$joint;JSHEAR,2,1.0;CELAS2,2,4000.0,1,1" && {
    printf 'mass 1 0.02\nspring 0 1 4000.0\nelement 0 1 100.0 26.0\n' > "$work/decay.system"
-   rm -f "$work/decay.rows"; ring decay 400 4e-5 2.0
+   rm -f "$work/decay.rows"; ring_down decay 400 4e-5 2.0
    decays_like decay
 }
 
@@ -105,7 +105,7 @@ pushed_mass decay JAMPL,6,1,1.0,41,0.1 "$joint;JSHEAR,2,1.0;CELAS2,2,4000.0,1,1"
    for i in 4 5 6; do echo "CJOINT,$i,1,1$i,$i,100.0,0.0,-1.0"; done
    echo 'FORCE,10,14,,40.0,0.0,-1.0;FORCE,10,15,,60.0,0.0,-1.0;FORCE,10,16,,90.0,0.0,-1.0;ENDDATA'
 } | cards lap
-run lap && { rm -f "$work/lap.rows"; ring lap 350 5e-5 0.5; decays_like lap; }
+run lap && { rm -f "$work/lap.rows"; ring_down lap 350 5e-5 0.5; decays_like lap; }
 
 # a lap joint in bending: two beams of 20 x 10, one clamped at x = 0, that lap over three nodes in the plane of the joint, 5 from the axis of
 # either; a mass at the tip puts the other modes far above the first, and they are damped: the backbone is that of one mode alone. The pressure
@@ -131,11 +131,11 @@ places=(x 0 150 250 350 500)
    done
 } > "$work/lap_beams.system"
 run lap_beams && {
-   rm -f "$work/lap_beams.rows"; ring lap_beams 12 1e-3 1.5
+   rm -f "$work/lap_beams.rows"; ring_down lap_beams 12 1e-3 1.5
    near 'beams that stick: frequency of the decay' "$(awk 'NR == 1 { print $2 }' "$work/lap_beams.rows")" "$(backbone lap_beams frequency 1)" 2e-4
    near 'beams that stick: no loss' "$(awk 'NR == 1 { print $3 }' "$work/lap_beams.rows")" 0 0 1e-6
    near 'beams that stick: no loss in the backbone' "$(backbone lap_beams loss_factor 1)" 0 0 1e-9
-   rm "$work/lap_beams.rows"; ring lap_beams 190 5e-4 6.0 100; ring lap_beams 60 5e-4 2.0 100; decays_like lap_beams
+   rm "$work/lap_beams.rows"; ring_down lap_beams 190 5e-4 6.0 100; ring_down lap_beams 60 5e-4 2.0 100; decays_like lap_beams
 }
 
 # ---- The loss of many elements, whose slip and opening change the path of the others, does not depend on the increments

@@ -12,7 +12,7 @@ same_backbone() {
 # ---- Two stiff bars of masses 0.02 and 0.03, three elements and a spring between them along x: against each other they are a mass of
 # 0.02*0.03/0.05 on the spring 1000 and three elements of stiffness 4000 that slip at 70 times 0.14, 0.2 and 0.26; the first moves by
 # 0.03/0.05 of that. TURNED by an angle; numbered from the other end (BACK = 1); the first bar in a system CD (CD = 1)
-two_bars() { # NAME TURNED BACK CD
+free_bars() { # NAME TURNED BACK CD
    awk -v turned="$2" -v back="$3" -v cd="$4" 'function id(b, i) { return back ? 30 - 10*b - i : 10*b + i }
       BEGIN {
          t = turned*atan2(0, -1)/180; c = cos(t); s = sin(t)
@@ -30,7 +30,7 @@ two_bars() { # NAME TURNED BACK CD
    run "$1"
 }
 for case in '0 0 0' '30 0 0' '0 1 0' '90 1 1'; do
-   two_bars two_bars $case && judge "two bars, $case" -F, 'function most(a, b) { return a > b ? a : b } function near(a, b) { return (a - b)^2 <= (2e-6*b)^2 + 1e-12 }
+   free_bars two_bars $case && judge "two bars, $case" -F, 'function most(a, b) { return a > b ? a : b } function near(a, b) { return (a - b)^2 <= (2e-6*b)^2 + 1e-12 }
       NR == 1 { pi = atan2(0, -1); next }
       { x = $3*5/3; k = 1000; d = 0; n++
         for (i = 1; i <= 3; i++) { f = 70*(0.08 + 0.06*i); k += f/most(x, f/4000); d += 4*f*most(0, x - f/4000) }
@@ -73,10 +73,10 @@ free_lap() { # NAME TURNED BACK FREE SOLVER SPRING
    done
 } > "$work/free_lap.system"
 free_lap free_lap 0 0 'MODES(FREE)' TREE 0 && {
-   rm -f "$work/free_lap.rows"; ring free_lap 10 5e-4 0.8 0 3
+   rm -f "$work/free_lap.rows"; ring_down free_lap 10 5e-4 0.8 0 3
    near 'free beams that stick: frequency of the decay' "$(awk 'NR == 1 { print $2 }' "$work/free_lap.rows")" "$(backbone free_lap frequency)" 2e-4
    near 'free beams that stick: no loss in the backbone' "$(backbone free_lap loss_factor)" 0 0 1e-9
-   rm "$work/free_lap.rows"; ring free_lap 75 5e-4 4.0 20 3; ring free_lap 45 5e-4 2.0 20 3; decays_like free_lap
+   rm "$work/free_lap.rows"; ring_down free_lap 75 5e-4 4.0 20 3; ring_down free_lap 45 5e-4 2.0 20 3; decays_like free_lap
 }
 few() { sed -i 's/^JAMPL.*/JAMPL,6,4,1.0,3,0.4,20,,'"${2:-1}"'/' "$work/$1.bdf" && run "$1"; } # NAME [NODE]: three amplitudes, at a node
 free_lap few 0 0 'MODES(FREE)' TREE 0 && few few &&

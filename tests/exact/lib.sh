@@ -95,8 +95,8 @@ backbone() { awk -F, -v name="$2" -v row="${3:-1}" 'NR == 1 { for (i = 1; i <= N
                 "$work/$1.backbone.csv"; }
 
 # Against free decay, integrated in time by ring_down.awk
-# ring NAME V STEP TIME [OTHERS [RIGID]]: what ring_down.awk makes of the system in NAME.system, appended to NAME.rows
-ring() { awk -v V="$2" -v step="$3" -v time="$4" -v others="${5:-0}" -v rigid="${6:-0}" -v cycles=2 -v skip=1 -f tests/exact/ring_down.awk "$work/$1.system" >> "$work/$1.rows"; }
+# ring_down NAME V STEP TIME [OTHERS [RIGID]]: what ring_down.awk makes of the system in NAME.system, appended to NAME.rows
+ring_down() { awk -v V="$2" -v step="$3" -v time="$4" -v others="${5:-0}" -v rigid="${6:-0}" -v cycles=2 -v skip=1 -f tests/exact/ring_down.awk "$work/$1.system" >> "$work/$1.rows"; }
 # decays_like NAME: NAME.rows against the backbone of NAME, interpolated: frequency within 0.5 %, loss factor within 2 %. The energy at a turning
 # point grows with the tangent of the force there, x dF/dx, the loss factor of the backbone has the secant F/x ~ f^2: the decrement of
 # the same loop is that loss over 1 + 2 d(ln f)/d(ln x), up to 5 % more in what follows

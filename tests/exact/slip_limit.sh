@@ -34,11 +34,11 @@ run limit_pulled 3
 says 'shear without friction: the message' "$work/limit_pulled.log" \
    'no equilibrium.*; an element with shear and without friction drops its shear at once when it opens: give MU on PJOINT'
 
-# A block in space on springs of 2000 along x and y, pressed by 10,000 with mu = 0.3, slips obliquely on a joint that is 40 times as stiff along y. Its
-# shear stress is along (k_x delta_x, k_y delta_y), of size mu p.
+# A block in space on springs of 2000 along x and y, pressed by 10,000 with mu = 0.3, slips obliquely on a joint that is 40 times as stiff along y. In
+# one increment its shear stress is along (k_x delta_x, k_y delta_y), of size mu p.
 cards oblique <<END
-METHOD = NEWTON;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 3
-BEGIN BULK;BLOCK3,1,1,2,2,1,0.,0.,0.;+,20.,20.,10.;+,,,,,20,21;PMARK,20;PMARK,21;PSOLID,1,1;MAT1,1,210000.,,0.0
+METHOD = NEWTON;INCR = 5;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 3
+BEGIN BULK;BLOCK3,1,1,2,2,1,0.,0.,0.;+,20.,20.,10.;+,,,,,20,21;PMARK,20;PMARK,21;PSOLID,1,1;MAT1,1,210000.,,0.0;JINCR,5,1
 JOINT,1,1,20;PJOINT,1,1,1,2,0.3;JNORM,1,8.-3,0.5,9500.;JSHEAR,1,1000.;JSHEAR,2,40000.;FORCEM,1,10000.,0.,0.,-1.,21
 FORCEM,2,1.,5000.,4000.,0.,20;LOAD,3,1.,1.,1,1.,2;CELAS2,101,500.,1,1;CELAS2,102,500.,3,1;CELAS2,103,500.,7,1
 CELAS2,104,500.,9,1;CELAS2,105,500.,1,2;CELAS2,106,500.,3,2;CELAS2,107,500.,7,2;CELAS2,108,500.,9,2;ENDDATA
