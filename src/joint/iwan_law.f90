@@ -17,7 +17,7 @@
 !! Source: D. J. Segalman, A four-parameter Iwan model for lap-type joints, J. Appl. Mech. 72 (2005) 752-760.
 module iwan_law
    use kinds, only: wp
-   use slip_path, only: meet_limit, turn_slip
+   use slip_path, only: meet_limit, return_to_limit, turn_slip
    use tolerances, only: flag_margin, slip_margin
    implicit none
    private
@@ -132,20 +132,16 @@ contains
       real(wp), intent(inout) :: tau(2)
       logical, intent(out)    :: slips
       real(wp), intent(out)   :: by_gain(2, 2), by_limit(2) !! derivatives of TAU with respect to GAIN and LIMITS(2), if it slips
-      real(wp) :: before(2), size_of_trial
+      real(wp) :: before(2)
 
       before = tau
       tau = before + gain
-      size_of_trial = norm2(tau)
-      slips = size_of_trial > limits(2)*(1.0_wp + slip_margin)
+      slips = norm2(tau) > limits(2)*(1.0_wp + slip_margin)
       if (.not. slips) return
       if (turns) then
          call turn_slip(before, gain, limits, tau, by_gain, by_limit)
       else
-         by_limit = tau/size_of_trial
-         tau = limits(2)*by_limit
-         by_gain = limits(2)/size_of_trial*(reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2]) &
-                                            - spread(by_limit, 2, 2)*spread(by_limit, 1, 2))
+         call return_to_limit(before + gain, limits(2), tau, by_gain, by_limit)
       end if
    end subroutine move_slice
 

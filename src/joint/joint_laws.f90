@@ -7,7 +7,7 @@ module joint_laws
    use normal_curve, only: loading_pressure, normal_law, normal_secant
    use normal_stiffness, only: branch_load, branch_open, branch_unload, closed_share, follow_normal, is_virgin, norm, normal_state
    use shear_path, only: follow_shear
-   use slip_path, only: turn_slip
+   use slip_path, only: return_to_limit, turn_slip
    use shear_stiffness, only: shear, shear_law, shear_state, slid_from, stand_at_limit
    use tolerances, only: pressure_floor, settled_secant, slip_margin
    implicit none
@@ -229,7 +229,7 @@ contains
       real(wp), intent(out)            :: tangent(3, 3) !! d (forces x, y, z)/d movement [force/length], not symmetric
       type(normal_state), intent(in), optional :: seen  !! with the lambda_before of BEFORE
       type(normal_state) :: normal ! for the laws along x and y
-      real(wp) :: by_delta(2), by_p(2), slope, work, limit, size_of_tau, along(2), share, share_by_lambda
+      real(wp) :: by_delta(2), by_p(2), slope, work, limit, share, share_by_lambda
       real(wp) :: slipped(2), by_limit(2), by_trial(2, 2)
       integer  :: i
 
@@ -272,16 +272,11 @@ contains
       if (before%turns) then
          call turn_slip(before%shear%tau, after%shear%tau - before%shear%tau, &
                         [friction_limit(law, before%normal%pressure), limit], slipped, by_trial, by_limit)
-         tangent(:2, :) = matmul(by_trial, tangent(:2, :))
-         tangent(:2, 3) = tangent(:2, 3) + law%mu*slope*area*by_limit
       else
-         size_of_tau = norm2(after%shear%tau)                       ! tau = limit * trial/|trial|
-         along = after%shear%tau/size_of_tau
-         slipped = limit*along
-         tangent(:2, :2) = limit/size_of_tau*(tangent(:2, :2) - matmul(spread(along, 2, 1), &
-                                              matmul(spread(along, 1, 1), tangent(:2, :2))))
-         tangent(:2, 3) = limit/size_of_tau*(tangent(:2, 3) - along*dot_product(along, tangent(:2, 3))) + law%mu*slope*area*along
+         call return_to_limit(after%shear%tau, limit, slipped, by_trial, by_limit)
       end if
+      tangent(:2, :) = matmul(by_trial, tangent(:2, :))
+      tangent(:2, 3) = tangent(:2, 3) + law%mu*slope*area*by_limit
       after%shear%slid = after%shear%slid + slid_from(law%shear, normal%pressure, after%shear, slipped)
       after%shear%tau = slipped
       call stand_at_limit(law%shear, max(0.0_wp, normal%pressure), after%shear)

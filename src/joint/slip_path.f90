@@ -14,7 +14,7 @@ module slip_path
    implicit none
    private
 
-   public :: turn_slip, meet_limit
+   public :: turn_slip, meet_limit, return_to_limit
 
    real(wp), parameter :: far = 100.0_wp    ! x of a stress that has turned entirely
 
@@ -36,10 +36,7 @@ contains
       by_limit = gain/max(norm2(gain), tiny(1.0_wp))
       if (limits(2) <= 0.0_wp) return
       if (norm2(gain) <= no_turn*limits(2)) then ! along a line; the angle between both is the square of NO_TURN
-         by_limit = (before + gain)/norm2(before + gain)
-         tau = limits(2)*by_limit
-         by_gain = limits(2)/norm2(before + gain)*(reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2]) &
-                                                   - spread(by_limit, 2, 2)*spread(by_limit, 1, 2))
+         call return_to_limit(before + gain, limits(2), tau, by_gain, by_limit)
          return
       end if
 
@@ -73,6 +70,19 @@ contains
       by_gain = spread([-n(2), n(1)], 2, 2)*spread(turned(:2), 1, 2)
       by_limit = n + [-n(2), n(1)]*turned(3)
    end subroutine turn_slip
+
+   !> The stress TAU of the size LIMIT along TRIAL, which is above it.
+   pure subroutine return_to_limit(trial, limit, tau, by_trial, by_limit)
+      real(wp), intent(in)  :: trial(2), limit !! [pressure]
+      real(wp), intent(out) :: tau(2)
+      real(wp), intent(out) :: by_trial(2, 2)  !! d TAU/d TRIAL [-]
+      real(wp), intent(out) :: by_limit(2)     !! d TAU/d LIMIT, the direction of TRIAL [-]
+
+      by_limit = trial/norm2(trial)
+      tau = limit*by_limit
+      by_trial = limit/norm2(trial)*(reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2]) &
+                                     - spread(by_limit, 2, 2)*spread(by_limit, 1, 2))
+   end subroutine return_to_limit
 
    !> f_s: from there on |BEFORE + f GAIN|**2 - l**2 = c(0) + 2 c(1) f + c(2) f**2 > 0, at most 1.
    pure subroutine meet_limit(before, gain, limits, f, c)
