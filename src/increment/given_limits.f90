@@ -135,6 +135,7 @@ contains
       real(wp), allocatable :: body(:, :)
       real(wp) :: first, released, work, low(2), high(2) ! steps and the works there
       integer  :: flat, i
+      logical  :: is_least
 
       flat = 0
       allocate (body, mold=direction)
@@ -149,11 +150,13 @@ contains
          call evaluate(model, system, attempt, analysis, next)
          work = -huge(1.0_wp)**0.25_wp
          if (next%size < huge(1.0_wp)) work = sum(next%residual*direction, mask=.not. analysis%held)
-         released = released_energy(work)
-         if (next%size <= 0.5_wp*now%size .or. abs(work) <= close*abs(first) .or. &
-             (i == 1 .and. first > 0.0_wp .and. work <= enough*first .and. released >= -attempt%released)) then
-            attempt%released = max(0.0_wp, released)
-            return
+         is_least = next%size <= 0.5_wp*now%size .or. abs(work) <= close*abs(first)
+         if (is_least .or. (i == 1 .and. first > 0.0_wp .and. work <= enough*first)) then
+            released = released_energy(work)
+            if (is_least .or. released >= -attempt%released) then
+               attempt%released = max(0.0_wp, released)
+               return
+            end if
          end if
          if (.not. first > 0.0_wp) exit
          if (work > 0.0_wp) then

@@ -14,7 +14,7 @@ module path_error
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate_at, trial_type
    use normal_stiffness, only: branch_open
-   use straight_laws, only: direction_digits
+   use straight_laws, only: direction_digits, loose_joints
    use tolerances, only: equal_shares, loose_direction, no_contact, on_the_path
    implicit none
    private
@@ -24,7 +24,6 @@ module path_error
    integer, parameter  :: most_corrections = 8       ! where the error decides on the division
    integer, parameter  :: some_corrections = 4       ! where it is only printed
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
-
    integer, parameter  :: sliding = 4                ! parts into which the error of displacements divides an increment
 
    !> What an attempt changes when it is committed.
@@ -243,18 +242,14 @@ contains
       end do
    end function difference
 
-   !> Whether a joint slides in STATES: it slips at all its nodes that press.
+   !> Whether a joint slides in STATES: it is loose, and an element of it slips.
    pure logical function slides(model, states)
       type(model_type), intent(in)    :: model
       type(element_state), intent(in) :: states(:)
-      integer :: j
+      logical :: loose(size(model%joints%list))
 
-      slides = .false.
-      do j = 1, size(model%joints%list)
-         associate (of_joint => states(model%joints%list(j)%first:model%joints%list(j)%last))
-            slides = slides .or. (any(of_joint%slips) .and. all(of_joint%slips .or. of_joint%normal%branch == branch_open))
-         end associate
-      end do
+      loose = loose_joints(model, states)
+      slides = any(states%slips .and. loose(model%joints%element%joint))
    end function slides
 
    !> The largest difference of displacements A and B, of the largest one.
