@@ -4,7 +4,7 @@
 module joint_sides
    use bulk_data, only: fit_no, fit_yes
    use deck_check, only: checked_deck
-   use element_kinds, only: max_side_nodes
+   use element_kinds, only: max_nodes, max_side_nodes, side_kind
    use interface_operator, only: at_first_end, connect_nodes, interface_element
    use kinds, only: wp
    use lists, only: id_table_type
@@ -13,6 +13,8 @@ module joint_sides
    use mortar_integrals, only: face_part, whole_shares, interface_sums_type
    use node_pairing, only: aside_type, pair_nodes, fit_side
    use numbers, only: cross
+   use quadrature, only: integration_rule, side_rule
+   use shape_functions, only: shape_values
    use surface_build, only: side_influence, surface_node_list, surface_nodes
    use text_tools, only: integer_text, one_of, plural, real_text
    use tolerances, only: no_inertia, parallel_in_mesh, zero_cosine
@@ -162,9 +164,10 @@ contains
       type(surface_node_list), intent(in)                 :: side
       integer, intent(in)                                 :: partner(:) !! (nodes of SIDE)
       type(interface_element), allocatable, intent(inout) :: elements(:)
-      type(id_table_type) :: place
-      integer  :: at(4), e, g, n, nodes(4), opposite(4), s
-      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), shape(4), size_of(4), z(3)
+      type(id_table_type)    :: place
+      type(integration_rule) :: rule ! one point per corner
+      integer  :: at(4), e, g, kind, n, nodes(4), opposite(4), s
+      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), shape(max_nodes, 4), size_of(4), z(3)
 
       call place%build(side%node)
       deallocate (elements)
@@ -172,44 +175,33 @@ contains
       e = 0
       do s = 1, surface%n
          n = surface%corners(s)
+         kind = side_kind(mesh%dimension, n)
+         call side_rule(kind, rule)
          call side_influence(mesh, surface, s, area, normal)
          nodes(:n) = surface%nodes(:n, s)
          at(:n) = [(place%find(nodes(g)), g = 1, n)]
          opposite(:n) = nodes(:n) ! a node at the edge of a split surface is its own partner
          where (at(:n) > 0) opposite(:n) = partner(max(1, at(:n)))
          do g = 1, n
-            shape(:n) = shape_at(n, g)
-            size_of(g) = dot_product(shape(:n), area(:n)) ! of a quadrilateral; equal ones where it is a parallelogram
-            if (mesh%axisymmetric) size_of(g) = dot_product(shape(:n), mesh%x(1, nodes(:n)))
+            call shape_values(kind, rule%point(:, g), shape(:, g))
+            size_of(g) = dot_product(shape(:n, g), area(:n)) ! of a quadrilateral; equal ones where it is a parallelogram
+            if (mesh%axisymmetric) size_of(g) = dot_product(shape(:n, g), mesh%x(1, nodes(:n)))
          end do
          size_of(:n) = size_of(:n)*sum(area(:n))/sum(size_of(:n))
          do g = 1, n
             e = e + 1
-            shape(:n) = shape_at(n, g)
             associate (element => elements(e))
                element%n_1 = n
                element%named = nodes(g)
                element%node = pack([nodes(:n), opposite(:n)], [spread(.true., 1, n), opposite(:n) > 0])
-               element%weight = pack([shape(:n), -shape(:n)], [spread(.true., 1, n), opposite(:n) > 0])
+               element%weight = pack([shape(:n, g), -shape(:n, g)], [spread(.true., 1, n), opposite(:n) > 0])
                element%area = size_of(g)
-               z = matmul(normal(:, :n), shape(:n))
+               z = matmul(normal(:, :n), shape(:n, g))
                element%axes = joint_axes(mesh, z/norm2(z))
             end associate
          end do
       end do
    end subroutine linear_elements
-
-   !> The shape functions of a side of N corners at Gauss point G, the one nearest to corner G.
-   pure function shape_at(n, g) result(shape)
-      integer, intent(in) :: n, g
-      real(wp) :: shape(n)
-      real(wp), parameter :: near = 0.5_wp + 0.5_wp/sqrt(3.0_wp), far = 1.0_wp - near
-      integer :: k
-
-      if (n == 2) shape = [(merge(near, far, k == g), k = 1, n)]
-      if (n == 3) shape = [(merge(2.0_wp/3.0_wp, 1.0_wp/6.0_wp, k == g), k = 1, n)]
-      if (n == 4) shape = [(merge(near*near, merge(far*far, near*far, abs(k - g) == 2), k == g), k = 1, n)]
-   end function shape_at
 
    !> The elements of SUMS at the nodes of SIDE, in their order.
    subroutine summed_elements(mesh, side, sums, may_lack, elements, lack)
