@@ -28,11 +28,8 @@ check_deck() {
    for suffix in out joint.csv stage.csv bolt.csv modes.csv modes.energy.csv response.csv backbone.csv; do
       local reference=reference_output/$name.$suffix actual=$work/$name.$suffix
       if [ ! -f "$reference" ]; then
-         case $name.$suffix in
-            two_leaves.joint.csv|brake_reuss.joint.csv) continue ;; # rounding rules their last digits, under other kernels of OpenBLAS
-            *.out|*.joint.csv) ;;
-            *) continue ;;
-         esac
+         case $suffix in out|joint.csv) ;; *) continue ;; esac
+         [ $suffix = joint.csv ] && grep -qx "$name" tests/compare/ten_digits.txt && continue
          fail "$name.$suffix: no reference; make accept CASE=$name takes the present result as one"
       elif cmp -s "$reference" "$actual"; then
          passed=$((passed + 1))

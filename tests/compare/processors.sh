@@ -57,7 +57,7 @@ for deck in input/*.bdf; do
    else
       echo "$name differs under $kernels and $differs:"
       diff "$build/processors/$kernels/$name" "$build/processors/$differs/$name" | awk '/^[<>]/ && !seen[$1]++'
-      if [[ " brake_reuss.out two_leaves.out " = *" $name "* ]] || # single last digits
+      if grep -qx "${name%.out}" tests/compare/ten_digits.txt || # single last digits
          cmp -s <(without_history "$kernels" $name) <(without_history "$differs" $name); then passed=$((passed + 1))
       else failed=$((failed + 1)); echo "$name: not in rows of CONVERGENCE HISTORY and ERROR OF PATH alone"; fi
       if sed -n '/^Listings with such rows/,/^$/p' reference_output/differs.md | grep -qF "\`${name%.out}\`"; then passed=$((passed + 1))
