@@ -182,7 +182,7 @@ module tolerances
    real(wp), parameter :: settled_offset = 1.0e-13_wp !! of the unknowns with an offset: likewise, more unknowns
    real(wp), parameter :: settled_iwan = 1.0e-9_wp   !! of the unknowns of Iwan's law: change in the last step
    real(wp), parameter :: iwan_difference = 1.0e-5_wp !! of these unknowns: differences in place of derivatives
-   real(wp), parameter :: not_fixed = 1.0e-3_wp      !! of a derivative: no more than this is its own; beta: none; d: without a slope
+   real(wp), parameter :: not_fixed = 1.0e-3_wp      !! of a derivative: no less fixes an unknown; of beta, of the largest d: counts as none
    real(wp), parameter :: m_at_one = 1.0e-9_wp       !! of m: the fit of a straight line gives 1 but for rounding
 
 end module tolerances
