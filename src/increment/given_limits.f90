@@ -120,7 +120,7 @@ contains
 
    !> The step along DIRECTION from NOW to NEXT at which the energy under the given limits is (almost) least: where the work of the
    !! unbalanced forces on DIRECTION, which falls all the way, has fallen to CLOSE of the first. A full step that goes beyond is taken
-   !! too where the energy rises by no more than the last step has released: least energies along kinks follow each other closely.
+   !! too where the energy rises by no more than the last step has released: a step that ends at the first kinks goes too short a way.
    !! Where the work has not fallen after many extensions, the body moves without end.
    !! Source: Grippo, Lampariello, Lucidi, SIAM J. Numer. Anal. 23 (1986) 707-716, with a memory of one step.
    subroutine minimise(model, system, analysis, attempt, now, direction, next)

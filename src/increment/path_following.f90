@@ -40,7 +40,8 @@ contains
          analysis%record%is_whole = .true.
          call reach_in_parts(model, analysis, system, attempt, known)
          if (.not. attempt%converged) exit
-         associate (displacement => analysis%record%path_error%displacement) ! of first order: as far from the last division as from many
+         associate (displacement => analysis%record%path_error%displacement)
+            ! of first order: the error is about the distance from the last division
             if (n > 0) displacement = max(displacement, distance(analysis%u, u))
          end associate
          u = analysis%u

@@ -200,9 +200,9 @@ contains
    !> The DIRECTION that balances the RESIDUAL of the straight LAWS. The factorised matrix has the symmetric part of the tangents.
    !! This part is shifted where an eigenvalue is negative (a slipping element has one where its two shear laws differ), and has a
    !! small stiffness where an element has none. solve_coupled adds the remaining part.
-   !! A joint that slips or is open at all nodes first has its elastic stiffness, as if no element slipped: this finds nodes that turn back,
-   !! which no tangent shows. When no node turns back any more, the tangent is used, which gives quadratic convergence. Under given
-   !! limits of friction no joint is held.
+   !! A joint that slips or is open at all nodes first has its elastic stiffness, as if no element slipped: this finds nodes that
+   !! turn back, which no tangent shows. When no node turns back any more, the tangent is used, which gives quadratic convergence.
+   !! Under given limits of friction no joint is held.
    subroutine find_direction(model, residual, analysis, system, attempt, laws, direction)
       type(model_type), intent(in)          :: model
       real(wp), intent(in)                  :: residual(:, :)
