@@ -21,12 +21,13 @@ module front_kernel
 
    integer, parameter :: least  = 8        ! columns of a panel that are eliminated one by one
    integer, parameter :: narrow = 4*least  ! columns of the squares on the diagonal that are filled whole
+   real(wp), parameter :: small_pivot = 0.01_wp ! of what it was before the columns before it in its block
    integer, parameter :: wide   = 384      ! columns of a tile, which is one task
    integer, parameter :: strip  = 768      ! its rows
    integer, parameter :: alone  = 300      ! rows up to which a front is not worth tasks
 
    integer, parameter :: together = 4        ! columns
-   integer, parameter :: few_rows = 100      ! rows up to which own loops are faster than BLAS
+   integer, parameter :: few_rows = 64       ! rows up to which own loops are faster than BLAS
    integer, parameter :: small_rows = 1024   ! rows up to which a front is not split into tasks
    integer, parameter :: block = 256         ! columns whose unknowns are found together,
    integer, parameter :: strip_rows = 1024   ! rows of them in a task of the forward substitution
@@ -47,43 +48,41 @@ contains
 
       if (present(negative)) negative = [integer ::]
       fault = 0
-      if (p > 0) call eliminate_columns(1, p)
-      if (fault == 0 .and. r > 0) call subtract_products(1, p, p + 1, r, update, r)
-
-   contains
-
-      !> Eliminate columns FIRST to LAST of the panel, from which the products of all columns before are subtracted: one half after
-      !! the other, so that most products are of many columns.
-      recursive subroutine eliminate_columns(first, last)
-         integer, intent(in) :: first, last
-         integer :: middle
-
-         if (last - first < least) then
-            call eliminate_block(p + r, first, last, tolerance*diagonal(first:last), panel(1, first), fault, negative)
-            return
-         end if
-         middle = first - 1 + half_of(last - first + 1, merge(least, narrow, last - first < narrow))
-         call eliminate_columns(first, middle)
-         if (fault > 0) return
-         call subtract_products(first, middle, middle + 1, last - middle, panel(middle + 1, middle + 1), p + r)
-         call eliminate_columns(middle + 1, last)
-      end subroutine eliminate_columns
-
-      !> Subtract the products of columns FROM to UNTIL of the panel from C: WIDTH columns from row and column FIRST on.
-      subroutine subtract_products(from, until, first, width, c, n)
-         integer, intent(in)     :: from, until, first, width
-         integer, intent(in)     :: n !! leading dimension of C
-         real(wp), intent(inout) :: c(n, width)
-         real(wp), allocatable   :: of_negative(:, :)
-
-         call add_products(-1.0_wp, p + r - first + 1, width, until - from + 1, panel(first, from), p + r, c, n)
-         if (.not. present(negative)) return
-         of_negative = panel(first:, pack(negative, negative >= from .and. negative <= until))
-         if (size(of_negative) > 0) call add_products(2.0_wp, p + r - first + 1, width, size(of_negative, 2), of_negative, &
-                                                      p + r - first + 1, c, n)
-      end subroutine subtract_products
-
+      if (p > 0) call eliminate_columns(p + r, 1, p, tolerance*diagonal, panel, p + r, fault, negative)
+      if (fault > 0 .or. r == 0) return
+      call add_products(-1.0_wp, r, r, p, panel(p + 1, 1), p + r, update, r)
+      if (present(negative)) call add_products(2.0_wp, r, r, size(negative), panel(p + 1:, negative), r, update, r)
    end subroutine eliminate
+
+   !> Eliminate columns FIRST to LAST of a panel, from which the products of all columns before are subtracted, down to row M: one
+   !! half after the other, so that most products are of many columns. FAULT is 0, or the first column whose pivot is not above
+   !! LOWEST.
+   recursive subroutine eliminate_columns(m, first, last, lowest, panel, n, fault, negative)
+      integer, intent(in)     :: m, first, last
+      integer, intent(in)     :: n !! leading dimension
+      real(wp), intent(in)    :: lowest(*)
+      real(wp), intent(inout) :: panel(n, *)
+      integer, intent(out)    :: fault
+      integer, allocatable, intent(inout), optional :: negative(:)
+      integer, allocatable :: own(:)
+      integer :: middle
+
+      if (last - first < least) then
+         call eliminate_block(m, first, last, lowest, panel, n, fault, negative)
+         return
+      end if
+      middle = first - 1 + half_of(last - first + 1, merge(least, narrow, last - first < narrow))
+      call eliminate_columns(m, first, middle, lowest, panel, n, fault, negative)
+      if (fault > 0) return
+      call add_products(-1.0_wp, m - middle, last - middle, middle - first + 1, panel(middle + 1, first), n, &
+                        panel(middle + 1, middle + 1), n)
+      if (present(negative)) then
+         own = pack(negative, negative >= first)
+         call add_products(2.0_wp, m - middle, last - middle, size(own), panel(middle + 1:m, own), m - middle, &
+                           panel(middle + 1, middle + 1), n)
+      end if
+      call eliminate_columns(m, middle + 1, last, lowest, panel, n, fault, negative)
+   end subroutine eliminate_columns
 
    !> About half of N, a multiple of STEP.
    pure integer function half_of(n, step)
@@ -100,6 +99,7 @@ contains
       real(wp), intent(inout) :: c(ldc, *)
       integer :: i, j, width
 
+      if (k == 0) return
       do j = 1, n, wide
          width = min(wide, n - j + 1)
          !$omp task default(shared) firstprivate(j, width) if(m > alone)
@@ -133,74 +133,88 @@ contains
       call add_to_square(alpha, n - half, k, a(half + 1, 1), lda, c(half + 1, half + 1), ldc)
    end subroutine add_to_square
 
-   !> L in COLUMNS, columns FIRST to LAST of a panel of N rows, from which all products of earlier columns are subtracted. FAULT
-   !! is 0, or the first column whose pivot is not above LOWEST. The rows below the square on the diagonal are multiplied by the
-   !! inverse of its factor: on processors with AVX-512 DGEMM is four times faster than DTRSM.
-   subroutine eliminate_block(n, first, last, lowest, columns, fault, negative)
-      integer, intent(in)     :: n, first, last
-      real(wp), intent(in)    :: lowest(first:last)
-      real(wp), intent(inout) :: columns(n, first:last)
+   !> L in the few columns FIRST to LAST of a panel, likewise.
+   subroutine eliminate_block(m, first, last, lowest, panel, n, fault, negative)
+      integer, intent(in)     :: m, first, last, n
+      real(wp), intent(in)    :: lowest(*)
+      real(wp), intent(inout) :: panel(n, *)
       integer, intent(out)    :: fault
       integer, allocatable, intent(inout), optional :: negative(:)
-      real(wp) :: inverse(first:last, first:last)
-      integer  :: i
+      integer :: i, j, before
 
-      call factorise_square(n, first, last, lowest, columns, inverse, fault, negative)
+      before = 0
+      if (present(negative)) before = size(negative)
+      call factorise_square(first, last, lowest, panel(:, :last), fault, negative)
       if (fault > 0) return
-      do i = last + 1, n, strip
-         !$omp task default(shared) firstprivate(i) if(n > alone)
-         call multiply_rows(min(strip, n - i + 1), last - first + 1, inverse, columns(i, first), n)
+      do i = last + 1, m, strip
+         !$omp task default(shared) firstprivate(i) if(m > alone)
+         call divide_rows(min(strip, m - i + 1), last - first + 1, panel(first, first), n, panel(i, first), n)
          !$omp end task
       end do
       !$omp taskwait
+      if (.not. present(negative)) return
+      do j = before + 1, size(negative)
+         panel(last + 1:m, negative(j)) = -panel(last + 1:m, negative(j))
+      end do
    end subroutine eliminate_block
 
-   !> A = A B.
-   pure subroutine multiply_rows(m, k, b, a, lda)
-      integer, intent(in)     :: m, k, lda
-      real(wp), intent(in)    :: b(k, k)
-      real(wp), intent(inout) :: a(lda, k)
-      real(wp) :: before(m, k)
-
-      before = a(:m, :)
-      call dgemm('N', 'N', m, k, k, 1.0_wp, before, m, b, k, 0.0_wp, a, lda)
-   end subroutine multiply_rows
-
-   !> L in place of the square A = L S L^T of rows and columns FIRST to LAST, and INVERSE = L^-T S. S is the identity unless
-   !! NEGATIVE is present, to which the columns are appended whose sign is -1. FAULT as above.
-   pure subroutine factorise_square(n, first, last, lowest, a, inverse, fault, negative)
-      integer, intent(in)     :: n, first, last
-      real(wp), intent(in)    :: lowest(first:last)
-      real(wp), intent(inout) :: a(n, first:last) !! lower triangle
-      real(wp), intent(out)   :: inverse(first:last, first:last)
+   !> L in place of the square A = L S L^T of rows and columns FIRST to LAST. S is the identity unless NEGATIVE is present, to
+   !! which the columns are appended whose sign is -1.
+   pure subroutine factorise_square(first, last, lowest, a, fault, negative)
+      integer, intent(in)     :: first, last
+      real(wp), intent(in)    :: lowest(*)
+      real(wp), intent(inout) :: a(:, :) !! lower triangle
       integer, intent(out)    :: fault
       integer, allocatable, intent(inout), optional :: negative(:)
-      real(wp) :: s(first:last)
+      real(wp) :: s
       integer  :: i, j
 
-      inverse = 0.0_wp
       s = 1.0_wp
       do j = first, last
          fault = j
-         if (present(negative)) s(j) = sign(1.0_wp, a(j, j))
-         if (.not. s(j)*a(j, j) > max(0.0_wp, lowest(j))) return
-         if (s(j) < 0.0_wp) negative = [negative, j]
-         a(j, j) = sqrt(s(j)*a(j, j))
-         a(j + 1:last, j) = s(j)/a(j, j)*a(j + 1:last, j)
+         if (present(negative)) s = sign(1.0_wp, a(j, j))
+         if (.not. s*a(j, j) > max(0.0_wp, lowest(j))) return
+         if (s < 0.0_wp) negative = [negative, j]
+         a(j, j) = sqrt(s*a(j, j))
+         a(j + 1:last, j) = s/a(j, j)*a(j + 1:last, j)
          do i = j + 1, last
-            a(i:last, i) = a(i:last, i) - s(j)*a(i, j)*a(i:last, j)
+            a(i:last, i) = a(i:last, i) - s*a(i, j)*a(i:last, j)
          end do
-         do i = first, j - 1
-            inverse(first:i, j) = inverse(first:i, j) - a(j, i)*inverse(first:i, i)
-         end do
-         inverse(first:j - 1, j) = inverse(first:j - 1, j)/a(j, j)
-         inverse(j, j) = 1.0_wp/a(j, j)
       end do
       fault = 0
-      do j = first, last
-         if (s(j) < 0.0_wp) inverse(:, j) = -inverse(:, j)
-      end do
    end subroutine factorise_square
+
+   !> A = A L^-T, A (M, K), L (K, K) a lower triangle, of which few columns are inverted at a time: on processors with AVX-512
+   !! DGEMM is four times faster than DTRSM. A pivot that is small beside its row is not inverted together with others: the rows
+   !! would lose the digits that the pivot has lost.
+   pure recursive subroutine divide_rows(m, k, l, ldl, a, lda)
+      integer, intent(in)     :: m, k, ldl, lda
+      real(wp), intent(in)    :: l(ldl, *)
+      real(wp), intent(inout) :: a(lda, *)
+      real(wp) :: before(m, min(k, least)), inverse(min(k, least), min(k, least))
+      integer  :: half, i, j
+
+      half = merge(half_of(k, least), 0, k > least)
+      do j = 2, min(k, least)
+         if (half == 0 .and. l(j, j)**2 < small_pivot*sum(l(j, :j - 1)**2)) half = half_of(k, 1)
+      end do
+      if (half > 0) then
+         call divide_rows(m, half, l, ldl, a, lda)
+         call dgemm('N', 'T', m, k - half, half, -1.0_wp, a, lda, l(half + 1, 1), ldl, 1.0_wp, a(1, half + 1), lda)
+         call divide_rows(m, k - half, l(half + 1, half + 1), ldl, a(1, half + 1), lda)
+         return
+      end if
+      inverse = 0.0_wp
+      do j = 1, k
+         do i = 1, j - 1
+            inverse(:i, j) = inverse(:i, j) - l(j, i)*inverse(:i, i)
+         end do
+         inverse(:j - 1, j) = inverse(:j - 1, j)/l(j, j)
+         inverse(j, j) = 1.0_wp/l(j, j)
+      end do
+      before = a(:m, :k)
+      call dgemm('N', 'N', m, k, k, 1.0_wp, before, m, inverse, k, 0.0_wp, a, lda)
+   end subroutine divide_rows
 
    !> The first row that is touched in column J of a panel or an update matrix; rows from there on must be set.
    elemental integer function top_row(j)
@@ -224,17 +238,17 @@ contains
       real(wp), intent(inout) :: w(n)
       integer :: first, i, last, m
 
-      if (n <= few_rows) then
+      if (n <= small_rows) then
          call solve_lower(n, n, p, panel, w)
          return
       end if
       do first = 1, p, block
          last = min(p, first + block - 1)
-         call dtrsv('L', 'N', 'N', last - first + 1, panel(first, first), n, w(first), 1)
+         call solve_lower(n, last - first + 1, last - first + 1, panel(first, first), w(first))
          do i = last + 1, n, strip_rows
             m = min(strip_rows, n - i + 1)
-            !$omp task default(shared) firstprivate(i, m) if(n > small_rows)
-            call dgemv('N', m, last - first + 1, -1.0_wp, panel(i, first), n, w(first), 1, 1.0_wp, w(i), 1)
+            !$omp task default(shared) firstprivate(i, m)
+            call subtract_columns(n, m, last - first + 1, panel(i, first), w(first), w(i))
             !$omp end task
          end do
          !$omp taskwait
@@ -248,7 +262,7 @@ contains
       real(wp), intent(inout) :: w(n)
       integer :: first, j, last, m
 
-      if (n <= few_rows) then
+      if (n <= small_rows) then
          if (n > p) call subtract_rows(n, n - p, p, panel(p + 1, 1), w(p + 1), w)
          call solve_upper(n, p, panel, w)
          return
@@ -258,12 +272,12 @@ contains
          do j = first, last, strip_columns
             if (last == n) exit
             m = min(strip_columns, last - j + 1)
-            !$omp task default(shared) firstprivate(j, m) if(n > small_rows)
-            call dgemv('T', n - last, m, -1.0_wp, panel(last + 1, j), n, w(last + 1), 1, 1.0_wp, w(j), 1)
+            !$omp task default(shared) firstprivate(j, m)
+            call subtract_rows(n, n - last, m, panel(last + 1, j), w(last + 1), w(j))
             !$omp end task
          end do
          !$omp taskwait
-         call dtrsv('L', 'T', 'N', last - first + 1, panel(first, first), n, w(first), 1)
+         call solve_upper(n, last - first + 1, panel(first, first), w(first))
       end do
    end subroutine substitute_back
 
@@ -275,6 +289,11 @@ contains
       real(wp), intent(inout) :: w(m)
       integer :: i, j, k, last
 
+      if (m > few_rows) then
+         call dtrsv('L', 'N', 'N', p, l, n, w, 1)
+         if (m > p) call dgemv('N', m - p, p, -1.0_wp, l(p + 1, 1), n, w, 1, 1.0_wp, w(p + 1), 1)
+         return
+      end if
       do j = 1, p, together
          last = min(p, j + together - 1)
          do k = j, last
@@ -294,6 +313,10 @@ contains
       real(wp), intent(inout) :: w(p)
       integer :: i, j, k, last
 
+      if (p > few_rows) then
+         call dtrsv('L', 'T', 'N', p, l, n, w, 1)
+         return
+      end if
       do j = 1 + together*((p - 1)/together), 1, -together
          last = min(p, j + together - 1)
          if (last < p) call subtract_rows(n, p - last, last - j + 1, l(last + 1, j), w(last + 1), w(j))
@@ -313,6 +336,10 @@ contains
       real(wp), intent(inout) :: y(m)
       integer :: i, j
 
+      if (m > few_rows) then
+         call dgemv('N', m, columns, -1.0_wp, a, n, x, 1, 1.0_wp, y, 1)
+         return
+      end if
       do j = 1, columns - together + 1, together
          !$omp simd
          do i = 1, m
@@ -335,6 +362,10 @@ contains
       real(wp) :: s1, s2, s3, s4
       integer  :: i, j
 
+      if (m > few_rows) then
+         call dgemv('T', m, columns, -1.0_wp, a, n, x, 1, 1.0_wp, y, 1)
+         return
+      end if
       do j = 1, columns - together + 1, together
          s1 = 0.0_wp
          s2 = 0.0_wp
