@@ -19,7 +19,7 @@ module front_kernel
 
    integer(long), parameter, public :: large = 8388608_long !! entries of a matrix whose pages are worth giving back
 
-   integer, parameter :: narrow = 96       ! columns that are eliminated together
+   integer, parameter, public :: narrow = 96 !! columns that are eliminated together
    integer, parameter :: wide   = 4*narrow ! columns of the update matrix that are one task
    integer, parameter :: strip  = 768      ! rows that are one task
    integer, parameter :: alone  = 300      ! rows up to which a front is not worth tasks
