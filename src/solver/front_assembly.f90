@@ -122,9 +122,11 @@ contains
 
    !> Set to zero what the kernel touches. The pages of a large matrix are given back instead; they read as zero when they
    !! return. Their memory is taken when they are written, see start_front.
-   subroutine set_to_zero(m, n, a)
+   subroutine set_to_zero(m, n, a, keys)
       integer, intent(in)     :: m, n
       real(wp), intent(inout) :: a(int(m, long)*n) !! (m, n), column by column
+      character(*), intent(in) :: keys             !! of a record
+      real(wp) :: began
       integer(long) :: first, last
       integer :: i, j
       logical :: ok
@@ -138,10 +140,12 @@ contains
          end if
       end if
       do j = 1, n, strip
-         !$omp task default(shared) firstprivate(j) private(i) if(m >= tiled_rows)
+         !$omp task default(shared) firstprivate(j) private(began, i) if(m >= tiled_rows)
+         began = task_begins()
          do i = j, min(n, j + strip - 1)
             a(int(m, long)*(i - 1) + top_row(i):int(m, long)*i) = 0.0_wp
          end do
+         if (is_recorded .and. len(keys) > 0) call record_task(began, 'zero', keys)
          !$omp end task
       end do
       !$omp taskwait

@@ -184,6 +184,7 @@ contains
       type(front_tree_type), intent(inout) :: tree
       integer, intent(in)                  :: f
       integer, intent(out)                 :: fault !! 0, or no_memory
+      character(:), allocatable :: keys
       real(wp), allocatable :: stiffness(:, :)
       real(wp) :: began, time
       integer :: k, status
@@ -193,8 +194,10 @@ contains
          allocate (front%panel(front%p + front%r, front%p), front%update(front%r, front%r), &
                    front%diagonal(front%p + front%r), stat=status)
          if (status /= 0) return
-         call set_to_zero(front%p + front%r, front%p, front%panel)
-         call set_to_zero(front%r, front%r, front%update)
+         keys = ''
+         if (is_recorded .and. is_tiled(front)) keys = children_done(front)//key('+', f, 1)
+         call set_to_zero(front%p + front%r, front%p, front%panel, keys)
+         call set_to_zero(front%r, front%r, front%update, keys)
          front%diagonal = 0.0_wp
          began = task_begins()
          time = omp_get_wtime()
@@ -208,7 +211,7 @@ contains
          !$omp atomic
          tree%assembly_time = tree%assembly_time + time
          if (is_recorded .and. is_tiled(front)) &
-            call record_task(began, 'elements', children_done(front)//key('>', f, 0)//key('+', f))
+            call record_task(began, 'elements', children_done(front)//key('<', f, 1)//key('>', f, 0)//key('+', f))
       end associate
       call add_children(tree, f, .false.)
       fault = 0

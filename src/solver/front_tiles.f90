@@ -91,11 +91,18 @@ contains
       subroutine divide(i, k)
          integer, intent(in) :: i, k
          real(wp) :: began
+         integer  :: column, width
 
          if (is_faulty()) return
          began = task_begins()
-         call dtrsm('R', 'L', 'T', 'N', first(i + 1) - first(i), first(k + 1) - first(k), 1.0_wp, panel(first(k), first(k)), n, &
-                    panel(first(i), first(k)), n)
+         associate (m => first(i + 1) - first(i), from => first(k), until => first(k + 1))
+            do column = from, until - 1, narrow ! DGEMM is several times as fast as DTRSM
+               width = min(narrow, until - column)
+               if (column > from) call dgemm('N', 'T', m, width, column - from, -1.0_wp, panel(first(i), from), n, &
+                                             panel(column, from), n, 1.0_wp, panel(first(i), column), n)
+               call dtrsm('R', 'L', 'T', 'N', m, width, 1.0_wp, panel(column, column), n, panel(first(i), column), n)
+            end do
+         end associate
          if (is_recorded) call record_task(began, 'divide', key('<', front)//key('<', front, k, k)//key('<', front, i, k)// &
                                            key('>', front, i, k)//key('+', -front))
       end subroutine divide
