@@ -6,8 +6,9 @@
 module front_solve
    use blas_lapack, only: dgemv, dtrmv
    use front_tree, only: climb, front_tree_type, front_type, task_work
-   use front_assembly, only: children_done
+   use front_assembly, only: children_done, is_tiled
    use front_kernel, only: substitute, substitute_back
+   use front_tiles, only: substitute_in_tiles
    use kept_blocks, only: block_times_vector
    use kinds, only: wp
    use omp_lib, only: omp_get_num_threads
@@ -39,12 +40,12 @@ contains
       real(wp), intent(inout)           :: x(tree%n)
       real(wp), allocatable :: left(:)     ! contributions of fronts to the rows beyond
       integer, allocatable  :: waiting(:)  ! children of every front that are not done
-      integer :: f
       integer, allocatable  :: done(:)     ! marks of the fronts, 0: of no front
+      integer :: f
 
       allocate (left(merge(tree%n_left, 0, up)), done(0:size(tree%fronts)))
       waiting = tree%fronts%n_children
-      call record_phase('solutions')
+      call record_phase(trim(merge('increments', 'bodies    ', refactored)))
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
       do f = merge(1, size(tree%fronts), up), merge(size(tree%fronts), 1, up), merge(1, -1, up)
@@ -91,7 +92,8 @@ contains
       f = start
       do while (f > 0)
          call forward(tree, f, x, left)
-         if (is_recorded) call record_task(began, 'forward', children_done(tree%fronts(f))//key('+', -f))
+         if (is_recorded .and. .not. is_tiled(tree%fronts(f))) &
+            call record_task(began, 'forward', children_done(tree%fronts(f))//key('+', -f))
          began = task_begins()
          call climb(tree, waiting, f)
       end do
@@ -107,9 +109,10 @@ contains
 
       began = task_begins()
       do g = f, merge(f, tree%fronts(f)%begin, tree%fronts(f)%work > task_work), -1
-         if (tree%fronts(g)%is_refactored .eqv. tree%fronts(f)%is_refactored) call backward(tree%fronts(g), x)
+         if (tree%fronts(g)%is_refactored .eqv. tree%fronts(f)%is_refactored) call backward(tree, g, x)
       end do
-      if (is_recorded) call record_task(began, 'backward', key('<', tree%fronts(f)%parent)//key('+', f))
+      if (is_recorded .and. .not. is_tiled(tree%fronts(f))) &
+         call record_task(began, 'backward', key('<', tree%fronts(f)%parent)//key('+', f))
    end subroutine backward_from
 
    !> L y = x in front F, from X and the contributions LEFT by its children. The contributions of F are left likewise.
@@ -118,8 +121,10 @@ contains
       integer, intent(in)               :: f
       real(wp), intent(inout)           :: x(tree%n), left(:)
       real(wp), allocatable :: w(:) ! pivots, rows beyond
-      integer :: i
+      real(wp) :: began
+      integer  :: i
 
+      began = task_begins()
       associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
          allocate (w(p + r))
          w(:p) = x(first:first + p - 1)
@@ -131,25 +136,40 @@ contains
             end associate
          end do
          where (tree%locked(first:first + p - 1)) w(:p) = 0.0_wp
-         if (any(abs(w(:p)) > 0.0_wp)) call substitute(p + r, p, front%panel, w) ! loads act on few fronts and their ancestors
+         if (any(abs(w(:p)) > 0.0_wp)) then ! loads act on few fronts and their ancestors
+            if (is_tiled(front)) then
+               if (is_recorded) call record_task(began, 'gather', children_done(front)//key('>', f, 0)//key('+', f))
+               call substitute_in_tiles(f, p + r, p, front%panel, w, back=.false.)
+               began = task_begins()
+            else
+               call substitute(p + r, p, front%panel, w)
+            end if
+         end if
          x(first:first + p - 1) = w(:p)
          left(front%left + 1:front%left + r) = w(p + 1:)
+         if (is_recorded .and. is_tiled(front)) call record_task(began, 'scatter', key('<', f)//key('+', -f))
       end associate
    end subroutine forward
 
-   !> L^T x = y in FRONT, X known in the rows beyond.
-   subroutine backward(front, x)
-      type(front_type), intent(in) :: front
-      real(wp), intent(inout)      :: x(:)
+   !> L^T x = y in front F, X known in the rows beyond.
+   subroutine backward(tree, f, x)
+      type(front_tree_type), intent(in) :: tree
+      integer, intent(in)               :: f
+      real(wp), intent(inout)           :: x(:)
       real(wp), allocatable :: w(:) ! pivots, rows beyond
+      real(wp) :: began
 
-      call apply_signs(front, x)
-      allocate (w(front%p + front%r))
-      associate (p => front%p, last => front%first + front%p - 1)
-         w(:p) = x(front%first:last)
-         w(p + 1:) = x(front%rows)
-         call substitute_back(size(w), p, front%panel, w)
-         x(front%first:last) = w(:p)
+      began = task_begins()
+      associate (front => tree%fronts(f), first => tree%fronts(f)%first, p => tree%fronts(f)%p)
+         call apply_signs(front, x)
+         allocate (w, source=[x(first:first + p - 1), x(front%rows)])
+         if (is_tiled(front)) then
+            if (is_recorded) call record_task(began, 'gather', key('<', front%parent)//key('>', f, 0)//key('+', f))
+            call substitute_in_tiles(f, size(w), p, front%panel, w, back=.true.)
+         else
+            call substitute_back(size(w), p, front%panel, w)
+         end if
+         x(first:first + p - 1) = w(:p)
       end associate
    end subroutine backward
 

@@ -4,16 +4,17 @@
 !! Source: Buttari, Langou, Kurzak, Dongarra, Parallel Comput. 35 (2009) 38-53. The matrices are those of front_kernel.
 module front_tiles
    use blas_lapack, only: dgemm, dpotrf, dtrsm
-   use front_kernel, only: narrow
+   use front_kernel, only: narrow, solve_lower, solve_upper, subtract_columns, subtract_rows
    use kinds, only: wp
    use task_record, only: is_recorded, key, record_task, task_begins
    implicit none
    private
 
-   public :: eliminate_in_tiles
+   public :: eliminate_in_tiles, substitute_in_tiles
 
    integer, parameter, public :: tiled_rows = 1024 !! rows of a front from which on it has tiles
    integer, parameter :: tile = 4*narrow          ! rows and columns of a tile
+   integer, parameter :: solved = 256             ! rows and columns of a tile in a substitution
    integer, parameter :: deep = 2                 ! columns of tiles whose products are subtracted together
 
 contains
@@ -135,5 +136,52 @@ contains
       end subroutine subtract
 
    end subroutine eliminate_in_tiles
+
+   !> Forward substitution in front F, the first P of W becoming y and the others reduced; or, BACK, the first P becoming x, the others
+   !! being known.
+   subroutine substitute_in_tiles(f, n, p, panel, w, back)
+      integer, intent(in)     :: f, n, p
+      real(wp), intent(in)    :: panel(n, p)
+      real(wp), intent(inout) :: w(n)
+      logical, intent(in)     :: back
+      integer, allocatable :: ready(:), first(:)
+      integer :: i, j, k, n_pivots
+
+      n_pivots = (p - 1)/solved + 1
+      allocate (first, source=[(i, i=1, p, solved), (i, i=p + 1, n, solved), n + 1])
+      allocate (ready(size(first) - 1))
+      do j = merge(size(ready), 1, back), merge(1, n_pivots, back), merge(-1, 1, back)
+         do k = merge(min(j, n_pivots), j, back), merge(1, size(ready), back), merge(-1, 1, back)
+            !$omp task default(shared) firstprivate(j, k) depend(in: ready(j)) depend(inout: ready(k))
+            call take(j, k)
+            !$omp end task
+         end do
+      end do
+      !$omp taskwait
+
+   contains
+
+      !> What the part J of W, which is known, brings to the part K.
+      subroutine take(j, k)
+         integer, intent(in) :: j, k
+         real(wp) :: began
+
+         began = task_begins()
+         associate (a => first(j), m => first(j + 1) - first(j), b => first(k), width => first(k + 1) - first(k))
+            if (j < k) then
+               call subtract_columns(n, width, m, panel(b, a), w(a), w(b))
+            else if (j > k) then
+               call subtract_rows(n, m, width, panel(a, b), w(a), w(b))
+            else if (back) then
+               call solve_upper(n, m, panel(a, a), w(a))
+            else
+               call solve_lower(n, m, m, panel(a, a), w(a))
+            end if
+         end associate
+         if (is_recorded) call record_task(began, 'take', key('<', f, 0)//key('<', f, j)//key('<', f, k)//key('>', f, k)// &
+                                           key('+', f))
+      end subroutine take
+
+   end subroutine substitute_in_tiles
 
 end module front_tiles
