@@ -15,23 +15,20 @@ module front_kernel
    implicit none
    private
 
-   public :: eliminate, top_row, touched_entries, substitute, substitute_back
+   public :: eliminate, top_row, touched_entries, substitute, substitute_back, solve_lower, solve_upper, subtract_columns, &
+             subtract_rows, eliminate_columns, divide_rows, add_to_square
 
    integer(long), parameter, public :: large = 8388608_long !! entries of a matrix whose pages are worth giving back
 
    integer, parameter :: least  = 8        ! columns of a panel that are eliminated one by one
    integer, parameter :: narrow = 4*least  ! columns of the squares on the diagonal that are filled whole
    real(wp), parameter :: small_pivot = 0.01_wp ! of what it was before the columns before it in its block
-   integer, parameter :: wide   = 384      ! columns of a tile, which is one task
+   integer, parameter, public :: wide = 384 !! columns of a tile, which is one task
    integer, parameter :: strip  = 768      ! its rows
-   integer, parameter :: alone  = 300      ! rows up to which a front is not worth tasks
+   integer, parameter :: alone  = wide     ! rows up to which a front is not worth tasks
 
    integer, parameter :: together = 4        ! columns
    integer, parameter :: few_rows = 64       ! rows up to which own loops are faster than BLAS
-   integer, parameter :: small_rows = 1024   ! rows up to which a front is not split into tasks
-   integer, parameter :: block = 256         ! columns whose unknowns are found together,
-   integer, parameter :: strip_rows = 1024   ! rows of them in a task of the forward substitution
-   integer, parameter :: strip_columns = 64  ! columns of them in a task of the back substitution
 
 contains
 
@@ -231,54 +228,23 @@ contains
       touched_entries = m*n - 0.5_wp*max(0.0_wp, n - page - narrow)**2
    end function touched_entries
 
-   !> Forward substitution: the first P of W become y, the others are reduced. Called within a task.
-   subroutine substitute(n, p, panel, w)
+   !> Forward substitution: the first P of W become y, the others are reduced.
+   pure subroutine substitute(n, p, panel, w)
       integer, intent(in)     :: n, p
       real(wp), intent(in)    :: panel(n, p) !! lower triangle, and all below it
       real(wp), intent(inout) :: w(n)
-      integer :: first, i, last, m
 
-      if (n <= small_rows) then
-         call solve_lower(n, n, p, panel, w)
-         return
-      end if
-      do first = 1, p, block
-         last = min(p, first + block - 1)
-         call solve_lower(n, last - first + 1, last - first + 1, panel(first, first), w(first))
-         do i = last + 1, n, strip_rows
-            m = min(strip_rows, n - i + 1)
-            !$omp task default(shared) firstprivate(i, m)
-            call subtract_columns(n, m, last - first + 1, panel(i, first), w(first), w(i))
-            !$omp end task
-         end do
-         !$omp taskwait
-      end do
+      call solve_lower(n, n, p, panel, w)
    end subroutine substitute
 
-   !> Back substitution: the first P of W become x; the others are known. Called within a task.
-   subroutine substitute_back(n, p, panel, w)
+   !> Back substitution: the first P of W become x; the others are known.
+   pure subroutine substitute_back(n, p, panel, w)
       integer, intent(in)     :: n, p
       real(wp), intent(in)    :: panel(n, p)
       real(wp), intent(inout) :: w(n)
-      integer :: first, j, last, m
 
-      if (n <= small_rows) then
-         if (n > p) call subtract_rows(n, n - p, p, panel(p + 1, 1), w(p + 1), w)
-         call solve_upper(n, p, panel, w)
-         return
-      end if
-      do first = 1 + block*((p - 1)/block), 1, -block
-         last = min(p, first + block - 1)
-         do j = first, last, strip_columns
-            if (last == n) exit
-            m = min(strip_columns, last - j + 1)
-            !$omp task default(shared) firstprivate(j, m)
-            call subtract_rows(n, n - last, m, panel(last + 1, j), w(last + 1), w(j))
-            !$omp end task
-         end do
-         !$omp taskwait
-         call solve_upper(n, last - first + 1, panel(first, first), w(first))
-      end do
+      if (n > p) call subtract_rows(n, n - p, p, panel(p + 1, 1), w(p + 1), w)
+      call solve_upper(n, p, panel, w)
    end subroutine substitute_back
 
    !> L y = w in the first P of M rows, w - L y in the others.
