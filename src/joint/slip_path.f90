@@ -5,9 +5,9 @@
 !!    l d{n}/df = {gain} - {n} ({n} . {gain})        {n} its direction, theta the angle of {n} to {gain}
 !!    tan(theta/2) = tan(theta_s/2) exp(-x)          x = |gain| (1 - f_s)/l, with the mean of l
 !!
-!! This is exact at constant pressure. NEWTON returns the stress at the end of the increment to the limit, along a line: the error
-!! is of first order in the increments. Source: R. D. Krieg, D. B. Krieg, J. Pressure Vessel Technol. 99 (1977) 510-515, for the
-!! yield surface of von Mises.
+!! This is exact at constant pressure; NEWTON and the loops of BACKBONE follow it. A return of the stress at the end of the increment,
+!! along a line, is of first order in the increments only. Source: R. D. Krieg, D. B. Krieg, J. Pressure Vessel Technol. 99 (1977)
+!! 510-515, for the yield surface of von Mises.
 module slip_path
    use kinds, only: wp
    use tolerances, only: no_stress_direction, no_turn
