@@ -153,7 +153,7 @@ contains
       real(wp) :: by_delta(2, 2), by_share(2)
 
       call follow_slices(law%iwan, slices_of(state), state%shear%delta, &
-                         spread(limit_share(law%iwan, state%normal%pressure), 1, 2), .false., slices, by_delta, by_share)
+                         spread(limit_share(law%iwan, state%normal%pressure), 1, 2), slices, by_delta, by_share)
    end function slices_to
 
    !> LOAD along x or y where the stress of SHEAR has grown by what has MOVED, UNLOAD where it has fallen. Iwan's law asks for no more.
@@ -299,7 +299,7 @@ contains
       share = sticks
       if (law%has_friction) share = limit_share(law%iwan, [before%normal%pressure, p(1)])
       if (.not. allocated(after%iwan)) allocate (after%iwan)
-      call follow_slices(law%iwan, slices_of(before), delta, share, before%turns, after%iwan, by_delta, by_share)
+      call follow_slices(law%iwan, slices_of(before), delta, share, after%iwan, by_delta, by_share)
       after%slips = after%iwan%slides
       after%shear%delta_before = before%shear%delta
       after%shear%tau_before = before%shear%tau
