@@ -2,7 +2,7 @@
 # Compares every deck with its reference under the OpenBLAS kernels of other processors, and compiled for this processor alone,
 # which multiplies and adds in one instruction. A kernel is skipped if this processor lacks its instructions. The listings are the same
 # bytes under all kernels, but for rows of CONVERGENCE HISTORY and ERROR OF PATH, and but for the decks of ten_digits.txt. Decks that take
-# longest run under the first kernel, under the newest and under the oldest.
+# longest run under the first kernel and under the oldest.
 #
 #    processors.sh PROGRAM COMPARE BUILD_FOLDER
 set -u
@@ -33,7 +33,7 @@ kernel() {
    done
    rm -rf "$build/processors/$name"
    case $name in
-      Haswell|SkylakeX|Prescott) OPENBLAS_CORETYPE=$name decks $name "$program" "$build/processors/$name" ;;
+      Haswell|Prescott) OPENBLAS_CORETYPE=$name decks $name "$program" "$build/processors/$name" ;;
       *) OPENBLAS_CORETYPE=$name decks $name "$program" "$build/processors/$name" $short ;;
    esac
    kernels+=("$name")
@@ -74,7 +74,7 @@ passed=$((passed + same))
 # -O1 is compiled soonest
 if ${MAKE:-make} --no-print-directory -s BUILD="$build/native" BIN="$build/native/bin" "$build/native/bin/jointfem" \
    FFLAGS='-O1 -march=native' > "$build/processors/native.log" 2>&1; then
-   decks native "$build/native/bin/jointfem" "$build/processors/native"
+   decks native "$build/native/bin/jointfem" "$build/processors/native" $short
 else
    cat "$build/processors/native.log"
    failed=$((failed + 1))

@@ -11,7 +11,7 @@ export LC_ALL=C
 program=$(realpath "$1") work=$2 seed=${3:-20260114}
 here=$(cd "$(dirname "$0")" && pwd)
 input=$(realpath "$here/../../input") make_deck=$(realpath "$here/../bench/make_deck.sh")
-wanted=100 # kills
+wanted=60 # kills
 passed=0 failed=0
 rm -rf "$work"
 mkdir -p "$work/decks"
