@@ -3,7 +3,7 @@
 module stage_entries
    use case_entries, only: choose, entry_type, limit_type, read_limit, read_number, set_reference, stage_keys, value_error
    use deck_errors, only: deck_error_list
-   use field_rules, only: largest_size, parse_real, smallest_size
+   use field_rules, only: largest_size, parse_integer, parse_real, smallest_size
    use kinds, only: wp
    use text_tools, only: upper
    implicit none
@@ -30,8 +30,19 @@ module stage_entries
       type(limit_type), allocatable :: response(:) !! nodes of the response; not allocated: none
    end type vibration_entries_type
 
+   !> Which modes the listing shows; none given: all of them.
+   type, public :: mode_filter
+      real(wp)     :: least_mass = 0.0_wp !! effective, along an axis, of the mass of the structure [per cent]
+      character(6) :: kind = ''           !! BODY, SHELLS, JOINT
+      integer      :: id = 0
+   contains
+      procedure :: is_given
+   end type mode_filter
+
    !> OUTPUT of a stage.
    type, public :: output_request
+      integer :: line = 0
+      type(mode_filter) :: modes
       integer :: level = output_last
       logical :: plot = .false., vtu = .false.
       logical :: steps = .false.          !! VTU files after every increment
@@ -122,7 +133,8 @@ contains
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
-      character(*), parameter :: beside = 'PLOT, STRESS, FORCES, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N' ! with a level
+      character(*), parameter :: beside = 'PLOT, STRESS, FORCES, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N, '// & ! with a level
+                                          'of modes MASS P, and BODY N or SHELLS N or JOINT N'
       character(9), parameter :: switches(8) = [character(9) :: 'PLOT', 'STRESS', 'FORCES', 'VTU', 'STEPS', 'STATE', &
                                                 'CONDENSED', 'CD']
       character(5), parameter :: levels(0:3) = [character(5) :: 'NONE', 'LAST', 'JOINT', 'ALL'] ! by their numbers
@@ -131,6 +143,7 @@ contains
       integer :: comma, k, level, n_levels
 
       stage%output = output_request()
+      stage%output%line = entry%line
       if (allocated(stage%only)) deallocate (stage%only)
       n_levels = 0
       word = ''
@@ -150,7 +163,8 @@ contains
             twice = twice .or. is_on(k)
             is_on(k) = .true.
          else
-            call read_limit(word, entry%line, stage%only, ok)
+            call read_filter(word, stage%output%modes, ok)
+            if (.not. ok) call read_limit(word, entry%line, stage%only, ok)
             if (.not. ok) then
                call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma '//beside, errors)
                return
@@ -170,6 +184,38 @@ contains
       end associate
       if (n_levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas '//beside, errors)
    end subroutine read_output
+
+   !> Whether a filter is given.
+   pure logical function is_given(self)
+      class(mode_filter), intent(in) :: self
+
+      is_given = self%least_mass > 0.0_wp .or. self%kind /= ''
+   end function is_given
+
+   !> Put WORD, 'MASS 5.0' or 'BODY 2' in capitals, into FILTER; OK is false where WORD is neither, or says what is there.
+   pure subroutine read_filter(word, filter, ok)
+      character(*), intent(in)         :: word
+      type(mode_filter), intent(inout) :: filter
+      logical, intent(out)             :: ok
+      real(wp) :: mass
+      integer  :: blank, id
+
+      blank = index(word//' ', ' ')
+      select case (word(:blank - 1))
+      case ('MASS')
+         call parse_real(trim(adjustl(word(blank:))), mass, ok)
+         ok = ok .and. mass > 0.0_wp .and. mass <= 100.0_wp .and. filter%least_mass <= 0.0_wp
+         if (ok) filter%least_mass = mass
+      case ('BODY', 'SHELLS', 'JOINT')
+         call parse_integer(trim(adjustl(word(blank:))), id, ok)
+         ok = ok .and. id > 0 .and. filter%kind == ''
+         if (.not. ok) return
+         filter%kind = word(:blank - 1)
+         filter%id = id
+      case default
+         ok = .false.
+      end select
+   end subroutine read_filter
 
    !> RESPONSE = SET 5, PMARK 20, and WATCH likewise: words with commas.
    subroutine read_nodes(entry, nodes, errors)

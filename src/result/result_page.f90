@@ -161,7 +161,8 @@ contains
          columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('FREQUENCY', 'es15.5', '1/TIME', name='frequency'), &
             column('OMEGA', 'es15.5', 'RAD/TIME', name='omega'), column('GENERALISED MASS', 'es18.5'), &
             column('RESIDUAL', 'es12.1', name='residual'), csv('mass_'//xyz), &
-            column('LOSS FACTOR', 'es15.5', name='loss_factor')]
+            column('LOSS FACTOR', 'es15.5', name='loss_factor'), column('MOST ENERGY', 'a14', name='kind'), &
+            column('NUMBER', 'i11', name='id'), column('PERCENT', 'f9.2'), csv('share')]
       case (energy_table) ! for each body, joint and bar: its share of the strain energy; bodies and bars stand under normal
          columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('PART', 'a8', name='kind'), &
             column('NUMBER', 'i11', name='id'), column(['ALL   ', 'NORMAL', 'SHEAR '], 'f10.2'), csv(['normal', 'shear '])]

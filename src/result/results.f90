@@ -256,7 +256,7 @@ contains
       if (m > 0) results%counts%digest%frequency = modes%modes(m)%frequency
       associate (planned => plan%stages(stage), page => results%page)
          page%stage_id = planned%id
-         call list_modes(page, model, planned%vibration, modes, results%watch%n_warnings)
+         call list_modes(page, model, planned, modes, results%watch%n_warnings)
          if (results%base /= '' .and. planned%output%vtu) call write_modes(results%vtu, model, planned%id, modes)
       end associate
    end subroutine print_modes

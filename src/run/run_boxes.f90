@@ -37,7 +37,8 @@ module run_boxes
                           phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
                           is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
-   use vibration_tables, only: list_backbone, list_response
+   use response_tables, only: list_response, list_uncovered
+   use vibration_tables, only: list_backbone
    use vtu_grids, only: write_piece
    use text_tools, only: integer_text
    implicit none
@@ -120,7 +121,12 @@ contains
          if (allocated(wanted%backbone)) call list_backbone(page, model, found, n_warnings)
          if (.not. allocated(wanted%response)) return
          call find_response(model, structure, wanted%response, spectrum, modes, shifted, response, run%failure)
-         if (.not. run%failure%raised) call list_response(page, model, response, n_warnings)
+         if (run%failure%raised) then
+            call end_stage(plan, run%results) ! the modes and the backbone are complete
+            return
+         end if
+         call list_uncovered(page, model, modes, response, n_warnings)
+         call list_response(page, model, response, n_warnings)
       end associate
    end subroutine oscillate
 

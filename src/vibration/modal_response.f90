@@ -17,13 +17,14 @@ module modal_response
    use eigenpairs, only: all_displacements, residual_displacements
    use equation_solver, only: equation_system, failure_type
    use kinds, only: wp
+   use mode_parts, only: main_part
    use mode_values, only: modes_type
    use model_data, only: model_type
    use natural_modes, only: factorise_at, oscillating_type, spectrum_type
    use numbers, only: first_largest
    use stage_plan, only: asked_frequencies, loss_at, response_plan
-   use text_tools, only: real_text
-   use tolerances, only: at_resonance, no_motion, unexcited
+   use text_tools, only: integer_text, real_text
+   use tolerances, only: at_resonance, no_motion, same_frequency, unexcited
    implicit none
    private
 
@@ -62,6 +63,7 @@ module modal_response
       real(wp), allocatable :: phase(:, :, :)     !! likewise, of the displacement against the force [degrees]
       type(missed_peak), allocatable :: missed(:)
       logical :: is_complete = .false.            !! includes the static contribution of the other modes
+      integer :: n_beyond = 0                     !! requested frequencies above the modes, where peaks are missing
    end type response_type
 
 contains
@@ -191,12 +193,14 @@ contains
       end if
       response%node = model%mesh%node_id(plan%nodes)
       response%frequency = asked_frequencies(plan, modes%modes%frequency)
+      response%n_beyond = count(plan%frequencies > (1.0_wp + same_frequency)*modes%reach)
       allocate (response%amplitude(d, n, size(response%frequency)), response%phase(d, n, size(response%frequency)))
       do f = 1, size(response%frequency)
          call response_at(superposed, response%frequency(f), u, ok)
          if (.not. ok) then
-            call failure%raise('FREQUENCY: at '//real_text(response%frequency(f))// &
-                               ' the response is unbounded: no damping, or an unsupported structure')
+            m = minloc(abs(superposed%lambda - (2.0_wp*pi*response%frequency(f))**2), dim=1, mask=abs(superposed%force) > 0.0_wp)
+            call failure%raise('FREQUENCY: at '//real_text(response%frequency(f))//' the response is unbounded: '// &
+                               why_unbounded(model, modes, m))
             return
          end if
          large = abs(u)
@@ -206,6 +210,29 @@ contains
       end do
       call find_missed_peaks(plan, modes, superposed, response)
    end subroutine find_response
+
+   !> Why the response at the frequency of mode M of MODES has no bound, and what gives it one.
+   pure function why_unbounded(model, modes, m) result(words)
+      type(model_type), intent(in) :: model
+      type(modes_type), intent(in) :: modes
+      integer, intent(in)          :: m
+      character(:), allocatable :: words
+
+      words = 'mode '//integer_text(modes%n_before + m)
+      if (modes%modes(m)%is_rigid) then
+         words = words//' is a motion without strain: the structure, or a part of it, is not supported'
+         return
+      end if
+      associate (part => main_part(model, modes%modes(m)%energy))
+         words = words//' has no damping; '//integer_text(nint(100.0_wp*part%share))//' % of its strain energy is in '// &
+                 trim(part%kind)//' '//integer_text(part%id)
+         if (part%kind == 'JOINT') then
+            words = words//': expected AMPLITUDE or SDAMPING, or PARAM,G'
+         else
+            words = words//': expected GE on its MAT1, or PARAM,G'
+         end if
+      end associate
+   end function why_unbounded
 
    !> The modes whose peak lies between two frequencies of RESPONSE and is missed: at the peak some component exceeds its
    !! amplitudes at both frequencies. For each mode the component of the largest amplitude.
