@@ -6,7 +6,7 @@ module vibration_build
    use kinds, only: wp
    use mesh_queries, only: is_shell
    use model_data, only: freedoms_type, mesh_type, n_sections, stage_load_type, supported
-   use stage_plan, only: stage_plan_type, backbone_plan, merged, response_plan, vibration_plan_type
+   use stage_plan, only: stage_plan_type, backbone_plan, merged, node_pair, response_plan, vibration_plan_type
    use stage_build, only: find_limited_nodes
    use text_tools, only: integer_text, one_of
    use stage_entries, only: vibration_entries_type
@@ -64,6 +64,8 @@ contains
                plan%has_responses = .true.
                allocate (vibration%response)
                call plan_response(deck, mesh, freedoms, asked, oscillating(s), vibration%response)
+               vibration%response%pairs = [node_pair ::]
+               if (allocated(plan%stages(s)%pairs)) vibration%response%pairs = plan%stages(s)%pairs
                if (covers) call cover(vibration)
             end if
             if (asked%backbone%id > 0) call plan_backbone(deck, mesh, freedoms, asked, vibration)

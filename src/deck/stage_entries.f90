@@ -5,7 +5,7 @@ module stage_entries
    use deck_errors, only: deck_error_list
    use field_rules, only: largest_size, parse_integer, parse_real, smallest_size
    use kinds, only: wp
-   use text_tools, only: upper
+   use text_tools, only: one_of, upper
    implicit none
    private
 
@@ -53,6 +53,11 @@ module stage_entries
       logical :: along_cd = .false.       !! nodal vectors in their systems CD
    end type output_request
 
+   !> WATCH = 9001-9002: the second node against the first.
+   type, public :: pair_reference
+      integer :: nodes(2) = 0, line = 0
+   end type pair_reference
+
    !> One SUBCASE: a stage of the load history.
    type, public :: stage_type
       integer :: id = 0, line = 0
@@ -64,6 +69,7 @@ module stage_entries
       type(output_request) :: output
       type(limit_type), allocatable :: only(:) !! not allocated: tables of all nodes and elements
       type(limit_type), allocatable :: watch(:) !! nodes whose displacement the answer gives; not allocated: none
+      type(pair_reference), allocatable :: pairs(:) !! likewise, one node against another
       type(vibration_entries_type) :: vibration !! MODES, FREQUENCY and their options
    end type stage_type
 
@@ -123,7 +129,7 @@ contains
          case ('RESPONSE')
             call read_nodes(entry, asked%response, errors)
          case ('WATCH')
-            call read_nodes(entry, stage%watch, errors)
+            call read_nodes(entry, stage%watch, errors, stage%pairs)
          end select
       end associate
    end subroutine read_stage_entry
@@ -133,7 +139,7 @@ contains
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
-      character(*), parameter :: beside = 'PLOT, STRESS, FORCES, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N, '// & ! with a level
+      character(*), parameter :: beside = 'PLOT, STRESS, FORCES, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N, '// &
                                           'of modes MASS P, and BODY N or SHELLS N or JOINT N'
       character(9), parameter :: switches(8) = [character(9) :: 'PLOT', 'STRESS', 'FORCES', 'VTU', 'STEPS', 'STATE', &
                                                 'CONDENSED', 'CD']
@@ -217,24 +223,38 @@ contains
       end select
    end subroutine read_filter
 
-   !> RESPONSE = SET 5, PMARK 20, and WATCH likewise: words with commas.
-   subroutine read_nodes(entry, nodes, errors)
+   !> RESPONSE = SET 5, PMARK 20, and WATCH likewise, also with PAIRS 9001-9002: words with commas.
+   subroutine read_nodes(entry, nodes, errors, pairs)
       type(entry_type), intent(in)         :: entry
       type(limit_type), allocatable, intent(inout) :: nodes(:)
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: rest
-      integer :: comma
+      type(pair_reference), allocatable, intent(inout), optional :: pairs(:)
+      character(:), allocatable :: rest, word
+      type(pair_reference) :: pair
+      integer :: comma, dash
       logical :: ok
 
       if (allocated(nodes)) deallocate (nodes)
+      if (present(pairs)) pairs = [pair_reference ::]
       rest = upper(entry%value)
       ok = rest /= ''
       do while (ok .and. rest /= '')
          comma = index(rest//',', ',')
-         call read_limit(trim(adjustl(rest(:comma - 1))), entry%line, nodes, ok)
+         word = trim(adjustl(rest(:comma - 1)))
+         dash = index(word, '-')
+         if (present(pairs) .and. dash > 1) then
+            call parse_integer(trim(word(:dash - 1)), pair%nodes(1), ok)
+            if (ok) call parse_integer(trim(adjustl(word(dash + 1:))), pair%nodes(2), ok)
+            ok = ok .and. all(pair%nodes > 0) .and. pair%nodes(1) /= pair%nodes(2)
+            pair%line = entry%line
+            if (ok) pairs = [pairs, pair]
+         else
+            call read_limit(word, entry%line, nodes, ok)
+         end if
          rest = rest(min(comma + 1, len(rest) + 1):)
       end do
-      if (.not. ok) call value_error(entry, 'SET N or PMARK N, several with commas between them: the nodes to be written', errors)
+      if (.not. ok) call value_error(entry, 'SET N or PMARK N, several with commas between them: the nodes to be written'// &
+                                     one_of(present(pairs), ', or N-M, node M against node N', ''), errors)
    end subroutine read_nodes
 
    !> Check that each vibration entry has the key it needs. An entry above the first SUBCASE has been copied into each stage. It has no

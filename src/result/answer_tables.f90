@@ -8,8 +8,10 @@ module answer_tables
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use page_lines, only: axes, heading
-   use result_page, only: bolt_table, clamping_table, movement_names, page_type, reaction_table, resultant_names, secant_names, &
+   use result_page, only: bolt_table, clamping_table, movement_names, page_type, pair_table, reaction_table, resultant_names, &
+                          secant_names, &
                           split_table, stage_table, table_columns, tangent_names, watch_table, xyz
+   use stage_plan, only: pair_names
    use support_reactions, only: reaction_type, reactions_type
    use table_column, only: column
    use table_writer, only: table_type
@@ -300,10 +302,12 @@ contains
       type(model_type), intent(in)   :: model
       type(watch_answer), intent(in) :: answer
       type(table_type) :: table
-      integer :: k
+      integer :: i, k
 
-      call page%screen%put('')
-      call table%start('', table_columns(watch_table, page%labels, model), page%screen)
+      if (size(answer%nodes) > 0) then
+         call page%screen%put('')
+         call table%start('', table_columns(watch_table, page%labels, model), page%screen)
+      end if
       do k = 1, size(answer%nodes)
          associate (node => answer%nodes(k))
             call table%put('stage', page%stage_id)
@@ -318,6 +322,24 @@ contains
             call table%put('stiffness', node%stiffness, where=node%moves)
          end associate
          call table%print_row(page%screen, page%tables(watch_table))
+      end do
+      if (size(answer%pairs) > 0) then
+         call page%screen%put('')
+         call table%start('', table_columns(pair_table, page%labels, model), page%screen)
+      end if
+      do k = 1, size(answer%pairs)
+         associate (pair => answer%pairs(k))
+            do i = 1, size(pair_names)
+               if (.not. any(abs(pair%pair%along(:, i)) > 0.0_wp)) cycle
+               call table%put('stage', page%stage_id)
+               call table%put(['from', 'to  '], pair%pair%ids)
+               call table%put('along', trim(pair_names(i)))
+               call table%put([character(8) :: 'movement', 'change'], [pair%moved(i), pair%change(i)])
+               call table%put('load', pair%load(i), where=abs(pair%load(i)) > 0.0_wp)
+               call table%put('stiffness', pair%stiffness(i), where=abs(pair%stiffness(i)) > 0.0_wp)
+               call table%print_row(page%screen, page%tables(pair_table))
+            end do
+         end associate
       end do
       if (size(answer%parts) == 0) return
       call page%screen%put('')

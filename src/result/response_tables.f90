@@ -1,20 +1,21 @@
 !> The table of the response to an oscillating load, with what it misses: peaks between the frequencies asked for, and frequencies
-!! above the modes. The CSV file is NAME.response.csv.
+!! above the modes. The CSV files are NAME.response.csv and, of one node against another, NAME.between.response.csv.
 module response_tables
    use kinds, only: wp
-   use modal_response, only: response_type
+   use modal_response, only: phase_of, response_type
    use mode_values, only: modes_type
    use model_data, only: model_type
    use numbers, only: first_largest
    use page_lines, only: axes, in_form
-   use result_page, only: page_type, response_table, table_columns, xyz
+   use result_page, only: page_type, pair_response_table, response_table, table_columns, xyz
+   use stage_plan, only: node_pair, pair_names
    use table_column, only: column
    use table_writer, only: table_type
    use text_tools, only: integer_text, real_text
    implicit none
    private
 
-   public :: list_response, list_uncovered
+   public :: list_response, list_pair_response, list_uncovered
 
 contains
 
@@ -105,5 +106,57 @@ contains
          end do
       end do
    end subroutine list_response
+
+   !> The response of PAIRS of nodes, one against the other: amplitude, and where the load acts between them the compliance,
+   !! movement over force, with its largest size and its least real part, which decides on chatter.
+   subroutine list_pair_response(page, model, pairs, response)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(node_pair), intent(in)     :: pairs(:)
+      type(response_type), intent(in) :: response
+      type(table_type) :: table
+      complex(wp), allocatable :: g(:) ! (frequencies) movement over force, or over 1 without one
+      logical :: is_forced
+      integer :: at, f, i, k, least
+
+      if (size(pairs) == 0 .or. size(response%frequency) == 0) return
+      call table%start('RESPONSE BETWEEN TWO NODES; COMPLIANCE: MOVEMENT OVER THE FORCE BETWEEN THEM', &
+                       table_columns(pair_response_table, page%labels, model), page%file)
+      do k = 1, size(pairs)
+         do i = 1, size(pair_names)
+            if (.not. any(abs(pairs(k)%along(:, i)) > 0.0_wp)) cycle
+            is_forced = abs(response%force(i, k)) > 0.0_wp
+            g = response%between(i, k, :)/merge(response%force(i, k), 1.0_wp, is_forced)
+            at = first_largest(abs(g))
+            least = first_largest(-real(g))
+            call put_pair(at)
+            call table%put('AT FREQUENCY', response%frequency(at))
+            call table%put([character(15) :: 'COMPLIANCE', 'LEAST REAL PART', 'OF LEAST'], &
+                           [abs(g(at)), real(g(least)), response%frequency(least)], where=spread(is_forced, 1, 3))
+            call table%leave_rest()
+            call table%print_row(page%file)
+            do f = 1, size(response%frequency)
+               call put_pair(f)
+               call table%put(['real     ', 'imaginary'], [real(g(f)), aimag(g(f))], where=spread(is_forced, 1, 2))
+               call table%leave_rest()
+               call table%print_row(csv_file=page%tables(pair_response_table))
+            end do
+         end do
+      end do
+
+   contains
+
+      subroutine put_pair(f)
+         integer, intent(in) :: f
+
+         call table%put('stage', page%stage_id)
+         call table%put('frequency', response%frequency(f))
+         call table%put(['from', 'to  '], pairs(k)%ids)
+         call table%put('along', trim(pair_names(i)))
+         call table%put('amplitude', abs(response%between(i, k, f)))
+         call table%put('phase', phase_of(response%between(i, k, f)))
+      end subroutine put_pair
+
+   end subroutine list_pair_response
 
 end module response_tables

@@ -8,8 +8,9 @@ module vibration_tables
    use mode_values, only: modes_type
    use model_data, only: model_type
    use page_lines, only: axes, in_form
-   use result_page, only: backbone_table, bend_table, energy_table, loop_table, modes_table, page_type, table_columns, xyz
-   use stage_plan, only: planned_stage
+   use result_page, only: backbone_table, bend_table, energy_table, loop_table, modes_table, page_type, pair_modes_table, &
+                          table_columns, xyz
+   use stage_plan, only: between, pair_names, planned_stage
    use table_column, only: column
    use table_writer, only: table_type
    use text_tools, only: above, integer_text, one_of, plural, real_text, upper
@@ -123,7 +124,42 @@ contains
       end associate
       call parts%print_kept(page%file)
       call list_energies(page, model, modes, shows)
+      if (allocated(planned%pairs)) call list_pairs(page, model, planned, modes, shows)
    end subroutine list_modes
+
+   !> The movement of the pairs of WATCH in each mode, and the compliance of the mode between the nodes: phi^2/(m omega^2), whose
+   !! sum over all modes is that of two opposite forces on them.
+   subroutine list_pairs(page, model, planned, modes, shows)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(planned_stage), intent(in) :: planned
+      type(modes_type), intent(in)    :: modes
+      logical, intent(in)             :: shows(:) !! (modes) in the listing
+      type(table_type) :: table
+      real(wp) :: moved(size(pair_names)), stiffness
+      integer  :: i, k, m
+
+      if (size(planned%pairs) == 0) return
+      call table%start('MODES BETWEEN TWO NODES', table_columns(pair_modes_table, page%labels, model), page%file)
+      do m = 1, size(modes%modes)
+         stiffness = modes%modes(m)%mass*modes%modes(m)%lambda
+         do k = 1, size(planned%pairs)
+            moved = between(planned%pairs(k), modes%modes(m)%u)
+            where (abs(moved) <= sqrt(page_zero)*maxval(abs(modes%modes(m)%u))) moved = 0.0_wp
+            do i = 1, size(pair_names)
+               if (.not. any(abs(planned%pairs(k)%along(:, i)) > 0.0_wp)) cycle
+               call table%put('stage', page%stage_id)
+               call table%put('mode', modes%n_before + m)
+               call table%put('frequency', modes%modes(m)%frequency)
+               call table%put(['from', 'to  '], planned%pairs(k)%ids)
+               call table%put('along', trim(pair_names(i)))
+               call table%put('movement', moved(i))
+               call table%put('compliance', moved(i)**2/max(stiffness, tiny(1.0_wp)), where=stiffness > 0.0_wp)
+               call table%print_row(page%file, page%tables(pair_modes_table), is_listed=shows(m))
+            end do
+         end do
+      end do
+   end subroutine list_pairs
 
    !> The shares of strain energy; a rigid-body mode has no rows.
    subroutine list_energies(page, model, modes, shows)

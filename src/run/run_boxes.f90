@@ -37,7 +37,7 @@ module run_boxes
                           phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
                           is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
-   use response_tables, only: list_response, list_uncovered
+   use response_tables, only: list_pair_response, list_response, list_uncovered
    use vibration_tables, only: list_backbone
    use vtu_grids, only: write_piece
    use text_tools, only: integer_text
@@ -127,6 +127,7 @@ contains
          end if
          call list_uncovered(page, model, modes, response, n_warnings)
          call list_response(page, model, response, n_warnings)
+         call list_pair_response(page, model, wanted%response%pairs, response)
       end associate
    end subroutine oscillate
 

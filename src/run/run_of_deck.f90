@@ -31,7 +31,7 @@ module run_of_deck
    use terminal, only: clear_line, complain_of_input, open_line, say_line, show_line
    use text_tools, only: integer_text, plural
    use unit_watch, only: stress_words
-   use watched_nodes, only: watched_node
+   use watched_nodes, only: summarise_watched, watched_node
    implicit none
    private
 
@@ -248,8 +248,7 @@ contains
                          digest%frequency >= 0.0_wp]
       end associate
       if (.not. allocated(run%results%watched%nodes)) return
-      row%watched = run%results%watched%nodes(1)
-      row%node = model%mesh%node_id(row%watched%node)
+      call summarise_watched(model, run%results%watched, row%node, row%watched)
    end subroutine finish_run
 
    !> Report that the standard output is full or closed.
