@@ -105,7 +105,7 @@ contains
 
       do s = 1, size(plan%stages)
          associate (output => plan%stages(s)%output, given => deck%control%stages)
-            if (.not. output%modes%is_given() .or. any(given(:s - 1)%output%line == output%line)) cycle
+            if (.not. output%modes%is_given .or. any(given(:s - 1)%output%line == output%line)) cycle
             if (.not. any(given%output%line == output%line .and. given%vibration%modes%id > 0)) call deck%errors%add(output%line, &
                'OUTPUT: MASS, BODY, SHELLS and JOINT limit the tables of modes and have no effect without MODES')
             if (output%modes%kind == '') cycle

@@ -35,8 +35,7 @@ module stage_entries
       real(wp)     :: least_mass = 0.0_wp !! effective, along an axis, of the mass of the structure [per cent]
       character(6) :: kind = ''           !! BODY, SHELLS, JOINT
       integer      :: id = 0
-   contains
-      procedure :: is_given
+      logical      :: is_given = .false.
    end type mode_filter
 
    !> OUTPUT of a stage.
@@ -191,13 +190,6 @@ contains
       if (n_levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas '//beside, errors)
    end subroutine read_output
 
-   !> Whether a filter is given.
-   pure logical function is_given(self)
-      class(mode_filter), intent(in) :: self
-
-      is_given = self%least_mass > 0.0_wp .or. self%kind /= ''
-   end function is_given
-
    !> Put WORD, 'MASS 5.0' or 'BODY 2' in capitals, into FILTER; OK is false where WORD is neither, or says what is there.
    pure subroutine read_filter(word, filter, ok)
       character(*), intent(in)         :: word
@@ -215,12 +207,12 @@ contains
       case ('BODY', 'SHELLS', 'JOINT')
          call parse_integer(trim(adjustl(word(blank:))), id, ok)
          ok = ok .and. id > 0 .and. filter%kind == ''
-         if (.not. ok) return
          filter%kind = word(:blank - 1)
          filter%id = id
       case default
          ok = .false.
       end select
+      filter%is_given = filter%is_given .or. ok
    end subroutine read_filter
 
    !> RESPONSE = SET 5, PMARK 20, and WATCH likewise, also with PAIRS 9001-9002: words with commas.

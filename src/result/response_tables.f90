@@ -26,14 +26,11 @@ contains
       type(modes_type), intent(in)    :: modes
       type(response_type), intent(in) :: response
       integer, intent(inout)          :: n_warnings
-      character(:), allocatable :: highest, reached
-      integer :: c, n
+      character(:), allocatable :: reached
+      integer :: c
 
       if (response%n_beyond == 0) return
       n_warnings = n_warnings + 1
-      n = size(modes%modes)
-      highest = 'NO MODE'
-      if (n > 0) highest = 'MODE '//integer_text(modes%n_before + n)//' AT '//real_text(modes%modes(n)%frequency)
       reached = ''
       do c = 1, model%mesh%dimension
          reached = reached//', '//trim(adjustl(in_form(100.0_wp*sum(modes%modes%effective(c))/modes%mass, '(f8.1)', 8)))// &
@@ -41,8 +38,9 @@ contains
       end do
       call page%file%put('')
       call page%file%put('  WARNING: '//integer_text(response%n_beyond)//' OF '//integer_text(size(response%frequency))// &
-         ' FREQUENCIES, UP TO '//real_text(response%frequency(size(response%frequency)))//', ARE ABOVE THE HIGHEST MODE, '// &
-         highest//': PEAKS OF HIGHER MODES ARE MISSING')
+         ' FREQUENCIES, UP TO '//real_text(maxval(response%frequency))//', ARE ABOVE THE HIGHEST MODE, MODE '// &
+         integer_text(modes%n_before + size(modes%modes))//' AT '//real_text(maxval([0.0_wp, modes%modes%frequency]))// &
+         ': PEAKS OF HIGHER MODES ARE MISSING')
       call page%file%put('  THE MODES HAVE AN EFFECTIVE MASS OF '//reached(3:)// &
                          '; WITHOUT V2 AND ND ON EIGRL ENOUGH MODES ARE TAKEN')
    end subroutine list_uncovered

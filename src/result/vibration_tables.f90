@@ -4,7 +4,7 @@ module vibration_tables
    use backbone, only: backbone_type
    use element_mapping, only: two_pi
    use kinds, only: wp
-   use mode_parts, only: is_selected, main_part, mode_part, selection_words
+   use mode_parts, only: is_selected, main_part, mode_part
    use mode_values, only: modes_type
    use model_data, only: model_type
    use page_lines, only: axes, in_form
@@ -113,8 +113,8 @@ contains
          call parts%leave_rest()
          call parts%keep_row()
       end if
-      if (planned%output%modes%is_given()) call page%file%put('  LISTED: '//integer_text(count(shows))//' OF '// &
-         integer_text(size(shows))//' MODES'//selection_words(planned%output%modes)//'; THE FILES AND THE SUM HAVE ALL')
+      if (planned%output%modes%is_given) call page%file%put('  LISTED: '//integer_text(count(shows))//' OF '// &
+         integer_text(size(shows))//' MODES, WHICH OUTPUT SELECTS; THE FILES AND THE SUM HAVE ALL')
       if (any(modes%modes%is_rigid)) call page%file%put('  FREQUENCY 0: THE STRUCTURE, OR A PART OF IT, MOVES WITHOUT STRAIN')
       associate (plan => planned%vibration)
          if (plan%amplitude > 0.0_wp) call page%file%put('  LOSS FACTORS FOR A LARGEST DISPLACEMENT OF THE MODE OF '// &

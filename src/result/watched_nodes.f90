@@ -138,13 +138,9 @@ contains
          watched = answer%nodes(1)
          id = model%mesh%node_id(watched%node)
       else if (size(answer%pairs) > 0) then
-         associate (pair => answer%pairs(1))
-            id = pair%pair%ids(1)
-            watched%is_loaded = abs(pair%load(1)) > 0.0_wp
-            watched%moves = abs(pair%stiffness(1)) > 0.0_wp
-            watched%along = pair%change(1)
-            watched%stiffness = pair%stiffness(1)
-         end associate
+         id = answer%pairs(1)%pair%ids(1)
+         watched = watched_node(is_loaded=abs(answer%pairs(1)%load(1)) > 0.0_wp, along=answer%pairs(1)%change(1), &
+                                moves=abs(answer%pairs(1)%stiffness(1)) > 0.0_wp, stiffness=answer%pairs(1)%stiffness(1))
       end if
    end subroutine summarise_watched
 

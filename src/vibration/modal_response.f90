@@ -17,13 +17,13 @@ module modal_response
    use eigenpairs, only: all_displacements, residual_displacements
    use equation_solver, only: equation_system, failure_type
    use kinds, only: wp
-   use mode_parts, only: main_part
+   use mode_parts, only: main_part, mode_part
    use mode_values, only: modes_type
    use model_data, only: model_type
    use natural_modes, only: factorise_at, oscillating_type, spectrum_type
    use numbers, only: first_largest
    use stage_plan, only: asked_frequencies, between, force_between, loss_at, response_plan
-   use text_tools, only: integer_text, real_text
+   use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: at_resonance, no_motion, same_frequency, unexcited
    implicit none
    private
@@ -226,21 +226,17 @@ contains
       type(modes_type), intent(in) :: modes
       integer, intent(in)          :: m
       character(:), allocatable :: words
+      type(mode_part) :: part
 
       words = 'mode '//integer_text(modes%n_before + m)
       if (modes%modes(m)%is_rigid) then
          words = words//' is a motion without strain: the structure, or a part of it, is not supported'
-         return
-      end if
-      associate (part => main_part(model, modes%modes(m)%energy))
+      else
+         part = main_part(model, modes%modes(m)%energy)
          words = words//' has no damping; '//integer_text(nint(100.0_wp*part%share))//' % of its strain energy is in '// &
-                 trim(part%kind)//' '//integer_text(part%id)
-         if (part%kind == 'JOINT') then
-            words = words//': expected AMPLITUDE or SDAMPING, or PARAM,G'
-         else
-            words = words//': expected GE on its MAT1, or PARAM,G'
-         end if
-      end associate
+                 trim(part%kind)//' '//integer_text(part%id)//': expected '// &
+                 one_of(part%kind == 'JOINT', 'AMPLITUDE or SDAMPING', 'GE on its MAT1')//', or PARAM,G'
+      end if
    end function why_unbounded
 
    !> The modes whose peak lies between two frequencies of RESPONSE and is missed: at the peak some component exceeds its

@@ -6,11 +6,10 @@ module mode_parts
    use model_data, only: model_type, n_bars
    use numbers, only: first_largest
    use stage_entries, only: mode_filter
-   use text_tools, only: integer_text, real_text
    implicit none
    private
 
-   public :: main_part, is_selected, selection_words
+   public :: main_part, is_selected
 
    real(wp), parameter :: least_share = 0.1_wp ! of the strain energy in the part that selects a mode
    real(wp), parameter :: percent = 100.0_wp
@@ -49,7 +48,7 @@ contains
       real(wp) :: share
       integer  :: i
 
-      is_selected = .not. filter%is_given()
+      is_selected = .not. filter%is_given
       if (filter%least_mass > 0.0_wp) is_selected = any(percent*mode%effective >= filter%least_mass*mass)
       share = 0.0_wp
       select case (filter%kind)
@@ -63,16 +62,5 @@ contains
       end select
       is_selected = is_selected .or. share >= least_share
    end function is_selected
-
-   !> What FILTER selects, in words.
-   pure function selection_words(filter) result(words)
-      type(mode_filter), intent(in) :: filter
-      character(:), allocatable :: words
-
-      words = ''
-      if (filter%least_mass > 0.0_wp) words = ', EFFECTIVE MASS OF '//real_text(filter%least_mass)//' % OR MORE ALONG AN AXIS'
-      if (filter%kind /= '') words = words//', '//real_text(percent*least_share)//' % OR MORE OF THE STRAIN ENERGY IN '// &
-                                     trim(filter%kind)//' '//integer_text(filter%id)
-   end function selection_words
 
 end module mode_parts
