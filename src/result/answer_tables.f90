@@ -8,8 +8,8 @@ module answer_tables
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use page_lines, only: axes, heading
-   use result_page, only: bolt_table, clamping_table, movement_names, page_type, pair_table, reaction_table, resultant_names, &
-                          secant_names, &
+   use result_page, only: bolt_table, clamping_table, largest_safety, movement_names, page_type, pair_table, reaction_table, &
+                          resultant_names, secant_names, &
                           split_table, stage_table, table_columns, tangent_names, watch_table, xyz
    use stage_plan, only: pair_names
    use support_reactions, only: reaction_type, reactions_type
@@ -27,8 +27,7 @@ module answer_tables
 contains
 
    !> Print the answer for BODIES and JOINTS under TITLE on the screen, and its rows into the file of the stages; without joints one
-   !! row, with joint 0. The file has the share in contact and the safety as numbers; the block has the share in per cent and the
-   !! safety below a million.
+   !! row, with joint 0. The file has the share in contact as a number and every safety; the block has the share in per cent.
    subroutine print_answer(page, title, model, is_first, bodies, joints)
       type(page_type), intent(inout)     :: page
       character(*), intent(in)           :: title
@@ -90,7 +89,7 @@ contains
             call table%put('slipping', now%slipping)
             call table%put(['n', 't', 'm'], [joint%normal, joint%shear, joint%moment])
             call table%put('safety', joint%safety, where=joint%has_safety)
-            call table%put('MU N/T', min(joint%safety, 1.0e6_wp), where=joint%has_safety)
+            call table%put('MU N/T', joint%safety, where=joint%has_safety .and. joint%safety <= largest_safety)
             call table%put('ring', one_of(frame%closed, '  CLOSED', ''))
             call table%put(resultant_names, joint%force, where=frame%exists)
             call table%put(movement_names, joint%movement, where=frame%exists)
@@ -197,7 +196,7 @@ contains
                call table%put('JOINT', bolt%joint, where=clamps)
                call table%put('CLAMPING', bolt%clamping, where=clamps)
                call table%put('LOSS %', 100.0_wp*bolt%loss, where=clamps)
-               call table%put('MU N/T', min(bolt%safety, 1.0e6_wp), where=bolt%has_safety)
+               call table%put('MU N/T', bolt%safety, where=bolt%has_safety .and. bolt%safety <= largest_safety)
                call table%print_row(page%screen)
             end associate
          end do

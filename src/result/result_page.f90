@@ -13,6 +13,7 @@ module result_page
    public :: set_labels, shows, has_gaps, table_columns, record_page
 
    character(1), parameter, public :: xyz(3) = ['x', 'y', 'z']
+   real(wp), parameter, public :: largest_safety = 1000.0_wp !! against slip: tables leave a larger one blank
 
    ! the CSV files in the order of their endings; the clamping of the bolts is a table of the listing without a file of its own
    integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
@@ -177,7 +178,7 @@ contains
             column('OMEGA', 'es15.5', 'RAD/TIME', name='omega'), column('GENERALISED MASS', 'es18.5'), &
             column('RESIDUAL', 'es12.1', name='residual'), csv('mass_'//xyz), &
             column('LOSS FACTOR', 'es15.5', name='loss_factor'), column('MOST ENERGY', 'a14', name='kind'), &
-            column('NUMBER', 'i11', name='id'), column('PERCENT', 'f9.2'), csv('share')]
+            column('NUMBER', 'i11', name='id'), column('PERCENT', 'f9.2'), csv('energy')]
       case (energy_table) ! for each body, joint and bar: its share of the strain energy; bodies and bars stand under normal
          columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('PART', 'a8', name='kind'), &
             column('NUMBER', 'i11', name='id'), column(['ALL   ', 'NORMAL', 'SHEAR '], 'f10.2'), csv(['normal', 'shear '])]

@@ -97,7 +97,7 @@ contains
             call table%put('loss_factor', mode%loss, where=planned%vibration%has_losses .and. .not. mode%is_rigid)
             call table%put('kind', trim(part%kind), where=part%kind /= '')
             call table%put('id', part%id, where=part%kind /= '')
-            call table%put('share', part%share, where=part%kind /= '')
+            call table%put('energy', part%share, where=part%kind /= '')
             call table%put('PERCENT', percent*part%share, where=part%kind /= '')
             call table%print_row(page%file, page%tables(modes_table), is_listed=shows(m))
             if (.not. shows(m)) cycle

@@ -22,7 +22,7 @@ module run_of_deck
    use page_lines, only: heading
    use range_watch, only: tetra_words
    use restart_stream, only: restart_stream_type
-   use result_page, only: history_ending
+   use result_page, only: history_ending, largest_safety
    use result_names, only: listing_ending, restart_ending
    use results, only: discard_results, finish_results, keep_finished_stages, results_type, show_answers
    use stage_plan, only: stage_plan_type
@@ -367,7 +367,7 @@ contains
             call table%put('contact', d%contact, where=row%is_there(3))
             call table%put('CONTACT %', 100.0_wp*d%contact, where=row%is_there(3))
             call table%put('safety', d%safety, where=row%is_there(4))
-            call table%put('MU N/T', min(d%safety, 99999.0_wp), where=row%is_there(4))
+            call table%put('MU N/T', d%safety, where=row%is_there(4) .and. d%safety <= largest_safety)
             call table%put('frequency', d%frequency, where=row%is_there(5))
             call table%put('watched', row%node, where=row%node > 0)
             call table%put('along', row%watched%along, where=row%watched%is_loaded)

@@ -183,7 +183,7 @@ printf '%b\n' 'MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  MODES = 5\n  OUTPUT = LAST, 
    'MAT1,1,2.1+5,,0.3,7.85-9\nSPCM,1,123,20\nSPC1,1,123456,901,904\nEIGRL,5,,,8\nENDDATA' > "$work/parts.bdf"
 run parts && {
    same 'the part of mode 1' "$(mode parts 1 kind) $(mode parts 1 id)" 'SHELLS 2'
-   near '... its share' "$(mode parts 1 share)" 1 1e-9
+   near '... its share' "$(mode parts 1 energy)" 1 1e-9
    n=$(awk -F, '$10 == "BODY"' "$work/parts.modes.csv" | wc -l)
    holds 'modes of the block are among them' "$n > 0 and $n < 8"
    same 'OUTPUT = BODY: modes listed' "$(table parts FREQUENCIES | awk '$1 + 0 > 0 && $6 == "BODY"' | wc -l) $(table parts FREQUENCIES | grep -c SHELLS)" "$n 0"
