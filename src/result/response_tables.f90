@@ -113,7 +113,7 @@ contains
       type(node_pair), intent(in)     :: pairs(:)
       type(response_type), intent(in) :: response
       type(table_type) :: table
-      complex(wp), allocatable :: g(:) ! (frequencies) movement over force, or over 1 without one
+      complex(wp) :: g(size(response%frequency)) ! movement over force, or over 1 without one
       logical :: is_forced
       integer :: at, f, i, k, least
 
