@@ -16,8 +16,8 @@ module command_line
 
    character(*), parameter :: program = 'jointfem', nl = new_line('a')
    character(9), parameter :: help_options(2) = [character(9) :: '--help', '-h'] ! the entry may follow
-   character(9), parameter :: options_with_value(7) = [character(9) :: '-o', '--threads', '--watch', '--summary', '--set', &
-                                                       help_options]
+   character(10), parameter :: options_with_value(8) = [character(10) :: '-o', '--threads', '--watch', '--summary', '--set', &
+                                                        '--progress', help_options]
 
    character(*), parameter :: help = &
       'usage: jointfem [options] DECK...'//nl// &
@@ -37,6 +37,8 @@ module command_line
       '   --check       read and check the decks without solving them'//nl// &
       '   --joints      print cards for joints where bodies face each other, without solving'//nl// &
       '   -q            do not show progress on the terminal'//nl// &
+      '   --progress LINES  a line for each increment to standard error; without it, where standard error is no terminal,'//nl// &
+      '                 from the first minute of a run on'//nl// &
       '   --threads N   use at most N threads (default: all cores); the results do not depend on N'//nl// &
       '   --set N=V     replace ${N} in the decks by V; N=V,V,V makes one run for each value, named beam_N=V'//nl// &
       '   --watch N,N   nodes whose displacement and stiffness are added to the answer of every stage'//nl// &
@@ -76,6 +78,7 @@ module command_line
       logical :: check_only = .false.       !! --check
       logical :: suggest    = .false.       !! --joints
       logical :: quiet      = .false.       !! -q
+      logical :: in_lines   = .false.       !! --progress LINES
       logical :: times      = .false.       !! --times
       logical :: dated      = .false.       !! --date
       logical :: resume     = .false.       !! --resume
@@ -141,6 +144,10 @@ contains
             command%summary = value
          case ('--set')
             call read_setting(value, settings, ok)
+         case ('--progress')
+            command%in_lines = upper(value) == 'LINES'
+            ok = command%in_lines
+            if (.not. ok) call complain(program, '--progress '//value//': expected LINES')
          case ('--watch')
             command%watched = value
             ok = value /= '' .and. verify(value, '0123456789,') == 0

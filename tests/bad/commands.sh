@@ -384,6 +384,13 @@ if awk '$1 != "large.bdf:" { next } $NF == "s" { n++; if ($3 + 0 < 0 || $3 !~ /^
         END { exit bad || n != 9 || m < 1 }' "$work/stderr"; then pass
 else fail '--times: not the seconds of nine phases and the memory'
 fi
+# a line for each increment, with the iterations, the seconds so far and those left; for each loop of a backbone
+run --progress DOTS good.bdf;         check '--progress: no such form' 1 '--progress DOTS: expected LINES'
+run -q --progress LINES -o here good.bdf; check '--progress LINES' 0
+if awk '/^good.bdf, [0-9]+ s: stage 1, increment [0-9]+ of [0-9]+, [0-9]+ iterations?, [0-9]+ s left$/ { if ($7 != ++n) bad = 1; all = $9 }
+        END { exit bad || n == 0 || n != all + 0 }' "$work/stderr"; then pass; else fail '--progress LINES: a line for each increment'; fi
+run -o here good.bdf
+if grep -q ', increment ' "$work/stderr"; then fail 'no terminal: lines in a short run'; else pass; fi
 if command -v script > /dev/null; then
    # terminal OPTION...: what a terminal shows of a run
    terminal() { script -qec "$program $* -o here large.bdf" /dev/null < /dev/null > "$work/stdout"; tr '\r' '\n' < "$work/stdout" > "$work/stderr"; }
