@@ -28,30 +28,30 @@ contains
       real(wp), intent(out) :: tau(2)        !! of the size of LIMITS(2)
       real(wp), intent(out) :: by_gain(2, 2) !! d TAU/d GAIN [-]
       real(wp), intent(out) :: by_limit(2)   !! d TAU/d LIMITS(2) [-]
-      real(wp) :: b(2), g(2), l(2), largest, begins(2), first, f, f_change(3), e(2), n(2), cosine, sine, x, share
+      real(wp) :: b(2), g(2), l(2), unit, begins(2), first, f, f_change(3), e(2), n(2), cosine, sine, x, share
       real(wp) :: size_begins, size_gain, mean, c(0:2)
       real(wp) :: angle(3), turned(3), x_change(3) ! derivatives for the two components of g and for l(2)
 
+      ! relative to a power of two, which changes no digit: squares neither vanish nor exceed the range of numbers
+      unit = scale(1.0_wp, exponent(max(maxval(abs(before)), maxval(abs(gain)), maxval(limits))))
+      b = before/unit
+      g = gain/unit
+      l = limits/unit
       tau = 0.0_wp
       by_gain = 0.0_wp
-      by_limit = gain/max(norm2(gain), tiny(1.0_wp))
-      if (limits(2) <= 0.0_wp) return
-      if (norm2(gain) <= no_turn*limits(2)) then ! along a line; the angle between both is the square of NO_TURN
-         call return_to_limit(before + gain, limits(2), tau, by_gain, by_limit)
+      by_limit = g/max(norm2(g), tiny(1.0_wp))
+      if (l(2) <= 0.0_wp) return
+      first = max(l(1), norm2(b))
+      if (norm2(g) <= no_turn*l(2)) then ! along a line; the angle between both is the square of NO_TURN
+         call return_to_limit(b + g, l(2), tau, by_gain, by_limit)
+         tau = unit*tau
          return
-      end if
-      first = max(limits(1), norm2(before))
-      if (4.0_wp*far*max(first, limits(2)) <= norm2(gain)) then ! x is beyond FAR
-         call return_to_limit(gain, limits(2), tau, by_gain, by_limit)
+      else if (4.0_wp*far*max(first, l(2)) <= norm2(g)) then ! x is beyond FAR
+         call return_to_limit(g, l(2), tau, by_gain, by_limit)
+         tau = unit*tau
          return
       end if
 
-      ! relative to the largest stress: its square neither vanishes nor exceeds the range of numbers
-      largest = max(first, limits(2), norm2(gain))
-      b = before/largest
-      g = gain/largest
-      l = limits/largest
-      first = first/largest
       call meet_limit(b, g, l, f, c)
       begins = b + f*g
       f_change = 0.0_wp
@@ -76,7 +76,7 @@ contains
       x_change = [e, 0.0_wp]*(1.0_wp - f)/mean - size_gain/mean*f_change &
                  - 0.5_wp*x/mean*([0.0_wp, 0.0_wp, 1.0_wp + f] + (l(2) - first)*f_change)
       n = rotated(e, share*(sinh(x) + cosine*cosh(x)), share*sine)
-      tau = limits(2)*n
+      tau = unit*l(2)*n
       turned = l(2)*((1.0_wp - share)*angle + share*turned - share*sine*x_change)
       by_gain = spread([-n(2), n(1)], 2, 2)*spread(turned(:2), 1, 2)
       by_limit = n + [-n(2), n(1)]*turned(3)
