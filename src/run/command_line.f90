@@ -171,6 +171,7 @@ contains
       character(*), intent(in) :: text
       type(setting_type), allocatable, intent(inout) :: settings(:)
       logical, intent(out)     :: ok
+      type(setting_type), allocatable :: longer(:)
       character(:), allocatable :: values
       integer :: equals, k
 
@@ -189,8 +190,14 @@ contains
       end if
       ok = all([(settings(k)%name /= text(:equals - 1), k = 1, size(settings))])
       if (.not. ok) call complain(program, '--set '//text(:equals)//': given twice')
-      settings = [settings, setting_type(text(:equals - 1), values, &
-                                         [0, pack([(k, k = 1, len(values))], [(values(k:k) == ',', k = 1, len(values))])])]
+      allocate (longer(size(settings) + 1)) ! gfortran 12 loses the texts of an array constructor
+      longer(:size(settings)) = settings
+      associate (setting => longer(size(longer)))
+         setting%name = text(:equals - 1)
+         setting%values = values
+         setting%commas = [0, pack([(k, k = 1, len(values))], [(values(k:k) == ',', k = 1, len(values))])]
+      end associate
+      call move_alloc(longer, settings)
    end subroutine read_setting
 
    !> The runs of COMMAND: each of FILES with every combination of values of SETTINGS. beam.bdf gives beam.out and beam.joint.csv.
