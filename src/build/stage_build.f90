@@ -91,17 +91,16 @@ contains
    !> The PAIR of WATCH that is GIVEN. Errors: nodes of no element.
    subroutine find_pair(deck, mesh, freedoms, given, pair)
       type(checked_deck), intent(in)    :: deck
-      type(mesh_type), intent(in) :: mesh
-      type(freedoms_type), intent(in) :: freedoms
+      type(mesh_type), intent(in)       :: mesh
+      type(freedoms_type), intent(in)   :: freedoms
       type(pair_reference), intent(in)  :: given
       type(node_pair), intent(out)      :: pair
       integer :: at(2), k
 
       pair%ids = given%nodes
       do k = 1, 2
-         at(k) = findloc(mesh%node_id == given%nodes(k) .and. freedoms%used(:mesh%n_nodes), .true., dim=1)
-         if (at(k) == 0 .and. any(mesh%placed%id == given%nodes(k))) &
-            at(k) = mesh%placed(findloc(mesh%placed%id, given%nodes(k), dim=1))%node
+         at(k) = mesh%node_table%find(given%nodes(k)) ! also of NODEAT
+         if (at(k) > 0) at(k) = merge(at(k), 0, freedoms%used(at(k)))
          if (at(k) == 0) call deck%errors%add(given%line, 'WATCH: node '//integer_text(given%nodes(k))// &
                                               ' is not a node of an element')
       end do
