@@ -1,5 +1,6 @@
 !> Handles what both programs share on the terminal: command arguments, input files, error messages, progress line.
-!! The progress line overwrites itself at most five times a second. It appears only where standard error is a terminal.
+!! The progress line overwrites itself at most five times a second. It appears only where standard error is a terminal. A log has a
+!! line for each step instead: where it is asked for, and elsewhere from the first minute of a run on.
 module terminal
    use, intrinsic :: iso_fortran_env, only: error_unit
    use, intrinsic :: iso_c_binding, only: c_int
@@ -8,7 +9,7 @@ module terminal
    implicit none
    private
 
-   public :: argument_text, next_option, say, complain, complain_of_input, open_line, show_line, clear_line, say_line
+   public :: argument_text, next_option, say, complain, complain_of_input, open_line, show_line, log_line, clear_line, say_line
 
    character(*), parameter, public :: version = '0.1.0'
    character(*), parameter, public :: standard_input = '/dev/stdin' !! the path of the file that `-` means
@@ -27,7 +28,10 @@ module terminal
    end type command_reader
 
    integer, parameter :: width = 80 ! columns of the words in the progress line
+   real, parameter    :: patience = 60.0 ! [s] until a run that is not on a terminal writes its progress unasked
    logical :: shown = .false.
+   logical :: logs = .false.
+   integer(long) :: opened = 0, unasked = 0 ! clock at the start, and when the log begins
    character(:), allocatable :: name
    integer(long) :: last = 0
 
@@ -118,23 +122,30 @@ contains
       write (error_unit, '(3a)') input%name, ': ', words
    end subroutine complain_of_input
 
-   !> Begin the progress line of DECK, unless QUIET.
-   subroutine open_line(deck, quiet)
+   !> Begin the progress line of DECK, unless QUIET; IN_LINES asks for a log in its place.
+   subroutine open_line(deck, quiet, in_lines)
       character(*), intent(in) :: deck
-      logical, intent(in)      :: quiet
+      logical, intent(in)      :: quiet, in_lines
+      integer(long) :: rate
 
       shown = .false.
-      if (.not. quiet) shown = c_isatty(2_c_int) == 1
+      if (.not. (quiet .or. in_lines)) shown = c_isatty(2_c_int) == 1
+      logs = in_lines .or. .not. (quiet .or. shown)
+      call system_clock(opened, rate)
+      unasked = opened
+      if (.not. in_lines) unasked = opened + nint(patience*real(rate), long)
       name = deck
       last = 0
    end subroutine open_line
 
-   !> Show WORDS behind the name of the deck; AT_ONCE: even if the line was just written.
-   subroutine show_line(words, at_once)
+   !> Show WORDS behind the name of the deck; AT_ONCE: even if the line was just written; IS_LOGGED: also in a log.
+   subroutine show_line(words, at_once, is_logged)
       character(*), intent(in) :: words
       logical, intent(in)      :: at_once
+      logical, intent(in), optional :: is_logged !! default: no
       integer(long) :: now, rate
 
+      if (present(is_logged)) call log_line(words)
       if (.not. shown) return
       call system_clock(now, rate)
       if (.not. at_once .and. 5*(now - last) < rate) return
@@ -142,6 +153,18 @@ contains
       write (error_unit, '(a)', advance='no') achar(13)//name//': '//words//repeat(' ', max(0, width - len(words)))
       flush (error_unit)
    end subroutine show_line
+
+   !> Write WORDS as a line of the log, behind the name of the deck and the seconds so far.
+   subroutine log_line(words)
+      character(*), intent(in) :: words
+      integer(long) :: now, rate
+
+      if (.not. logs) return
+      call system_clock(now, rate)
+      if (now < unasked) return
+      write (error_unit, '(2a, i0, 2a)') name, ', ', (now - opened)/rate, ' s: ', words
+      flush (error_unit)
+   end subroutine log_line
 
    !> Clear the line and show no more.
    subroutine clear_line()

@@ -77,7 +77,7 @@ contains
                   type(history_type) :: history
                   call make_history(checked, mesh, freedoms, expansions, history, oscillating)
                   call find_shown_nodes(checked, mesh, freedoms, plan)
-                  call plan_vibrations(checked, mesh, freedoms, oscillating, plan)
+                  call plan_vibrations(checked, mesh, joints%list%id, freedoms, oscillating, plan)
                   if (.not. any(freedoms%used)) &
                      call errors%add(0, 'nothing to solve: expected body elements or interface elements')
                   if (errors%any()) return

@@ -8,9 +8,11 @@ module stage_build
    use deck_input, only: deck_type
    use kinds, only: wp
    use model_data, only: freedoms_type, mesh_type
-   use stage_plan, only: stage_plan_type
+   use stage_entries, only: pair_reference
+   use stage_plan, only: node_pair, stage_plan_type
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text, one_of
+   use unknowns, only: node_axes
    implicit none
    private
 
@@ -63,6 +65,17 @@ contains
                stage%watched = pack([(i, i = 1, mesh%n_nodes)], are_named .and. freedoms%used .and. mesh%node_id > 0)
                if (size(stage%watched) == 0) call deck%errors%add(given%watch(1)%line, 'WATCH: names no node of an element')
             end if
+            if (allocated(given%pairs)) then
+               plan%has_watched_nodes = .true.
+               plan%has_pairs = plan%has_pairs .or. size(given%pairs) > 0
+               if (.not. allocated(stage%watched)) allocate (stage%watched(0))
+               allocate (stage%pairs(size(given%pairs)))
+               do i = 1, size(given%pairs)
+                  call find_pair(deck, mesh, freedoms, given%pairs(i), stage%pairs(i))
+               end do
+            else if (allocated(stage%watched)) then ! of --watch
+               allocate (stage%pairs(0))
+            end if
             if (.not. allocated(given%only)) cycle
             call find_limited_nodes(deck, mesh, 'OUTPUT', given%only, stage%shown)
             do i = 1, size(given%only)
@@ -74,6 +87,31 @@ contains
          end associate
       end do
    end subroutine find_shown_nodes
+
+   !> The PAIR of WATCH that is GIVEN. Errors: nodes of no element.
+   subroutine find_pair(deck, mesh, freedoms, given, pair)
+      type(checked_deck), intent(in)    :: deck
+      type(mesh_type), intent(in)       :: mesh
+      type(freedoms_type), intent(in)   :: freedoms
+      type(pair_reference), intent(in)  :: given
+      type(node_pair), intent(out)      :: pair
+      integer :: at(2), k
+
+      pair%ids = given%nodes
+      do k = 1, 2
+         at(k) = mesh%node_table%find(given%nodes(k)) ! also of NODEAT
+         if (at(k) > 0) at(k) = merge(at(k), 0, freedoms%used(at(k)))
+         if (at(k) == 0) call deck%errors%add(given%line, 'WATCH: node '//integer_text(given%nodes(k))// &
+                                              ' is not a node of an element')
+      end do
+      if (any(at == 0)) return
+      pair%first = at(1)
+      pair%last = at(2)
+      associate (line => mesh%x(:, at(2)) - mesh%x(:, at(1)))
+         if (norm2(line) > 0.0_wp) pair%along(:, 1) = line/norm2(line)
+      end associate
+      pair%along(:, 2:1 + mesh%dimension) = reshape(node_axes(mesh, at(1)), [3, mesh%dimension])
+   end subroutine find_pair
 
    !> The nodes of the model that entry KEY of case control names by its LIMITS. Errors: missing sets and surfaces.
    subroutine find_limited_nodes(deck, mesh, key, limits, are_named)

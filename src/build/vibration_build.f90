@@ -1,31 +1,41 @@
 !> Requests of case control for the vibration after each stage: the range of EIGRL, the frequencies of FREQ1 and FREQ4, load, damping
 !! and nodes.
 module vibration_build
+   use connected_bodies, only: find_bodies
    use deck_check, only: checked_deck
    use kinds, only: wp
+   use mesh_queries, only: is_shell
    use model_data, only: freedoms_type, mesh_type, n_sections, stage_load_type, supported
-   use stage_plan, only: stage_plan_type, backbone_plan, merged, response_plan, vibration_plan_type
+   use stage_plan, only: stage_plan_type, backbone_plan, merged, node_pair, response_plan, vibration_plan_type
    use stage_build, only: find_limited_nodes
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use stage_entries, only: vibration_entries_type
    implicit none
    private
 
    public :: plan_vibrations
 
+   real(wp), parameter :: covering = 2.0_wp  ! times the highest frequency of the response: V2 where EIGRL has neither V2 nor ND
+   integer, parameter  :: most_covering = 200 ! modes likewise
+   real(wp), parameter :: no_end = 1.0e19_wp ! an F2 of FREQ4 beyond it is no end of the range
+
 contains
 
-   !> Plan the vibration of the stages with MODES. A blank ND means the lowest mode, or with V2 all modes up to it, as in NASTRAN.
-   !! Frequencies are not negative, so that V1 <= 0 is no limit.
-   subroutine plan_vibrations(deck, mesh, freedoms, oscillating, plan)
+   !> Plan the vibration of the stages with MODES. A blank ND means the lowest mode, or with V2 all modes up to it, as in NASTRAN;
+   !! where both are blank and a response is asked for, the modes that cover its frequencies. Frequencies are not negative, so that
+   !! V1 <= 0 is no limit.
+   subroutine plan_vibrations(deck, mesh, joint_ids, freedoms, oscillating, plan)
       type(checked_deck), intent(in)       :: deck
       type(mesh_type), intent(in) :: mesh
+      integer, intent(in)                  :: joint_ids(:)
       type(freedoms_type), intent(in) :: freedoms
       type(stage_load_type), intent(in)    :: oscillating(:) !! (stages) the loads of DLOAD
       type(stage_plan_type), intent(inout) :: plan
       integer :: k, s, undamped
+      logical :: covers
 
       undamped = 0
+      call check_filters(deck, mesh, joint_ids, plan)
       do s = 1, size(plan%stages)
          if (deck%control%stages(s)%vibration%modes%id == 0) cycle
          plan%has_modes = .true.
@@ -38,29 +48,79 @@ contains
             vibration%damping = deck%bulk%parameters%damping
             vibration%has_losses = vibration%amplitude > 0.0_wp .or. vibration%damping > 0.0_wp .or. &
                                    any(mesh%properties%damping > 0.0_wp) .or. any(mesh%bars%damping > 0.0_wp)
+            covers = .false.
             k = findloc(deck%bulk%eigrl%id, asked%modes%id, dim=1)
             if (k == 0) then
                call deck%errors%add(asked%modes%line, 'MODES: there is no EIGRL '//integer_text(asked%modes%id))
             else
                vibration%eigrl_card = deck%bulk%eigrl(k)
-               if (vibration%most == 0 .and. .not. vibration%has_highest) vibration%most = 1
+               covers = vibration%most == 0 .and. .not. vibration%has_highest
+               if (covers) vibration%most = 1
                vibration%has_lowest = vibration%has_lowest .and. vibration%lowest > 0.0_wp
                if (.not. vibration%has_lowest) vibration%lowest = 0.0_wp
             end if
-            if (asked%backbone%id > 0) call plan_backbone(deck, mesh, freedoms, asked, vibration)
             plan%has_backbones = plan%has_backbones .or. asked%backbone%id > 0
+            if (asked%frequency%id > 0) then
+               plan%has_responses = .true.
+               allocate (vibration%response)
+               call plan_response(deck, mesh, freedoms, asked, oscillating(s), vibration%response)
+               vibration%response%pairs = [node_pair ::]
+               if (allocated(plan%stages(s)%pairs)) vibration%response%pairs = plan%stages(s)%pairs
+               if (covers) call cover(vibration)
+            end if
+            if (asked%backbone%id > 0) call plan_backbone(deck, mesh, freedoms, asked, vibration)
             if (asked%frequency%id == 0) cycle
             if (asked%damping%id == 0 .and. .not. vibration%has_losses .and. asked%frequency%line /= undamped) then
                undamped = asked%frequency%line ! one warning for an entry above all stages
                call deck%errors%add(undamped, 'FREQUENCY: expected damping: SDAMPING, AMPLITUDE for the loss factors of the '// &
                   'joints, PARAM G, or GE on a MAT1; without it peaks are unbounded')
             end if
-            plan%has_responses = .true.
-            allocate (vibration%response)
-            call plan_response(deck, mesh, freedoms, asked, oscillating(s), vibration%response)
          end associate
       end do
    end subroutine plan_vibrations
+
+   !> Let the modes of VIBRATION cover the frequencies of its response, those of FREQ1 and FREQ2 and the ranges of FREQ4.
+   pure subroutine cover(vibration)
+      type(vibration_plan_type), intent(inout) :: vibration
+      real(wp) :: highest
+
+      associate (response => vibration%response)
+         highest = covering*max(maxval([0.0_wp, response%frequencies]), &
+                                maxval([0.0_wp, response%spreads%last], mask=[0.0_wp, response%spreads%last] < no_end))
+      end associate
+      if (highest <= max(0.0_wp, vibration%lowest)) return
+      vibration%has_highest = .true.
+      vibration%highest = highest
+      vibration%most = most_covering
+   end subroutine cover
+
+   !> Check that there is what OUTPUT limits the tables of modes to: once for an entry above all stages.
+   subroutine check_filters(deck, mesh, joint_ids, plan)
+      type(checked_deck), intent(in)    :: deck
+      type(mesh_type), intent(in)       :: mesh
+      integer, intent(in)               :: joint_ids(:)
+      type(stage_plan_type), intent(in) :: plan
+      logical :: is_there
+      integer :: body(mesh%n_elements), e, n, s
+
+      do s = 1, size(plan%stages)
+         associate (output => plan%stages(s)%output, given => deck%control%stages)
+            if (.not. output%modes%is_given .or. any(given(:s - 1)%output%line == output%line)) cycle
+            if (.not. any(given%output%line == output%line .and. given%vibration%modes%id > 0)) call deck%errors%add(output%line, &
+               'OUTPUT: MASS, BODY, SHELLS and JOINT limit the tables of modes and have no effect without MODES')
+            if (output%modes%kind == '') cycle
+            call find_bodies(mesh, body, n)
+            is_there = output%modes%id <= n
+            if (output%modes%kind == 'SHELLS') is_there = any([(is_shell(mesh, e) .and. body(e) == output%modes%id, &
+                                                                e = 1, mesh%n_elements)])
+            if (output%modes%kind == 'JOINT') is_there = any(joint_ids == output%modes%id)
+            if (is_there .or. deck%errors%any()) cycle
+            call deck%errors%add(output%line, 'OUTPUT: there is no '//trim(output%modes%kind)//' '// &
+                                 integer_text(output%modes%id)//one_of(output%modes%kind == 'JOINT', '', &
+                                 '; the bodies have the numbers 1 to '//integer_text(n)))
+         end associate
+      end do
+   end subroutine check_filters
 
    !> BACKBONE of one stage, with ascending amplitudes.
    subroutine plan_backbone(deck, mesh, freedoms, asked, vibration)

@@ -3,9 +3,9 @@
 module stage_entries
    use case_entries, only: choose, entry_type, limit_type, read_limit, read_number, set_reference, stage_keys, value_error
    use deck_errors, only: deck_error_list
-   use field_rules, only: largest_size, parse_real, smallest_size
+   use field_rules, only: largest_size, parse_integer, parse_real, smallest_size
    use kinds, only: wp
-   use text_tools, only: upper
+   use text_tools, only: one_of, upper
    implicit none
    private
 
@@ -30,8 +30,18 @@ module stage_entries
       type(limit_type), allocatable :: response(:) !! nodes of the response; not allocated: none
    end type vibration_entries_type
 
+   !> Which modes the listing shows; none given: all of them.
+   type, public :: mode_filter
+      real(wp)     :: least_mass = 0.0_wp !! effective, along an axis, of the mass of the structure [per cent]
+      character(6) :: kind = ''           !! BODY, SHELLS, JOINT
+      integer      :: id = 0
+      logical      :: is_given = .false.
+   end type mode_filter
+
    !> OUTPUT of a stage.
    type, public :: output_request
+      integer :: line = 0
+      type(mode_filter) :: modes
       integer :: level = output_last
       logical :: plot = .false., vtu = .false.
       logical :: steps = .false.          !! VTU files after every increment
@@ -41,6 +51,11 @@ module stage_entries
       logical :: condensed = .false.      !! [k_b] condensed on the interface
       logical :: along_cd = .false.       !! nodal vectors in their systems CD
    end type output_request
+
+   !> WATCH = 9001-9002: the second node against the first.
+   type, public :: pair_reference
+      integer :: nodes(2) = 0, line = 0
+   end type pair_reference
 
    !> One SUBCASE: a stage of the load history.
    type, public :: stage_type
@@ -53,6 +68,7 @@ module stage_entries
       type(output_request) :: output
       type(limit_type), allocatable :: only(:) !! not allocated: tables of all nodes and elements
       type(limit_type), allocatable :: watch(:) !! nodes whose displacement the answer gives; not allocated: none
+      type(pair_reference), allocatable :: pairs(:) !! likewise, one node against another
       type(vibration_entries_type) :: vibration !! MODES, FREQUENCY and their options
    end type stage_type
 
@@ -112,7 +128,7 @@ contains
          case ('RESPONSE')
             call read_nodes(entry, asked%response, errors)
          case ('WATCH')
-            call read_nodes(entry, stage%watch, errors)
+            call read_nodes(entry, stage%watch, errors, stage%pairs)
          end select
       end associate
    end subroutine read_stage_entry
@@ -122,7 +138,8 @@ contains
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
-      character(*), parameter :: beside = 'PLOT, STRESS, FORCES, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N' ! with a level
+      character(*), parameter :: beside = 'PLOT, STRESS, FORCES, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N, '// &
+                                          'of modes MASS P, and BODY N or SHELLS N or JOINT N'
       character(9), parameter :: switches(8) = [character(9) :: 'PLOT', 'STRESS', 'FORCES', 'VTU', 'STEPS', 'STATE', &
                                                 'CONDENSED', 'CD']
       character(5), parameter :: levels(0:3) = [character(5) :: 'NONE', 'LAST', 'JOINT', 'ALL'] ! by their numbers
@@ -131,6 +148,7 @@ contains
       integer :: comma, k, level, n_levels
 
       stage%output = output_request()
+      stage%output%line = entry%line
       if (allocated(stage%only)) deallocate (stage%only)
       n_levels = 0
       word = ''
@@ -150,7 +168,8 @@ contains
             twice = twice .or. is_on(k)
             is_on(k) = .true.
          else
-            call read_limit(word, entry%line, stage%only, ok)
+            call read_filter(word, stage%output%modes, ok)
+            if (.not. ok) call read_limit(word, entry%line, stage%only, ok)
             if (.not. ok) then
                call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma '//beside, errors)
                return
@@ -171,24 +190,63 @@ contains
       if (n_levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas '//beside, errors)
    end subroutine read_output
 
-   !> RESPONSE = SET 5, PMARK 20, and WATCH likewise: words with commas.
-   subroutine read_nodes(entry, nodes, errors)
+   !> Put WORD, 'MASS 5.0' or 'BODY 2' in capitals, into FILTER; OK is false where WORD is neither, or says what is there.
+   pure subroutine read_filter(word, filter, ok)
+      character(*), intent(in)         :: word
+      type(mode_filter), intent(inout) :: filter
+      logical, intent(out)             :: ok
+      real(wp) :: mass
+      integer  :: blank, id
+
+      blank = index(word//' ', ' ')
+      select case (word(:blank - 1))
+      case ('MASS')
+         call parse_real(trim(adjustl(word(blank:))), mass, ok)
+         ok = ok .and. mass > 0.0_wp .and. mass <= 100.0_wp .and. filter%least_mass <= 0.0_wp
+         if (ok) filter%least_mass = mass
+      case ('BODY', 'SHELLS', 'JOINT')
+         call parse_integer(trim(adjustl(word(blank:))), id, ok)
+         ok = ok .and. id > 0 .and. filter%kind == ''
+         filter%kind = word(:blank - 1)
+         filter%id = id
+      case default
+         ok = .false.
+      end select
+      filter%is_given = filter%is_given .or. ok
+   end subroutine read_filter
+
+   !> RESPONSE = SET 5, PMARK 20, and WATCH likewise, also with PAIRS 9001-9002: words with commas.
+   subroutine read_nodes(entry, nodes, errors, pairs)
       type(entry_type), intent(in)         :: entry
       type(limit_type), allocatable, intent(inout) :: nodes(:)
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: rest
-      integer :: comma
+      type(pair_reference), allocatable, intent(inout), optional :: pairs(:)
+      character(:), allocatable :: rest, word
+      type(pair_reference) :: pair
+      integer :: comma, dash
       logical :: ok
 
       if (allocated(nodes)) deallocate (nodes)
+      if (present(pairs)) pairs = [pair_reference ::]
       rest = upper(entry%value)
       ok = rest /= ''
       do while (ok .and. rest /= '')
          comma = index(rest//',', ',')
-         call read_limit(trim(adjustl(rest(:comma - 1))), entry%line, nodes, ok)
+         word = trim(adjustl(rest(:comma - 1)))
+         dash = index(word, '-')
+         if (present(pairs) .and. dash > 1) then
+            call parse_integer(trim(word(:dash - 1)), pair%nodes(1), ok)
+            if (ok) call parse_integer(trim(adjustl(word(dash + 1:))), pair%nodes(2), ok)
+            ok = ok .and. all(pair%nodes > 0) .and. pair%nodes(1) /= pair%nodes(2)
+            pair%line = entry%line
+            if (ok) pairs = [pairs, pair]
+         else
+            call read_limit(word, entry%line, nodes, ok)
+         end if
          rest = rest(min(comma + 1, len(rest) + 1):)
       end do
-      if (.not. ok) call value_error(entry, 'SET N or PMARK N, several with commas between them: the nodes to be written', errors)
+      if (.not. ok) call value_error(entry, 'SET N or PMARK N, several with commas between them: the nodes to be written'// &
+                                     one_of(present(pairs), ', or N-M, node M against node N', ''), errors)
    end subroutine read_nodes
 
    !> Check that each vibration entry has the key it needs. An entry above the first SUBCASE has been copied into each stage. It has no

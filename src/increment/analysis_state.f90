@@ -1,7 +1,7 @@
 !> The state of the analysis, which changes from increment to increment, and operations on it common to all methods.
 module analysis_state
    use case_control, only: case_control_type
-   use control_words, only: method_step, pressure_eq10
+   use control_words, only: method_newton, method_step, pressure_eq10
    use condensed_interface, only: condensed_type
    use condition_estimate, only: condition_type
    use equation_solver, only: equation_system, failure_type
@@ -171,6 +171,7 @@ contains
       allocate (analysis%record%kind(size(model%joints%element)), analysis%next_kind(size(model%joints%element)), &
          source=no_stiffness)
       analysis%states%normal = at_rest(model%joints%list(model%joints%element%joint)%p_av, model%joints%element%gap)
+      analysis%states%turns = control%method == method_newton
       if (control%method == method_step) allocate (analysis%exact, source=analysis%states)
    end subroutine start_analysis
 

@@ -24,7 +24,6 @@ module path_error
    integer, parameter  :: most_corrections = 8       ! where the error decides on the division
    integer, parameter  :: some_corrections = 4       ! where it is only printed
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
-   integer, parameter  :: sliding = 4                ! parts into which the error of displacements divides an increment
 
    !> What an attempt changes when it is committed.
    type, public :: path_start_type
@@ -260,8 +259,7 @@ contains
    end function distance
 
    !> Whether the ERROR of an increment in N_PARTS is within TOLERANCE. An increment in which a joint slides, or an element is let go, of
-   !! whatever pressure, is not taken in one part. The displacements of bodies that slide converge in the first order only, so that
-   !! further division costs more than it brings: their error divides an increment into SLIDING parts at most.
+   !! whatever pressure, is not taken in one part.
    pure logical function is_within(error, n_parts, tolerance)
       type(path_error_type), intent(in) :: error
       integer, intent(in)               :: n_parts
@@ -269,14 +267,14 @@ contains
 
       is_within = n_parts > 1 .or. .not. (error%lets_go .or. error%slides)
       if (is_within) is_within = error_size(error) <= tolerance*(1.0_wp + equal_shares)
-      if (is_within .and. error%slides .and. n_parts < sliding) is_within = error%displacement <= tolerance*(1.0_wp + equal_shares)
    end function is_within
 
-   !> The ERROR as a number to compare with PATHTOL.
+   !> The ERROR as a number to compare with PATHTOL. Displacements count where a joint slides.
    pure real(wp) function error_size(error) result(size)
       type(path_error_type), intent(in) :: error
 
       size = max(error%deflection, error%pressure, error%contact/contact_per_tol)
+      if (error%slides) size = max(size, error%displacement)
    end function error_size
 
 end module path_error

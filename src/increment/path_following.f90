@@ -41,8 +41,8 @@ contains
          call reach_in_parts(model, analysis, system, attempt, known)
          if (.not. attempt%converged) exit
          associate (displacement => analysis%record%path_error%displacement)
-            ! of first order: the error is about the distance from the last division
-            if (n > 0) displacement = max(displacement, distance(analysis%u, u))
+            ! of second order: the error is about a third of the distance from the last division
+            if (n > 0) displacement = max(displacement, distance(analysis%u, u)/3.0_wp)
          end associate
          u = analysis%u
          falls = n < 2 .or. error_size(analysis%record%path_error) < max(falling*error_size(error), analysis%path_tolerance)

@@ -12,12 +12,12 @@
 !! Slices: phi_n = phi_max exp(-c (N-n)/sqrt(N)), n = 1 to N, and phi_0 = 0. Slice n has the stiffness and the strength of its part
 !! of the density, so that K_T and F_S are exact; S is one slice more. The curve of the slices is the polygon of tangents of tau(d)
 !! at the phi_n. More slices are finer and reach down to smaller amplitudes.
-!! In the plane of a joint each slice has a stress of two components and slides in the direction of its stress. F_S and phi_max
+!! In the plane of a joint each slice has a stress of two components, which turns towards the movement while it slides. F_S and phi_max
 !! are in proportion to the pressure, K_T is constant.
 !! Source: D. J. Segalman, A four-parameter Iwan model for lap-type joints, J. Appl. Mech. 72 (2005) 752-760.
 module iwan_law
    use kinds, only: wp
-   use slip_path, only: meet_limit, return_to_limit, turn_slip
+   use slip_path, only: meet_limit, turn_slip
    use tolerances, only: flag_margin, slip_margin
    implicit none
    private
@@ -85,14 +85,12 @@ contains
       if (law%p_ref > 0.0_wp) share = max(0.0_wp, pressure)/law%p_ref
    end function limit_share
 
-   !> Follow the slices from BEFORE straight to the movement DELTA. A slice above its limit returns to it along its stress, or is
-   !! turned along the way.
-   pure subroutine follow_slices(law, before, delta, share, turns, after, by_delta, by_share)
+   !> Follow the slices from BEFORE straight to the movement DELTA. A slice at its limit is turned along the way.
+   pure subroutine follow_slices(law, before, delta, share, after, by_delta, by_share)
       type(iwan_type), intent(in)   :: law
       type(iwan_state), intent(in)  :: before
       real(wp), intent(in)          :: delta(2)       !! [length]
       real(wp), intent(in)          :: share(2)       !! limits at both ends, relative to the strengths [-]
-      logical, intent(in)           :: turns
       type(iwan_state), intent(out) :: after
       real(wp), intent(out)         :: by_delta(2, 2) !! d (sum of the stresses)/d DELTA [pressure/length]
       real(wp), intent(out)         :: by_share(2)    !! likewise, d/d SHARE(2) [pressure]
@@ -107,8 +105,7 @@ contains
       by_share = 0.0_wp
       after%slides = .true.
       do m = 1, size(law%stiffness)
-         call move_slice(law%stiffness(m)*(delta - before%delta), share*law%strength(m), turns, after%tau(:, m), slips, by_gain, &
-                         by_limit)
+         call move_slice(law%stiffness(m)*(delta - before%delta), share*law%strength(m), after%tau(:, m), slips, by_gain, by_limit)
          by_delta = by_delta + law%stiffness(m)*merge(by_gain, unit, slips)
          if (slips) by_share = by_share + law%strength(m)*by_limit
          after%slides = after%slides .and. slips
@@ -126,9 +123,8 @@ contains
    end function stresses
 
    !> Move a slice: its stress TAU grows by GAIN where it does not slip. LIMITS are those at both ends of the way.
-   pure subroutine move_slice(gain, limits, turns, tau, slips, by_gain, by_limit)
+   pure subroutine move_slice(gain, limits, tau, slips, by_gain, by_limit)
       real(wp), intent(in)    :: gain(2), limits(2) !! [pressure]
-      logical, intent(in)     :: turns              !! along the way
       real(wp), intent(inout) :: tau(2)
       logical, intent(out)    :: slips
       real(wp), intent(out)   :: by_gain(2, 2), by_limit(2) !! derivatives of TAU with respect to GAIN and LIMITS(2), if it slips
@@ -138,21 +134,16 @@ contains
       tau = before + gain
       slips = norm2(tau) > limits(2)*(1.0_wp + slip_margin)
       if (.not. slips) return
-      if (turns) then
-         call turn_slip(before, gain, limits, tau, by_gain, by_limit)
-      else
-         call return_to_limit(before + gain, limits(2), tau, by_gain, by_limit)
-      end if
+      call turn_slip(before, gain, limits, tau, by_gain, by_limit)
    end subroutine move_slice
 
    !> The stress TAU of the slices at the fraction F of a straight way of length MOVED from BEFORE, and their WORK up to there. A
    !! slice sticks up to the fraction at which it meets its limit; its power is linear there, and after it along one axis.
-   pure subroutine slices_work(law, before, moved, share, turns, f, tau, work)
+   pure subroutine slices_work(law, before, moved, share, f, tau, work)
       type(iwan_type), intent(in)  :: law
       type(iwan_state), intent(in) :: before
       real(wp), intent(in)         :: moved(2)  !! [length]
       real(wp), intent(in)         :: share(2)  !! at the ends of the way
-      logical, intent(in)          :: turns
       real(wp), intent(in)         :: f
       real(wp), intent(out)        :: tau(2), work !! [pressure], [pressure x length]
       real(wp) :: all_tau(2, size(law%stiffness)), begins, c(0:2), width
@@ -171,24 +162,23 @@ contains
             width = (f - begins)/panels
             do k = 1, merge(panels, 0, width > 0.0_wp)
                do i = 1, 5
-                  work = work + weight(i)*width*dot_product(stress_on_way(first, gain, limits, turns, begins + &
+                  work = work + weight(i)*width*dot_product(stress_on_way(first, gain, limits, begins + &
                                                                           (k - 1 + point(i))*width), moved)
                end do
             end do
-            tau = tau + stress_on_way(first, gain, limits, turns, f)
+            tau = tau + stress_on_way(first, gain, limits, f)
          end associate
       end do
    end subroutine slices_work
 
    !> The stress of a slice at the fraction F of its way.
-   pure function stress_on_way(first, gain, limits, turns, f) result(tau)
+   pure function stress_on_way(first, gain, limits, f) result(tau)
       real(wp), intent(in) :: first(2), gain(2), limits(2), f
-      logical, intent(in)  :: turns
       real(wp) :: tau(2), by_gain(2, 2), by_limit(2)
       logical  :: slips
 
       tau = first
-      call move_slice(f*gain, [max(limits(1), norm2(first)), limits(1) + f*(limits(2) - limits(1))], turns, tau, slips, by_gain, &
+      call move_slice(f*gain, [max(limits(1), norm2(first)), limits(1) + f*(limits(2) - limits(1))], tau, slips, by_gain, &
                       by_limit)
    end function stress_on_way
 

@@ -32,7 +32,7 @@ module joint_laws
       type(normal_state) :: normal
       type(shear_state)  :: shear(2)
       logical  :: slips = .false.            !! the limit was exceeded in the last increment
-      logical  :: turns = .false.            !! slip turns the stress within an increment: paths of loops
+      logical  :: turns = .false.            !! slip turns the stress along the way of an increment: NEWTON and BACKBONE
       real(wp) :: origin(2) = 0.0_wp         !! tangential movement at which delta = 0: that of the last closing
       type(iwan_state), allocatable :: iwan  !! of Iwan's law; not allocated: at rest
    end type element_state
@@ -153,7 +153,7 @@ contains
       real(wp) :: by_delta(2, 2), by_share(2)
 
       call follow_slices(law%iwan, slices_of(state), state%shear%delta, &
-                         spread(limit_share(law%iwan, state%normal%pressure), 1, 2), .false., slices, by_delta, by_share)
+                         spread(limit_share(law%iwan, state%normal%pressure), 1, 2), slices, by_delta, by_share)
    end function slices_to
 
    !> LOAD along x or y where the stress of SHEAR has grown by what has MOVED, UNLOAD where it has fallen. Iwan's law asks for no more.
@@ -218,8 +218,9 @@ contains
    end function friction_excess
 
    !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb
-   !! friction as a return to the limit, or along the way where the element TURNS. With SEEN the shear laws and friction see that
-   !! normal state and not AFTER's: then the forces are monotone functions of the movement, and the tangent is symmetric.
+   !! friction along the way where the element TURNS, otherwise as a return to the limit. With SEEN the shear laws and friction see
+   !! that normal state and not AFTER's: then the forces are monotone functions of the movement, and the tangent is symmetric but
+   !! for the turn.
    pure subroutine follow_element(law, area, before, movement, after, tangent, seen)
       type(joint_law), intent(in)      :: law
       real(wp), intent(in)             :: area
@@ -298,7 +299,7 @@ contains
       share = sticks
       if (law%has_friction) share = limit_share(law%iwan, [before%normal%pressure, p(1)])
       if (.not. allocated(after%iwan)) allocate (after%iwan)
-      call follow_slices(law%iwan, slices_of(before), delta, share, before%turns, after%iwan, by_delta, by_share)
+      call follow_slices(law%iwan, slices_of(before), delta, share, after%iwan, by_delta, by_share)
       after%slips = after%iwan%slides
       after%shear%delta_before = before%shear%delta
       after%shear%tau_before = before%shear%tau

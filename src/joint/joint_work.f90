@@ -250,7 +250,7 @@ contains
       integer  :: i
 
       if (way%follows == by_slices) then
-         call slices_work(law%iwan, way%slices, way%moved, limit_share(law%iwan, way%p), way%turns, f, tau, work)
+         call slices_work(law%iwan, way%slices, way%moved, limit_share(law%iwan, way%p), f, tau, work)
          return
       end if
       work = 0.0_wp

@@ -5,9 +5,9 @@
 !!    l d{n}/df = {gain} - {n} ({n} . {gain})        {n} its direction, theta the angle of {n} to {gain}
 !!    tan(theta/2) = tan(theta_s/2) exp(-x)          x = |gain| (1 - f_s)/l, with the mean of l
 !!
-!! This is exact at constant pressure. NEWTON returns the stress at the end of the increment to the limit, along a line: the error
-!! is of first order in the increments. Source: R. D. Krieg, D. B. Krieg, J. Pressure Vessel Technol. 99 (1977) 510-515, for the
-!! yield surface of von Mises.
+!! This is exact at constant pressure; NEWTON and the loops of BACKBONE follow it. A return of the stress at the end of the increment,
+!! along a line, is of first order in the increments only. Source: R. D. Krieg, D. B. Krieg, J. Pressure Vessel Technol. 99 (1977)
+!! 510-515, for the yield surface of von Mises.
 module slip_path
    use kinds, only: wp
    use tolerances, only: no_stress_direction, no_turn
@@ -28,30 +28,41 @@ contains
       real(wp), intent(out) :: tau(2)        !! of the size of LIMITS(2)
       real(wp), intent(out) :: by_gain(2, 2) !! d TAU/d GAIN [-]
       real(wp), intent(out) :: by_limit(2)   !! d TAU/d LIMITS(2) [-]
-      real(wp) :: begins(2), first, f, f_change(3), e(2), n(2), cosine, sine, x, share, size_begins, size_gain, mean, c(0:2)
-      real(wp) :: angle(3), turned(3), x_change(3) ! derivatives for the two components of GAIN and for LIMITS(2)
+      real(wp) :: b(2), g(2), l(2), unit, begins(2), first, f, f_change(3), e(2), n(2), cosine, sine, x, share
+      real(wp) :: size_begins, size_gain, mean, c(0:2)
+      real(wp) :: angle(3), turned(3), x_change(3) ! derivatives for the two components of g and for l(2)
 
+      ! relative to a power of two, which changes no digit: squares neither vanish nor exceed the range of numbers
+      unit = scale(1.0_wp, exponent(max(maxval(abs(before)), maxval(abs(gain)), maxval(limits))))
+      b = before/unit
+      g = gain/unit
+      l = limits/unit
       tau = 0.0_wp
       by_gain = 0.0_wp
-      by_limit = gain/max(norm2(gain), tiny(1.0_wp))
-      if (limits(2) <= 0.0_wp) return
-      if (norm2(gain) <= no_turn*limits(2)) then ! along a line; the angle between both is the square of NO_TURN
-         call return_to_limit(before + gain, limits(2), tau, by_gain, by_limit)
+      by_limit = g/max(norm2(g), tiny(1.0_wp))
+      if (l(2) <= 0.0_wp) return
+      first = max(l(1), norm2(b))
+      if (norm2(g) <= no_turn*l(2)) then ! along a line; the angle between both is the square of NO_TURN
+         call return_to_limit(b + g, l(2), tau, by_gain, by_limit)
+         tau = unit*tau
+         return
+      else if (4.0_wp*far*max(first, l(2)) <= norm2(g)) then ! x is beyond FAR
+         call return_to_limit(g, l(2), tau, by_gain, by_limit)
+         tau = unit*tau
          return
       end if
 
-      first = max(limits(1), norm2(before))
-      call meet_limit(before, gain, limits, f, c)
-      begins = before + f*gain
+      call meet_limit(b, g, l, f, c)
+      begins = b + f*g
       f_change = 0.0_wp
-      if (f > 0.0_wp) f_change = -f*[begins, -(first + f*(limits(2) - first))]/ &
+      if (f > 0.0_wp) f_change = -f*[begins, -(first + f*(l(2) - first))]/ &
                                    max(c(1) + c(2)*f, no_stress_direction*first**2)
       size_begins = norm2(begins)
-      size_gain = norm2(gain)
+      size_gain = norm2(g)
       n = begins/max(size_begins, tiny(1.0_wp))
-      e = gain/size_gain
-      if (size_begins <= no_stress_direction*limits(2)) n = e
-      mean = 0.5_wp*(first + f*(limits(2) - first) + limits(2))
+      e = g/size_gain
+      if (size_begins <= no_stress_direction*l(2)) n = e
+      mean = 0.5_wp*(first + f*(l(2) - first) + l(2))
       x = min(far, (1.0_wp - f)*size_gain/mean)
       cosine = dot_product(n, e)
       sine = e(1)*n(2) - e(2)*n(1)
@@ -60,13 +71,13 @@ contains
       ! rates of the angle of e, of that of n at the beginning, of x
       angle = [-e(2), e(1), 0.0_wp]/size_gain
       turned = angle
-      if (size_begins > no_stress_direction*limits(2)) turned = [-n(2), n(1), 0.0_wp]*f/size_begins &
-                                                 + (n(1)*gain(2) - n(2)*gain(1))/size_begins*f_change
+      if (size_begins > no_stress_direction*l(2)) turned = [-n(2), n(1), 0.0_wp]*f/size_begins &
+                                                 + (n(1)*g(2) - n(2)*g(1))/size_begins*f_change
       x_change = [e, 0.0_wp]*(1.0_wp - f)/mean - size_gain/mean*f_change &
-                 - 0.5_wp*x/mean*([0.0_wp, 0.0_wp, 1.0_wp + f] + (limits(2) - first)*f_change)
+                 - 0.5_wp*x/mean*([0.0_wp, 0.0_wp, 1.0_wp + f] + (l(2) - first)*f_change)
       n = rotated(e, share*(sinh(x) + cosine*cosh(x)), share*sine)
-      tau = limits(2)*n
-      turned = limits(2)*((1.0_wp - share)*angle + share*turned - share*sine*x_change)
+      tau = unit*l(2)*n
+      turned = l(2)*((1.0_wp - share)*angle + share*turned - share*sine*x_change)
       by_gain = spread([-n(2), n(1)], 2, 2)*spread(turned(:2), 1, 2)
       by_limit = n + [-n(2), n(1)]*turned(3)
    end subroutine turn_slip

@@ -10,15 +10,26 @@ module stage_plan
    implicit none
    private
 
+   public :: between, force_between
    public :: loss_at, asked_frequencies, merged, where_in_plan, factorisations_of, has_unloading_modes, shows_bodies
 
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping
+
+   character(4), parameter, public :: pair_names(4) = ['LINE', 'X   ', 'Y   ', 'Z   ']
+
+   !> Two nodes of WATCH: the movement of LAST less that of FIRST, along the line from FIRST to LAST and the axes CD of FIRST.
+   type, public :: node_pair
+      integer  :: first = 0, last = 0         !! positions
+      integer  :: ids(2) = 0                  !! their numbers, as the deck has them
+      real(wp) :: along(3, 4) = 0.0_wp        !! unit vectors; 0: a line between nodes at one place, z of a plane model
+   end type node_pair
 
    !> The response to an oscillating load by modal superposition.
    type, public :: response_plan
       real(wp), allocatable :: frequencies(:) !! ascending, those of FREQ1 [1/time]
       type(frequency_card), allocatable :: spreads(:) !! FREQ4: n is odd
       integer, allocatable  :: nodes(:)       !! positions of the nodes whose amplitude and phase are requested
+      type(node_pair), allocatable :: pairs(:) !! and of one node against another
       real(wp), allocatable :: force(:, :)    !! (3, n_nodes) amplitude of the load [force]
       type(tabdmp1_card), allocatable :: damping !! not allocated: the loss factors of the joints
       logical :: is_structural = .false.      !! KDAMP = -1: as structural damping
@@ -49,6 +60,7 @@ module stage_plan
       type(output_request) :: output
       logical, allocatable :: shown(:)      !! nodes to which its tables are limited; not allocated: all
       integer, allocatable :: watched(:)    !! positions of the nodes of WATCH; not allocated: none
+      type(node_pair), allocatable :: pairs(:) !! those of WATCH; allocated where WATCHED is
       character(:), allocatable :: shown_words !! text of this limit, behind a title
       real(wp), allocatable :: fractions(:)    !! of the load change of the stage, one per increment, sum 1
       logical :: follows_path = .false.        !! NEWTON divides its increment so that the parts follow the path
@@ -64,9 +76,43 @@ module stage_plan
       logical :: has_backbones = .false.      !! a backbone
       logical :: has_responses = .false.      !! the response to an oscillating load
       logical :: has_watched_nodes = .false.  !! nodes of WATCH
+      logical :: has_pairs = .false.          !! pairs of them
    end type stage_plan_type
 
 contains
+
+   !> The movement of PAIR along its directions, from the displacements U of all nodes.
+   pure function between(pair, u) result(moved)
+      type(node_pair), intent(in) :: pair
+      real(wp), intent(in)        :: u(:, :) !! (dimension, nodes)
+      real(wp) :: moved(4)
+      integer  :: c
+
+      moved = 0.0_wp
+      do c = 1, size(u, 1)
+         moved = moved + (u(c, pair%last) - u(c, pair%first))*pair%along(c, :)
+      end do
+   end function between
+
+   !> The force between the nodes of PAIR along its directions, from the forces F on all nodes: positive where it moves them apart.
+   !! It is the mean of the forces on both nodes, or the force on one of them where the other has none above FLOOR.
+   pure function force_between(pair, f, floor) result(force)
+      type(node_pair), intent(in) :: pair
+      real(wp), intent(in)        :: f(:, :) !! (dimension, nodes)
+      real(wp), intent(in)        :: floor
+      real(wp) :: force(4), first(4), last(4)
+      integer  :: c
+
+      first = 0.0_wp
+      last = 0.0_wp
+      do c = 1, size(f, 1)
+         first = first + f(c, pair%first)*pair%along(c, :)
+         last = last + f(c, pair%last)*pair%along(c, :)
+      end do
+      force = last - first
+      where (min(abs(first), abs(last)) > floor) force = 0.5_wp*force
+      where (abs(force) <= floor) force = 0.0_wp
+   end function force_between
 
    !> Structural damping g [-] at FREQUENCY, by the rules of NASTRAN for TABDMP1: linear interpolation, extrapolation of the first
    !! and the last line, the mean at a jump. G: g = value; CRIT: g = 2 value; Q: g = 1/value. An extrapolated line is limited at

@@ -8,8 +8,10 @@ module answer_tables
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use page_lines, only: axes, heading
-   use result_page, only: bolt_table, clamping_table, movement_names, page_type, reaction_table, resultant_names, secant_names, &
+   use result_page, only: bolt_table, clamping_table, largest_safety, movement_names, page_type, pair_table, reaction_table, &
+                          resultant_names, secant_names, &
                           split_table, stage_table, table_columns, tangent_names, watch_table, xyz
+   use stage_plan, only: pair_names
    use support_reactions, only: reaction_type, reactions_type
    use table_column, only: column
    use table_writer, only: table_type
@@ -25,8 +27,7 @@ module answer_tables
 contains
 
    !> Print the answer for BODIES and JOINTS under TITLE on the screen, and its rows into the file of the stages; without joints one
-   !! row, with joint 0. The file has the share in contact and the safety as numbers; the block has the share in per cent and the
-   !! safety below a million.
+   !! row, with joint 0. The file has the share in contact as a number and every safety; the block has the share in per cent.
    subroutine print_answer(page, title, model, is_first, bodies, joints)
       type(page_type), intent(inout)     :: page
       character(*), intent(in)           :: title
@@ -88,7 +89,7 @@ contains
             call table%put('slipping', now%slipping)
             call table%put(['n', 't', 'm'], [joint%normal, joint%shear, joint%moment])
             call table%put('safety', joint%safety, where=joint%has_safety)
-            call table%put('MU N/T', min(joint%safety, 1.0e6_wp), where=joint%has_safety)
+            call table%put('MU N/T', joint%safety, where=joint%has_safety .and. joint%safety <= largest_safety)
             call table%put('ring', one_of(frame%closed, '  CLOSED', ''))
             call table%put(resultant_names, joint%force, where=frame%exists)
             call table%put(movement_names, joint%movement, where=frame%exists)
@@ -195,7 +196,7 @@ contains
                call table%put('JOINT', bolt%joint, where=clamps)
                call table%put('CLAMPING', bolt%clamping, where=clamps)
                call table%put('LOSS %', 100.0_wp*bolt%loss, where=clamps)
-               call table%put('MU N/T', min(bolt%safety, 1.0e6_wp), where=bolt%has_safety)
+               call table%put('MU N/T', bolt%safety, where=bolt%has_safety .and. bolt%safety <= largest_safety)
                call table%print_row(page%screen)
             end associate
          end do
@@ -300,10 +301,12 @@ contains
       type(model_type), intent(in)   :: model
       type(watch_answer), intent(in) :: answer
       type(table_type) :: table
-      integer :: k
+      integer :: i, k
 
-      call page%screen%put('')
-      call table%start('', table_columns(watch_table, page%labels, model), page%screen)
+      if (size(answer%nodes) > 0) then
+         call page%screen%put('')
+         call table%start('', table_columns(watch_table, page%labels, model), page%screen)
+      end if
       do k = 1, size(answer%nodes)
          associate (node => answer%nodes(k))
             call table%put('stage', page%stage_id)
@@ -318,6 +321,24 @@ contains
             call table%put('stiffness', node%stiffness, where=node%moves)
          end associate
          call table%print_row(page%screen, page%tables(watch_table))
+      end do
+      if (size(answer%pairs) > 0) then
+         call page%screen%put('')
+         call table%start('', table_columns(pair_table, page%labels, model), page%screen)
+      end if
+      do k = 1, size(answer%pairs)
+         associate (pair => answer%pairs(k))
+            do i = 1, size(pair_names)
+               if (.not. any(abs(pair%pair%along(:, i)) > 0.0_wp)) cycle
+               call table%put('stage', page%stage_id)
+               call table%put(['from', 'to  '], pair%pair%ids)
+               call table%put('along', trim(pair_names(i)))
+               call table%put([character(8) :: 'movement', 'change'], [pair%moved(i), pair%change(i)])
+               call table%put('load', pair%load(i), where=abs(pair%load(i)) > 0.0_wp)
+               call table%put('stiffness', pair%stiffness(i), where=abs(pair%stiffness(i)) > 0.0_wp)
+               call table%print_row(page%screen, page%tables(pair_table))
+            end do
+         end associate
       end do
       if (size(answer%parts) == 0) return
       call page%screen%put('')

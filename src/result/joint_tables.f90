@@ -229,7 +229,7 @@ contains
             call table%put('DELTA', state%delta, delta_floor)
             call table%put('TAU', state%tau, tau_floor)
             call table%put('FORCE', state%tau*element%area, tau_floor*element%area)
-            call table%put('K_S, USED', state%k_s)
+            call table%put('K_S, USED', state%k_s, page_zero*analysis%states(i)%normal%k_n)
             call table%put('LIMIT', friction_limit(law, p), tau_floor, where=law%has_friction)
             call table%put('note', one_of(analysis%states(i)%slips, '  SLIPS', ''))
          else

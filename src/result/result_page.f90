@@ -13,15 +13,17 @@ module result_page
    public :: set_labels, shows, has_gaps, table_columns, record_page
 
    character(1), parameter, public :: xyz(3) = ['x', 'y', 'z']
+   real(wp), parameter, public :: largest_safety = 1000.0_wp !! against slip: tables leave a larger one blank
 
    ! the CSV files in the order of their endings; the clamping of the bolts is a table of the listing without a file of its own
    integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
                                  response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9, watch_table = 10, &
-                                 split_table = 11, reaction_table = 12, shell_table = 13, clamping_table = 14
+                                 split_table = 11, reaction_table = 12, shell_table = 13, pair_table = 14, &
+                                 pair_modes_table = 15, pair_response_table = 16, clamping_table = 17
    character(*), parameter, public :: history_ending = '.joint.csv'
-   character(22), parameter, public :: table_endings(13) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
+   character(22), parameter, public :: table_endings(16) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
       '.modes.csv', '.modes.energy.csv', '.response.csv', '.backbone.csv', '.loop.csv', '.backbone.response.csv', '.watch.csv', &
-      '.watch.energy.csv', '.reaction.csv', '.shell.csv']
+      '.watch.energy.csv', '.reaction.csv', '.shell.csv', '.between.csv', '.between.modes.csv', '.between.response.csv']
 
    ! the six components of a joint in .stage.csv, in its axes
    character(14), parameter, public :: &
@@ -35,6 +37,7 @@ module result_page
    type, public :: label_type
       character(20) :: length = '', force = '', pressure = '', area = '', stiffness = '', moment = ''
       character(20) :: slope = ''     !! of pressure over length
+      character(20) :: compliance = ''
    end type label_type
 
    !> The files and settings common to all tables.
@@ -66,6 +69,7 @@ contains
       labels%stiffness = force//'/'//length
       labels%moment = force//' '//length
       labels%slope = force//'/'//length//'2/'//length
+      labels%compliance = length//'/'//force
    end subroutine set_labels
 
    !> Whether tables limited to some nodes show an item with these NODES.
@@ -151,6 +155,18 @@ contains
          columns = [csv('stage'), column('GIVES WAY', 'a11', name='kind'), column('NUMBER', 'i11', name='id'), &
             column([character(8) :: 'SHARE %', 'NORMAL %', 'SHEAR %'], 'f11.4'), &
             column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i14'), csv(['normal', 'shear ', 'work  '])]
+      case (pair_table, pair_modes_table, pair_response_table) ! for each pair of WATCH and direction, each mode, each frequency
+         columns = [column('BETWEEN', 'i11', name='from'), column('AND', 'i11', name='to'), column('ALONG', 'a6', name='along')]
+         if (table == pair_table) columns = [csv('stage'), columns, &
+            column([character(8) :: 'MOVEMENT', 'CHANGE'], 'es13.4', labels%length, name=[character(8) :: 'movement', 'change']), &
+            column('LOAD', 'es13.4', labels%force, name='load'), column('STIFFNESS', 'es13.4', labels%stiffness, name='stiffness')]
+         if (table == pair_modes_table) columns = [csv('stage'), column('MODE', 'i6', name='mode'), &
+            column('FREQUENCY', 'es15.5', '1/TIME', name='frequency'), columns, column('MOVEMENT', 'es14.5', name='movement'), &
+            column('COMPLIANCE', 'es14.5', labels%compliance, name='compliance')]
+         if (table == pair_response_table) columns = [csv(['stage    ', 'frequency']), columns, &
+            column('AMPLITUDE', 'es14.5', labels%length, name='amplitude'), csv('phase'), &
+            column('AT FREQUENCY', 'es14.5', '1/TIME'), column(['COMPLIANCE     ', 'LEAST REAL PART'], 'es17.5', &
+            labels%compliance), column('AT FREQUENCY', 'es14.5', '1/TIME', key='OF LEAST'), csv(['real     ', 'imaginary'])]
       case (shell_table) ! forces and moments per length: for the centre of each shell and, in the file, every corner
          columns = [csv([character(9) :: 'stage', 'increment', 'load']), column('ELEMENT', 'i11', name='element'), &
             csv([character(4) :: 'node', xyz]), &
@@ -161,7 +177,8 @@ contains
          columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('FREQUENCY', 'es15.5', '1/TIME', name='frequency'), &
             column('OMEGA', 'es15.5', 'RAD/TIME', name='omega'), column('GENERALISED MASS', 'es18.5'), &
             column('RESIDUAL', 'es12.1', name='residual'), csv('mass_'//xyz), &
-            column('LOSS FACTOR', 'es15.5', name='loss_factor')]
+            column('LOSS FACTOR', 'es15.5', name='loss_factor'), column('MOST ENERGY', 'a14', name='kind'), &
+            column('NUMBER', 'i11', name='id'), column('PERCENT', 'f9.2'), csv('energy')]
       case (energy_table) ! for each body, joint and bar: its share of the strain energy; bodies and bars stand under normal
          columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('PART', 'a8', name='kind'), &
             column('NUMBER', 'i11', name='id'), column(['ALL   ', 'NORMAL', 'SHEAR '], 'f10.2'), csv(['normal', 'shear '])]

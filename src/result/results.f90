@@ -25,7 +25,8 @@ module results
    use restart_stream, only: restart_stream_type
    use result_names, only: early_ending, listing_ending, remove_all
    use result_page, only: backbone_table, bend_table, bolt_table, energy_table, joint_table, loop_table, modes_table, page_type, &
-                          record_page, response_table, set_labels, shell_table, split_table, table_columns, &
+                          record_page, pair_modes_table, pair_response_table, pair_table, response_table, set_labels, &
+                          shell_table, split_table, table_columns, &
                           table_endings, watch_table
    use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: stage_plan_type
@@ -106,6 +107,9 @@ contains
       is_asked([backbone_table, loop_table]) = plan%has_backbones
       is_asked(bend_table) = plan%has_backbones .and. plan%has_responses
       is_asked([watch_table, split_table]) = plan%has_watched_nodes
+      is_asked(pair_table) = plan%has_pairs
+      is_asked(pair_modes_table) = plan%has_pairs .and. plan%has_modes
+      is_asked(pair_response_table) = plan%has_pairs .and. plan%has_responses
       is_asked(shell_table) = any(plan%stages%output%forces)
       do i = 1, size(table_endings)
          if (.not. is_asked(i)) cycle
@@ -224,7 +228,7 @@ contains
          call find_reactions(model, analysis, page%largest_force, reactions)
          call print_reactions(page, model, reactions)
          if (allocated(stage%watched)) then
-            call find_watched(model, analysis, stage%watched, results%watched_before, results%watched)
+            call find_watched(model, analysis, stage%watched, stage%pairs, results%watched_before, results%watched)
             call print_watched(page, model, results%watched)
          end if
          call page%file%put_lines(page%screen%text_behind(before)) ! the answer is repeated in the listing
@@ -256,7 +260,7 @@ contains
       if (m > 0) results%counts%digest%frequency = modes%modes(m)%frequency
       associate (planned => plan%stages(stage), page => results%page)
          page%stage_id = planned%id
-         call list_modes(page, model, planned%vibration, modes, results%watch%n_warnings)
+         call list_modes(page, model, planned, modes, results%watch%n_warnings)
          if (results%base /= '' .and. planned%output%vtu) call write_modes(results%vtu, model, planned%id, modes)
       end associate
    end subroutine print_modes

@@ -1,17 +1,16 @@
-!> The tables of oscillation about the state at the end of a stage: natural modes, backbone, response. The CSV files are
-!! NAME.modes.csv, .modes.energy.csv, .backbone.csv, .backbone.response.csv, .loop.csv and .response.csv.
+!> The tables of oscillation about the state at the end of a stage: natural modes and backbone. The CSV files are
+!! NAME.modes.csv, .modes.energy.csv, .backbone.csv, .backbone.response.csv and .loop.csv.
 module vibration_tables
    use backbone, only: backbone_type
    use element_mapping, only: two_pi
    use kinds, only: wp
-   use modal_response, only: response_type
+   use mode_parts, only: is_selected, main_part, mode_part
    use mode_values, only: modes_type
    use model_data, only: model_type
-   use numbers, only: first_largest
    use page_lines, only: axes, in_form
-   use result_page, only: backbone_table, bend_table, energy_table, loop_table, modes_table, page_type, response_table, &
+   use result_page, only: backbone_table, bend_table, energy_table, loop_table, modes_table, page_type, pair_modes_table, &
                           table_columns, xyz
-   use stage_plan, only: vibration_plan_type
+   use stage_plan, only: between, pair_names, planned_stage
    use table_column, only: column
    use table_writer, only: table_type
    use text_tools, only: above, integer_text, one_of, plural, real_text, upper
@@ -19,7 +18,7 @@ module vibration_tables
    implicit none
    private
 
-   public :: list_modes, list_backbone, list_response
+   public :: list_modes, list_backbone
 
    real(wp), parameter :: percent = 100.0_wp
    real(wp), parameter :: steep = 2.0_wp           ! times the stiffness of the loading curves: a stiffer default is warned of
@@ -29,23 +28,24 @@ module vibration_tables
 contains
 
    !> The search for the modes, mass, frequencies, participation, and shares of strain energy.
-   subroutine list_modes(page, model, plan, modes, n_warnings)
+   subroutine list_modes(page, model, planned, modes, n_warnings)
       type(page_type), intent(inout)        :: page
       type(model_type), intent(in)          :: model
-      type(vibration_plan_type), intent(in) :: plan
+      type(planned_stage), intent(in)       :: planned
       type(modes_type), intent(in)          :: modes
       integer, intent(inout)                :: n_warnings
       character(4), parameter :: moments(6) = ['I XX', 'I YY', 'I ZZ', 'I XY', 'I YZ', 'I ZX']
+      type(mode_part)  :: part
       type(table_type) :: parts, table
       integer, allocatable :: shown(:)
       real(wp) :: extent
       integer  :: c, d, j, m
-      logical  :: warns
+      logical  :: warns, shows(size(modes%modes))
 
       call page%file%put('')
       call page%file%put(' NATURAL MODES ABOUT THE END OF '//page%stage//'   '// &
-                         one_of(plan%on_loading, 'STIFFNESS OF LOADING', 'STIFFNESS OF UNLOADING')//', '// &
-                         one_of(plan%free, 'SUPPORTS RELEASED', 'SUPPORTS HELD')//', '// &
+                         one_of(planned%vibration%on_loading, 'STIFFNESS OF LOADING', 'STIFFNESS OF UNLOADING')//', '// &
+                         one_of(planned%vibration%free, 'SUPPORTS RELEASED', 'SUPPORTS HELD')//', '// &
                          one_of(model%mesh%lumped, 'LUMPED MASS', 'CONSISTENT MASS'))
       if (size(model%joints%element) > 0) call page%file%put('  INTERFACE ELEMENTS IN CONTACT: '// &
          integer_text(modes%n_touching)//' OF '//integer_text(size(model%joints%element))//'; THE OTHERS HAVE NO STIFFNESS')
@@ -80,10 +80,12 @@ contains
       if (size(modes%modes) == 0) return
 
       ! frequencies, participation and effective masses
+      shows = [(is_selected(model, planned%output%modes, modes%mass, modes%modes(m)), m = 1, size(modes%modes))]
       call table%start('FREQUENCIES', table_columns(modes_table, page%labels, model), page%file)
       call parts%start('PARTICIPATION AND EFFECTIVE MASS', [column('MODE', 'i6'), column('PARTICIPATION '//axes(:d), 'es18.5'), &
                        column('MASS ALONG '//axes(:d), 'es15.5')])
       do m = 1, size(modes%modes)
+         part = main_part(model, modes%modes(m)%energy)
          associate (mode => modes%modes(m), largest => sqrt(modes%mass/modes%modes(m)%mass))
             call table%put('stage', page%stage_id)
             call table%put('mode', modes%n_before + m)
@@ -92,8 +94,13 @@ contains
             call table%put('GENERALISED MASS', mode%mass)
             call table%put('residual', mode%residual, page_zero)
             call table%put('mass_'//xyz, above(mode%effective, zero_mass*modes%mass))
-            call table%put('loss_factor', mode%loss, where=plan%has_losses .and. .not. mode%is_rigid)
-            call table%print_row(page%file, page%tables(modes_table))
+            call table%put('loss_factor', mode%loss, where=planned%vibration%has_losses .and. .not. mode%is_rigid)
+            call table%put('kind', trim(part%kind), where=part%kind /= '')
+            call table%put('id', part%id, where=part%kind /= '')
+            call table%put('energy', part%share, where=part%kind /= '')
+            call table%put('PERCENT', percent*part%share, where=part%kind /= '')
+            call table%print_row(page%file, page%tables(modes_table), is_listed=shows(m))
+            if (.not. shows(m)) cycle
             call parts%put('MODE', modes%n_before + m)
             call parts%put('PARTICIPATION '//axes(:d), above(mode%participation(:d), sqrt(page_zero)*largest), page_zero*largest)
             call parts%put('MASS ALONG '//axes(:d), mode%effective(:d), page_zero*modes%mass)
@@ -106,20 +113,60 @@ contains
          call parts%leave_rest()
          call parts%keep_row()
       end if
+      if (planned%output%modes%is_given) call page%file%put('  LISTED: '//integer_text(count(shows))//' OF '// &
+         integer_text(size(shows))//' MODES, WHICH OUTPUT SELECTS; THE FILES AND THE SUM HAVE ALL')
       if (any(modes%modes%is_rigid)) call page%file%put('  FREQUENCY 0: THE STRUCTURE, OR A PART OF IT, MOVES WITHOUT STRAIN')
-      if (plan%amplitude > 0.0_wp) call page%file%put('  LOSS FACTORS FOR A LARGEST DISPLACEMENT OF THE MODE OF '// &
-                                                      real_text(plan%amplitude))
-      if (plan%has_losses .and. plan%amplitude <= 0.0_wp) call page%file%put( &
-         '  LOSS FACTORS OF MATERIALS (GE, PARAM G) ALONE: THE LOSS OF JOINTS NEEDS AN AMPLITUDE')
+      associate (plan => planned%vibration)
+         if (plan%amplitude > 0.0_wp) call page%file%put('  LOSS FACTORS FOR A LARGEST DISPLACEMENT OF THE MODE OF '// &
+                                                         real_text(plan%amplitude))
+         if (plan%has_losses .and. plan%amplitude <= 0.0_wp) call page%file%put( &
+            '  LOSS FACTORS OF MATERIALS (GE, PARAM G) ALONE: THE LOSS OF JOINTS NEEDS AN AMPLITUDE')
+      end associate
       call parts%print_kept(page%file)
-      call list_energies(page, model, modes)
+      call list_energies(page, model, modes, shows)
+      if (allocated(planned%pairs)) call list_pairs(page, model, planned, modes, shows)
    end subroutine list_modes
 
+   !> The movement of the pairs of WATCH in each mode, and the compliance of the mode between the nodes: phi^2/(m omega^2), whose
+   !! sum over all modes is that of two opposite forces on them.
+   subroutine list_pairs(page, model, planned, modes, shows)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(planned_stage), intent(in) :: planned
+      type(modes_type), intent(in)    :: modes
+      logical, intent(in)             :: shows(:) !! (modes) in the listing
+      type(table_type) :: table
+      real(wp) :: moved(size(pair_names)), stiffness
+      integer  :: i, k, m
+
+      if (size(planned%pairs) == 0) return
+      call table%start('MODES BETWEEN TWO NODES', table_columns(pair_modes_table, page%labels, model), page%file)
+      do m = 1, size(modes%modes)
+         stiffness = modes%modes(m)%mass*modes%modes(m)%lambda
+         do k = 1, size(planned%pairs)
+            moved = between(planned%pairs(k), modes%modes(m)%u)
+            where (abs(moved) <= sqrt(page_zero)*maxval(abs(modes%modes(m)%u))) moved = 0.0_wp
+            do i = 1, size(pair_names)
+               if (.not. any(abs(planned%pairs(k)%along(:, i)) > 0.0_wp)) cycle
+               call table%put('stage', page%stage_id)
+               call table%put('mode', modes%n_before + m)
+               call table%put('frequency', modes%modes(m)%frequency)
+               call table%put(['from', 'to  '], planned%pairs(k)%ids)
+               call table%put('along', trim(pair_names(i)))
+               call table%put('movement', moved(i))
+               call table%put('compliance', moved(i)**2/max(stiffness, tiny(1.0_wp)), where=stiffness > 0.0_wp)
+               call table%print_row(page%file, page%tables(pair_modes_table), is_listed=shows(m))
+            end do
+         end do
+      end do
+   end subroutine list_pairs
+
    !> The shares of strain energy; a rigid-body mode has no rows.
-   subroutine list_energies(page, model, modes)
+   subroutine list_energies(page, model, modes, shows)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
       type(modes_type), intent(in)   :: modes
+      logical, intent(in)            :: shows(:) !! (modes) in the listing
       type(table_type) :: table
       integer :: i, m
 
@@ -154,7 +201,7 @@ contains
          call table%put('ALL', percent*sum(shares))
          call table%put(['NORMAL', 'SHEAR '], percent*shares, where=spread(kind == 'JOINT', 1, 2))
          call table%put(['normal', 'shear '], shares)
-         call table%print_row(page%file, page%tables(energy_table), is_listed=sum(shares) >= listed_share)
+         call table%print_row(page%file, page%tables(energy_table), is_listed=sum(shares) >= listed_share .and. shows(m))
       end subroutine put
 
    end subroutine list_energies
@@ -305,65 +352,5 @@ contains
       if (.not. any(found%answers(3, :) <= at_resonance)) call page%file%put( &
          '  NONE UP TO THE LARGEST AMPLITUDE: THE BRANCHES DO NOT MEET')
    end subroutine list_resonances
-
-   !> The largest amplitude of every wanted component, with its frequency; the CSV file has all amplitudes, ordered by frequency,
-   !! node and component. N_WARNINGS counts warnings.
-   subroutine list_response(page, model, response, n_warnings)
-      type(page_type), intent(inout)  :: page
-      type(model_type), intent(in)    :: model
-      type(response_type), intent(in) :: response
-      integer, intent(inout)          :: n_warnings
-      type(table_type) :: table
-      character(12) :: amplitude
-      integer :: at, c, f, i
-
-      n_warnings = n_warnings + size(response%missed) + merge(1, 0, size(response%frequency) == 0)
-      if (size(response%frequency) == 0) then
-         call page%file%put('')
-         call page%file%put('  WARNING: NO RESPONSE TO THE OSCILLATING LOAD: NO MODE FOUND IS IN THE RANGE OF FREQ4')
-         return
-      end if
-      call table%start('RESPONSE TO THE OSCILLATING LOAD, LARGEST AMPLITUDES OF '//integer_text(size(response%frequency))// &
-                       ' FREQUENCIES', [column('NODE', 'i11'), column('ALONG', 'a7'), &
-                       column('AMPLITUDE', 'es15.5', page%labels%length), column('AT FREQUENCY', 'es15.5', '1/TIME'), &
-                       column('PHASE', 'f10.2', 'DEGREES')], page%file)
-      do i = 1, size(response%node)
-         do c = 1, size(response%amplitude, 1)
-            at = first_largest(response%amplitude(c, i, :))
-            call table%put('NODE', response%node(i))
-            call table%put('ALONG', axes(c))
-            call table%put('AMPLITUDE', response%amplitude(c, i, at))
-            call table%put('AT FREQUENCY', response%frequency(at))
-            call table%put('PHASE', response%phase(c, i, at))
-            call table%print_row(page%file)
-         end do
-      end do
-      if (.not. response%is_complete) call page%file%put( &
-         '  BY THESE MODES ALONE: THE STATIC PART OF THE OTHER MODES NEEDS ALL RIGID-BODY MODES AND ONE MODE WITH STRAIN')
-      do i = 1, size(response%missed)
-         associate (peak => response%missed(i))
-            amplitude = in_form(peak%amplitude, '(es12.5)', 12)
-            if (peak%amplitude <= 0.0_wp) amplitude = 'NO BOUND'
-            call page%file%put('  WARNING: MODE '//integer_text(peak%mode)// &
-               ' HAS ITS PEAK BETWEEN THE REQUESTED FREQUENCIES: AT '//trim(adjustl(in_form(peak%frequency, '(es12.5)', 12)))// &
-               ' NODE '//integer_text(response%node(peak%node))//' '//axes(peak%component)//' '//trim(adjustl(amplitude))// &
-               ', IN THE TABLE '//trim(adjustl(in_form(peak%beside, '(es12.5)', 12)))//'; SEE FREQ4')
-         end associate
-      end do
-      call table%start('', table_columns(response_table, page%labels, model)) ! in the CSV file only
-      do f = 1, size(response%frequency)
-         do i = 1, size(response%node)
-            do c = 1, size(response%amplitude, 1)
-               call table%put('stage', page%stage_id)
-               call table%put('frequency', response%frequency(f))
-               call table%put('node', response%node(i))
-               call table%put('component', xyz(c))
-               call table%put('amplitude', response%amplitude(c, i, f))
-               call table%put('phase', response%phase(c, i, f))
-               call table%print_row(csv_file=page%tables(response_table))
-            end do
-         end do
-      end do
-   end subroutine list_response
 
 end module vibration_tables

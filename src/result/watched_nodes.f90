@@ -17,12 +17,13 @@ module watched_nodes
    use mesh_queries, only: element_points, n_points, node_kind
    use model_data, only: a_point, a_spring, bar_nodes, model_type, n_bars
    use restart_stream, only: restart_stream_type
+   use stage_plan, only: between, force_between, node_pair
    use structural_elements, only: bar_elongation
    use tolerances, only: zero_movement, zero_of_sums
    implicit none
    private
 
-   public :: start_watched, find_watched, state_at_end, record_watched
+   public :: start_watched, find_watched, state_at_end, record_watched, summarise_watched
 
    !> The structure at the end of a stage.
    type, public :: watch_state
@@ -41,6 +42,14 @@ module watched_nodes
       real(wp) :: stiffness = 0.0_wp            ! load over that [force/length]
    end type watched_node
 
+   !> One node against another, along the directions of the pair.
+   type, public :: watched_pair
+      type(node_pair) :: pair
+      real(wp) :: moved(4) = 0.0_wp, change(4) = 0.0_wp !! of the last node less the first, and its change over the stage [length]
+      real(wp) :: load(4) = 0.0_wp              !! change over the stage of the force between them; 0: none [force]
+      real(wp) :: stiffness(4) = 0.0_wp         !! load over change; 0: no load, or no movement [force/length]
+   end type watched_pair
+
    !> A component and its shares of the work.
    type :: compliance_share
       character(6) :: kind = ''
@@ -51,17 +60,19 @@ module watched_nodes
 
    type, public :: watch_answer
       type(watched_node), allocatable  :: nodes(:)
+      type(watched_pair), allocatable  :: pairs(:)
       type(compliance_share), allocatable :: parts(:) !! none where the stage does no work
       real(wp) :: work = 0.0_wp                 !! 1/2 sum of Delta q . Delta d [force x length]
    end type watch_answer
 
 contains
 
-   !> The answer for the nodes WATCHED at the end of the completed stage, after recovery of the bodies.
-   subroutine find_watched(model, analysis, watched, before, answer)
+   !> The answer for the nodes WATCHED and PAIRS at the end of the completed stage, after recovery of the bodies.
+   subroutine find_watched(model, analysis, watched, pairs, before, answer)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: watched(:)  !! positions
+      type(node_pair), intent(in)     :: pairs(:)
       type(watch_state), intent(in)   :: before      !! at the end of the last stage
       type(watch_answer), intent(out) :: answer
       type(watch_state) :: now
@@ -102,8 +113,36 @@ contains
             if (answer%moves) answer%stiffness = norm2(answer%load)/answer%along
          end associate
       end do
+      allocate (answer%pairs(size(pairs)))
+      do k = 1, size(pairs)
+         associate (answer => answer%pairs(k), pair => pairs(k))
+            answer%pair = pair
+            answer%moved = between(pair, now%u)
+            answer%change = between(pair, change)
+            answer%load = force_between(pair, load, amount)
+            where (abs(answer%change) > zero_movement*largest) answer%stiffness = answer%load/answer%change
+         end associate
+      end do
       call share_work(model, analysis, change, before, now, answer)
    end subroutine find_watched
+
+   !> The row of the summary: the first WATCHED node of ANSWER or, without one, the first pair along its line; ID is 0 without both.
+   pure subroutine summarise_watched(model, answer, id, watched)
+      type(model_type), intent(in)    :: model
+      type(watch_answer), intent(in)  :: answer
+      integer, intent(out)            :: id
+      type(watched_node), intent(out) :: watched
+
+      id = 0
+      if (size(answer%nodes) > 0) then
+         watched = answer%nodes(1)
+         id = model%mesh%node_id(watched%node)
+      else if (size(answer%pairs) > 0) then
+         id = answer%pairs(1)%pair%ids(1)
+         watched = watched_node(is_loaded=abs(answer%pairs(1)%load(1)) > 0.0_wp, along=answer%pairs(1)%change(1), &
+                                moves=abs(answer%pairs(1)%stiffness(1)) > 0.0_wp, stiffness=answer%pairs(1)%stiffness(1))
+      end if
+   end subroutine summarise_watched
 
    !> The shares of bodies, joints, bars and springs in the work over the stage, in which the nodes moved by CHANGE. The work of a
    !! body is that of its nodal forces less the thermal forces.

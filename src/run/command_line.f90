@@ -16,8 +16,8 @@ module command_line
 
    character(*), parameter :: program = 'jointfem', nl = new_line('a')
    character(9), parameter :: help_options(2) = [character(9) :: '--help', '-h'] ! the entry may follow
-   character(9), parameter :: options_with_value(7) = [character(9) :: '-o', '--threads', '--watch', '--summary', '--set', &
-                                                       help_options]
+   character(10), parameter :: options_with_value(8) = [character(10) :: '-o', '--threads', '--watch', '--summary', '--set', &
+                                                        '--progress', help_options]
 
    character(*), parameter :: help = &
       'usage: jointfem [options] DECK...'//nl// &
@@ -37,6 +37,8 @@ module command_line
       '   --check       read and check the decks without solving them'//nl// &
       '   --joints      print cards for joints where bodies face each other, without solving'//nl// &
       '   -q            do not show progress on the terminal'//nl// &
+      '   --progress LINES  a line for each increment to standard error; without it, where standard error is no terminal,'//nl// &
+      '                 from the first minute of a run on'//nl// &
       '   --threads N   use at most N threads (default: all cores); the results do not depend on N'//nl// &
       '   --set N=V     replace ${N} in the decks by V; N=V,V,V makes one run for each value, named beam_N=V'//nl// &
       '   --watch N,N   nodes whose displacement and stiffness are added to the answer of every stage'//nl// &
@@ -76,6 +78,7 @@ module command_line
       logical :: check_only = .false.       !! --check
       logical :: suggest    = .false.       !! --joints
       logical :: quiet      = .false.       !! -q
+      logical :: in_lines   = .false.       !! --progress LINES
       logical :: times      = .false.       !! --times
       logical :: dated      = .false.       !! --date
       logical :: resume     = .false.       !! --resume
@@ -141,6 +144,10 @@ contains
             command%summary = value
          case ('--set')
             call read_setting(value, settings, ok)
+         case ('--progress')
+            command%in_lines = upper(value) == 'LINES'
+            ok = command%in_lines
+            if (.not. ok) call complain(program, '--progress '//value//': expected LINES')
          case ('--watch')
             command%watched = value
             ok = value /= '' .and. verify(value, '0123456789,') == 0
@@ -164,6 +171,7 @@ contains
       character(*), intent(in) :: text
       type(setting_type), allocatable, intent(inout) :: settings(:)
       logical, intent(out)     :: ok
+      type(setting_type), allocatable :: longer(:)
       character(:), allocatable :: values
       integer :: equals, k
 
@@ -182,8 +190,14 @@ contains
       end if
       ok = all([(settings(k)%name /= text(:equals - 1), k = 1, size(settings))])
       if (.not. ok) call complain(program, '--set '//text(:equals)//': given twice')
-      settings = [settings, setting_type(text(:equals - 1), values, &
-                                         [0, pack([(k, k = 1, len(values))], [(values(k:k) == ',', k = 1, len(values))])])]
+      allocate (longer(size(settings) + 1)) ! gfortran 12 loses the texts of an array constructor
+      longer(:size(settings)) = settings
+      associate (setting => longer(size(longer)))
+         setting%name = text(:equals - 1)
+         setting%values = values
+         setting%commas = [0, pack([(k, k = 1, len(values))], [(values(k:k) == ',', k = 1, len(values))])]
+      end associate
+      call move_alloc(longer, settings)
    end subroutine read_setting
 
    !> The runs of COMMAND: each of FILES with every combination of values of SETTINGS. beam.bdf gives beam.out and beam.joint.csv.

@@ -5,7 +5,7 @@ module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use backbone, only: backbone_type, find_loop, finish_backbone, start_backbone
    use c_library, only: end_run, make_folders, open_standard_outputs, tell_failed_writes
-   use control_words, only: method_back
+   use control_words, only: method_back, no_restart
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use condensed_interface, only: condense_on_joints
    use condition_estimate, only: watch_condition
@@ -37,7 +37,8 @@ module run_boxes
                           phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
                           is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
-   use vibration_tables, only: list_backbone, list_response
+   use response_tables, only: list_pair_response, list_response, list_uncovered
+   use vibration_tables, only: list_backbone
    use vtu_grids, only: write_piece
    use text_tools, only: integer_text
    implicit none
@@ -77,7 +78,8 @@ contains
       call write_restart(run, deck, plan, system, analysis)
    end subroutine go_on
 
-   !> Compute modes, backbone and response, and print them together: a restart file written meanwhile contains none of them.
+   !> Compute modes, backbone and response. With RESTART they are printed together, so that a restart file written meanwhile
+   !! contains none of them; without it the modes stay where the backbone is interrupted.
    subroutine oscillate(run, deck, model, plan, wanted, system, analysis)
       type(run_type), intent(inout)         :: run
       type(deck_type), intent(in)           :: deck
@@ -102,6 +104,7 @@ contains
       end if
       allocate (modes)
       call evaluate_modes(model, analysis, structure, wanted, spectrum, shifted, modes)
+      if (deck%control%restart == no_restart) call keep_modes()
       if (allocated(wanted%backbone)) then
          call enter(run, phase_backbone)
          call start_backbone(model, plan, analysis, system, modes, found, run%failure)
@@ -114,14 +117,29 @@ contains
          if (allocated(analysis%kept)) deallocate (analysis%kept)
          call enter(run, phase_modes)
       end if
-      call print_modes(model, plan, analysis%stage, modes, run%results)
+      if (deck%control%restart /= no_restart) call keep_modes()
       if (run%failure%raised) return
       associate (page => run%results%page, n_warnings => run%results%watch%n_warnings)
          if (allocated(wanted%backbone)) call list_backbone(page, model, found, n_warnings)
          if (.not. allocated(wanted%response)) return
          call find_response(model, structure, wanted%response, spectrum, modes, shifted, response, run%failure)
-         if (.not. run%failure%raised) call list_response(page, model, response, n_warnings)
+         if (run%failure%raised) then
+            call end_stage(plan, run%results) ! the modes and the backbone are complete
+            return
+         end if
+         call list_uncovered(page, model, modes, response, n_warnings)
+         call list_response(page, model, response, n_warnings)
+         call list_pair_response(page, model, wanted%response%pairs, response)
       end associate
+
+   contains
+
+      !> Print the modes; they stay if the run ends early.
+      subroutine keep_modes()
+         call print_modes(model, plan, analysis%stage, modes, run%results)
+         call end_stage(plan, run%results)
+      end subroutine keep_modes
+
    end subroutine oscillate
 
    !> Read the command line; end the program where nothing is left to do. Set the threads and the watch on the memory. With several
@@ -341,7 +359,8 @@ contains
             call enter(run, phase_write)
             run%solver = system%description
             call list_results(model, plan, analysis, run%results)
-            call advance(run, analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%fractions))
+            call advance(run, analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%fractions), &
+                         analysis%record%n_iterations)
          end if
       end if
       if (analysis%increment > 0 .and. (completes_stage .or. run%keeps_results) .and. .not. overflow%raised) then

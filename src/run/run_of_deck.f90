@@ -22,16 +22,16 @@ module run_of_deck
    use page_lines, only: heading
    use range_watch, only: tetra_words
    use restart_stream, only: restart_stream_type
-   use result_page, only: history_ending
+   use result_page, only: history_ending, largest_safety
    use result_names, only: listing_ending, restart_ending
    use results, only: discard_results, finish_results, keep_finished_stages, results_type, show_answers
    use stage_plan, only: stage_plan_type
    use table_column, only: column, column_type, csv, csv_titles
    use table_writer, only: table_type
-   use terminal, only: clear_line, complain_of_input, open_line, say_line, show_line
+   use terminal, only: clear_line, complain_of_input, log_line, open_line, say_line, show_line
    use text_tools, only: integer_text, plural
    use unit_watch, only: stress_words
-   use watched_nodes, only: watched_node
+   use watched_nodes, only: summarise_watched, watched_node
    implicit none
    private
 
@@ -103,7 +103,7 @@ contains
       run%is_timed = command%times
       words = ''
       if (argument%of > 1) words = ' ('//integer_text(argument%number)//' of '//integer_text(argument%of)//')'
-      call open_line(argument%name//words, command%quiet)
+      call open_line(argument%name//words, command%quiet, command%in_lines)
       call system_clock(run%began, run%rate)
       run%entered = run%began
       run%phase = phase_read
@@ -138,9 +138,9 @@ contains
    end subroutine expect
 
    !> Count one more increment. The first one of a run is always shown.
-   subroutine advance(run, stage, increment, increments)
+   subroutine advance(run, stage, increment, increments, iterations)
       type(run_type), intent(inout) :: run
-      integer, intent(in)           :: stage, increment, increments
+      integer, intent(in)           :: stage, increment, increments, iterations
       integer(long) :: now
       real(wp) :: left
       character(:), allocatable :: words
@@ -148,8 +148,9 @@ contains
       run%done = run%done + 1
       call system_clock(now)
       left = real(now - run%increments_began, wp)/run%rate*(run%total - run%done)/(run%done - run%before)
-      words = 'stage '//integer_text(stage)//', increment '//integer_text(increment)//' of '//integer_text(increments)// &
-              ', '//integer_text(nint(left))//' s left'
+      words = 'stage '//integer_text(stage)//', increment '//integer_text(increment)//' of '//integer_text(increments)
+      call log_line(words//', '//plural(iterations, 'iteration')//', '//integer_text(nint(left))//' s left')
+      words = words//', '//integer_text(nint(left))//' s left'
       if (run%solver%solutions > 0) words = words//', '//integer_text(int(run%solver%steps/run%solver%solutions))// &
                                             ' steps a solution'
       call show_line(words, at_once=run%done == run%before + 1)
@@ -248,8 +249,7 @@ contains
                          digest%frequency >= 0.0_wp]
       end associate
       if (.not. allocated(run%results%watched%nodes)) return
-      row%watched = run%results%watched%nodes(1)
-      row%node = model%mesh%node_id(row%watched%node)
+      call summarise_watched(model, run%results%watched, row%node, row%watched)
    end subroutine finish_run
 
    !> Report that the standard output is full or closed.
@@ -367,7 +367,7 @@ contains
             call table%put('contact', d%contact, where=row%is_there(3))
             call table%put('CONTACT %', 100.0_wp*d%contact, where=row%is_there(3))
             call table%put('safety', d%safety, where=row%is_there(4))
-            call table%put('MU N/T', min(d%safety, 99999.0_wp), where=row%is_there(4))
+            call table%put('MU N/T', d%safety, where=row%is_there(4) .and. d%safety <= largest_safety)
             call table%put('frequency', d%frequency, where=row%is_there(5))
             call table%put('watched', row%node, where=row%node > 0)
             call table%put('along', row%watched%along, where=row%watched%is_loaded)

@@ -115,7 +115,8 @@ contains
          i = size(found%loops) + 1
          more = found%problem == '' .and. i <= size(wanted%amplitudes)
          if (.not. more) return
-         call show_line('backbone, amplitude '//integer_text(i)//' of '//integer_text(size(wanted%amplitudes)), at_once=i == 1)
+         found%modal%place = 'backbone, amplitude '//integer_text(i)//' of '//integer_text(size(wanted%amplitudes))
+         call show_line(found%modal%place, at_once=i == 1)
          call reach_amplitude(model, wanted, wanted%amplitudes(i), found, loop)
          more = found%problem == '' .and. loop%n_loops > 0
          if (loop%n_loops > 0) found%loops = [found%loops, loop]

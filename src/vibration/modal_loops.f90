@@ -24,6 +24,8 @@ module modal_loops
    use node_coupling, only: displacements, forces_on_unknowns
    use shear_stiffness, only: shear_slope
    use stage_plan, only: backbone_plan
+   use terminal, only: show_line
+   use text_tools, only: integer_text, one_of
    use tolerances, only: equal_senses, minor_area, zero_loop_area
    implicit none
    private
@@ -119,6 +121,8 @@ contains
          change_before = change
          call run_loop(model, modal, wanted%increments, now, loop, failure)
          if (failure%raised) exit
+         if (allocated(modal%place)) call show_line(modal%place//', loop '//integer_text(loop%n_loops)// &
+            one_of(present(fine), '', ' of the search for the load'), at_once=.false., is_logged=.true.)
          if (present(fine)) call be_precise(wanted, loop, least_loss, modal)
          if (loop%n_loops < 2) cycle
          change = abs([loop%q, loop%lost, loop%gap*loop%q] - before)

@@ -53,6 +53,7 @@ module modal_path
       type(stage_plan_type) :: plan
       type(mass_matrix_type) :: mass
       class(equation_system), allocatable :: system
+      character(:), allocatable :: place             !! 'backbone, amplitude 3 of 10', for the progress; not allocated: none
    end type modal_load_type
 
    !> What happened on a path.

@@ -17,13 +17,14 @@ module modal_response
    use eigenpairs, only: all_displacements, residual_displacements
    use equation_solver, only: equation_system, failure_type
    use kinds, only: wp
+   use mode_parts, only: main_part, mode_part
    use mode_values, only: modes_type
    use model_data, only: model_type
    use natural_modes, only: factorise_at, oscillating_type, spectrum_type
    use numbers, only: first_largest
-   use stage_plan, only: asked_frequencies, loss_at, response_plan
-   use text_tools, only: real_text
-   use tolerances, only: at_resonance, no_motion, unexcited
+   use stage_plan, only: asked_frequencies, between, force_between, loss_at, response_plan
+   use text_tools, only: integer_text, one_of, real_text
+   use tolerances, only: at_resonance, no_motion, same_frequency, unexcited
    implicit none
    private
 
@@ -60,8 +61,11 @@ module modal_response
       real(wp), allocatable :: frequency(:)       !! (frequencies) [1/time]
       real(wp), allocatable :: amplitude(:, :, :) !! (2 or 3 components, nodes, frequencies), >= 0 [length]
       real(wp), allocatable :: phase(:, :, :)     !! likewise, of the displacement against the force [degrees]
+      complex(wp), allocatable :: between(:, :, :) !! (directions, pairs, frequencies) movement of one node against another [length]
+      real(wp), allocatable :: force(:, :)        !! (directions, pairs) of the load between the nodes of a pair; 0: none [force]
       type(missed_peak), allocatable :: missed(:)
       logical :: is_complete = .false.            !! includes the static contribution of the other modes
+      integer :: n_beyond = 0                     !! requested frequencies above the modes, where peaks are missing
    end type response_type
 
 contains
@@ -138,22 +142,23 @@ contains
       type(modal_system) :: superposed
       type(failure_type) :: loose
       real(wp), allocatable :: x(:), u_rest(:, :)
-      complex(wp) :: u(model%mesh%dimension*size(plan%nodes))
+      complex(wp) :: u(model%mesh%dimension*size(plan%nodes) + 4*size(plan%pairs)) ! of the nodes, then of the pairs
       real(wp) :: large(size(u))
-      integer  :: d, f, m, n
+      integer  :: d, f, k, m, n
       logical  :: ok
 
       d = model%mesh%dimension
       n = size(plan%nodes)
-      allocate (superposed%shape(d*n, size(modes%modes)), superposed%force(size(modes%modes)), &
+      allocate (superposed%shape(size(u), size(modes%modes)), superposed%force(size(modes%modes)), &
                 superposed%viscous(size(modes%modes)), source=0.0_wp)
       superposed%lambda = modes%modes%lambda
       superposed%mass = modes%modes%mass
       superposed%loss = modes%modes%loss
-      superposed%rest = spread(0.0_wp, 1, d*n)
+      superposed%rest = spread(0.0_wp, 1, size(u))
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))
-            superposed%shape(:, m) = pack(mode%u(:, plan%nodes), .true.)
+            superposed%shape(:, m) = [pack(mode%u(:, plan%nodes), .true.), &
+                                      (between(plan%pairs(k), mode%u), k = 1, size(plan%pairs))]
             superposed%force(m) = sum(mode%u*plan%force(:d, :))
             if (abs(superposed%force(m)) <= unexcited*norm2(plan%force(:d, :))*maxval(abs(mode%u))) superposed%force(m) = 0.0_wp
             if (.not. allocated(plan%damping)) cycle
@@ -186,26 +191,53 @@ contains
       if (response%is_complete) then
          x(system%locked) = 0.0_wp
          allocate (u_rest, source=all_displacements(model, system, x))
-         superposed%rest = pack(u_rest(:, plan%nodes), .true.)
+         superposed%rest = [pack(u_rest(:, plan%nodes), .true.), (between(plan%pairs(k), u_rest), k = 1, size(plan%pairs))]
          if (system%shift >= 0.0_wp) superposed%rest = superposed%rest - static_share(superposed)
       end if
       response%node = model%mesh%node_id(plan%nodes)
       response%frequency = asked_frequencies(plan, modes%modes%frequency)
-      allocate (response%amplitude(d, n, size(response%frequency)), response%phase(d, n, size(response%frequency)))
+      response%n_beyond = count(plan%frequencies > (1.0_wp + same_frequency)*modes%reach)
+      allocate (response%amplitude(d, n, size(response%frequency)), response%phase(d, n, size(response%frequency)), &
+                response%between(4, size(plan%pairs), size(response%frequency)))
+      response%force = reshape([(force_between(plan%pairs(k), plan%force(:d, :), unexcited*norm2(plan%force)), &
+                                 k = 1, size(plan%pairs))], [4, size(plan%pairs)])
       do f = 1, size(response%frequency)
          call response_at(superposed, response%frequency(f), u, ok)
          if (.not. ok) then
-            call failure%raise('FREQUENCY: at '//real_text(response%frequency(f))// &
-                               ' the response is unbounded: no damping, or an unsupported structure')
+            m = minloc(abs(superposed%lambda - (2.0_wp*pi*response%frequency(f))**2), dim=1, mask=abs(superposed%force) > 0.0_wp)
+            call failure%raise('FREQUENCY: at '//real_text(response%frequency(f))//' the response is unbounded: '// &
+                               why_unbounded(model, modes, m))
             return
          end if
          large = abs(u)
          where (large <= no_motion*maxval(large)) u = 0.0_wp
-         response%amplitude(:, :, f) = reshape(abs(u), [d, n])
-         response%phase(:, :, f) = reshape(phase_of(u), [d, n])
+         response%amplitude(:, :, f) = reshape(abs(u(:d*n)), [d, n])
+         response%phase(:, :, f) = reshape(phase_of(u(:d*n)), [d, n])
+         response%between(:, :, f) = reshape(u(d*n + 1:), [4, size(plan%pairs)])
       end do
+      superposed%shape = superposed%shape(:d*n, :)
+      superposed%rest = superposed%rest(:d*n)
       call find_missed_peaks(plan, modes, superposed, response)
    end subroutine find_response
+
+   !> Why the response at the frequency of mode M of MODES has no bound, and what gives it one.
+   pure function why_unbounded(model, modes, m) result(words)
+      type(model_type), intent(in) :: model
+      type(modes_type), intent(in) :: modes
+      integer, intent(in)          :: m
+      character(:), allocatable :: words
+      type(mode_part) :: part
+
+      words = 'mode '//integer_text(modes%n_before + m)
+      if (modes%modes(m)%is_rigid) then
+         words = words//' is a motion without strain: the structure, or a part of it, is not supported'
+      else
+         part = main_part(model, modes%modes(m)%energy)
+         words = words//' has no damping; '//integer_text(nint(100.0_wp*part%share))//' % of its strain energy is in '// &
+                 trim(part%kind)//' '//integer_text(part%id)//': expected '// &
+                 one_of(part%kind == 'JOINT', 'AMPLITUDE or SDAMPING', 'GE on its MAT1')//', or PARAM,G'
+      end if
+   end function why_unbounded
 
    !> The modes whose peak lies between two frequencies of RESPONSE and is missed: at the peak some component exceeds its
    !! amplitudes at both frequencies. For each mode the component of the largest amplitude.

@@ -26,7 +26,7 @@ module mode_values
    use kinds, only: wp
    use mass_matrix, only: mass_times, total_mass
    use connected_bodies, only: find_bodies
-   use mesh_queries, only: n_points
+   use mesh_queries, only: is_shell, n_points
    use model_data, only: bar_nodes, model_type, n_bars
    use natural_modes, only: oscillating_type, spectrum_type
    use normal_curve, only: normal_tangent
@@ -44,7 +44,7 @@ module mode_values
 
    !> Of one mode [force x length].
    type, public :: energy_type
-      real(wp), allocatable :: body(:)             !! (bodies)
+      real(wp), allocatable :: body(:), shell(:)   !! (bodies), and the part of their shells in that
       real(wp), allocatable :: bar(:)              !! (bars)
       real(wp), allocatable :: normal(:), shear(:) !! (joints)
       real(wp) :: damped = 0.0_wp                  !! of bodies and bars, each part times GE; a cycle loses 2 pi times this
@@ -71,6 +71,7 @@ module mode_values
       type(mode_type), allocatable :: modes(:)
       integer  :: n_before = 0                      !! modes below the range
       integer  :: n_counted = 0                     !! modes below COUNTED_AT, all found
+      real(wp) :: reach = 0.0_wp                    !! frequency up to which no mode is missing [1/time]; huge: these are all modes
       real(wp) :: counted_at = 0.0_wp               !! frequency [1/time]; no bound: huge
       real(wp) :: mass = 0.0_wp                     !! of the structure [force time^2/length]
       real(wp) :: centre(3) = 0.0_wp                !! of that [length]
@@ -164,6 +165,7 @@ contains
 
       modes%n_before = spectrum%n_before
       modes%n_counted = spectrum%n_counted
+      modes%reach = merge(sqrt(spectrum%reach)/two_pi, huge(1.0_wp), spectrum%reach < huge(1.0_wp))
       modes%counted_at = merge(sqrt(spectrum%counted_at)/two_pi, huge(1.0_wp), spectrum%counted_at < huge(1.0_wp))
       modes%n_touching = count(analysis%states%normal%branch /= branch_open)
       modes%steeper = [(merge(0.0_wp, default_steepness(model, analysis, d), plan%on_loading), d = 1, size(model%joints%list))]
@@ -306,6 +308,7 @@ contains
       real(wp), intent(in)              :: factor
 
       self%body = factor*self%body
+      self%shell = factor*self%shell
       self%bar = factor*self%bar
       self%normal = factor*self%normal
       self%shear = factor*self%shear
@@ -329,8 +332,8 @@ contains
       f = 0.0_wp
       call find_bodies(model%mesh, body, n_bodies)
       do m = 1, size(energies)
-         allocate (energies(m)%body(n_bodies), energies(m)%bar(n_bars(model%mesh)), energies(m)%normal(size(model%joints%list)), &
-                   energies(m)%shear(size(model%joints%list)), source=0.0_wp)
+         allocate (energies(m)%body(n_bodies), energies(m)%shell(n_bodies), energies(m)%bar(n_bars(model%mesh)), &
+                   energies(m)%normal(size(model%joints%list)), energies(m)%shear(size(model%joints%list)), source=0.0_wp)
       end do
       do e = 1, model%mesh%n_elements
          call element_stiffness(model, e, k)
@@ -343,6 +346,7 @@ contains
          do m = 1, size(energies)
             energy = 0.5_wp*dot_product(q(:n, m), p(:n, m))
             energies(m)%body(body(e)) = energies(m)%body(body(e)) + energy
+            if (is_shell(model%mesh, e)) energies(m)%shell(body(e)) = energies(m)%shell(body(e)) + energy
             energies(m)%damped = energies(m)%damped + model%mesh%properties(model%mesh%element_property(e))%damping*energy
          end do
       end do

@@ -48,6 +48,7 @@ module natural_modes
       real(wp) :: shift = 0.0_wp                  !! shift of the search
       integer  :: n_counted = 0                   !! eigenvalues below COUNTED_AT, all found
       real(wp) :: counted_at = 0.0_wp             !! [1/time^2]
+      real(wp) :: reach = 0.0_wp                  !! up to here no mode is missing among the wanted ones; huge: they are all [1/time^2]
       real(wp), allocatable :: load(:)            !! (equations) of the response, where one is wanted [force]
       real(wp), allocatable :: at_rest(:)         !! (equations) under this load at rest, where a factor without shift was made
    end type spectrum_type
@@ -144,6 +145,16 @@ contains
       else
          call find_some(model, structure, plan, spectrum, failure)
       end if
+      if (failure%raised) return
+      associate (n => spectrum%n_wanted)
+         if (max(spectrum%reach, spectrum%counted_at) < huge(1.0_wp) .or. spectrum%n_before + n < spectrum%n_counted) then
+            spectrum%reach = 0.0_wp
+            if (n > 0) spectrum%reach = spectrum%lambda(n) ! the last mode or, where ND has not limited them, the end of the range
+            if (plan%has_highest .and. n /= plan%most) spectrum%reach = (two_pi*plan%highest)**2
+         else
+            spectrum%reach = huge(1.0_wp)
+         end if
+      end associate
       allocate (system, source=structure%started)
       system%shift = spectrum%shift
       call hold_bolts(model, structure, system)
@@ -208,6 +219,7 @@ contains
             else if (size(lambda) < n) then ! no more modes exist
                last = size(lambda)
                spectrum%counted_at = 2.0_wp*maxval([lambda, abs(spectrum%shift)])
+               spectrum%reach = huge(1.0_wp)
                if (.not. spectrum%counted_at > 0.0_wp) then ! no free unknown has mass
                   wanted = 0
                   return

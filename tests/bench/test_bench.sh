@@ -317,8 +317,9 @@ count 'iterations.awk' $?
 if [ -x "${program}_mpi" ] && command -v mpirun > /dev/null; then
    MPI_SHAPES=hex8_10x4x4 "$here/bench.sh" "$program" "$work/itself" mpi > "$work/tables" 2> "$work/said"
    count 'bench.sh on two processes' $?
-   row '^\| hex8 10 x 4 x 4 \| 745 \| 1 \|( [0-9.]+ \|){10}$'
-   row '^\| hex8 10 x 4 x 4 \| 745 \| 2 \|( [0-9.]+ \|){10}$'
+   for processes in 1 2; do # the memory of two is sampled: so short a run may escape
+      row '^\| hex8 10 x 4 x 4 \| 745 \| '$processes' \|( [0-9.]+ \|){6}( [0-9.]+)? \|( [0-9.]+ \|){3}$'
+   done
 fi
 
 # ------------------------------------------------------------------ a word that it does not know

@@ -226,3 +226,15 @@ run opened && for stage in 1 2; do
    same "opened, stage $stage: node in the file" "$(awk -F, -v s=$stage 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } $1 == s { print $at["p_node"] }' \
       "$work/opened.stage.csv")" "$([ $stage = 1 ] && echo 7)"
 done
+
+# a safety above 1,000 says nothing: the answer and the table of all runs leave it blank, the file has it. P = 1000, MU = 0.2, T of 1 and 0.1
+for t in 1.0 0.1; do
+   cards answer_safety <<DECK
+METHOD = NEWTON;LOAD = 10;BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;+,5;PSHELL,1,1,2.0;MAT1,1,9500.0,,0.0;PMARK,5;JOINT,1,1,5
+PJOINT,1,1,1,,0.2;JNORM,1,8.0-3,0.5;JSHEAR,1,1000.0;FORCE,10,2,,500.0,0.0,-1.0;FORCE,10,4,,500.0,0.0,-1.0;FORCE,10,1,,$t,1.0;ENDDATA
+DECK
+   "$program" -q -o "$work" --summary "$work/answer_safety.csv" "$work/answer_safety.bdf" "$work/block.bdf" > "$work/answer_safety.log" 2>&1
+   near "MU N/T with T = $t: in the file" "$("$query" "$work/answer_safety.stage.csv" print safety)" "0.2*1000/$t" 1e-6
+   same '... in the answer' "$(awk '/^ *JOINT CONTACT %/ { n = NR + 1 } NR == n { print NF; exit }' "$work/answer_safety.out")" $([ $t = 1.0 ] && echo 10 || echo 9)
+   same '... in the table of all runs' "$(grep -c ' 200.000' <(sed -n '/ALL RUNS/,$p' "$work/answer_safety.log"))" $([ $t = 1.0 ] && echo 1 || echo 0)
+done

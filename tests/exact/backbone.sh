@@ -29,6 +29,18 @@ for method in NEWTON STEP; do
    pushed_mass jenkins JAMPL,6,1,0.1,21,0.001 "$joint;JSHEAR,2,40.0;CELAS2,2,1000.0,1,1" $method &&
       judge_rows jenkins 21 'min(4000, 26/x) + 1000' '4*26*max(0, x - 26/4000)'
 done
+# the progress in a log names amplitude and loop
+"$program" -q --progress LINES -o "$work" "$work/jenkins.bdf" > "$work/jenkins.log" 2>&1
+same 'Jenkins: amplitudes in the log' "$(sed -nE 's/.*jenkins.bdf, [0-9]+ s: backbone, amplitude ([0-9]+) of 21, loop 2$/\1/p' "$work/jenkins.log" | sort -nu | wc -l)" 21
+# interrupted in the backbone, the modes stay, marked
+sed 's/^JAMPL.*/JAMPL,6,1,0.1,1000,0.001,,200/' "$work/jenkins.bdf" > "$work/halted.bdf"
+"$program" -q --progress LINES -o "$work" "$work/halted.bdf" > "$work/halted.log" 2>&1 &
+runner=$!
+for ((i = 0; i < 600; i++)); do grep -q 'amplitude 2 of' "$work/halted.log" && break; sleep 0.05; done
+kill -s TERM $runner
+{ wait $runner; } 2> /dev/null
+same 'interrupted in a backbone: the modes stay' "$(awk 'NR > 1' "$work/halted.modes.csv" | wc -l)" 2
+says '... marked in the listing' "$work/halted.out" '^ ENDED EARLY   AT STAGE 1, INCREMENT 1: 1 STAGE'
 same 'Jenkins: elements that slip' "$(number "$(backbone jenkins slipping 13) + 2*($(backbone jenkins slipping 14))")" 2
 near 'Jenkins: the amplitudes' "$(backbone jenkins amplitude 11)" 0.1*10^-1.5 1e-8
 # any number of increments
@@ -226,7 +238,7 @@ rocking aside 90.0 2 && rocking mirrored -90.0 2 && {
 # close within an increment; in 14 the change of q passes through zero while the loop still moves; in 140 an element turns from loading to
 # unloading where another one opens; in 176 the first loops come to rest before the drift begins
 if ${FC:-gfortran} -O2 -std=f2018 -Wall -Wextra -Werror -fno-backtrace -o "$work/direct_loops" tests/exact/direct_loops.f90; then
-   for seed in ${DIRECT:-1 3 4 5 6 7 9 11 12 14 47 85 140 176}; do
+   for seed in ${DIRECT:-1 4 7 11 14 47 85 140 176}; do
       "$work/direct_loops" deck "$seed" > "$work/direct.bdf" && run direct &&
          "$work/direct_loops" judge "$seed" "$work/direct.backbone.csv" "$work/direct.loop.csv" > "$work/direct.log"
       if [ "$(grep -c -v '^checked [0-9]' "$work/direct.log")" -eq 0 ]; then passed=$((passed + 1)); else

@@ -241,3 +241,31 @@ tells_drop drops_pressed 0 NEWTON '' 0. -40.
 tells_drop drops_step 0 STEP '' 0. 100.
 tells_drop drops_step_apart 0 STEP '' 0.01 10.
 same 'shear without MU, nothing opens: not said' "$("$program" -q -o "$work" input/two_blocks.bdf 2>&1 | grep -c "$drop_said")" 0
+
+# A point on springs slides along x, and then its load turns towards y: the stress follows the turn. The error falls with the square of the
+# number of increments, and by default is within PATHTOL. In the limit f = k u + a l n and l dn/dx = e - n (n . e), which is integrated here.
+turned_push() { # NAME CONTROL [INCREMENTS]
+   cards "$1" <<DECK
+METHOD = NEWTON;MODEL = SPACE;${2}SUBCASE 1;  INCR = 8;  LOAD = 1;SUBCASE 2;  LOAD = 2;$([ -n "${3:-}" ] && echo '  INCR = 9;')BEGIN BULK
+GRID,5,,1.,2.,3.;CJOINT,8,1,5,,50.,0.,0.,-1.;PJOINT,1,1,1,1,.3;JNORM,1,2.-4,1.,5000.;JSHEAR,1,1600.
+CELAS2,11,20000.,5,1;CELAS2,12,20000.,5,2;CELAS2,13,1000.,5,3;JINCR,8,1;JINCR,9,${3:-1},ARITH,$(awk "BEGIN { printf \"%.15f\", 1/${3:-1} }")
+FORCE,1,5,,400.,0.,0.,-1.;FORCE,1,5,,300.,1.,0.,0.;FORCE,2,5,,400.,0.,0.,-1.;FORCE,2,5,,300.,1.,0.,0.;FORCE,2,5,,300.,0.,1.,0.;ENDDATA
+DECK
+   run "$1"
+}
+turn_errors=()
+for increments in 4 8 16; do
+   turned_push turned "" $increments && turn_errors+=("$("$query" "$work/turned.joint.csv" rows 'stage = 2' rows "increment = $increments" print 'delta_y')")
+done
+turned_push turned_default "" && turn_errors+=("$("$query" "$work/turned_default.joint.csv" rows 'stage = 2' print 'delta_y')")
+turn_p=$("$query" "$work/turned.joint.csv" rows 'stage = 2' rows 'increment = 16' print pressure)
+judge "slip turns with the load: ${turn_errors[*]}" -v p="$turn_p" -v movements="${turn_errors[*]}" '
+   # f = 20000 u + 50 l n; n at an angle b; over the load s from 0 to 1: 20000 (ux, uy) = f - 50 l (cos b, sin b), l db = 1600 (uy cos b - ux sin b)
+   # so l (1 + 50*1600/20000) db = 1600/20000 dfy cos b
+   BEGIN { l = 0.3*p; b = 0; n = 20000; h = 1/n
+      for (i = 0; i < n; i++) { r1 = rate(b); r2 = rate(b + h*r1/2); r3 = rate(b + h*r2/2); r4 = rate(b + h*r3); b += h*(r1 + 2*r2 + 2*r3 + r4)/6 }
+      u = (300 - 50*l*sin(b))/20000; split(movements, m, " ")
+      for (i = 1; i <= 4; i++) e[i] = (-m[i] - u)/u
+      if (e[1]^2 > 1e-4 || e[2]^2 > (0.3*e[1])^2 || e[3]^2 > (0.3*e[2])^2 || e[4]^2 > 1e-6) print e[1] " " e[2] " " e[3] ", by default " e[4]
+      print "checked 1"; exit }
+   function rate(b) { return 1600/20000*300*cos(b)/(l*(1 + 50*1600/20000)) }'

@@ -175,3 +175,27 @@ DECK
    judge "free in space, $n modes: shares" 'NR > 1 { share[$2] += $5 + $6 }
       END { for (m in share) { checked++; if (m + 0 <= 6 || (share[m] - 1)^2 > 1e-12) print m, share[m] } print "checked " checked + 0 }' FS=, "$work/afloat.modes.energy.csv"
 done
+
+# ---- The part with most energy, and which modes are listed: a block of steel and a thin plate, each clamped, and two masses on rods. The
+# plate has the lowest modes; the modes of the mass of 0.03 move 60 % of the mass of the rods' model, those of the other 40 %.
+printf '%b\n' 'MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  MODES = 5\n  OUTPUT = LAST, BODY 1\nBEGIN BULK\nBLOCK3,1,1,2,2,2,0.0,0.0,0.0\n+,20.0,20.0,200.0\n+,,,,,20\nPMARK,20\nPSOLID,1,1' \
+   'GRID,901,,100.0,0.0,0.0\nGRID,902,,200.0,0.0,0.0\nGRID,903,,200.0,80.0,0.0\nGRID,904,,100.0,80.0,0.0\nCQUAD4,901,2,901,902,903,904\nPSHELL,2,1,2.0,1,,1' \
+   'MAT1,1,2.1+5,,0.3,7.85-9\nSPCM,1,123,20\nSPC1,1,123456,901,904\nEIGRL,5,,,8\nENDDATA' > "$work/parts.bdf"
+run parts && {
+   same 'the part of mode 1' "$(mode parts 1 kind) $(mode parts 1 id)" 'SHELLS 2'
+   near '... its share' "$(mode parts 1 energy)" 1 1e-9
+   n=$(awk -F, '$10 == "BODY"' "$work/parts.modes.csv" | wc -l)
+   holds 'modes of the block are among them' "$n > 0 and $n < 8"
+   same 'OUTPUT = BODY: modes listed' "$(table parts FREQUENCIES | awk '$1 + 0 > 0 && $6 == "BODY"' | wc -l) $(table parts FREQUENCIES | grep -c SHELLS)" "$n 0"
+   says '... of how many' "$work/parts.out" "LISTED: $n OF 8 MODES, WHICH OUTPUT SELECTS"
+   sed -i 's/BODY 1/SHELLS 2/' "$work/parts.bdf"
+   run parts && same 'OUTPUT = SHELLS: modes listed' "$(table parts FREQUENCIES | grep -c 'SHELLS .* 100.00')" "$((8 - n))"
+}
+printf '%b\n' 'MODEL = PLANE\nSPC = 1\nMODES = 5\nOUTPUT = LAST, MASS 50.0\nBEGIN BULK\nGRID,1,,0.0,0.0\nGRID,2,,50.0,0.0\nGRID,11,,-100.0,0.0\nGRID,12,,0.0,-100.0\nGRID,21,,50.0,-100.0\nGRID,22,,150.0,0.0' \
+   'CROD,1,1,1,11\nCROD,2,1,1,12\nCROD,3,1,2,21\nCROD,4,1,2,22\nPROD,1,1,100.0\nMAT1,1,1000.0\nCONM2,31,1,,0.02\nCONM2,32,2,,0.03\nSPC1,1,12,11,12,21,22\nEIGRL,5,,,4\nENDDATA' > "$work/masses.bdf"
+run masses && {
+   same 'OUTPUT = MASS: modes listed' "$(table masses PARTICIPATION | awk '$1 + 0 > 0 { printf "%s ", $1 }')" '1 2 '
+   same '... and in the file' "$(awk 'NR > 1' "$work/masses.modes.csv" | wc -l)" 4
+   says '... of how many' "$work/masses.out" 'LISTED: 2 OF 4 MODES, WHICH OUTPUT SELECTS'
+   near '... the sum is that of all' "$(table masses PARTICIPATION | awk '$1 == "SUM" { print $2 }')" 0.05 1e-9
+}

@@ -153,3 +153,40 @@ for angle in 0 30 45 70; do
       near "loss along the rod, $angle degrees" "$(mode turned_loss 2 loss_factor)" '4*26*(0.02 - 26/4000)/('$pi'*5000*0.02^2)' 1e-6
    }
 done
+
+# ---- Frequencies above the modes: a mass on a rod along x (k = 3000) and one along y (k = 48000), pulled along both, eta = 0.05. With
+# ND = 1 the frequencies above mode 1 are named, with the mass that moves; blank ND and V2 take the modes up to twice the frequencies.
+covered() { # NAME EIGRL FREQUENCIES
+   printf '%b\n' "MODEL = PLANE\nSPC = 1\nSET 1 = 1\nSUBCASE 1\n  MODES = 5\n$asked\nBEGIN BULK" 'GRID,1,,0.0,0.0\nGRID,2,,-100.0,0.0\nGRID,3,,0.0,-100.0' \
+      'CROD,1,11,2,1\nCROD,2,12,3,1\nPROD,11,1,100.0\nPROD,12,2,100.0\nMAT1,1,3000.0,,,,,,0.05\nMAT1,2,48000.0,,,,,,0.05' \
+      "CONM2,4,1,,0.02\nSPC1,1,12,2,3\nEIGRL,5$2\n$3\nFORCE,20,1,,1.0,3.0,4.0\nENDDATA" > "$work/$1.bdf"
+   run "$1"
+}
+low=$(number "sqrt(3000/0.02)/(2*$pi)") high=$(number "sqrt(48000/0.02)/(2*$pi)")
+covered covered_nd ',,,1' "FREQ1,7,0.0,$(number "$high/16"),32" && {
+   line=$(grep 'ABOVE THE HIGHEST MODE' "$work/covered_nd.out")
+   same 'frequencies above the modes: how many' "$(sed -E 's/.*WARNING: ([0-9]+ OF [0-9]+) FREQUENCIES.*/\1/' <<< "$line")" '28 OF 33'
+   near '... above which mode' "$(sed -nE 's/.*HIGHEST MODE, MODE 1 AT ([^:]+):.*/\1/p' <<< "$line")" "$low" 1e-5
+   near '... up to which' "$(sed -nE 's/.*UP TO ([^,]+), ARE.*/\1/p' <<< "$line")" "2*$high" 1e-5
+   says '... the effective mass' "$work/covered_nd.out" 'EFFECTIVE MASS OF 100.0 % ALONG X, 0.0 % ALONG Y'
+   says '... counted' "$work/covered_nd.log" '1 warning in the listing'
+}
+covered covered '' "FREQ1,7,0.0,$(number "$high/16"),32" && {
+   same 'blank ND and V2: the modes of the frequencies' "$(awk 'NR > 1' "$work/covered.modes.csv" | wc -l)" 2
+   near '... the peak of the second' "$(awk -F, -v f="$high" '$4 == "y" && ($2/f - 1)^2 < 1e-18 { print $5 }' "$work/covered.response.csv")" '4/(48000*0.05)' 1e-9
+   same '... no warning' "$(grep -c 'ABOVE THE HIGHEST' "$work/covered.out")" 0
+}
+covered covered_4 '' 'FREQ4,7,0.0,1000.0' && same 'the range of FREQ4: its modes' "$(awk 'NR > 1' "$work/covered_4.modes.csv" | wc -l)" 2
+covered covered_few '' "FREQ1,7,0.0,$(number "0.1*$low"),10" && same 'twice the highest frequency, and no more' "$(awk 'NR > 1' "$work/covered_few.modes.csv" | wc -l)" 1
+covered covered_v2 ",,$(number "1.5*$low")" "FREQ1,7,0.0,$(number "0.15*$low"),10" && same 'up to V2 all modes are there' "$(grep -c 'ABOVE THE HIGHEST' "$work/covered_v2.out")" 0
+
+# ---- No bound: what is complete stays, with the mode and the part that has no damping
+sed 's/^MAT1,2,48000.*/MAT1,2,48000.0/; s/^  MODES/  LOAD = 20\n&/; s/^FREQ1.*/FREQ1,7,'"$high"',1.0/' "$work/covered.bdf" > "$work/unbound.bdf"
+"$program" -q -o "$work" --summary "$work/unbound.csv" "$work/unbound.bdf" > "$work/unbound.log" 2>&1
+same 'a response without bound' $? 3
+says '... names the part' "$work/unbound.log" 'the response is unbounded: mode 2 has no damping; 100 % of its strain energy is in BAR 2: expected GE on its MAT1, or PARAM,G'
+same '... keeps the modes' "$(awk 'NR > 1' "$work/unbound.modes.csv" | wc -l)" 2
+near '... and the statics' "$(awk -F, '$2 == 0 { print $3 }' "$work/unbound.stage.csv")" "sqrt((3/3000)^2 + (4/48000)^2)" 1e-9
+says '... marked in the listing' "$work/unbound.out" '^ ENDED EARLY   AT STAGE 1, INCREMENT 1: 1 STAGE'
+says '... and in the summary' "$work/unbound.csv" 'ENDED EARLY at stage 1'
+says '... with the tables of the modes' "$work/unbound.out" '^ PARTICIPATION AND EFFECTIVE MASS'

@@ -161,3 +161,55 @@ DECK
    run units
    same "stress of E = $1" "$(grep -c 'of E, more than solids bear' "$work/units.log")" "$2"
 done
+
+# Between two nodes: 9001 on rods along x and y (k = 1000, 2000), 9002 at (30, 40) from it on others (4000, 8000), pulled apart along their line
+# by 10: along x and y two springs in series, along the line the sum of both by the squares of its direction. CD turns the axes of 9001.
+between_deck() { # NAME CASE [CD] [X2 Y2]
+   printf '%b\n' "MODEL = PLANE\nSPC = 1\nLOAD = 20\n$2\nBEGIN BULK" "CORD2R,5,,0.0,0.0,0.0,0.0,0.0,1.0\n+,3.0,4.0,0.0\nGRID,9001,,0.0,0.0,0.0,${3:-}\nGRID,9002,,${4:-30.0},${5:-40.0}" \
+      "GRID,11,,-100.0,0.0\nGRID,12,,0.0,-100.0\nGRID,21,,$(number "${4:-30.0} + 100").0,${5:-40.0}\nGRID,22,,${4:-30.0},$(number "${5:-40.0} + 100").0" \
+      'CROD,1,1,11,9001\nCROD,2,2,12,9001\nCROD,3,3,21,9002\nCROD,4,4,22,9002\nPROD,1,1,100.0\nPROD,2,1,200.0\nPROD,3,1,400.0\nPROD,4,1,800.0\nMAT1,1,1000.0,,,,,,0.05' \
+      'CONM2,31,9001,,0.02\nCONM2,32,9002,,0.03\nSPC1,1,12,11,12,21,22\nFORCE,20,9002,,10.0,0.6,0.8\nFORCE,20,9001,,10.0,-0.6,-0.8\nEIGRL,6,,,4\nFREQ1,7,1.0,1.0,120\nENDDATA' > "$work/$1.bdf"
+   run "$1"
+}
+between() { awk -F, -v along="$2" -v c="$3" 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k } $4 == along { print $at[c] }' "$work/$1.between.csv"; }
+between_x='(1/1000 + 1/4000)' between_y='(1/2000 + 1/8000)'
+between_line="(0.36*$between_x + 0.64*$between_y)"
+between_deck between_static 'WATCH = 9001 - 9002' && {
+   near 'between two nodes: movement along their line' "$(between between_static LINE movement)" "10*$between_line" 1e-10
+   near '... stiffness' "$(between between_static LINE stiffness)" "1/$between_line" 1e-10
+   near '... along x' "$(between between_static X stiffness)" "1/$between_x" 1e-10
+   near '... along y' "$(between between_static Y stiffness)" "1/$between_y" 1e-10
+   near '... the force along y' "$(between between_static Y load)" 8 1e-12
+   near '... share of a rod' "$(share between_static 1 BAR 1)" "0.36/1000/$between_line" 1e-10
+   adds_up between_static 1
+   says '... on the screen' "$work/between_static.log" '^    BETWEEN  *AND  *ALONG'
+   same '... no rows of single nodes' "$(awk 'NR > 1' "$work/between_static.watch.csv" | wc -l)" 0
+}
+between_deck between_cd 'WATCH = 9001-9002, SET 3\nSET 3 = 9002' 5 && {
+   near 'between two nodes: x of CD along their line' "$(between between_cd X stiffness)" "1/$between_line" 1e-10
+   near '... y of CD across it' "$(between between_cd Y movement)" "10*0.48*($between_y - $between_x)" 1e-10
+   same '... no force across it' "$(between between_cd Y load)" ''
+   near '... beside a single node' "$(watched between_cd 1 9002 u_x)" '10*0.6/4000' 1e-10
+}
+between_deck between_one 'WATCH = 9001-9002' '' 0.0 0.0 && {
+   same 'two nodes at one place: no line' "$(between between_one LINE movement)" ''
+   near '... along x' "$(between between_one X stiffness)" "1/$between_x" 1e-10
+}
+sed 's/^FORCE,20,9001.*//' "$work/between_static.bdf" > "$work/between_load.bdf"
+run between_load && near 'a force on one node alone' "$(between between_load X stiffness)" 4000 1e-10
+"$program" -q -o "$work" --summary "$work/between.csv" "$work/between_static.bdf" > "$work/between.log" 2>&1
+near 'between two nodes: the summary' "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k } NR == 2 { print $at["stiffness"] }' "$work/between.csv")" "1/$between_line" 1e-10
+
+# ... in modes and in a response: G = 1/(k1 (1 + i eta) - m1 w^2) + 1/(k2 (1 + i eta) - m2 w^2) along each axis
+between_deck between_modes 'WATCH = 9001-9002\nSET 3 = 9002\nMODES = 6\nFREQUENCY = 7\nDLOAD = 20\nRESPONSE = SET 3' && {
+   near 'compliance of a mode between two nodes' "$(awk -F, '$6 == "LINE" && $2 == 1 { print $8 }' "$work/between_modes.between.modes.csv")" '0.36/1000' 1e-9
+   near '... of all modes together' "$(awk -F, '$6 == "LINE" { s += $8 } END { printf "%.17g", s }' "$work/between_modes.between.modes.csv")" "$between_line" 1e-9
+   judge 'compliance between two nodes over the frequency' -F, -v pi=$pi 'function add(k, m, w,   a, b) { a = k - m*w^2; b = 0.05*k; re += a/(a^2 + b^2); im -= b/(a^2 + b^2) }
+      function far(a, b) { return (a - b)^2 > 1e-18*(re^2 + im^2) }
+      $5 == "X" { re = im = 0; w = 2*pi*$2; add(1000, 0.02, w); add(4000, 0.03, w); n++; if (far($8, re) || far($9, im) || far($6/6, sqrt(re^2 + im^2))) print $0 ": " re " " im }
+      END { print "checked " n }' "$work/between_modes.between.response.csv"
+   near 'the least real part' "$(table between_modes 'RESPONSE BETWEEN' | awk '$3 == "X" { print $7 }')" \
+        "$(awk -F, '$5 == "X" && $8 < least { least = $8 } END { printf "%.17g", least }' "$work/between_modes.between.response.csv")" 1e-5
+   near 'the largest compliance' "$(table between_modes 'RESPONSE BETWEEN' | awk '$3 == "X" { print $6 }')" \
+        "$(awk -F, '$5 == "X" && $6/6 > most { most = $6/6 } END { printf "%.17g", most }' "$work/between_modes.between.response.csv")" 1e-5
+}

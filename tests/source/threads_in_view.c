@@ -37,7 +37,7 @@ typedef struct { team_type *team; int number; } member;
 static int n_threads = 0;
 static team_type *team; /* one at a time: the program does not nest them */
 static task *queue;
-static int lock_word;
+static int lock_word, critical_word;
 static unsigned seed;
 static __thread task *now;
 static __thread int singles_met, loops_met, my_number;
@@ -163,6 +163,21 @@ void GOMP_taskwait(void)
       else sched_yield();
    }
    __tsan_acquire(&now->children);
+}
+
+/* critical: the sections of all names share one lock */
+void GOMP_critical_name_start(void **name)
+{
+   while (__atomic_exchange_n(&critical_word, 1, __ATOMIC_ACQUIRE)) sched_yield();
+   __tsan_acquire(&critical_word);
+   (void)name;
+}
+
+void GOMP_critical_name_end(void **name)
+{
+   __tsan_release(&critical_word);
+   __atomic_store_n(&critical_word, 0, __ATOMIC_RELEASE);
+   (void)name;
 }
 
 void GOMP_barrier(void)
