@@ -5,7 +5,7 @@ module blas_lapack
    implicit none
    private
 
-   public :: ddot, dgemm, dgemv, dgesv, dlacn2, dposv, dpotrf, dpstrf, dsygv, dsymv, dsyrk, dtrmv, dtrsm
+   public :: ddot, dgemm, dgemv, dgesv, dlacn2, dposv, dpotrf, dpstrf, dsygv, dsymv, dsyrk, dtrmv, dtrsm, dtrsv
 
    interface
 
@@ -118,6 +118,15 @@ module blas_lapack
          real(wp), intent(in)    :: a(lda, *)
          real(wp), intent(inout) :: x(*)
       end subroutine dtrmv
+
+      !> x = op(inv(A)) x, A triangular
+      pure subroutine dtrsv(uplo, trans, diag, n, a, lda, x, incx)
+         import :: wp
+         character, intent(in)   :: uplo, trans, diag
+         integer, intent(in)     :: n, lda, incx
+         real(wp), intent(in)    :: a(lda, *)
+         real(wp), intent(inout) :: x(*)
+      end subroutine dtrsv
 
       !> B = alpha op(inv(A)) B or alpha B op(inv(A)), A triangular
       pure subroutine dtrsm(side, uplo, transa, diag, m, n, alpha, a, lda, b, ldb)

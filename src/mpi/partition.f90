@@ -16,8 +16,8 @@ module partition
    use kinds, only: wp
    use lists, only: first_not_below, list_owners, sorted_order
    use mesh_queries, only: element_points, is_beam, is_shell, start_parts
+   use metis, only: part_by_metis
    use model_data, only: bar_nodes, model_type, n_bars, n_sections
-   use nested_dissection, only: part_by_metis
    use node_coupling, only: is_coupled, section_node, unknown_nodes
    use node_graph, only: node_graph_type
    use ranks, only: n_ranks, pass, rank

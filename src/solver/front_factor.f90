@@ -3,21 +3,22 @@
 module front_factor
    use element_unknowns, only: nodes_of_unknowns
    use equation_solver, only: no_memory
-   use front_kernel, only: eliminate, large, top_row
-   use front_tree, only: add_to_block, front_of, front_tree_type, front_type, keep_block, place_in, restore_block, task_work
-   use kinds, only: long, wp
+   use front_assembly, only: add_children, children_done, is_tiled, set_to_zero
+   use front_kernel, only: eliminate
+   use front_tiles, only: eliminate_in_tiles
+   use front_tree, only: climb, front_of, front_tree_type, front_type, place_in
+   use kept_blocks, only: add_to_block, keep_block, restore_block
+   use kinds, only: wp
    use lists, only: sorted_order
-   use machine, only: give_back
    use mass_matrix, only: coupled_dynamic_stiffness
    use model_data, only: model_type
-   use omp_lib, only: omp_get_wtime
+   use omp_lib, only: omp_get_num_threads, omp_get_wtime
+   use task_record, only: is_recorded, key, record_phase, record_task, start_record, task_begins
    use tolerances, only: pivot_tolerance
    implicit none
    private
 
    public :: factorise_static, factorise_refactored, add_to_refactored
-
-   integer, parameter  :: strip = 128                  ! columns whose memory is given back together
 
 contains
 
@@ -48,40 +49,6 @@ contains
       end do
    end subroutine add_matrix
 
-   !> Add columns FROM to UNTIL of the update matrix of CHILD to FRONT.
-   pure subroutine add_update(child, front, from, until)
-      type(front_type), intent(in)    :: child
-      type(front_type), intent(inout) :: front
-      integer, intent(in)             :: from, until
-      integer :: column, first, i, j, k, last, row, run_at
-
-      run_at = 1                                     ! the run that contains column J
-      do j = from, until
-         do while (j >= child%run(run_at + 1))
-            run_at = run_at + 1
-         end do
-         column = child%in_parent(j)
-         front%diagonal(column) = front%diagonal(column) + child%diagonal(child%p + j)
-         do k = run_at, size(child%run) - 1
-            first = max(j, child%run(k))
-            last = child%run(k + 1) - 1
-            row = child%in_parent(first)
-            if (column <= front%p) then
-               !$omp simd
-               do i = 0, last - first
-                  front%panel(row + i, column) = front%panel(row + i, column) + child%update(first + i, j)
-               end do
-            else
-               row = row - front%p
-               !$omp simd
-               do i = 0, last - first
-                  front%update(row + i, column - front%p) = front%update(row + i, column - front%p) + child%update(first + i, j)
-               end do
-            end if
-         end do
-      end do
-   end subroutine add_update
-
    !> Eliminate all static fronts, and keep the initial contents of the refactored fronts. FAULT is 0, no_memory, or the first
    !! equation without stiffness.
    subroutine factorise_static(model, tree, fault)
@@ -93,13 +60,15 @@ contains
       integer :: k
       logical :: ok
 
+      call start_record()
+      call record_phase('factor')
       call eliminate_fronts(tree, faults, .false., no_stiffness, model)
       fault = first_fault(faults)
       if (fault /= 0) return
       !$omp parallel do schedule(dynamic, 8) default(shared) private(ok) if(tree%is_parallel)
       do k = 1, size(tree%refactored)
          associate (front => tree%fronts(tree%refactored(k)), own_fault => faults(tree%refactored(k)))
-            call start_front(model, tree, front, own_fault)
+            call start_front(model, tree, tree%refactored(k), own_fault)
             if (own_fault /= 0) cycle
             allocate (front%start)
             call keep_block(front%panel, front%start%panel, ok)
@@ -130,53 +99,76 @@ contains
       logical, intent(in)                    :: refactored
       real(wp), intent(in)                   :: k(:, :, :) !! of size zero where the fronts are static
       type(model_type), intent(in), optional :: model
+      integer, allocatable :: left(:)
       integer :: f
 
       allocate (faults(size(tree%fronts)), source=0)
+      left = tree%fronts%n_children
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
       do f = 1, size(tree%fronts)
-         if (.not. tree%fronts(f)%is_top .or. (tree%fronts(f)%is_refactored .neqv. refactored)) cycle
-         !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
-         call eliminate_subtree(tree, f, faults, k, model)
+         if (.not. tree%fronts(f)%is_start .or. (tree%fronts(f)%is_refactored .neqv. refactored)) cycle
+         !$omp task default(shared) firstprivate(f) if(omp_get_num_threads() > 1) final(omp_get_num_threads() == 1)
+         call eliminate_upwards(tree, f, left, faults, k, model)
          !$omp end task
       end do
       !$omp end single
       !$omp end parallel
    end subroutine eliminate_fronts
 
-   !> Eliminate front F after the fronts of its subtree of the same kind, refactored or static.
-   recursive subroutine eliminate_subtree(tree, f, faults, k, model)
+   !> Eliminate the subtree of front START, then the fronts above it up to one that waits for another subtree. The task that brings
+   !! the last child eliminates the parent: no task waits for others, and one thread goes through the fronts in their order.
+   subroutine eliminate_upwards(tree, start, left, faults, k, model)
+      type(front_tree_type), intent(inout)   :: tree
+      integer, intent(in)                    :: start
+      integer, intent(inout)                 :: left(:)    !! children of every front that are not eliminated
+      integer, intent(inout)                 :: faults(:)
+      real(wp), intent(in)                   :: k(:, :, :)
+      type(model_type), intent(in), optional :: model
+      real(wp) :: began
+      integer  :: f
+
+      began = task_begins()
+      do f = tree%fronts(start)%begin, start - 1
+         if (tree%fronts(f)%is_refactored .eqv. tree%fronts(start)%is_refactored) call eliminate_front(tree, f, faults, k, model)
+      end do
+      if (is_recorded) call record_task(began, 'subtree', key('+', -(start - 1)))
+      f = start
+      do while (f > 0)
+         call eliminate_front(tree, f, faults, k, model)
+         call climb(tree, left, f)
+      end do
+   end subroutine eliminate_upwards
+
+   !> Eliminate front F, whose children are eliminated.
+   subroutine eliminate_front(tree, f, faults, k, model)
       type(front_tree_type), intent(inout)   :: tree
       integer, intent(in)                    :: f
       integer, intent(inout)                 :: faults(:)
       real(wp), intent(in)                   :: k(:, :, :)
       type(model_type), intent(in), optional :: model
-      integer :: c, i
+      real(wp) :: began
+      integer  :: i
 
-      do i = 1, size(tree%fronts(f)%children)
-         c = tree%fronts(f)%children(i)
-         if (tree%fronts(c)%is_refactored .neqv. tree%fronts(f)%is_refactored) cycle
-         !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
-         call eliminate_subtree(tree, c, faults, k, model)
-         !$omp end task
-      end do
-      !$omp taskwait
       associate (front => tree%fronts(f), fault => faults(f))
          fault = first_fault(faults(front%children))
          if (fault /= 0) return
+         began = task_begins()
          if (front%is_refactored) then
-            call restart_front(tree, front, k, fault)
+            call restart_front(tree, f, k, fault)
          else
-            call start_front(model, tree, front, fault)
+            call start_front(model, tree, f, fault)
          end if
          if (fault /= 0) return
          tree%diagonal(front%first:front%first + front%p - 1) = front%diagonal(:front%p)
          if (tree%shift > 0.0_wp) then
             call eliminate(front%p, front%r, front%panel, front%update, abs(front%diagonal), pivot_tolerance, fault, front%negative)
+         else if (is_tiled(front)) then
+            call eliminate_in_tiles(f, front%p, front%r, front%panel, front%update, front%diagonal, pivot_tolerance, fault)
          else
             call eliminate(front%p, front%r, front%panel, front%update, front%diagonal, pivot_tolerance, fault)
          end if
+         if (is_recorded .and. .not. is_tiled(front)) call record_task(began, 'front', children_done(front)//key('+', -f))
          if (fault > 0) then
             fault = front%first + fault - 1
          else
@@ -184,76 +176,46 @@ contains
          end if
          if (front%parent == 0) deallocate (front%update)
       end associate
-   end subroutine eliminate_subtree
+   end subroutine eliminate_front
 
    !> Assemble FRONT: its elements, and the update matrices of its static children, which are freed.
-   subroutine start_front(model, tree, front, fault)
+   subroutine start_front(model, tree, f, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
-      type(front_type), intent(inout)      :: front
+      integer, intent(in)                  :: f
       integer, intent(out)                 :: fault !! 0, or no_memory
+      character(:), allocatable :: keys
       real(wp), allocatable :: stiffness(:, :)
-      real(wp) :: time
-      integer(long) :: first, last
-      integer :: j, k, status, until
-      logical :: ok
+      real(wp) :: began, time
+      integer :: k, status
 
-      fault = no_memory
-      allocate (front%panel(front%p + front%r, front%p), front%update(front%r, front%r), &
-                front%diagonal(front%p + front%r), stat=status)
-      if (status /= 0) return
-      call set_to_zero(front%p + front%r, front%p, front%panel)
-      call set_to_zero(front%r, front%r, front%update)
-      front%diagonal = 0.0_wp
-      time = omp_get_wtime()
-      do k = 1, size(front%elements)
-         call coupled_dynamic_stiffness(model, front%elements(k), tree%shift, stiffness)
-         associate (rows => pack(tree%number(:, nodes_of_unknowns(model%freedoms, front%elements(k))), .true.))
-            call add_matrix(front, rows, stiffness(:size(rows), :size(rows)))
-         end associate
-      end do
-      time = omp_get_wtime() - time
-      !$omp atomic
-      tree%assembly_time = tree%assembly_time + time
-      do k = 1, size(front%children)
-         associate (child => tree%fronts(front%children(k)))
-            if (child%is_refactored) cycle
-            if (size(child%update, kind=long) < large) then
-               call add_update(child, front, 1, child%r)
-            else           ! freed strip by strip: child and front together never take much more memory than one of them
-               do j = 1, child%r, strip
-                  until = min(child%r, j + strip - 1)
-                  call add_update(child, front, j, until)
-                  call give_back(int(child%r, long)*(until - j + 1), child%update(1, j), ok, first, last)
-               end do
-            end if
-            deallocate (child%update, child%diagonal)
-         end associate
-      end do
+      associate (front => tree%fronts(f))
+         fault = no_memory
+         allocate (front%panel(front%p + front%r, front%p), front%update(front%r, front%r), &
+                   front%diagonal(front%p + front%r), stat=status)
+         if (status /= 0) return
+         keys = ''
+         if (is_recorded .and. is_tiled(front)) keys = children_done(front)//key('+', f, 1)
+         call set_to_zero(front%p + front%r, front%p, front%panel, keys)
+         call set_to_zero(front%r, front%r, front%update, keys)
+         front%diagonal = 0.0_wp
+         began = task_begins()
+         time = omp_get_wtime()
+         do k = 1, size(front%elements)
+            call coupled_dynamic_stiffness(model, front%elements(k), tree%shift, stiffness)
+            associate (rows => pack(tree%number(:, nodes_of_unknowns(model%freedoms, front%elements(k))), .true.))
+               call add_matrix(front, rows, stiffness(:size(rows), :size(rows)))
+            end associate
+         end do
+         time = omp_get_wtime() - time
+         !$omp atomic
+         tree%assembly_time = tree%assembly_time + time
+         if (is_recorded .and. is_tiled(front)) &
+            call record_task(began, 'elements', children_done(front)//key('<', f, 1)//key('>', f, 0)//key('+', f))
+      end associate
+      call add_children(tree, f, .false.)
       fault = 0
    end subroutine start_front
-
-   !> Set to zero what the kernel touches. The pages of a large matrix are given back instead; they read as zero when they
-   !! return. Their memory is taken when they are written, see start_front.
-   subroutine set_to_zero(m, n, a)
-      integer, intent(in)     :: m, n
-      real(wp), intent(inout) :: a(int(m, long)*n) !! (m, n), column by column
-      integer(long) :: first, last
-      integer :: j
-      logical :: ok
-
-      if (size(a, kind=long) >= large) then
-         call give_back(size(a, kind=long), a, ok, first, last)
-         if (ok) then
-            a(:first) = 0.0_wp
-            a(last:) = 0.0_wp
-            return
-         end if
-      end if
-      do j = 1, n
-         a(int(m, long)*(j - 1) + top_row(j):int(m, long)*j) = 0.0_wp
-      end do
-   end subroutine set_to_zero
 
    !> Eliminate all refactored fronts, with the stiffnesses K of the interface elements. FAULT as above.
    subroutine factorise_refactored(tree, k, fault)
@@ -263,6 +225,7 @@ contains
       integer, allocatable :: faults(:)
       integer :: f, i
 
+      call record_phase('increments')
       call eliminate_fronts(tree, faults, .true., k)
       fault = first_fault(faults)
       if (fault == 0) return
@@ -274,36 +237,39 @@ contains
 
    !> Assemble refactored FRONT in an increment: what was kept, its interface elements, and the update matrices of its
    !! refactored children.
-   subroutine restart_front(tree, front, k, fault)
+   subroutine restart_front(tree, f, k, fault)
       type(front_tree_type), intent(inout) :: tree
-      type(front_type), intent(inout)      :: front
+      integer, intent(in)                  :: f
       real(wp), intent(in)                 :: k(:, :, :)
       integer, intent(out)                 :: fault !! 0, or no_memory
-      integer :: c, i, j, status
+      character(:), allocatable :: keys
+      real(wp) :: began
+      integer  :: c, i, j, status
 
-      allocate (front%update(front%r, front%r), stat=status)
-      fault = merge(0, no_memory, status == 0)
-      if (fault /= 0) return
-      call restore_block(front%start%panel, front%panel)
-      call restore_block(front%start%update, front%update)
-      front%diagonal = front%start%diagonal
-      do i = 1, size(front%springs)
-         c = front%springs(i)
-         call add_matrix(front, tree%joints%rows_of(c), tree%joints%matrix_of(c, k(:, :, c)))
-      end do
-      do i = 1, size(front%children)
-         c = front%children(i)
-         if (.not. tree%fronts(c)%is_refactored) cycle
-         call add_update(tree%fronts(c), front, 1, tree%fronts(c)%r)
-         deallocate (tree%fronts(c)%update)
-      end do
-      do j = 1, front%p                    ! rows and columns of locked pivots become those of the identity
-         if (.not. tree%locked(front%first + j - 1)) cycle
-         front%panel(j, :j - 1) = 0.0_wp
-         front%panel(j:, j) = 0.0_wp
-         front%panel(j, j) = 1.0_wp
-         front%diagonal(j) = 1.0_wp
-      end do
+      associate (front => tree%fronts(f))
+         allocate (front%update(front%r, front%r), stat=status)
+         fault = merge(0, no_memory, status == 0)
+         if (fault /= 0) return
+         keys = ''
+         if (is_recorded .and. is_tiled(front)) keys = children_done(front)//key('+', f, 1)
+         call restore_block(front%start%panel, front%panel, keys)
+         call restore_block(front%start%update, front%update, keys)
+         began = task_begins()
+         front%diagonal = front%start%diagonal
+         do i = 1, size(front%springs)
+            c = front%springs(i)
+            call add_matrix(front, tree%joints%rows_of(c), tree%joints%matrix_of(c, k(:, :, c)))
+         end do
+         if (is_recorded .and. is_tiled(front)) call record_task(began, 'springs', key('<', f, 1)//key('>', f, 0)//key('+', f))
+         call add_children(tree, f, .true.)
+         do j = 1, front%p                    ! rows and columns of locked pivots become those of the identity
+            if (.not. tree%locked(front%first + j - 1)) cycle
+            front%panel(j, :j - 1) = 0.0_wp
+            front%panel(j:, j) = 0.0_wp
+            front%panel(j, j) = 1.0_wp
+            front%diagonal(j) = 1.0_wp
+         end do
+      end associate
    end subroutine restart_front
 
    !> Add the symmetric matrix K to refactored fronts permanently. Its EQUATIONS (0: held; others distinct) belong to these.

@@ -10,25 +10,25 @@
 !! The factor of a front that is not positive definite has signs, A = L S L^T, S diagonal of +1 and -1: L21 = A21 L11^-T S. The
 !! subtracted product is L S L^T = L L^T - 2 L_- L_-^T, L_- the columns whose sign is -1. A structure has few of these.
 module front_kernel
-   use blas_lapack, only: dgemm, dpotrf, dtrsm
+   use blas_lapack, only: dgemm, dgemv, dtrsv
    use kinds, only: long, wp
    implicit none
    private
 
-   public :: eliminate, top_row, touched_entries, substitute, substitute_back
+   public :: eliminate, top_row, touched_entries, substitute, substitute_back, solve_lower, solve_upper, subtract_columns, &
+             subtract_rows, eliminate_columns, divide_rows, add_to_square
 
    integer(long), parameter, public :: large = 8388608_long !! entries of a matrix whose pages are worth giving back
 
-   integer, parameter :: narrow = 96       ! columns that are eliminated together
-   integer, parameter :: wide   = 4*narrow ! columns of the update matrix that are one task
-   integer, parameter :: strip  = 768      ! rows that are one task
-   integer, parameter :: alone  = 300      ! rows up to which a front is not worth tasks
+   integer, parameter :: least  = 8        ! columns of a panel that are eliminated one by one
+   integer, parameter :: narrow = 4*least  ! columns of the squares on the diagonal that are filled whole
+   real(wp), parameter :: small_pivot = 0.01_wp ! of what it was before the columns before it in its block
+   integer, parameter, public :: wide = 384 !! columns of a tile, which is one task
+   integer, parameter :: strip  = 768      ! its rows
+   integer, parameter :: alone  = wide     ! rows up to which a front is not worth tasks
 
    integer, parameter :: together = 4        ! columns
-   integer, parameter :: small_rows = 1024        ! rows up to which a front is not split into tasks
-   integer, parameter :: block = 256         ! columns whose unknowns are found together,
-   integer, parameter :: strip_rows = 1024   ! rows of them in a task of the forward substitution
-   integer, parameter :: strip_columns = 64  ! columns of them in a task of the back substitution
+   integer, parameter :: few_rows = 64       ! rows up to which own loops are faster than BLAS
 
 contains
 
@@ -42,124 +42,176 @@ contains
       real(wp), intent(in)    :: tolerance
       integer, intent(out)    :: fault
       integer, allocatable, intent(inout), optional :: negative(:)
-      real(wp), allocatable :: of_negative(:, :) ! the columns whose sign is -1, all rows
-      integer :: j, k, n
 
-      n = p + r
       if (present(negative)) negative = [integer ::]
-      allocate (of_negative(n, 0))
       fault = 0
-      do k = 1, p, narrow
-         call subtract_products(k, min(p, k + narrow - 1))
-         call eliminate_block(n, k, min(p, k + narrow - 1), tolerance*diagonal, panel, of_negative, fault, negative)
-         if (fault > 0) return
-      end do
-      do j = 1, r, wide
-         !$omp task default(shared) firstprivate(j) if(n > alone)
-         call update_columns(j, min(r, j + wide - 1))
-         !$omp end task
-      end do
-      !$omp taskwait
-
-   contains
-
-      !> Subtract from columns FIRST to LAST of the panel the products of the columns before.
-      subroutine subtract_products(first, last)
-         integer, intent(in) :: first, last
-         integer :: i, m
-
-         if (first == 1) return
-         do i = first, n, strip
-            m = min(strip, n - i + 1)
-            !$omp task default(shared) firstprivate(i, m) if(n > alone)
-            call dgemm('N', 'T', m, last - first + 1, first - 1, -1.0_wp, panel(i, 1), n, panel(first, 1), n, 1.0_wp, &
-                       panel(i, first), n)
-            !$omp end task
-         end do
-         !$omp taskwait
-         m = size(of_negative, 2)
-         if (m > 0) call dgemm('N', 'T', n - first + 1, last - first + 1, m, 2.0_wp, of_negative(first, 1), n, &
-                               of_negative(first, 1), n, 1.0_wp, panel(first, first), n)
-      end subroutine subtract_products
-
-      !> A22 - L21 L21^T in columns FIRST to LAST. The part below the square on the diagonal is one block. The square is
-      !! computed in narrow blocks: DGEMM is faster than DSYRK although it also fills the upper triangle.
-      subroutine update_columns(first, last)
-         integer, intent(in) :: first, last
-         integer :: column, m, width
-
-         m = size(of_negative, 2)
-         if (last < r) call dgemm('N', 'T', r - last, last - first + 1, p, -1.0_wp, panel(p + last + 1, 1), n, &
-                                  panel(p + first, 1), n, 1.0_wp, update(last + 1, first), r)
-         do column = first, last, narrow
-            width = min(narrow, last - column + 1)
-            call dgemm('N', 'T', last - column + 1, width, p, -1.0_wp, panel(p + column, 1), n, panel(p + column, 1), n, &
-                       1.0_wp, update(column, column), r)
-            if (m > 0) call dgemm('N', 'T', r - column + 1, width, m, 2.0_wp, of_negative(p + column, 1), n, &
-                                  of_negative(p + column, 1), n, 1.0_wp, update(column, column), r)
-         end do
-      end subroutine update_columns
-
+      if (p > 0) call eliminate_columns(p + r, 1, p, tolerance*diagonal, panel, p + r, fault, negative)
+      if (fault > 0 .or. r == 0) return
+      call add_products(-1.0_wp, r, r, p, panel(p + 1, 1), p + r, update, r)
+      if (present(negative)) call add_products(2.0_wp, r, r, size(negative), panel(p + 1:, negative), r, update, r)
    end subroutine eliminate
 
-   !> L in the columns FIRST to LAST of PANEL, from which all products of earlier columns are subtracted. FAULT is 0, or the first
-   !! column whose pivot is not above LEAST. OF_NEGATIVE are all columns so far whose sign is -1.
-   subroutine eliminate_block(n, first, last, least, panel, of_negative, fault, negative)
-      integer, intent(in)  :: n, first, last
-      real(wp), intent(in) :: least(:)
-      real(wp), intent(inout) :: panel(n, size(least))
-      real(wp), allocatable, intent(inout) :: of_negative(:, :)
-      integer, intent(out) :: fault
-      integer, allocatable, intent(inout), optional :: negative(:) !! list of these columns; a pivot may be below zero
-      real(wp) :: as_it_was(first:last, first:last)
-      integer  :: column, i, info, m
+   !> Eliminate columns FIRST to LAST of a panel, from which the products of all columns before are subtracted, down to row M: one
+   !! half after the other, so that most products are of many columns. FAULT is 0, or the first column whose pivot is not above
+   !! LOWEST.
+   recursive subroutine eliminate_columns(m, first, last, lowest, panel, n, fault, negative)
+      integer, intent(in)     :: m, first, last
+      integer, intent(in)     :: n !! leading dimension
+      real(wp), intent(in)    :: lowest(*)
+      real(wp), intent(inout) :: panel(n, *)
+      integer, intent(out)    :: fault
+      integer, allocatable, intent(inout), optional :: negative(:)
+      integer, allocatable :: own(:)
+      integer :: middle
 
-      if (present(negative)) as_it_was = panel(first:last, first:last)
-      call dpotrf('L', last - first + 1, panel(first, first), n, info)
-      if (info > 0 .and. present(negative)) then
-         panel(first:last, first:last) = as_it_was
-         call factorise_with_signs(first, last, panel(first:last, first:last), negative)
-         info = 0
+      if (last - first < least) then
+         call eliminate_block(m, first, last, lowest, panel, n, fault, negative)
+         return
       end if
-      do column = first, merge(first + info - 1, last, info > 0)
-         fault = column
-         if (.not. panel(column, column)**2 > least(column) .or. column == first + info - 1) return
+      middle = first - 1 + half_of(last - first + 1, merge(least, narrow, last - first < narrow))
+      call eliminate_columns(m, first, middle, lowest, panel, n, fault, negative)
+      if (fault > 0) return
+      call add_products(-1.0_wp, m - middle, last - middle, middle - first + 1, panel(middle + 1, first), n, &
+                        panel(middle + 1, middle + 1), n)
+      if (present(negative)) then
+         own = pack(negative, negative >= first)
+         call add_products(2.0_wp, m - middle, last - middle, size(own), panel(middle + 1:m, own), m - middle, &
+                           panel(middle + 1, middle + 1), n)
+      end if
+      call eliminate_columns(m, middle + 1, last, lowest, panel, n, fault, negative)
+   end subroutine eliminate_columns
+
+   !> About half of N, a multiple of STEP.
+   pure integer function half_of(n, step)
+      integer, intent(in) :: n, step
+
+      half_of = step*((n + step)/(2*step))
+   end function half_of
+
+   !> C + ALPHA A B^T in the lower trapezoid C, (M, N), A (M, K), B the first N rows of A. Tiles are tasks.
+   subroutine add_products(alpha, m, n, k, a, lda, c, ldc)
+      real(wp), intent(in)    :: alpha
+      integer, intent(in)     :: m, n, k, lda, ldc
+      real(wp), intent(in)    :: a(lda, *)
+      real(wp), intent(inout) :: c(ldc, *)
+      integer :: i, j, width
+
+      if (k == 0) return
+      do j = 1, n, wide
+         width = min(wide, n - j + 1)
+         !$omp task default(shared) firstprivate(j, width) if(m > alone)
+         call add_to_square(alpha, width, k, a(j, 1), lda, c(j, j), ldc)
+         !$omp end task
+         do i = j + width, m, strip
+            !$omp task default(shared) firstprivate(i, j, width) if(m > alone)
+            call dgemm('N', 'T', min(strip, m - i + 1), width, k, alpha, a(i, 1), lda, a(j, 1), lda, 1.0_wp, c(i, j), ldc)
+            !$omp end task
+         end do
       end do
-      fault = 0
-      do i = last + 1, n, strip
-         m = min(strip, n - i + 1)
-         !$omp task default(shared) firstprivate(i, m) if(n > alone)
-         call dtrsm('R', 'L', 'T', 'N', m, last - first + 1, 1.0_wp, panel(first, first), n, panel(i, first), n)
+      !$omp taskwait
+   end subroutine add_products
+
+   !> C + ALPHA A A^T in a square on the diagonal, which is halved until it is narrow: DGEMM is faster than DSYRK although it also
+   !! fills the upper triangle.
+   pure recursive subroutine add_to_square(alpha, n, k, a, lda, c, ldc)
+      real(wp), intent(in)    :: alpha
+      integer, intent(in)     :: n, k, lda, ldc
+      real(wp), intent(in)    :: a(lda, *)
+      real(wp), intent(inout) :: c(ldc, *)
+      integer :: half
+
+      if (n <= narrow) then
+         call dgemm('N', 'T', n, n, k, alpha, a, lda, a, lda, 1.0_wp, c, ldc)
+         return
+      end if
+      half = half_of(n, narrow)
+      call add_to_square(alpha, half, k, a, lda, c, ldc)
+      call dgemm('N', 'T', n - half, half, k, alpha, a(half + 1, 1), lda, a, lda, 1.0_wp, c(half + 1, 1), ldc)
+      call add_to_square(alpha, n - half, k, a(half + 1, 1), lda, c(half + 1, half + 1), ldc)
+   end subroutine add_to_square
+
+   !> L in the few columns FIRST to LAST of a panel, likewise.
+   subroutine eliminate_block(m, first, last, lowest, panel, n, fault, negative)
+      integer, intent(in)     :: m, first, last, n
+      real(wp), intent(in)    :: lowest(*)
+      real(wp), intent(inout) :: panel(n, *)
+      integer, intent(out)    :: fault
+      integer, allocatable, intent(inout), optional :: negative(:)
+      integer :: i, j, before
+
+      before = 0
+      if (present(negative)) before = size(negative)
+      call factorise_square(first, last, lowest, panel(:, :last), fault, negative)
+      if (fault > 0) return
+      do i = last + 1, m, strip
+         !$omp task default(shared) firstprivate(i) if(m > alone)
+         call divide_rows(min(strip, m - i + 1), last - first + 1, panel(first, first), n, panel(i, first), n)
          !$omp end task
       end do
       !$omp taskwait
       if (.not. present(negative)) return
-      do i = size(of_negative, 2) + 1, size(negative)
-         panel(last + 1:, negative(i)) = -panel(last + 1:, negative(i))
+      do j = before + 1, size(negative)
+         panel(last + 1:m, negative(j)) = -panel(last + 1:m, negative(j))
       end do
-      if (size(negative) > 0) of_negative = panel(:, negative)
    end subroutine eliminate_block
 
-   !> A = L S L^T in place, for columns FIRST to LAST of a front. Columns whose sign is -1 are appended to NEGATIVE. A zero
-   !! pivot leaves zero on the diagonal and its column unchanged.
-   pure subroutine factorise_with_signs(first, last, a, negative)
-      integer, intent(in)                 :: first, last
-      real(wp), intent(inout)             :: a(first:last, first:last) !! lower triangle
-      integer, allocatable, intent(inout) :: negative(:)
+   !> L in place of the square A = L S L^T of rows and columns FIRST to LAST. S is the identity unless NEGATIVE is present, to
+   !! which the columns are appended whose sign is -1.
+   pure subroutine factorise_square(first, last, lowest, a, fault, negative)
+      integer, intent(in)     :: first, last
+      real(wp), intent(in)    :: lowest(*)
+      real(wp), intent(inout) :: a(:, :) !! lower triangle
+      integer, intent(out)    :: fault
+      integer, allocatable, intent(inout), optional :: negative(:)
       real(wp) :: s
       integer  :: i, j
 
+      s = 1.0_wp
       do j = first, last
-         s = sign(1.0_wp, a(j, j))
+         fault = j
+         if (present(negative)) s = sign(1.0_wp, a(j, j))
+         if (.not. s*a(j, j) > max(0.0_wp, lowest(j))) return
          if (s < 0.0_wp) negative = [negative, j]
-         a(j, j) = sqrt(abs(a(j, j)))
-         if (.not. a(j, j) > 0.0_wp) return
-         a(j + 1:, j) = s*a(j + 1:, j)/a(j, j)
+         a(j, j) = sqrt(s*a(j, j))
+         a(j + 1:last, j) = s/a(j, j)*a(j + 1:last, j)
          do i = j + 1, last
-            a(i:, i) = a(i:, i) - s*a(i, j)*a(i:, j)
+            a(i:last, i) = a(i:last, i) - s*a(i, j)*a(i:last, j)
          end do
       end do
-   end subroutine factorise_with_signs
+      fault = 0
+   end subroutine factorise_square
+
+   !> A = A L^-T, A (M, K), L (K, K) a lower triangle, of which few columns are inverted at a time: on processors with AVX-512
+   !! DGEMM is four times faster than DTRSM. A pivot that is small beside its row is not inverted together with others: the rows
+   !! would lose the digits that the pivot has lost.
+   pure recursive subroutine divide_rows(m, k, l, ldl, a, lda)
+      integer, intent(in)     :: m, k, ldl, lda
+      real(wp), intent(in)    :: l(ldl, *)
+      real(wp), intent(inout) :: a(lda, *)
+      real(wp) :: before(m, min(k, least)), inverse(min(k, least), min(k, least))
+      integer  :: half, i, j
+
+      half = merge(half_of(k, least), 0, k > least)
+      do j = 2, min(k, least)
+         if (half == 0 .and. l(j, j)**2 < small_pivot*sum(l(j, :j - 1)**2)) half = half_of(k, 1)
+      end do
+      if (half > 0) then
+         call divide_rows(m, half, l, ldl, a, lda)
+         call dgemm('N', 'T', m, k - half, half, -1.0_wp, a, lda, l(half + 1, 1), ldl, 1.0_wp, a(1, half + 1), lda)
+         call divide_rows(m, k - half, l(half + 1, half + 1), ldl, a(1, half + 1), lda)
+         return
+      end if
+      inverse = 0.0_wp
+      do j = 1, k
+         do i = 1, j - 1
+            inverse(:i, j) = inverse(:i, j) - l(j, i)*inverse(:i, i)
+         end do
+         inverse(:j - 1, j) = inverse(:j - 1, j)/l(j, j)
+         inverse(j, j) = 1.0_wp/l(j, j)
+      end do
+      before = a(:m, :k)
+      call dgemm('N', 'N', m, k, k, 1.0_wp, before, m, inverse, k, 0.0_wp, a, lda)
+   end subroutine divide_rows
 
    !> The first row that is touched in column J of a panel or an update matrix; rows from there on must be set.
    elemental integer function top_row(j)
@@ -176,54 +228,23 @@ contains
       touched_entries = m*n - 0.5_wp*max(0.0_wp, n - page - narrow)**2
    end function touched_entries
 
-   !> Forward substitution: the first P of W become y, the others are reduced. Called within a task.
-   subroutine substitute(n, p, panel, w)
+   !> Forward substitution: the first P of W become y, the others are reduced.
+   pure subroutine substitute(n, p, panel, w)
       integer, intent(in)     :: n, p
       real(wp), intent(in)    :: panel(n, p) !! lower triangle, and all below it
       real(wp), intent(inout) :: w(n)
-      integer :: first, i, last, m
 
-      if (n <= small_rows) then
-         call solve_lower(n, n, p, panel, w)
-         return
-      end if
-      do first = 1, p, block
-         last = min(p, first + block - 1)
-         call solve_lower(n, last - first + 1, last - first + 1, panel(first, first), w(first))
-         do i = last + 1, n, strip_rows
-            m = min(strip_rows, n - i + 1)
-            !$omp task default(shared) firstprivate(i, m)
-            call subtract_columns(n, m, last - first + 1, panel(i, first), w(first), w(i))
-            !$omp end task
-         end do
-         !$omp taskwait
-      end do
+      call solve_lower(n, n, p, panel, w)
    end subroutine substitute
 
-   !> Back substitution: the first P of W become x; the others are known. Called within a task.
-   subroutine substitute_back(n, p, panel, w)
+   !> Back substitution: the first P of W become x; the others are known.
+   pure subroutine substitute_back(n, p, panel, w)
       integer, intent(in)     :: n, p
       real(wp), intent(in)    :: panel(n, p)
       real(wp), intent(inout) :: w(n)
-      integer :: first, j, last, m
 
-      if (n <= small_rows) then
-         if (n > p) call subtract_rows(n, n - p, p, panel(p + 1, 1), w(p + 1), w)
-         call solve_upper(n, p, panel, w)
-         return
-      end if
-      do first = 1 + block*((p - 1)/block), 1, -block
-         last = min(p, first + block - 1)
-         do j = first, last, strip_columns
-            if (last == n) exit
-            m = min(strip_columns, last - j + 1)
-            !$omp task default(shared) firstprivate(j, m)
-            call subtract_rows(n, n - last, m, panel(last + 1, j), w(last + 1), w(j))
-            !$omp end task
-         end do
-         !$omp taskwait
-         call solve_upper(n, last - first + 1, panel(first, first), w(first))
-      end do
+      if (n > p) call subtract_rows(n, n - p, p, panel(p + 1, 1), w(p + 1), w)
+      call solve_upper(n, p, panel, w)
    end subroutine substitute_back
 
    !> L y = w in the first P of M rows, w - L y in the others.
@@ -234,6 +255,11 @@ contains
       real(wp), intent(inout) :: w(m)
       integer :: i, j, k, last
 
+      if (m > few_rows) then
+         call dtrsv('L', 'N', 'N', p, l, n, w, 1)
+         if (m > p) call dgemv('N', m - p, p, -1.0_wp, l(p + 1, 1), n, w, 1, 1.0_wp, w(p + 1), 1)
+         return
+      end if
       do j = 1, p, together
          last = min(p, j + together - 1)
          do k = j, last
@@ -253,6 +279,10 @@ contains
       real(wp), intent(inout) :: w(p)
       integer :: i, j, k, last
 
+      if (p > few_rows) then
+         call dtrsv('L', 'T', 'N', p, l, n, w, 1)
+         return
+      end if
       do j = 1 + together*((p - 1)/together), 1, -together
          last = min(p, j + together - 1)
          if (last < p) call subtract_rows(n, p - last, last - j + 1, l(last + 1, j), w(last + 1), w(j))
@@ -272,6 +302,10 @@ contains
       real(wp), intent(inout) :: y(m)
       integer :: i, j
 
+      if (m > few_rows) then
+         call dgemv('N', m, columns, -1.0_wp, a, n, x, 1, 1.0_wp, y, 1)
+         return
+      end if
       do j = 1, columns - together + 1, together
          !$omp simd
          do i = 1, m
@@ -294,6 +328,10 @@ contains
       real(wp) :: s1, s2, s3, s4
       integer  :: i, j
 
+      if (m > few_rows) then
+         call dgemv('T', m, columns, -1.0_wp, a, n, x, 1, 1.0_wp, y, 1)
+         return
+      end if
       do j = 1, columns - together + 1, together
          s1 = 0.0_wp
          s2 = 0.0_wp

@@ -5,11 +5,18 @@
 !! parent adds those of all its children in their order: no digit depends on the number of threads.
 module front_solve
    use blas_lapack, only: dgemv, dtrmv
-   use front_tree, only: block_times_vector, front_tree_type, front_type, task_work
+   use front_tree, only: climb, front_tree_type, front_type, task_work
+   use front_assembly, only: children_done, is_tiled
    use front_kernel, only: substitute, substitute_back
+   use front_tiles, only: substitute_in_tiles
+   use kept_blocks, only: block_times_vector
    use kinds, only: wp
+   use omp_lib, only: omp_get_num_threads
+   use task_record, only: is_recorded, key, record_phase, record_task, task_begins
    implicit none
    private
+
+   integer, parameter :: few_rows = 150 ! of a front whose product with a vector is no task
 
    public :: sweep, solve_refactored, refactored_times_vector, factor_times_vector
 
@@ -31,17 +38,32 @@ contains
       type(front_tree_type), intent(in) :: tree
       logical, intent(in)               :: refactored, up
       real(wp), intent(inout)           :: x(tree%n)
-      real(wp), allocatable :: left(:) ! contributions of fronts to the rows beyond
+      real(wp), allocatable :: left(:)     ! contributions of fronts to the rows beyond
+      integer, allocatable  :: waiting(:)  ! children of every front that are not done
+      integer, allocatable  :: done(:)     ! marks of the fronts, 0: of no front
       integer :: f
 
-      allocate (left(merge(tree%n_left, 0, up)))
+      allocate (left(merge(tree%n_left, 0, up)), done(0:size(tree%fronts)))
+      waiting = tree%fronts%n_children
+      call record_phase(trim(merge('increments', 'bodies    ', refactored)))
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
-      do f = 1, size(tree%fronts)
-         if (.not. tree%fronts(f)%is_top .or. (tree%fronts(f)%is_refactored .neqv. refactored)) cycle
-         !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
-         call sweep_subtree(tree, f, up, x, left)
-         !$omp end task
+      do f = merge(1, size(tree%fronts), up), merge(size(tree%fronts), 1, up), merge(1, -1, up)
+         associate (front => tree%fronts(f))
+            if (front%is_refactored .neqv. refactored) cycle
+            if (up) then
+               if (.not. front%is_start) cycle
+               !$omp task default(shared) firstprivate(f) if(omp_get_num_threads() > 1) final(omp_get_num_threads() == 1)
+               call forward_from(tree, f, waiting, x, left)
+               !$omp end task
+            else
+               if (front%work <= task_work .and. .not. front%is_start) cycle
+               !$omp task default(shared) firstprivate(f) if(omp_get_num_threads() > 1) final(omp_get_num_threads() == 1) &
+               !$omp depend(in: done(merge(0, front%parent, front%is_top))) depend(out: done(f))
+               call backward_from(tree, f, x)
+               !$omp end task
+            end if
+         end associate
       end do
       !$omp end single
       !$omp end parallel
@@ -54,25 +76,44 @@ contains
       end do
    end subroutine sweep
 
-   !> UP: the subtree of front F, then F; else F, then its subtree.
-   recursive subroutine sweep_subtree(tree, f, up, x, left)
+   !> The subtree of front START, then the fronts above it up to one that waits for another subtree.
+   subroutine forward_from(tree, start, waiting, x, left)
+      type(front_tree_type), intent(in) :: tree
+      integer, intent(in)               :: start
+      integer, intent(inout)            :: waiting(:)
+      real(wp), intent(inout)           :: x(tree%n), left(:)
+      real(wp) :: began
+      integer  :: f
+
+      began = task_begins()
+      do f = tree%fronts(start)%begin, start - 1
+         if (tree%fronts(f)%is_refactored .eqv. tree%fronts(start)%is_refactored) call forward(tree, f, x, left)
+      end do
+      f = start
+      do while (f > 0)
+         call forward(tree, f, x, left)
+         if (is_recorded .and. .not. is_tiled(tree%fronts(f))) &
+            call record_task(began, 'forward', children_done(tree%fronts(f))//key('+', -f))
+         began = task_begins()
+         call climb(tree, waiting, f)
+      end do
+   end subroutine forward_from
+
+   !> Front F, and its subtree where that is one task.
+   subroutine backward_from(tree, f, x)
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: f
-      logical, intent(in)               :: up
-      real(wp), intent(inout)           :: x(tree%n), left(:)
-      integer :: c, i
+      real(wp), intent(inout)           :: x(tree%n)
+      real(wp) :: began
+      integer  :: g
 
-      if (.not. up) call backward(tree%fronts(f), x)
-      do i = 1, size(tree%fronts(f)%children)
-         c = tree%fronts(f)%children(i)
-         if (tree%fronts(c)%is_refactored .neqv. tree%fronts(f)%is_refactored) cycle
-         !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
-         call sweep_subtree(tree, c, up, x, left)
-         !$omp end task
+      began = task_begins()
+      do g = f, merge(f, tree%fronts(f)%begin, tree%fronts(f)%work > task_work), -1
+         if (tree%fronts(g)%is_refactored .eqv. tree%fronts(f)%is_refactored) call backward(tree, g, x)
       end do
-      !$omp taskwait
-      if (up) call forward(tree, f, x, left)
-   end subroutine sweep_subtree
+      if (is_recorded .and. .not. is_tiled(tree%fronts(f))) &
+         call record_task(began, 'backward', key('<', tree%fronts(f)%parent)//key('+', f))
+   end subroutine backward_from
 
    !> L y = x in front F, from X and the contributions LEFT by its children. The contributions of F are left likewise.
    subroutine forward(tree, f, x, left)
@@ -80,8 +121,10 @@ contains
       integer, intent(in)               :: f
       real(wp), intent(inout)           :: x(tree%n), left(:)
       real(wp), allocatable :: w(:) ! pivots, rows beyond
-      integer :: i
+      real(wp) :: began
+      integer  :: i
 
+      began = task_begins()
       associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
          allocate (w(p + r))
          w(:p) = x(first:first + p - 1)
@@ -93,25 +136,40 @@ contains
             end associate
          end do
          where (tree%locked(first:first + p - 1)) w(:p) = 0.0_wp
-         if (any(abs(w(:p)) > 0.0_wp)) call substitute(p + r, p, front%panel, w) ! loads act on few fronts and their ancestors
+         if (any(abs(w(:p)) > 0.0_wp)) then ! loads act on few fronts and their ancestors
+            if (is_tiled(front)) then
+               if (is_recorded) call record_task(began, 'gather', children_done(front)//key('>', f, 0)//key('+', f))
+               call substitute_in_tiles(f, p + r, p, front%panel, w, back=.false.)
+               began = task_begins()
+            else
+               call substitute(p + r, p, front%panel, w)
+            end if
+         end if
          x(first:first + p - 1) = w(:p)
          left(front%left + 1:front%left + r) = w(p + 1:)
+         if (is_recorded .and. is_tiled(front)) call record_task(began, 'scatter', key('<', f)//key('+', -f))
       end associate
    end subroutine forward
 
-   !> L^T x = y in FRONT, X known in the rows beyond.
-   subroutine backward(front, x)
-      type(front_type), intent(in) :: front
-      real(wp), intent(inout)      :: x(:)
+   !> L^T x = y in front F, X known in the rows beyond.
+   subroutine backward(tree, f, x)
+      type(front_tree_type), intent(in) :: tree
+      integer, intent(in)               :: f
+      real(wp), intent(inout)           :: x(:)
       real(wp), allocatable :: w(:) ! pivots, rows beyond
+      real(wp) :: began
 
-      call apply_signs(front, x)
-      allocate (w(front%p + front%r))
-      associate (p => front%p, last => front%first + front%p - 1)
-         w(:p) = x(front%first:last)
-         w(p + 1:) = x(front%rows)
-         call substitute_back(size(w), p, front%panel, w)
-         x(front%first:last) = w(:p)
+      began = task_begins()
+      associate (front => tree%fronts(f), first => tree%fronts(f)%first, p => tree%fronts(f)%p)
+         call apply_signs(front, x)
+         allocate (w, source=[x(first:first + p - 1), x(front%rows)])
+         if (is_tiled(front)) then
+            if (is_recorded) call record_task(began, 'gather', key('<', front%parent)//key('>', f, 0)//key('+', f))
+            call substitute_in_tiles(f, size(w), p, front%panel, w, back=.true.)
+         else
+            call substitute_back(size(w), p, front%panel, w)
+         end if
+         x(first:first + p - 1) = w(:p)
       end associate
    end subroutine backward
 
@@ -132,19 +190,35 @@ contains
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(in)              :: x(tree%n)
       real(wp), intent(inout)           :: y(tree%n)
-      real(wp) :: x_f(tree%most_rows), y_f(tree%most_rows)
-      integer  :: k
+      real(wp), allocatable :: x_f(:), y_f(:)      ! pivots, rows beyond
+      real(wp), allocatable :: own(:), left(:)     ! products in the pivots, in the rows beyond
+      integer :: k
 
-      y(tree%equations) = 0.0_wp
+      allocate (own(tree%n), left(tree%n_left))
+      !$omp parallel default(shared) if(tree%is_parallel)
+      !$omp single
       do k = 1, size(tree%refactored)
+         !$omp task default(shared) firstprivate(k) private(x_f, y_f) final(omp_get_num_threads() == 1) &
+         !$omp if(tree%fronts(tree%refactored(k))%p + tree%fronts(tree%refactored(k))%r > few_rows)
          associate (front => tree%fronts(tree%refactored(k)), p => tree%fronts(tree%refactored(k))%p)
-            x_f(:p) = x(front%first:front%first + p - 1)
-            x_f(p + 1:p + front%r) = x(front%rows)
-            y_f(:p + front%r) = 0.0_wp
+            x_f = [x(front%first:front%first + p - 1), x(front%rows)]
+            allocate (y_f(p + front%r), source=0.0_wp)
             call block_times_vector(front%start%panel, x_f, y_f)
             call block_times_vector(front%start%update, x_f(p + 1:), y_f(p + 1:))
-            y(front%first:front%first + p - 1) = y(front%first:front%first + p - 1) + y_f(:p)
-            y(front%rows) = y(front%rows) + y_f(p + 1:p + front%r)
+            own(front%first:front%first + p - 1) = y_f(:p)
+            left(front%left + 1:front%left + front%r) = y_f(p + 1:)
+         end associate
+         !$omp end task
+      end do
+      !$omp end single
+      !$omp end parallel
+      y(tree%equations) = 0.0_wp
+      do k = 1, size(tree%refactored)
+         associate (front => tree%fronts(tree%refactored(k)))
+            associate (last => front%first + front%p - 1)
+               y(front%first:last) = y(front%first:last) + own(front%first:last)
+            end associate
+            y(front%rows) = y(front%rows) + left(front%left + 1:front%left + front%r)
          end associate
       end do
    end subroutine refactored_times_vector

@@ -2,28 +2,19 @@
 !! factorised once. The other fronts are refactored in every increment.
 !! Sources: Duff, Reid, ACM Trans. Math. Softw. 9 (1983) 302-325; Liu, SIAM Review 34 (1992) 82-109.
 module front_tree
-   use blas_lapack, only: dgemv, dsymv
    use element_unknowns, only: nodes_of_unknowns
-   use front_kernel, only: top_row
    use front_layout, only: front_layout_type, front_operations
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
-   use kinds, only: long, wp
-   use lists, only: first_not_below, list_owners, sorted_order
+   use kept_blocks, only: kept_block
+   use kinds, only: wp
+   use lists, only: first_not_below, list_owners
    use model_data, only: model_type
    use node_coupling, only: list_on_unknowns
    implicit none
    private
 
-   public :: keep_block, restore_block, add_to_block, block_times_vector, start_front_tree, front_of, place_in
-
-   !> A block with N_ROWS rows; its first N_COLUMNS rows are a lower triangle.
-   type, public :: kept_block
-      integer :: n_rows = 0, n_columns = 0
-      real(wp), allocatable :: whole(:, :)            !! (n_rows, n_columns), or
-      real(wp), allocatable :: values(:)              !! entries, column by column, rows ascending, at
-      integer, allocatable  :: row(:), column(:)
-   end type kept_block
+   public :: start_front_tree, front_of, place_in, climb
 
    real(wp), parameter, public :: task_work = 2.0e6_wp !! operations in a subtree from which on it is a task
    real(wp), parameter :: parallel_work = 5.0e7_wp  ! operations of a factorisation from which on it uses several threads
@@ -53,7 +44,10 @@ module front_tree
       integer, allocatable :: negative(:)         !! of a factor with signs: the pivots of this front whose sign is -1
       real(wp) :: weakest = 1.0_wp                !! smallest pivot relative to the original diagonal entry
       type(front_start), allocatable :: start     !! of a refactored front
-      real(wp) :: work = 0.0_wp                   !! operations of its subtree
+      real(wp) :: work = 0.0_wp                   !! operations of its subtree, fronts of the same kind
+      integer :: n_children = 0                   !! children of the same kind
+      integer :: begin = 0                        !! the first front of its subtree
+      logical :: is_start = .false.               !! a task begins with its subtree, waiting for no other
    end type front_type
 
    type, public :: front_tree_type
@@ -74,137 +68,6 @@ module front_tree
    end type front_tree_type
 
 contains
-
-   !> Keep A, of which the kernel touches the lower part. OK is false where memory is missing.
-   subroutine keep_block(a, block, ok)
-      real(wp), intent(in)          :: a(:, :)
-      type(kept_block), intent(out) :: block
-      logical, intent(out)          :: ok
-      integer(long) :: k
-      integer :: i, j, status
-
-      block%n_rows = size(a, 1)
-      block%n_columns = size(a, 2)
-      k = sum([(int(count(abs(a(j:, j)) > 0.0_wp), long), j = 1, block%n_columns)])
-      if (2*k > int(block%n_rows, long)*block%n_columns/2) then
-         allocate (block%whole(block%n_rows, block%n_columns), stat=status)
-         ok = status == 0
-         if (.not. ok) return
-         do j = 1, block%n_columns
-            block%whole(top_row(j):, j) = a(top_row(j):, j)
-         end do
-         return
-      end if
-      allocate (block%values(k), block%row(k), block%column(k), stat=status)
-      ok = status == 0
-      if (.not. ok) return
-      k = 0
-      do j = 1, block%n_columns
-         do i = j, block%n_rows
-            if (.not. abs(a(i, j)) > 0.0_wp) cycle
-            k = k + 1
-            block%values(k) = a(i, j)
-            block%row(k) = i
-            block%column(k) = j
-         end do
-      end do
-   end subroutine keep_block
-
-   !> A = BLOCK, in the part that the kernel touches.
-   pure subroutine restore_block(block, a)
-      type(kept_block), intent(in) :: block
-      real(wp), intent(inout)      :: a(block%n_rows, block%n_columns)
-      integer(long) :: k
-      integer :: i, j
-
-      do j = 1, block%n_columns
-         if (allocated(block%whole)) then
-            !$omp simd
-            do i = top_row(j), block%n_rows
-               a(i, j) = block%whole(i, j)
-            end do
-         else
-            !$omp simd
-            do i = top_row(j), block%n_rows
-               a(i, j) = 0.0_wp
-            end do
-         end if
-      end do
-      if (allocated(block%whole)) return
-      do k = 1, size(block%values, kind=long)
-         a(block%row(k), block%column(k)) = block%values(k)
-      end do
-   end subroutine restore_block
-
-   !> Add to BLOCK at these ROWS and COLUMNS the entries of K that do not lie above its diagonal.
-   subroutine add_to_block(block, rows, columns, k)
-      type(kept_block), intent(inout) :: block
-      integer, intent(in)             :: rows(:), columns(:) !! ascending, each once
-      real(wp), intent(in)            :: k(:, :)             !! (rows, columns)
-      integer, allocatable  :: by_row(:), column(:), order(:), row(:)
-      real(wp), allocatable :: values(:)
-      logical :: is_lower(size(rows), size(columns))
-      integer :: i, j, n
-
-      is_lower = spread(rows, 2, size(columns)) >= spread(columns, 1, size(rows))
-      if (allocated(block%whole)) then
-         do j = 1, size(columns)
-            do i = 1, size(rows)
-               if (is_lower(i, j)) block%whole(rows(i), columns(j)) = block%whole(rows(i), columns(j)) + k(i, j)
-            end do
-         end do
-         return
-      end if
-      row = [block%row, pack(spread(rows, 2, size(columns)), is_lower)]
-      column = [block%column, pack(spread(columns, 1, size(rows)), is_lower)]
-      values = [block%values, pack(k, is_lower)]
-      call sorted_order(row, by_row)
-      call sorted_order(column(by_row), order)
-      order = by_row(order)
-      block%row = row(order)
-      block%column = column(order)
-      block%values = values(order)
-      n = min(1, size(order))
-      do i = 2, size(order) ! an entry at the place of the one before is added to it
-         if (block%row(i) == block%row(n) .and. block%column(i) == block%column(n)) then
-            block%values(n) = block%values(n) + block%values(i)
-         else
-            n = n + 1
-            block%row(n) = block%row(i)
-            block%column(n) = block%column(i)
-            block%values(n) = block%values(i)
-         end if
-      end do
-      block%row = block%row(:n)
-      block%column = block%column(:n)
-      block%values = block%values(:n)
-   end subroutine add_to_block
-
-   !> Y = Y + BLOCK X, BLOCK being part of a symmetric matrix over the unknowns of its rows.
-   subroutine block_times_vector(block, x, y)
-      type(kept_block), intent(in) :: block
-      real(wp), intent(in)         :: x(block%n_rows)
-      real(wp), intent(inout)      :: y(block%n_rows)
-      integer(long) :: k
-      integer :: m, n
-
-      m = block%n_rows
-      n = block%n_columns
-      if (allocated(block%whole)) then
-         if (n == 0) return
-         call dsymv('L', n, 1.0_wp, block%whole, m, x, 1, 1.0_wp, y, 1)
-         if (m == n) return
-         call dgemv('N', m - n, n, 1.0_wp, block%whole(n + 1, 1), m, x, 1, 1.0_wp, y(n + 1), 1)
-         call dgemv('T', m - n, n, 1.0_wp, block%whole(n + 1, 1), m, x(n + 1), 1, 1.0_wp, y, 1)
-      else
-         do k = 1, size(block%values, kind=long)
-            associate (i => block%row(k), j => block%column(k))
-               y(i) = y(i) + block%values(k)*x(j)
-               if (i /= j) y(j) = y(j) + block%values(k)*x(i)
-            end associate
-         end do
-      end if
-   end subroutine block_times_vector
 
    !> The tree of LAYOUT with the equations NUMBER; no matrix is formed yet.
    subroutine start_front_tree(model, number, layout, tree)
@@ -268,7 +131,18 @@ contains
             front%left = tree%n_left
             tree%n_left = tree%n_left + front%r
             front%work = front%work + front_operations(real(front%p, wp), real(front%r, wp))
-            if (front%parent > 0) tree%fronts(front%parent)%work = tree%fronts(front%parent)%work + front%work
+            front%begin = minval([f, tree%fronts(front%children)%begin])
+            front%is_start = front%n_children == 0 .or. front%is_top .and. front%work <= task_work
+            if (front%is_top) cycle
+            associate (parent => tree%fronts(front%parent))
+               parent%work = parent%work + front%work
+               parent%n_children = parent%n_children + 1
+            end associate
+         end associate
+      end do
+      do f = 1, layout%n
+         associate (front => tree%fronts(f))
+            if (front%work <= task_work .and. .not. front%is_top) front%is_start = tree%fronts(front%parent)%work > task_work
          end associate
       end do
       tree%refactored = pack([(f, f = 1, layout%n)], layout%is_refactored(:layout%n))
@@ -303,6 +177,22 @@ contains
          tree%fronts(f)%springs = list(first(f):first(f + 1) - 1)
       end do
    end subroutine hand_out_elements
+
+   !> From front F, whose subtree is done, to the front that can follow: the parent if it is of the same kind and F is the last of its
+   !! children; otherwise 0. LEFT counts the children of every front that are not done.
+   subroutine climb(tree, left, f)
+      type(front_tree_type), intent(in) :: tree
+      integer, intent(inout)            :: left(:), f
+      integer :: n
+
+      f = merge(0, tree%fronts(f)%parent, tree%fronts(f)%is_top)
+      if (f == 0) return
+      !$omp atomic capture seq_cst
+      left(f) = left(f) - 1
+      n = left(f)
+      !$omp end atomic
+      if (n > 0) f = 0
+   end subroutine climb
 
    !> The front that eliminates the first of EQUATIONS, 0 where all are 0.
    pure integer function front_of(tree, equations) result(f)

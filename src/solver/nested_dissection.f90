@@ -7,150 +7,77 @@
 !! place h are 2h and 2h + 1. Inner places hold the separators, the leaves the remaining nodes. Of the places of two neighbours,
 !! one is an ancestor of the other.
 !! Source of the coarse graph: heavy-edge matching, Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998) 359-392, section 3.1.
-!! METIS 5.1: Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998) 359-392.
 module nested_dissection
-   use, intrinsic :: iso_c_binding, only: c_funptr, c_int, c_int32_t, c_null_funptr, c_null_ptr, c_ptr
+   use kinds, only: wp
    use lists, only: list_owners
+   use metis, only: has_room, order_by_metis, restore_abort, separate_by_metis
    use node_graph, only: node_graph_type, part_of_graph
+   use task_record, only: is_recorded, key, record_phase, record_task, start_record, task_begins
    implicit none
    private
 
-   public :: order_by_metis, separate_by_metis, part_by_metis, dissect, dissect_coarsely, weigh_links, coarsen, thin_separators
+   public :: separate, dissect, dissect_coarsely, weigh_links, coarsen, thin_separators
 
-   integer, parameter :: n_options = 40         ! METIS_NOPTIONS
-   integer, parameter :: compress = 13          ! METIS_OPTION_COMPRESS, from 1 on
-   integer, parameter :: metis_ok = 1           ! METIS_OK
-   integer, parameter :: words = 8              ! words of memory per node or link for METIS
-
-   interface
-      integer(c_int32_t) function metis_set_default_options(options) bind(c, name='METIS_SetDefaultOptions')
-         import :: c_int32_t
-         integer(c_int32_t), intent(out) :: options(*)
-      end function metis_set_default_options
-
-      integer(c_int32_t) function metis_node_nd(n, first, neighbours, weights, options, old_of_new, new_of_old) &
-         bind(c, name='METIS_NodeND')
-         import :: c_int32_t, c_ptr
-         integer(c_int32_t), intent(in)    :: n, first(*), neighbours(*)  !! from 0 on
-         type(c_ptr), value                :: weights, options            !! null: defaults of METIS
-         integer(c_int32_t), intent(out)   :: old_of_new(*), new_of_old(*)
-      end function metis_node_nd
-
-      integer(c_int32_t) function metis_node_ndp(n, first, neighbours, weights, parts, options, old_of_new, new_of_old, sizes) &
-         bind(c, name='METIS_NodeNDP')
-         import :: c_int32_t, c_ptr
-         integer(c_int32_t), value         :: n, parts
-         integer(c_int32_t), intent(in)    :: first(*), neighbours(*), options(*)
-         type(c_ptr), value                :: weights
-         integer(c_int32_t), intent(out)   :: old_of_new(*), new_of_old(*)
-         integer(c_int32_t), intent(inout) :: sizes(*)   !! (2 parts - 1) of leaves and separators, the root last
-      end function metis_node_ndp
-
-      integer(c_int32_t) function metis_part_kway(n, constraints, first, neighbours, weights, sizes, link_weights, parts, shares, &
-                                                  imbalance, options, cut, part) bind(c, name='METIS_PartGraphKway')
-         import :: c_int32_t, c_ptr
-         integer(c_int32_t), intent(in)  :: n, constraints, first(*), neighbours(*), parts
-         type(c_ptr), value              :: weights, sizes, link_weights, shares, imbalance, options
-         integer(c_int32_t), intent(out) :: cut, part(*)
-      end function metis_part_kway
-
-      !> The action at SIGNAL from now on, until it comes once; gives the previous action. A name of glibc.
-      type(c_funptr) function c_sysv_signal(signal, handler) bind(c, name='sysv_signal')
-         import :: c_funptr, c_int
-         integer(c_int), value :: signal
-         type(c_funptr), value :: handler
-      end function c_sysv_signal
-   end interface
-
-   integer(c_int), parameter :: sigterm = 15 ! of Linux
-
+   integer, parameter :: many = 2000         ! nodes from which on a part is a task
    integer, parameter :: large = 20000      ! nodes from which on a graph is coarsened
    integer, parameter :: flat = 10          ! average number of neighbours up to which a mesh is taken as plane
    integer, parameter :: part_nodes = 700   ! largest part that is not coarsened
+   integer, parameter :: solid_nodes = 1500 ! largest part of a graph that is cut without
+   integer, parameter :: smallest = 20      ! nodes that are worth a separator
 
 contains
 
-   !> ORDER(k) is the k-th node of GRAPH to be eliminated, by nested dissection. OK is false where METIS lacks memory.
-   subroutine order_by_metis(graph, order, ok)
-      type(node_graph_type), intent(in) :: graph
-      integer, allocatable, intent(out) :: order(:)
-      logical, intent(out)              :: ok
-      integer(c_int32_t) :: old_of_new(graph%n), new_of_old(graph%n)
-
-      ok = .true.
-      old_of_new = 0
-      if (graph%n > 1) ok = metis_node_nd(graph%n, graph%first - 1, graph%neighbours - 1, c_null_ptr, c_null_ptr, old_of_new, &
-                                          new_of_old) == metis_ok
-      if (ok) order = old_of_new + 1
-   end subroutine order_by_metis
-
-   !> Whether METIS has the memory for GRAPH.
-   logical function has_room(graph)
-      type(node_graph_type), intent(in) :: graph
-      integer, allocatable :: room(:, :)
-      integer :: status
-
-      allocate (room(words, graph%n + size(graph%neighbours)), stat=status)
-      has_room = status == 0
-   end function has_room
-
-   !> Cut GRAPH by separators into N_PARTS, a power of 2: PLACE of every node in the tree of separators; 1 for all where METIS
-   !! returns no separators. OK is false where memory is missing: METIS would end the program.
-   subroutine separate_by_metis(graph, n_parts, place, ok)
+   !> Cut GRAPH by separators into N_PARTS, a power of 2: PLACE of every node in the tree of separators. The halves are tasks. OK is
+   !! false where memory is missing: METIS would end the program.
+   subroutine separate(graph, n_parts, place, ok)
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)               :: n_parts
       integer, allocatable, intent(out) :: place(:) !! (graph%n)
       logical, intent(out)              :: ok
-      integer(c_int32_t) :: old_of_new(graph%n), new_of_old(graph%n), sizes(2*n_parts - 1), options(n_options)
-      integer :: n, status
+      integer, allocatable :: number(:)
+      integer :: i
 
       ok = has_room(graph)
       if (.not. ok) return
-      status = metis_set_default_options(options)
-      options(compress) = 0   ! with compression the sizes would count compressed nodes
-      sizes = 0
-      ok = metis_node_ndp(graph%n, graph%first - 1, graph%neighbours - 1, c_null_ptr, n_parts, options, old_of_new, new_of_old, &
-                          sizes) == metis_ok
-      if (.not. ok) return
-      allocate (place(graph%n), source=1)
-      if (sum(sizes) /= graph%n) return
-      n = 0
-      call hand_out(1)
+      allocate (place(graph%n), number(graph%n), source=0)
+      call record_phase('order')
+      !$omp parallel default(shared) if(graph%n >= many)
+      !$omp single
+      call cut([(i, i = 1, graph%n)], 1)
+      !$omp end single
+      !$omp end parallel
 
    contains
 
-      !> Assign the nodes of the subtree of place TOP: METIS orders its second half first, the separator last.
-      recursive subroutine hand_out(top)
-         integer, intent(in) :: top
+      !> Cut NODES, which have no neighbours but in separators, for the subtree of place TOP.
+      recursive subroutine cut(nodes, top)
+         integer, intent(in)   :: nodes(:), top
+         type(node_graph_type) :: part
+         integer, allocatable  :: side(:)
+         logical  :: done
+         real(wp) :: began
 
-         if (top < n_parts) then
-            call hand_out(2*top + 1)
-            call hand_out(2*top)
+         if (top >= n_parts .or. size(nodes) < smallest) then
+            place(nodes) = max(top, shiftl(top, leadz(top) - leadz(n_parts))) ! few nodes: all in the first part
+            return
          end if
-         associate (m => sizes(2*n_parts - top))
-            place(old_of_new(n + 1:n + m) + 1) = top
-            n = n + m
-         end associate
-      end subroutine hand_out
+         began = task_begins()
+         call part_of_graph(graph, nodes, number, part)
+         call separate_by_metis(part, side, done)
+         if (.not. done) then
+            !$omp atomic write
+            ok = .false.
+         end if
+         place(pack(nodes, side == 2)) = top
+         if (is_recorded) call record_task(began, 'separate', key('<', top/2)//key('+', top))
+         !$omp task default(shared) if(part%n >= many)
+         call cut(pack(nodes, side == 0), 2*top)
+         !$omp end task
+         call cut(pack(nodes, side == 1), 2*top + 1)
+         !$omp taskwait
+      end subroutine cut
 
-   end subroutine separate_by_metis
-
-   !> PART, 0 to N_PARTS - 1, of every node of GRAPH: parts of similar size with few links between them. OK as above.
-   subroutine part_by_metis(graph, n_parts, part, ok)
-      type(node_graph_type), intent(in) :: graph
-      integer, intent(in)               :: n_parts
-      integer, allocatable, intent(out) :: part(:) !! (graph%n)
-      logical, intent(out)              :: ok
-      integer(c_int32_t) :: cut
-
-      allocate (part(graph%n), source=0)
-      ok = .true.
-      if (n_parts == 1 .or. graph%n < n_parts) return
-      ok = has_room(graph)
-      if (.not. ok) return
-      ok = metis_part_kway(graph%n, 1, graph%first - 1, graph%neighbours - 1, c_null_ptr, c_null_ptr, c_null_ptr, n_parts, &
-                           c_null_ptr, c_null_ptr, c_null_ptr, cut, part) == metis_ok
-   end subroutine part_by_metis
+   end subroutine separate
 
    !> ORDER(k) is the k-th node to be eliminated, of the nodes with TAKEN(node). The graph leaves the others out. OK is false
    !! where METIS lacks memory.
@@ -160,74 +87,111 @@ contains
       integer, allocatable, intent(out)  :: order(:)
       logical, intent(out)               :: ok
       type(node_graph_type) :: part
-      integer, allocatable  :: nodes(:), number(:)
+      integer, allocatable  :: nodes(:), number(:), place(:)
       integer :: i
 
       nodes = pack([(i, i = 1, graph%n)], taken)
       allocate (number(graph%n), source=0)
       call part_of_graph(graph, nodes, number, part)
-      if (part%n >= large .and. size(part%neighbours) <= flat*part%n) then
+      call start_record()
+      if (part%n < large) then
+         call order_by_metis(part, order, ok)
+      else if (size(part%neighbours) <= flat*part%n) then
          call dissect_coarsely(part, part_nodes, order, ok)
       else
-         call order_by_metis(part, order, ok)
+         call separate(part, parts_of(part%n, solid_nodes), place, ok)
+         if (ok) call order_parts(part, parts_of(part%n, solid_nodes), place, order, ok)
       end if
       if (ok) order = nodes(order)
    end subroutine dissect
 
-   !> ORDER as above. A coarse graph is cut into parts of MOST_NODES of GRAPH on average at most. METIS orders them one by one.
-   !! The separators follow their parts.
+   !> The least power of 2 that divides N nodes into parts of MOST_NODES on average at most.
+   pure integer function parts_of(n, most_nodes)
+      integer, intent(in) :: n, most_nodes
+
+      parts_of = 1
+      do while (parts_of*most_nodes < n)
+         parts_of = 2*parts_of
+      end do
+   end function parts_of
+
+   !> ORDER as above. A coarse graph is cut into parts of MOST_NODES of GRAPH on average at most.
    subroutine dissect_coarsely(graph, most_nodes, order, ok)
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)               :: most_nodes
       integer, allocatable, intent(out) :: order(:)
       logical, intent(out)              :: ok
       type(node_graph_type) :: pairs, fours
-      integer, allocatable  :: weight(:), pair_weight(:), four_weight(:), pair(:), four(:), place(:), first(:), nodes(:), number(:)
-      integer :: n, n_parts
+      integer, allocatable  :: weight(:), pair_weight(:), four_weight(:), pair(:), four(:), place(:)
+      integer :: n_parts
 
-      n_parts = 1
-      do while (n_parts*most_nodes < graph%n)
-         n_parts = 2*n_parts
-      end do
+      n_parts = parts_of(graph%n, most_nodes)
       call weigh_links(graph, weight)
       call coarsen(graph, weight, pairs, pair_weight, pair)
       call coarsen(pairs, pair_weight, fours, four_weight, four)
-      call separate_by_metis(fours, n_parts, place, ok)
+      call separate(fours, n_parts, place, ok)
       if (.not. ok) return
-      if (maxval(place) == 1) n_parts = 1   ! nothing was separated
       place = place(four(pair))
       call thin_separators(graph, n_parts, place)
+      call order_parts(graph, n_parts, place, order, ok)
+   end subroutine dissect_coarsely
+
+   !> ORDER as above. METIS orders the parts of PLACE one by one, in parallel. The separators follow their parts.
+   subroutine order_parts(graph, n_parts, place, order, ok)
+      type(node_graph_type), intent(in) :: graph
+      integer, intent(in)               :: n_parts
+      integer, intent(in)               :: place(:)
+      integer, allocatable, intent(out) :: order(:)
+      logical, intent(out)              :: ok
+      type(node_graph_type) :: part
+      integer, allocatable  :: first(:), nodes(:), number(:), sequence(:)
+      integer :: begin(2*n_parts - 1) ! nodes before those of a place
+      integer :: n, top
+      logical :: done
+      real(wp) :: began
+
       call list_owners(2*n_parts - 1, reshape(place, [1, graph%n]), first, nodes)
-      allocate (order(graph%n), number(graph%n))
-      number = 0
       n = 0
-      call order_subtree(1)
+      call hand_out(1)
+      allocate (order(graph%n), number(graph%n), source=0)
+      ok = .true.
+      call record_phase('order')
+      !$omp parallel do schedule(dynamic, 1) default(shared) private(began, done, part, sequence) if(graph%n >= many)
+      do top = 1, 2*n_parts - 1
+         began = task_begins()
+         associate (here => nodes(first(top):first(top + 1) - 1))
+            if (top < n_parts) then
+               order(begin(top) + 1:begin(top) + size(here)) = here
+            else
+               call part_of_graph(graph, here, number, part)
+               call order_by_metis(part, sequence, done)
+               if (done) order(begin(top) + 1:begin(top) + size(here)) = here(sequence)
+               if (.not. done) then
+                  !$omp atomic write
+                  ok = .false.
+               end if
+            end if
+         end associate
+         if (is_recorded) call record_task(began, 'part', '')
+      end do
+      !$omp end parallel do
+      if (graph%n >= many) call restore_abort()
 
    contains
 
-      !> Order the nodes of the subtree of place TOP.
-      recursive subroutine order_subtree(top)
-         integer, intent(in)   :: top
-         type(node_graph_type) :: part
-         integer, allocatable  :: sequence(:)
+      !> The places of the subtree of place TOP, in the sequence of elimination.
+      recursive subroutine hand_out(top)
+         integer, intent(in) :: top
 
          if (top < n_parts) then
-            call order_subtree(2*top)
-            call order_subtree(2*top + 1)
+            call hand_out(2*top)
+            call hand_out(2*top + 1)
          end if
-         associate (here => nodes(first(top):first(top + 1) - 1))
-            if (top < n_parts) then
-               order(n + 1:n + size(here)) = here
-            else if (ok) then
-               call part_of_graph(graph, here, number, part)
-               call order_by_metis(part, sequence, ok)
-               if (ok) order(n + 1:n + size(here)) = here(sequence)
-            end if
-            n = n + size(here)
-         end associate
-      end subroutine order_subtree
+         begin(top) = n
+         n = n + first(top + 1) - first(top)
+      end subroutine hand_out
 
-   end subroutine dissect_coarsely
+   end subroutine order_parts
 
    !> WEIGHT of every link: 1 plus the number of common neighbours of its ends.
    subroutine weigh_links(graph, weight)
@@ -343,15 +307,5 @@ contains
       end function is_below
 
    end subroutine thin_separators
-
-   !> Called by METIS in place of the routine of the C library. METIS sets handlers of its own for its errors while it works: at SIGTERM
-   !! it would give up the order, and the program would go on. The handler of the program stays for SIGTERM.
-   type(c_funptr) function metis_signal(signal, handler) bind(c, name='__sysv_signal') result(before)
-      integer(c_int), value :: signal
-      type(c_funptr), value :: handler
-
-      before = c_null_funptr
-      if (signal /= sigterm) before = c_sysv_signal(signal, handler)
-   end function metis_signal
 
 end module nested_dissection

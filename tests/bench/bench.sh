@@ -6,8 +6,8 @@
 #
 # FOLDER  where the programs of the benchmark are and its files go; FOLDER/measured holds every figure, FOLDER/tables the tables
 # WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing, gmsh, lists,
-#         modes, foot, zoo, mpi; not of all: foot and mpi, which take hours, and zoo, which takes half an hour; FOOT_MODELS, ZOO_MODELS
-#         and MPI_SHAPES are the models they measure
+#         modes, foot, zoo, mpi; not of all: foot and mpi, which take hours, and zoo, which takes half an hour; FOOT_MODELS, ZOO_MODELS,
+#         MPI_SHAPES and THREAD_SHAPES are the models they measure
 #
 # Programs run one after another, on one thread unless said otherwise, ours and CHOLMOD in turn; of several runs the fastest
 # counts, long ones are not repeated. Status 1 where a run fails or CHOLMOD finds another answer.
@@ -162,25 +162,43 @@ measure_friction() {
    remove_results "$shape"
 }
 
-# ------------------------------------------------------------------ one thread against two
+# ------------------------------------------------------------------ one thread, two, four ... all, and what the recorded tasks promise
 measure_threads() {
-   local shape=$1 threads turn same=yes
+   local shape=$1 threads turn same=yes list=1 n=2
    [ "$(nproc)" -gt 1 ] || { echo 'bench: one core, threads are not measured' >&2; return; }
+   while [ $n -lt "$(nproc)" ]; do list="$list $n"; n=$((2*n)); done
+   list="$list $(nproc)"
    rm -f "$work"/threads_*
    "$here/make_deck.sh" "$shape" TREE LAST > "$work/$shape.bdf" || exit 1
    for turn in 1 2; do
-      for threads in 1 2; do
+      for threads in $list; do
          echo "bench: $shape, threads: $threads" >&2
-         run_program $threads "$work/$shape.bdf"
+         run_program "$threads" "$work/$shape.bdf"
          figures "$work/$shape.bdf" > "$work/one"
          keep_faster "$work/one" "$work/threads_$threads"
          cat "$work/$shape.out" "$work/$shape.joint.csv" | cksum > "$work/sum_$threads"
+         cmp -s "$work/sum_1" "$work/sum_$threads" || same=no
       done
-      cmp -s "$work/sum_1" "$work/sum_2" || same=no
       enough 10 "$work/threads_1" && break
    done
-   for threads in 1 2; do record "threads_$threads" "$shape" "$work/threads_$threads"; done
-   echo "threads_2 $shape same $same" >> "$measured"
+   echo "bench: $shape, its tasks" >&2
+   JOINTFEM_TASKS=$work/tasks run_program 1 "$work/$shape.bdf"
+   for threads in $list; do
+      if [ -x "$work/pardiso_once" ]; then
+         [ "$threads" != 1 ] || "$work/write_matrix" "$work/$shape.bdf" "$work/$shape.matrix" || exit 1
+         "$work/pardiso_once" "$work/$shape.matrix" "$threads" > "$work/said" || fail "PARDISO failed on $shape"
+         sed -n 's/^solution /pardiso /p' "$work/said" >> "$work/threads_$threads"
+      fi
+      record "threads_$threads" "$shape" "$work/threads_$threads"
+   done
+   figures "$work/$shape.bdf" > "$work/one"
+   for threads in $(echo "$list 4 8 16 32" | tr ' ' '\n' | sort -nu); do
+      echo "threads_$threads $shape same $same" >> "$measured"
+      [ ! -f "$work/tasks" ] || awk -f "$here/schedule.awk" -v threads="$threads" "$work/tasks" |
+         awk 'NR == FNR { if (NF >= 2) seconds[$1] = $2; next } FNR > 1 && seconds[$1] > 0 { print "predicted_" $1, seconds[$1]/(seconds[$1] - $3 + $5) }' \
+            "$work/one" - | sed "s/^/threads_$threads $shape /" >> "$measured"
+   done
+   rm -f "$work/tasks"
    remove_results "$shape"
 }
 
@@ -403,7 +421,7 @@ export OPENBLAS_CORETYPE=${OPENBLAS_CORETYPE:-$(sed -n 's/^kernel //p' "$work/on
 for what in $wanted; do
    case $what in
    friction) measure_friction q4_400x80; measure_friction hex8_20x20x20 ;;
-   threads)  measure_threads hex8_30x30x30 ;;
+   threads)  for shape in ${THREAD_SHAPES:-hex8_30x30x30}; do measure_threads "$shape"; done ;;
    crossing) measure_crossing ;;
    gmsh)     measure_gmsh ;;
    foot)     measure_foot ;;

@@ -12,7 +12,7 @@ program partition_plan
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use kinds, only: wp
-   use nested_dissection, only: part_by_metis
+   use metis, only: part_by_metis
    use model_build, only: build_model
    use model_data, only: model_type
    use node_graph, only: build_node_graph, node_graph_type

@@ -289,19 +289,29 @@ function plan(    i, k, m, names, n) {
    }
 }
 
-function threads(    i, k, m, names, n) {
-   if (!rows["threads_2"]) return
-   n = split("order factor increments recover solution all", names, " ")
-   for (i = 1; i <= rows["threads_2"]; i++) {
-      m = row["threads_2", i]
-      title("One thread and two, " label(m) "; results with the same digits: " v["threads_2", m, "same"])
-      head("phase;one s;two s;one/two")
-      for (k = 1; k <= n; k++)
-         cells(names[k] ";" seconds(v["threads_1", m, names[k]]) ";" seconds(v["threads_2", m, names[k]]) ";" \
-            ratio(v["threads_1", m, names[k]], v["threads_2", m, names[k]]))
+# A row for each number of threads; beyond the cores of the machine there are predictions only.
+function threads(    i, k, m, names, n, p, line, table) {
+   if (!rows["threads_1"]) return
+   n = split("order factor increments", names, " ")
+   for (i = 1; i <= rows["threads_1"]; i++) {
+      m = row["threads_1", i]
+      title("Threads, " label(m) "; results with the same digits: " v["threads_1", m, "same"])
+      head("threads;order s;gain;predicted;factor s;gain;predicted;increments s;gain;predicted;recover s;all s;gain;PARDISO s;gain")
+      for (p = 1; p <= 1024; p++) {
+         table = "threads_" p
+         if (!((table, m) in met)) continue
+         line = p
+         for (k = 1; k <= n; k++)
+            line = line ";" seconds(v[table, m, names[k]]) ";" gain(m, table, names[k]) ";" either(rounded(v[table, m, "predicted_" names[k]]))
+         cells(line ";" seconds(v[table, m, "recover"]) ";" seconds(v[table, m, "all"]) ";" gain(m, table, "all") ";" \
+            seconds(v[table, m, "pardiso"]) ";" gain(m, table, "pardiso"))
+      }
       put()
    }
 }
+
+function gain(m, table, name) { return v[table, m, name] == "" ? "-" : ratio(v["threads_1", m, name], v[table, m, name]) }
+function rounded(x) { return x == "" ? "" : sprintf("%.2f", x) }
 
 function crossing(    i, m, s, t) {
    if (!rows["crossing_TREE"]) return

@@ -18,6 +18,9 @@ typedef struct task {
    void (*routine)(void *);
    void *data;
    struct task *parent, *next;
+   struct task *last, *before; /* the last child with dependences; the sibling with dependences before */
+   void **depends;             /* places: all, those written, then the places, the written ones first; NULL: none */
+   bool done;
    int children; /* not done yet; its address is what their ends and the taskwait meet at */
 } task;
 
@@ -51,6 +54,8 @@ int omp_get_max_threads_(void)
    return n_threads;
 }
 int omp_get_num_threads(void) { return team ? team->threads : 1; }
+int omp_get_num_threads_(void) { return omp_get_num_threads(); }
+int omp_in_parallel_(void) { return team && team->threads > 1; }
 int omp_get_thread_num(void) { return team ? my_number : 0; }
 double omp_get_wtime_(void)
 {
@@ -59,26 +64,54 @@ double omp_get_wtime_(void)
    return t.tv_sec + 1e-9*t.tv_nsec;
 }
 
-/* Any task of the queue; NULL: there is none. */
+/* Whether T must follow its sibling S: a place of both that one of them writes. */
+static bool must_follow(const task *t, const task *s)
+{
+   long i, j, n = (long)t->depends[0], m = (long)s->depends[0];
+   for (i = 0; i < n; i++)
+      for (j = 0; j < m; j++)
+         if (t->depends[2 + i] == s->depends[2 + j] && (i < (long)t->depends[1] || j < (long)s->depends[1])) return true;
+   return false;
+}
+
+static bool may_run(const task *t)
+{
+   const task *s;
+   for (s = t->before; s; s = s->before)
+      if (!s->done && must_follow(t, s)) return false;
+   return true;
+}
+
+/* Any task of the queue that may run; NULL: there is none. */
 static task *take(void)
 {
-   task **at = &queue, *taken;
+   task **at, **found = NULL, *taken = NULL;
    int skip;
    lock();
    seed = seed*1103515245u + 12345u;
-   for (skip = (seed >> 16) % 3; skip > 0 && *at && (*at)->next; skip--) at = &(*at)->next;
-   taken = *at;
-   if (taken) *at = taken->next;
+   skip = (seed >> 16) % 3;
+   for (at = &queue; *at && skip >= 0; at = &(*at)->next)
+      if (may_run(*at)) { found = at; skip--; }
+   if (found) {
+      taken = *found;
+      *found = taken->next;
+   }
    unlock();
    return taken;
 }
 
 static void run(task *t)
 {
-   task *before = now;
+   task *before = now, *s;
    now = t;
    __tsan_acquire(t);
+   for (s = t->before; s; s = s->before)
+      if (must_follow(t, s)) __tsan_acquire(s);
    t->routine(t->data);
+   __tsan_release(t);
+   lock();
+   t->done = true;
+   unlock();
    __tsan_release(&t->parent->children);
    __tsan_release(team);
    now = before;
@@ -92,7 +125,7 @@ void GOMP_task(void (*routine)(void *), void *data, void (*copy)(void *, void *)
 {
    task *t = calloc(1, sizeof *t);
    char *room = malloc(size + align);
-   (void)flags, (void)depend, (void)priority;
+   (void)priority;
    t->data = (void *)(((unsigned long)room + align - 1) / align * align);
    if (copy) copy(t->data, data);
    else memcpy(t->data, data, size);
@@ -109,6 +142,13 @@ void GOMP_task(void (*routine)(void *), void *data, void (*copy)(void *, void *)
    __atomic_add_fetch(&team->left, 1, __ATOMIC_ACQ_REL);
    __tsan_release(t);
    lock();
+   if (flags & 8) { /* the way of GCC where tasks depend by in, out and inout alone */
+      size_t bytes = sizeof(void *)*(2 + (size_t)depend[0]);
+      t->depends = malloc(bytes);
+      memcpy(t->depends, depend, bytes);
+      t->before = now->last;
+      now->last = t;
+   }
    t->next = queue;
    queue = t;
    unlock();
