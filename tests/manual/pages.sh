@@ -102,8 +102,13 @@ for lesson in 2d 2a 2b 2c; do # LAMBDA of the row of NODE 1 = 51
    lambdas="$lambdas${lambdas:+, }$lambda"
    errors="$errors${errors:+, }$(awk -v x="$lambda" -v e="$limit" 'BEGIN { printf "%.1f %%", 100*(x/e - 1) }')"
 done
-answer 2 "$lambdas mm; by NEWTON $limit mm"
-answer 2 "errors $errors"
+answer '2 \(a\)' "$lambdas mm; by NEWTON $limit mm"
+answer '2 \(a\)' "errors $errors"
+for name in 'e one increment' 'f without INCR'; do # node 6; contact; error of path
+   answer '2 \(b\)' "${name#* }: $(table "lesson2${name%% *}" 'INTERFACE ELEMENTS OF JOINT 1' | awk '$2 == 6 { print $8 " mm, " $7 }'); $(
+      awk '/JOINT CONTACT %/ { n = NR + 2 } NR == n { v = $2 } END { print v }' "$work/lesson2${name%% *}.out") %; $(
+      awk '/INCR +PARTS/ { n = NR + 1 } NR == n { v = $NF } END { print v }' "$work/lesson2${name%% *}.out") %"
+done
 answer '3 \(a\)' "LARGEST DISPLACEMENT $(largest 3 2) mm"
 answer '3 \(a\)' "SLIPPING $(value lesson3 rows 'stage = 2 and increment = 10' print 'sum(slip)') node"
 for origin in 'BRANCH 3b' 'CURVE 3c'; do
