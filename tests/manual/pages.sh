@@ -165,6 +165,9 @@ holds 'README.md: its lines' "$(wc -l < README.md) <= 170"
 # what --help CARD prints has no marks of the page
 same '--help CARD: marks' "$(awk -f src/run/card_manual.awk $cards | grep -E '^      call add' | grep -nE '\]\(|`|\*\*[a-zA-Z]')" ''
 
+# so has the list of the entries
+same '--help NOCARD: columns' "$("$program" --help NOCARD 2>&1 | awk 'length > 100 || / ,/' )" ''
+
 # every example of a card is read without an error but references to what the example does not show
 awk -v folder="$work" '/^### / { section = $2; sub(/,$/, "", section) }
    /^```/ { inside = !inside; first = inside; if (!inside && file != "") { print "ENDDATA" > file; close(file); file = "" } next }
