@@ -51,8 +51,10 @@ END {
    print ""
    print "   public :: manual_entry"
    print ""
-   print "   character(*), parameter, public :: manual_names = ' '// & !! of all entries"
-   for (i = 1; i <= n; i++) print "      '" title[i] " '" (i < n ? "// &" : "")
+   print "   character(*), parameter, public :: manual_names = & !! of all entries"
+   for (i = 1; i <= n; i++) if (!listed[title[i]]++) names = names (i > 1 ? ", " : "   ") title[i]
+   m = wrap(names, width, 3)
+   for (i = 1; i <= m; i++) print "      new_line('a')//'" wrapped[i] "'" (i < m ? "// &" : "")
    print ""
    print "contains"
    print ""

@@ -119,7 +119,7 @@ contains
          case ('--help', '-h')
             text = help
             if (.not. is_missing) text = manual_entry(upper(value))
-            if (text == '') call complain(program, 'the manual has no entry '''//upper(value)//'''; it has'//trim(manual_names))
+            if (text == '') call complain(program, 'the manual has no entry '''//upper(value)//'''; it has'//manual_names)
             if (text /= '') call say(text(:verify(text, nl, back=.true.)), status)
             return
          case ('--version')

@@ -4,7 +4,7 @@
 /^#+ / { title = $0; sub(/^#+ /, "", title); there[anchor(title)] = 1 }
 /^\|/ { n = gsub(/\|/, "|"); if (!width) width = n; else if (n != width) print NR ": " (n - 1) " cells, not " (width - 1) }
 !/^\|/ { width = 0 }
-/^([-+*]|[0-9]+[.)]) / && before != "" && before !~ /^ *- |^  / { print NR ": begins as an item of a list: " $0 }
+/^([-+*]|[0-9]+[.)]) / && before != "" && before !~ /^ *- |^  |^[0-9]+[.)] / { print NR ": begins as an item of a list: " $0 }
 /^(=+|-+) *$/ && before != "" { print NR ": underlines the line above" }
 {
    before = $0

@@ -102,8 +102,13 @@ for lesson in 2d 2a 2b 2c; do # LAMBDA of the row of NODE 1 = 51
    lambdas="$lambdas${lambdas:+, }$lambda"
    errors="$errors${errors:+, }$(awk -v x="$lambda" -v e="$limit" 'BEGIN { printf "%.1f %%", 100*(x/e - 1) }')"
 done
-answer 2 "$lambdas mm; by NEWTON $limit mm"
-answer 2 "errors $errors"
+answer '2 \(a\)' "$lambdas mm; by NEWTON $limit mm"
+answer '2 \(a\)' "errors $errors"
+for name in 'e one increment' 'f without INCR'; do # node 6; contact; error of path
+   answer '2 \(b\)' "${name#* }: $(table "lesson2${name%% *}" 'INTERFACE ELEMENTS OF JOINT 1' | awk '$2 == 6 { print $8 " mm, " $7 }'); $(
+      awk '/JOINT CONTACT %/ { n = NR + 2 } NR == n { v = $2 } END { print v }' "$work/lesson2${name%% *}.out") %; $(
+      awk '/INCR +PARTS/ { n = NR + 1 } NR == n { v = $NF } END { print v }' "$work/lesson2${name%% *}.out") %"
+done
 answer '3 \(a\)' "LARGEST DISPLACEMENT $(largest 3 2) mm"
 answer '3 \(a\)' "SLIPPING $(value lesson3 rows 'stage = 2 and increment = 10' print 'sum(slip)') node"
 for origin in 'BRANCH 3b' 'CURVE 3c'; do
@@ -121,6 +126,20 @@ answer 4 "CHANGE/LOAD $(awk '/BOLT +ELEMENT +SURFACE/ { n = NR + 2 } NR == n { v
 answer 5 "$(awk -v x="$(mode lesson5 1 frequency 2)" 'BEGIN { printf "%.1f", x }') Hz"
 answer 7 "CONTACT $(awk '/JOINT CONTACT %/ { n = NR + 2 } NR == n { v = $2 } END { print v }' "$work/lesson7.out") %"
 answer 7 "P MAX $(awk '/JOINT CONTACT %/ { n = NR + 2 } NR == n { v = $3 } END { print v }' "$work/lesson7.out") N/mm2"
+# pressures FOLDER NAME: of the first seven elements
+pressures() { awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } NR < 9 { printf "%s%.1f", (NR > 2 ? ", " : ""), $c["pressure"] }' "$1/$2.joint.csv"; }
+course_text=$(tr -s ' \n' ' ' < $course)
+course() { case $course_text in *"$2"*) passed=$((passed + 1)) ;; *) fail "$1: '$2' does not stand in $course" ;; esac; }
+course 'lesson 7' "the pressure goes $(pressures "$work" lesson7) from point to point, in \`hub.joint.csv\` $(pressures reference_output hub) from"
+course 'lesson 5' "$(awk '/OF ST %/ { n = NR + 2 } NR == n { printf "%.0f", $6; exit }' "$work/lesson5.out") % of their proof stress"
+# as soft as the bodies: no pressure between two others exceeds both, or falls below both, by a tenth of the largest
+for name in hub lesson7; do
+   deck=input/hub.bdf; [ $name = hub ] || deck=$work/lessons/lesson7.bdf
+   sed 's/^JNORM,.*/JNORM,1,1.0-3,1.0,1.0+6/' "$deck" > "$work/soft_$name.bdf"
+   run "soft_$name"
+   same "lesson 7: $name, as soft as the bodies" "$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next } { p[++n] = $c["pressure"]; if (p[n] > most) most = p[n] }
+      END { for (i = 2; i < n; i++) if ((p[i] - p[i-1])*(p[i] - p[i+1]) > (most/10)^2) print i }' "$work/soft_$name.joint.csv")" ''
+done
 # what the references of the decks say: without the change
 reference() { awk -v title="$2" -v c="$3" '$0 ~ title { n = NR + 2 } NR == n { v = $c } END { print v }' "reference_output/$1.out"; }
 largest_there() { awk '/LARGEST DISPLACEMENT +[0-9]/ { print $3 }' "reference_output/$1.out" | sed -n "$2p"; }
@@ -145,6 +164,9 @@ holds 'README.md: its lines' "$(wc -l < README.md) <= 170"
 
 # what --help CARD prints has no marks of the page
 same '--help CARD: marks' "$(awk -f src/run/card_manual.awk $cards | grep -E '^      call add' | grep -nE '\]\(|`|\*\*[a-zA-Z]')" ''
+
+# so has the list of the entries
+same '--help NOCARD: columns' "$("$program" --help NOCARD 2>&1 | awk 'length > 100 || / ,/' )" ''
 
 # every example of a card is read without an error but references to what the example does not show
 awk -v folder="$work" '/^### / { section = $2; sub(/,$/, "", section) }

@@ -21,14 +21,14 @@ found=$(while read -r name _; do
 done <<< "$index")
 same 'the decks: contact and frequency (<), of the listings (>)' "$(diff <(echo "$index") <(echo "$found"))" ''
 
-# processor time, relative to that of all these decks together: within a factor of three
+# processor time, relative to that of all these decks together: within a factor of two, below a second of three
 seconds() { local TIMEFORMAT=%U; { time OMP_NUM_THREADS=1 "$program" -q -o "$work" "input/$1.bdf" > /dev/null 2>&1; } 2>&1; }
 awk -F'|' '/^## / { on = /^## The decks of this folder/ }
    on && $2 ~ /^ `/ && $7 + 0 > 0 { gsub(/[ `]/, "", $2); print $2, $7 + 0 }' $guide |
    while read -r name said; do echo "$name $said $(seconds "$name" < /dev/null)"; done > "$work/seconds.txt"
 judge 'the decks: CPU s' '{ said[$1] = $2; took[$1] = $3; all_said += $2; all_took += $3 }
-   END { for (name in said) { r = took[name]/said[name]*all_said/all_took; n++
-            if (r > 3 || r < 1/3) print name ": " said[name] " s in the table, " took[name] " s of " all_took " s here" }
+   END { for (name in said) { r = took[name]/said[name]*all_said/all_took; n++; most = said[name] < 1 ? 3 : 2
+            if (r > most || r < 1/most) print name ": " said[name] " s in the table, " took[name] " s of " all_took " s here" }
          print "checked " n + 0 }' "$work/seconds.txt"
 
 # ---- the first deck: areas of influence ----

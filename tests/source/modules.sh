@@ -14,8 +14,8 @@ cd "$2"
 cat <<'END'
 # The modules
 
-This page is generated: `make modules` writes it from the first sentence of each module. What each folder is for is said in
-[README.md](README.md#folders).
+This page is generated: `make modules` writes it from the first sentence of each module.
+[README.md](README.md#folders) describes the folders.
 END
 awk -v order="$order" '
    function end_of_module() {

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Checks src/README.md against src: the list of modules, src/modules.md, is current; snippets stand word for word in the patches;
-# names exist. Also the links of all pages, the index of the decks and that of the cards, lines that are too long, and tolerances.
+# names exist. Also the links and blocks of all pages, the index of the decks and that of the cards, lines that are too long, and
+# tolerances.
 #
 #    readme.sh README SOURCE_FOLDER
 set -u
 export LC_ALL=C
 readme=$1 source=$2 here=tests/source
 pages="$readme $source/additions.md"
-narrow_pages='README.md input/*.md src/README.md src/additions.md src/solver/README.md tests/README.md tests/*/README.md tests/manual/*.md'
+narrow_pages='README.md input/*.md input/*/*.md src/*.md src/*/*.md tests/*.md tests/*/*.md reference_output/differs.md reference_output/*/*.md'
 passed=0 failed=0
 check() { if [ -z "$2" ]; then passed=$((passed + 1)); else echo "$1:"; echo "$2"; failed=$((failed + 1)); fi; }
 
@@ -113,6 +114,11 @@ check 'files that are not there' "$(for path in $paths; do [ -e "$path" ] || gre
 
 # all pages but the sources of the verification manual
 all_pages=$(find README.md input reference_output src tests -name '*.md' -not -path 'tests/manual/*' | sort)
+# a block in a list, or one without an end, turns what follows on the page inside out
+check 'blocks of code that do not begin in the first column, or do not end' "$(awk '
+   FNR == 1 { if (fence) print page ": a block has no end"; fence = 0; page = FILENAME }
+   /^ +```/ { print FILENAME ", line " FNR } /^ *```/ { fence = !fence }
+   END { if (fence) print page ": a block has no end" }' $all_pages)"
 check 'links that lead nowhere' "$(awk -f $here/links.awk $all_pages)"
 
 echo "$passed passed, $failed failed"
