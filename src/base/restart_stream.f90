@@ -29,7 +29,7 @@ module restart_stream
 
    public :: open_restart
 
-   integer, parameter, public :: layout = 10 !! changes with the layout and with its contents
+   integer, parameter, public :: layout = 11 !! changes with the layout and with its contents
    character(*), parameter    :: magic = 'JOINTFEM RESTART'
    integer(int32), parameter  :: order_mark = int(z'01020304', int32), other_order = int(z'04030201', int32)
    integer, parameter, public :: version_length = 16
@@ -41,7 +41,7 @@ module restart_stream
    type, public :: restart_stream_type
       logical :: writes = .false.                 !! false: it reads
       character(:), allocatable :: fault          !! why it failed; not allocated: it has not failed
-      character(:), allocatable, private :: bytes ! reading: the file
+      character(:), allocatable, private :: bytes ! reading: the file; a state in memory, also while it is written
       integer(long), private  :: used = 0         ! bytes read or written so far
       integer(long), private  :: last = 0         ! reading: the last byte before the tail
       integer(int64), private :: sum = no_bytes   ! checksum of the bytes written
@@ -49,6 +49,9 @@ module restart_stream
       character(:), allocatable, private :: name  ! of the last part
    contains
       procedure :: start
+      procedure :: start_in_memory
+      procedure :: take_bytes
+      procedure :: read_bytes
       procedure :: complete
       procedure :: is_at_end
       procedure :: part
@@ -77,6 +80,31 @@ contains
       words = version
       call put(self, magic//transfer([int(layout, int32), order_mark], eight_letters)//words//transfer(deck, eight_letters))
    end subroutine start
+
+   !> Begin to write a state into memory.
+   subroutine start_in_memory(self)
+      class(restart_stream_type), intent(out) :: self
+
+      self%writes = .true.
+      allocate (character(0) :: self%bytes)
+   end subroutine start_in_memory
+
+   !> The BYTES of the state in memory.
+   pure subroutine take_bytes(self, bytes)
+      class(restart_stream_type), intent(in) :: self
+      character(:), allocatable, intent(out) :: bytes
+
+      bytes = self%bytes(:self%used)
+   end subroutine take_bytes
+
+   !> Begin to read a state from the BYTES that take_bytes gave.
+   subroutine read_bytes(self, bytes)
+      class(restart_stream_type), intent(out) :: self
+      character(*), intent(in)                :: bytes
+
+      self%bytes = bytes
+      self%last = len(bytes, long)
+   end subroutine read_bytes
 
    !> Write the tail of the file. OK is false where anything failed.
    subroutine complete(self, ok)
@@ -378,9 +406,22 @@ contains
    subroutine put(self, bytes)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: bytes
+      character(:), allocatable :: longer
+      integer(long) :: n
       logical :: ok
 
       if (allocated(self%fault)) return
+      if (allocated(self%bytes)) then ! in memory
+         n = self%used + len(bytes, long)
+         if (n > len(self%bytes, long)) then
+            allocate (character(2*n) :: longer)
+            longer(:self%used) = self%bytes(:self%used)
+            call move_alloc(longer, self%bytes)
+         end if
+         self%bytes(self%used + 1:n) = bytes
+         self%used = n
+         return
+      end if
       call add_to_checksum(bytes, self%sum)
       call write_bytes(self%descriptor, bytes, ok)
       self%used = self%used + len(bytes, long)

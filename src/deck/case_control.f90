@@ -10,7 +10,7 @@ module case_control
    use kinds, only: wp
    use nastran_compatibility, only: ignored_entries_type, parameters_type, read_echo, read_habit
    use stage_entries, only: check_vibration, read_stage_entry, stage_type
-   use text_tools, only: integer_text, upper
+   use text_tools, only: integer_text, one_of, upper
    use tolerances, only: back_tol, least_tol, newton_tol, path_tol
    implicit none
    private
@@ -292,6 +292,18 @@ contains
                'SPC: all stages must have the same supports; give SPC above the first SUBCASE')
             if (stage%equations%id /= first%equations%id) call errors%add(max(stage%equations%line, stage%line), &
                'MPC: all stages must have the same equations; give MPC above the first SUBCASE')
+         end associate
+      end do
+      do i = 1, size(control%stages)
+         associate (stage => control%stages(i), from => control%stages(i)%from)
+            if (from%line == 0) cycle
+            if (from%line < stage%line .or. stage%line == 0) then
+               if (i == 1) call errors%add(from%line, 'FROM: expected below a SUBCASE, which starts from the end of an earlier one')
+            else if (all(control%stages(:i - 1)%id /= from%id)) then
+               call errors%add(from%line, 'FROM: '//integer_text(from%id)//one_of(from%id == stage%id, ' is this SUBCASE itself', &
+                  one_of(any(control%stages%id == from%id), ' is a later SUBCASE', ' is no SUBCASE'))// &
+                  ', expected the number of an earlier SUBCASE')
+            end if
          end associate
       end do
       call check_vibration(control%stages%vibration, control%stages%line, errors)

@@ -11,7 +11,7 @@ module passing_forces
    use kinds, only: wp
    use lists, only: join, root_of
    use mesh_queries, only: n_points, node_kind
-   use model_data, only: a_point, model_type, n_bars, supported
+   use model_data, only: a_point, model_type, n_bars, stage_ends, supported
    use symmetry_planes, only: cut_type, free_part
    use tolerances, only: parallel_in_mesh
    use unknowns, only: node_axes
@@ -167,8 +167,10 @@ contains
       real(wp), intent(in)            :: direction(:, :) !! (3, bolts) unit
       real(wp), intent(in)            :: tension(:)      !! (bolts) [force]
       real(wp) :: force(3, passages%n)
-      integer  :: b, i, k, s
+      integer, allocatable :: ends(:)
+      integer  :: b, i, k
 
+      ends = stage_ends(model%history, analysis%stage)
       force = 0.0_wp
       do i = 1, size(model%joints%element)
          k = passages%of_element(i)
@@ -177,9 +179,9 @@ contains
       end do
       do k = 1, passages%n
          if (passages%by_statics(k)) then
-            do s = max(1, analysis%stage - 1), analysis%stage
-               force(:, k) = force(:, k) + merge(analysis%fraction, 1.0_wp - analysis%fraction, s == analysis%stage)* &
-                             resultant_on(model, passages, k, s)
+            do i = 1, size(ends)
+               force(:, k) = force(:, k) + merge(analysis%fraction, 1.0_wp - analysis%fraction, ends(i) == analysis%stage)* &
+                             resultant_on(model, passages, k, ends(i))
             end do
          else
             do b = 1, size(tension)

@@ -7,6 +7,7 @@ module results
    use bolt_answers, only: bolt_answer_type, bolt_history, end_bolts => end_stage, fault_of_bolts, follow_bolts, record_bolts, &
                            start_bolts
    use c_library, only: close_file, lock_folder
+   use case_table, only: case_list, is_case, note_case, note_frequency, print_cases, record_cases, write_cases
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
@@ -24,12 +25,11 @@ module results
    use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, watch_increment, watch_stage
    use restart_stream, only: restart_stream_type
    use result_names, only: early_ending, listing_ending, remove_all
-   use result_page, only: backbone_table, bend_table, bolt_table, energy_table, joint_table, loop_table, modes_table, page_type, &
-                          record_page, pair_modes_table, pair_response_table, pair_table, response_table, set_labels, &
-                          shell_table, split_table, table_columns, &
-                          table_endings, watch_table
+   use result_page, only: backbone_table, bend_table, bolt_table, cases_table, energy_table, joint_table, loop_table, &
+                          modes_table, page_type, record_page, pair_modes_table, pair_response_table, pair_table, &
+                          response_table, set_labels, shell_table, split_table, table_columns, table_endings, watch_table
    use stage_entries, only: output_all, output_joint, output_last
-   use stage_plan, only: stage_plan_type
+   use stage_plan, only: stage_name, stage_plan_type
    use stage_tables, only: n_stage_tables, note_stage_tables, pass_rows
    use structural_results, only: list_shell_forces
    use support_reactions, only: find_reactions, reactions_type
@@ -44,7 +44,7 @@ module results
    private
 
    public :: start_results, print_increment, print_stage, print_modes, end_stage, keep_finished_stages, finish_results, &
-             discard_results, record_results, show_answers
+             discard_results, record_results, record_reference, show_answers
 
    type, public :: results_type
       type(count_type)       :: counts
@@ -62,6 +62,7 @@ module results
       type(bolt_answer_type), allocatable, private  :: bolts_now(:)
       type(cut_type), allocatable, private :: cuts(:) ! (joints) by planes of symmetry
       type(watch_state), private      :: watched_before ! at the end of the last stage, where nodes are watched
+      type(case_list), private        :: cases
    end type results_type
 
 contains
@@ -111,6 +112,7 @@ contains
       is_asked(pair_modes_table) = plan%has_pairs .and. plan%has_modes
       is_asked(pair_response_table) = plan%has_pairs .and. plan%has_responses
       is_asked(shell_table) = any(plan%stages%output%forces)
+      is_asked(cases_table) = any([(is_case(model%history, i), i = 1, size(plan%stages))])
       do i = 1, size(table_endings)
          if (.not. is_asked(i)) cycle
          associate (table => results%page%tables(i))
@@ -134,8 +136,8 @@ contains
       associate (stage => plan%stages(analysis%stage), page => results%page)
          ! what the page shows in this increment, and the scale of its forces
          page%stage_id = stage%id
-         page%stage = 'STAGE '//integer_text(stage%id)
-         page%place = 'stage '//integer_text(stage%id)//', increment '//integer_text(analysis%increment)
+         page%stage = upper(stage_name(stage))
+         page%place = stage_name(stage)//', increment '//integer_text(analysis%increment)
          page%now = ', '//upper(page%place)//stage%shown_words
          page%label = trim(stage%label)
          page%along_cd = stage%output%along_cd
@@ -241,6 +243,7 @@ contains
          digest%contact = min(digest%contact, minval(joints%now%contact))
          digest%safety = min(digest%safety, minval(joints%safety, mask=joints%has_safety))
       end associate
+      call note_case(model, plan, analysis, bodies, joints, results%bolts_now, results%watched, results%cases)
       call end_bolts(results%bolts_now, results%bolts)
       if (plan%has_watched_nodes) results%watched_before = state_at_end(model, analysis)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
@@ -258,6 +261,7 @@ contains
       m = findloc(modes%modes%is_rigid, .false., dim=1)
       results%counts%digest%frequency = -1.0_wp
       if (m > 0) results%counts%digest%frequency = modes%modes(m)%frequency
+      call note_frequency(stage, results%counts%digest%frequency, results%cases)
       associate (planned => plan%stages(stage), page => results%page)
          page%stage_id = planned%id
          call list_modes(page, model, planned, modes, results%watch%n_warnings)
@@ -266,10 +270,12 @@ contains
    end subroutine print_modes
 
    !> All of a stage of PLAN is in the files: they are kept up to here if the run ends early.
-   subroutine end_stage(plan, results)
+   subroutine end_stage(model, plan, results)
+      type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(results_type), intent(inout) :: results
 
+      call write_cases(results%page, model, plan, results%cases)
       results%counts%n_warnings = results%watch%n_warnings
       call mark_finished(results%base, results%page, results%vtu, size(plan%stages), results%counts, results%finished)
    end subroutine end_stage
@@ -285,7 +291,8 @@ contains
 
    !> Give the files their names, all or none: OK is false where a file could not be written. Files for ParaView, the largest,
    !! are an exception: where they cannot be written the tables and the listing stay, and MISSING_VTU gives the reason.
-   subroutine finish_results(plan, failure, results, ok)
+   subroutine finish_results(model, plan, failure, results, ok)
+      type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(failure_type), intent(in)    :: failure !! raised: the results end before it
       type(results_type), intent(inout) :: results
@@ -296,6 +303,7 @@ contains
       call lock_folder(results%base(:index(results%base, '/', back=.true.))//'.', hold)
       call remove_all(results%base) ! of two runs of one name the later one leaves its own files only
       results%counts%n_warnings = results%watch%n_warnings
+      call print_cases(results%page, model, plan, results%cases)
       call name_companion(results%base, results%page, failure, results%finished, ok)
       do i = 1, size(table_endings)
          if (ok .and. results%page%tables(i)%is_open) call results%page%tables(i)%finish(ok)
@@ -356,7 +364,7 @@ contains
       type(results_type), intent(inout)        :: results
       integer :: i
 
-      call stream%part('results_type', 1)
+      call stream%part('results_type', 2)
       call record_page(stream, results%page)
       call record_counts(stream, results%counts)
       do i = 1, n_stage_tables
@@ -366,7 +374,18 @@ contains
       call record_vtu(results%vtu, stream)
       call record_bolts(stream, results%bolts)
       if (allocated(results%watched_before%u)) call record_watched(stream, results%watched_before)
+      call record_cases(stream, results%cases)
       call record_finished(stream, results%base, results%page, results%finished)
    end subroutine record_results
+
+   !> Write or read the results to which those of a stage are referred: they belong to the stage from whose end it starts.
+   subroutine record_reference(stream, results)
+      type(restart_stream_type), intent(inout) :: stream
+      type(results_type), intent(inout)        :: results
+
+      call stream%item('largest_force', results%page%largest_force)
+      call record_bolts(stream, results%bolts)
+      if (allocated(results%watched_before%u)) call record_watched(stream, results%watched_before)
+   end subroutine record_reference
 
 end module results

@@ -15,7 +15,7 @@ module watched_nodes
    use kinds, only: wp
    use connected_bodies, only: find_bodies
    use mesh_queries, only: element_points, n_points, node_kind
-   use model_data, only: a_point, a_spring, bar_nodes, model_type, n_bars
+   use model_data, only: a_point, a_spring, bar_nodes, model_type, n_bars, stage_ends
    use restart_stream, only: restart_stream_type
    use stage_plan, only: between, force_between, node_pair
    use structural_elements, only: bar_elongation
@@ -73,12 +73,13 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: watched(:)  !! positions
       type(node_pair), intent(in)     :: pairs(:)
-      type(watch_state), intent(in)   :: before      !! at the end of the last stage
+      type(watch_state), intent(in)   :: before      !! at the end of the stage from which it started
       type(watch_answer), intent(out) :: answer
       type(watch_state) :: now
       real(wp), allocatable :: change(:, :), load(:, :)
       real(wp) :: on_nodes(3), total(3), amount, largest
-      integer  :: d, k, s
+      integer, allocatable :: ends(:)
+      integer  :: d, i, k
 
       d = model%mesh%dimension
       now = state_at_end(model, analysis)
@@ -86,11 +87,12 @@ contains
       largest = maxval(abs(change(:, :n_points(model%mesh))))
       ! change over the stage of the loads of the deck, without preloads and moments [force]
       allocate (load(3, n_points(model%mesh)), source=0.0_wp)
-      do s = max(1, analysis%stage - 1), analysis%stage
-         associate (loads => model%history%stages(s))
+      ends = stage_ends(model%history, analysis%stage)
+      do i = 1, size(ends)
+         associate (loads => model%history%stages(ends(i)))
             do k = 1, loads%n
                if (node_kind(model%mesh, loads%node(k)) == a_point) load(:, loads%node(k)) = load(:, loads%node(k)) + &
-                  merge(1, -1, s == analysis%stage)*analysis%fraction*loads%force(:, k)
+                  merge(1, -1, ends(i) == analysis%stage)*analysis%fraction*loads%force(:, k)
             end do
          end associate
       end do

@@ -1,30 +1,32 @@
 !> Writes and reads the restart file NAME.restart: the state for the next increments, and the results so far.
-!! RESTART asks for the file, and another run continues from it with --resume.
+!! RESTART asks for the file, and another run continues from it with --resume. A state at the end of a stage from which a later
+!! stage starts, FROM, is kept in memory in the same form, and in the file.
 !!
 !! The factors of the equations and the earlier solutions are too large for the file. The resumed run computes them anew, and the
 !! run that wrote the file discards them too: both runs then agree to the last digit. The model is built from the deck.
 module restart_file
    use analysis_record, only: record_analysis
    use analysis_state, only: analysis_type
-   use bolt_locking, only: lock_again
+   use bolt_locking, only: lock_again, lock_bolts
    use c_library, only: c_fsync, close_file, is_regular_file, read_all_bytes, remove_file
    use control_words, only: no_restart, restart_stages
    use deck_input, only: deck_type
    use deck_text, only: checksum_of
    use equation_solver, only: equation_system
+   use equations, only: form_body_stiffness, start_equations
    use incomplete_results, only: create_part, name_part, say_at_interrupts
    use model_data, only: model_type
    use run_of_deck, only: goes_on, is_over, is_refused, run_type, tell
    use restart_stream, only: open_restart, restart_stream_type
    use result_names, only: restart_ending
-   use results, only: record_results
-   use stage_plan, only: stage_plan_type, where_in_plan
+   use results, only: record_reference, record_results
+   use stage_plan, only: factorisations_of, stage_plan_type, where_in_plan
    use terminal, only: version
    use text_tools, only: integer_text, one_of
    implicit none
    private
 
-   public :: open_restart_file, take_up, write_restart
+   public :: open_restart_file, take_up, write_restart, go_to_start
 
 contains
 
@@ -67,6 +69,7 @@ contains
       if (is_over(run) .or. .not. run%resumes) return
       call record_analysis(run%restart, analysis)
       call record_results(run%restart, run%results)
+      call record_kept(run%restart, run)
       run%problem = ''
       if (.not. run%restart%is_at_end()) then
          run%problem = 'it holds more than the state of this deck'
@@ -119,6 +122,7 @@ contains
          call stream%start(descriptor, version, run%deck_sum)
          call record_analysis(stream, analysis)
          call record_results(stream, run%results)
+         call record_kept(stream, run)
          call stream%complete(ok)
          if (ok) ok = c_fsync(descriptor) == 0 ! before the older one is replaced: a power failure leaves one of the two
          call close_file(descriptor, closed)
@@ -138,5 +142,72 @@ contains
       end if
       call system%forget_past()
    end subroutine write_restart
+
+   !> Write the kept states of RUN to a restart file, or read them.
+   subroutine record_kept(stream, run)
+      type(restart_stream_type), intent(inout) :: stream
+      type(run_type), intent(inout)            :: run
+      integer :: s
+
+      do s = 1, size(run%kept)
+         call stream%text('kept', run%kept(s)%words)
+      end do
+   end subroutine record_kept
+
+   !> FROM: keep the state at the end of the stage just completed, its bolts locked, if a later stage starts from it. Where the next
+   !! stage starts from an earlier one, return to the state that this one left.
+   subroutine go_to_start(run, deck, model, plan, system, analysis)
+      type(run_type), intent(inout)         :: run
+      type(deck_type), intent(in)           :: deck
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      class(equation_system), intent(inout), allocatable :: system
+      type(analysis_type), intent(inout)    :: analysis
+      type(restart_stream_type) :: stream
+      integer :: next, s
+
+      if (analysis%goes_on .or. analysis%stage == 0) return
+      next = analysis%next
+      associate (from => model%history%stages%from, done => analysis%stage)
+         if (any(from(next + 1:) == done)) then
+            call lock_bolts(model, system, analysis)
+            call stream%start_in_memory()
+            call record_start(stream)
+            call stream%take_bytes(run%kept(done)%words)
+         end if
+         if (from(next) /= done) call return_to(run%kept(from(next))%words)
+         do s = 1, next - 1
+            if (allocated(run%kept(s)%words) .and. all(from(next + 1:) /= s)) deallocate (run%kept(s)%words)
+         end do
+      end associate
+      analysis%next = next
+
+   contains
+
+      !> Write or read all that a stage takes from the end of the stage from which it starts.
+      subroutine record_start(stream)
+         type(restart_stream_type), intent(inout) :: stream
+
+         call record_analysis(stream, analysis)
+         call record_reference(stream, run%results)
+      end subroutine record_start
+
+      !> Return to the state in BYTES. The bodies are formed anew only where other bolts are locked in it than now.
+      subroutine return_to(bytes)
+         character(*), intent(in) :: bytes
+         logical, allocatable :: locked(:)
+
+         allocate (locked, source=[analysis%is_elastic, analysis%is_locked])
+         call stream%read_bytes(bytes)
+         call record_start(stream)
+         if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
+            call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
+            if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
+            if (.not. run%failure%raised) call lock_again(model, analysis, system)
+         end if
+         if (.not. run%failure%raised) call system%forget_past()
+      end subroutine return_to
+
+   end subroutine go_to_start
 
 end module restart_file

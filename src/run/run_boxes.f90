@@ -71,7 +71,7 @@ contains
             else
                call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
             end if
-            if (.not. run%failure%raised) call end_stage(plan, run%results)
+            if (.not. run%failure%raised) call end_stage(model, plan, run%results)
             call enter(run, phase_increments)
          end if
       end associate
@@ -124,7 +124,7 @@ contains
          if (.not. allocated(wanted%response)) return
          call find_response(model, structure, wanted%response, spectrum, modes, shifted, response, run%failure)
          if (run%failure%raised) then
-            call end_stage(plan, run%results) ! the modes and the backbone are complete
+            call end_stage(model, plan, run%results) ! the modes and the backbone are complete
             return
          end if
          call list_uncovered(page, model, modes, response, n_warnings)
@@ -137,7 +137,7 @@ contains
       !> Print the modes; they stay if the run ends early.
       subroutine keep_modes()
          call print_modes(model, plan, analysis%stage, modes, run%results)
-         call end_stage(plan, run%results)
+         call end_stage(model, plan, run%results)
       end subroutine keep_modes
 
    end subroutine oscillate
@@ -266,6 +266,7 @@ contains
 
       if (is_over(run)) return
       call start_analysis(model, system, deck%control, analysis)
+      allocate (run%kept(size(plan%stages)))
       if (.not. run%resumes) then
          if (deck%control%method /= method_back) call seat_joints(model, analysis, system, run%failure)
          call interface_stiffness(model, system, analysis, run%failure)
@@ -306,7 +307,7 @@ contains
       type(analysis_type), intent(in)   :: analysis
 
       another_stage = .not. is_over(run)
-      if (another_stage) another_stage = analysis%goes_on .or. analysis%stage < size(plan%stages)
+      if (another_stage) another_stage = analysis%goes_on .or. analysis%next <= size(plan%stages)
    end function another_stage
 
    !> Whether the stage has an increment left.
@@ -366,7 +367,7 @@ contains
       if (analysis%increment > 0 .and. (completes_stage .or. run%keeps_results) .and. .not. overflow%raised) then
          call enter(run, phase_write)
          call print_stage(model, plan, analysis, run%results, overflow)
-         if (completes_stage .and. .not. (run%keeps_results .or. overflow%raised)) call end_stage(plan, run%results)
+         if (completes_stage .and. .not. (run%keeps_results .or. overflow%raised)) call end_stage(model, plan, run%results)
       end if
       if (overflow%raised) then
          run%failure = overflow

@@ -29,7 +29,7 @@ module run_of_deck
    use table_column, only: column, column_type, csv, csv_titles
    use table_writer, only: table_type
    use terminal, only: clear_line, complain_of_input, log_line, open_line, say_line, show_line
-   use text_tools, only: integer_text, plural
+   use text_tools, only: integer_text, plural, text_item
    use unit_watch, only: stress_words
    use watched_nodes, only: summarise_watched, watched_node
    implicit none
@@ -62,6 +62,7 @@ module run_of_deck
       integer(long) :: deck_sum = 0            !! checksum of the deck
       type(restart_stream_type) :: restart     !! the restart file to continue from, while it is read
       logical :: resumes = .false.             !! there is such a file
+      type(text_item), allocatable :: kept(:)  !! (stages) the state at the end of a stage from which a later one starts
       character(:), allocatable :: problem     !! why the restart file cannot be used
       logical :: tells_drops = .false.         !! said that shear stresses without friction have dropped to zero
       logical :: misses_output = .false.       !! a restart file, the answer or a VTU file could not be written
@@ -209,7 +210,7 @@ contains
       if (run%keeps_stages) call keep_finished_stages(run%results, run%keeps_stages)
       if (run%keeps_stages .or. run%keeps_results .or. .not. is_over(run)) then
          call enter(run, phase_write)
-         call finish_results(plan, run%failure, run%results, ok)
+         call finish_results(model, plan, run%failure, run%results, ok)
          call end_progress(run)
          associate (watch => run%results%watch)
             if (watch%n_warnings > 0) call tell(run, plural(watch%n_warnings, 'warning')//' in the listing')
@@ -270,7 +271,7 @@ contains
       if (allocated(model%mesh%kind_words)) call tell(run, model%mesh%kind_words)
       if (deck%bulk%ignored%n > 0) call tell(run, deck%bulk%ignored%words())
       if (deck%control%of_nastran .and. size(deck%control%stages) > 1) call tell(run, plural(size(deck%control%stages), &
-         'SUBCASE')//' are stages of one history: each starts from the end of the previous one')
+         'SUBCASE')//' are stages of one history: each starts from the end of the previous one, or of the one that FROM names')
    end subroutine say_of_deck
 
    !> Report the error, or that a deck is in order. A run that did not finish leaves no result.
