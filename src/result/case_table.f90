@@ -140,7 +140,7 @@ contains
       type(table_type) :: table
       type(case_row), allocatable    :: rows(:)
       type(column_type), allocatable :: columns(:)
-      real(wp) :: worse
+      real(wp) :: pair(2)
       integer  :: before, i, k, worst(n_values) ! positions of the cases, 0: no case has the value
 
       if (.not. allocated(cases%rows)) return
@@ -151,10 +151,9 @@ contains
          do k = 1, n_values
             if (.not. rows(i)%has(k)) cycle
             if (worst(k) > 0) then
-               associate (now => rows(i)%values(k), last => rows(worst(k))%values(k))
-                  worse = merge(last - now, abs(now) - abs(last), least_is_worst(k))
-                  if (worse <= symmetric_tie*abs(last)) cycle
-               end associate
+               pair = [rows(worst(k))%values(k), rows(i)%values(k)]
+               if (case_names(k) /= 'bolt_min') pair = abs(pair) ! a bolt may be in compression
+               if (merge(pair(1) - pair(2), pair(2) - pair(1), least_is_worst(k)) <= symmetric_tie*abs(pair(1))) cycle
             end if
             worst(k) = i
          end do

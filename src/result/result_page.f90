@@ -28,7 +28,7 @@ module result_page
 
    !> The values of a case in .cases.csv.
    character(9), parameter, public :: case_names(10) = [character(9) :: 'u_max', 'mises_max', 'p_max', 'contact', 'safety', &
-      'least', 'use', 'along', 'stiffness', 'frequency']
+      'bolt_min', 'use', 'along', 'stiffness', 'frequency']
 
    ! the six components of a joint in .stage.csv, in its axes
    character(14), parameter, public :: &
@@ -179,14 +179,14 @@ contains
             column(['M X ', 'M Y ', 'M XY'], 'es13.5', labels%force, name=['m_x ', 'm_y ', 'm_xy']), &
             column(['Q X', 'Q Y'], 'es13.5', labels%stiffness, name=['q_x', 'q_y'])]
       case (cases_table) ! for each case, then the worst of each column and its stage
-         columns = [column('', 'a6', name='kind'), column('STAGE', 'i7', name='stage'), column('FROM', 'i7', name='from'), &
-            column('U MAX', 'es12.4', labels%length, name='u_max'), &
-            column(['MISES MAX', 'P MAX    '], 'es12.4', labels%pressure, name=['mises_max', 'p_max    ']), &
+         columns = [column('', 'a6', name='kind'), column('STAGE', 'i6', name='stage'), column('FROM', 'i6', name='from'), &
+            column('U MAX', 'es11.3', labels%length, name='u_max'), &
+            column(['MISES MAX', 'P MAX    '], 'es11.3', labels%pressure, name=['mises_max', 'p_max    ']), &
             column('CONTACT', 'f9.4', name='contact'), column('MU N/T', 'f9.3', name='safety'), &
-            column('LEAST BOLT', 'es12.4', labels%force, name='least'), column('OF ST', 'f8.4', name='use'), &
-            column('ALONG LOAD', 'es12.4', labels%length, name='along'), &
-            column('STIFFNESS', 'es12.4', labels%stiffness, name='stiffness'), &
-            column('FREQUENCY', 'es12.4', '1/TIME', name='frequency'), column('   LABEL', 'a')]
+            column('LEAST BOLT', 'es11.3', labels%force, name='bolt_min'), column('OF ST', 'f8.4', name='use'), &
+            column('ALONG LOAD', 'es11.3', labels%length, name='along'), &
+            column('STIFFNESS', 'es11.3', labels%stiffness, name='stiffness'), &
+            column('FREQUENCY', 'es11.3', '1/TIME', name='frequency'), column('   LABEL', 'a')]
       case (modes_table) ! for each mode; the effective masses have a table of their own in the listing
          columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('FREQUENCY', 'es15.5', '1/TIME', name='frequency'), &
             column('OMEGA', 'es15.5', 'RAD/TIME', name='omega'), column('GENERALISED MASS', 'es18.5'), &
