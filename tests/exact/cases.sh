@@ -47,6 +47,7 @@ if run cases_one; then
    says '... the error of path' "$work/cases_one.out" '^ ERROR OF PATH, STAGE 3 FROM 1:'
    says '... the energies' "$work/cases_one.out" '^ ENERGY OF JOINTS, STAGE 3 FROM 1$'
    same '... not where it is the stage before' "$(grep -c 'STAGE 2 FROM' "$work/cases_one.out")" 0
+   same 'of two cases with one pressure, to rounding, the first is the worst' "$(awk -F, '$1 == "STAGE" { print $6 }' "$work/cases_one.cases.csv")" 3
    # the energy put in between two points of the curve, c**(-1/m) lambda**(1 + 1/m)/(1 + 1/m) a, is that of stage 3 alone
    near 'cases: the energy of stage 3' "$(awk '/^ ENERGY OF JOINTS, STAGE 3 FROM/ { on = 1 } on && $1 == 1 { print $2; exit }' "$work/cases_one.out")" \
       "$(number '16*8e-3/3*(sqrt(20/16)^3 - sqrt(12/16)^3)')" 1e-4
@@ -56,7 +57,7 @@ fi
 # cases_deck NAME METHOD SOLVER TIGHTENED STAGES...: the stages of a line each, the upper bolt tightened in the stage TIGHTENED
 cases_deck() {
    local tightened=$4
-   { printf '%s\n' "METHOD = $2" "SOLVER = $3" 'UNITS = MM, N' 'SPC = 1' 'INCR = 6' 'MODES = 7' 'OUTPUT = LAST' 'WATCH = SET 1' 'SET 1 = 9001'
+   { printf '%s\n' "METHOD = $2" "SOLVER = $3" 'UNITS = MM, N' 'SPC = 1' 'INCR = 6' 'MODES = 7' 'OUTPUT = ALL' 'WATCH = SET 1' 'SET 1 = 9001'
      printf '%s\n' "${@:5}" | tr ';' '\n'
      sed -n '/^BEGIN BULK/,$p' input/cantilever_cases.bdf | sed "s/^BOLT    2 .*/BOLT,2,902,30000.,$tightened/;"'s/^RBE3M .*/RBE3M,9002,9001,123456,123,25/; s/^MAT1 .* 0\.26 .*/MAT1,1,120000.,,0.26,7.2-9,1.05-5,20.0/
         s/^ENDDATA/JINCR,6,3\nEIGRL,7,,,2\nCBAR,801,80,9001,9003,0.0,1.0,0.0\nGRID,9003,,300.,60.,30.\nPBAR,80,2,100.,2000.,2000.,3000.\nPLOAD1,21,801,FY,FR,0.,-1.0,1.,-1.0\nPLOAD1,22,801,FZ,FR,0.,2.0,1.,2.0\nLOAD,31,1.,1.,11,1.,21\nLOAD,32,1.,1.,12,1.,22\nENDDATA/'
