@@ -41,17 +41,14 @@ module restart_stream
    type, public :: restart_stream_type
       logical :: writes = .false.                 !! false: it reads
       character(:), allocatable :: fault          !! why it failed; not allocated: it has not failed
-      character(:), allocatable, private :: bytes ! reading: the file; a state in memory, also while it is written
-      integer(long), private  :: used = 0         ! bytes read or written so far
-      integer(long), private  :: last = 0         ! reading: the last byte before the tail
+      character(:), allocatable :: bytes          !! reading: the file; writing: allocated where the state stays in memory
+      integer(long) :: used = 0                   !! bytes read or written so far
+      integer(long) :: last = 0                   !! reading: the last byte before the tail
       integer(int64), private :: sum = no_bytes   ! checksum of the bytes written
       integer, private        :: descriptor = -1
       character(:), allocatable, private :: name  ! of the last part
    contains
       procedure :: start
-      procedure :: start_in_memory
-      procedure :: take_bytes
-      procedure :: read_bytes
       procedure :: complete
       procedure :: is_at_end
       procedure :: part
@@ -80,31 +77,6 @@ contains
       words = version
       call put(self, magic//transfer([int(layout, int32), order_mark], eight_letters)//words//transfer(deck, eight_letters))
    end subroutine start
-
-   !> Begin to write a state into memory.
-   subroutine start_in_memory(self)
-      class(restart_stream_type), intent(out) :: self
-
-      self%writes = .true.
-      allocate (character(0) :: self%bytes)
-   end subroutine start_in_memory
-
-   !> The BYTES of the state in memory.
-   pure subroutine take_bytes(self, bytes)
-      class(restart_stream_type), intent(in) :: self
-      character(:), allocatable, intent(out) :: bytes
-
-      bytes = self%bytes(:self%used)
-   end subroutine take_bytes
-
-   !> Begin to read a state from the BYTES that take_bytes gave.
-   subroutine read_bytes(self, bytes)
-      class(restart_stream_type), intent(out) :: self
-      character(*), intent(in)                :: bytes
-
-      self%bytes = bytes
-      self%last = len(bytes, long)
-   end subroutine read_bytes
 
    !> Write the tail of the file. OK is false where anything failed.
    subroutine complete(self, ok)

@@ -7,7 +7,7 @@ module results
    use bolt_answers, only: bolt_answer_type, bolt_history, end_bolts => end_stage, fault_of_bolts, follow_bolts, record_bolts, &
                            start_bolts
    use c_library, only: close_file, lock_folder
-   use case_table, only: case_list, is_case, note_case, note_frequency, print_cases, record_cases, write_cases
+   use case_table, only: case_row, is_case, note_case, print_cases, record_cases
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
@@ -25,8 +25,8 @@ module results
    use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, watch_increment, watch_stage
    use restart_stream, only: restart_stream_type
    use result_names, only: early_ending, listing_ending, remove_all
-   use result_page, only: backbone_table, bend_table, bolt_table, cases_table, energy_table, joint_table, loop_table, &
-                          modes_table, page_type, record_page, pair_modes_table, pair_response_table, pair_table, &
+   use result_page, only: backbone_table, bend_table, bolt_table, case_names, cases_table, energy_table, joint_table, &
+                          loop_table, modes_table, page_type, record_page, pair_modes_table, pair_response_table, pair_table, &
                           response_table, set_labels, shell_table, split_table, table_columns, table_endings, watch_table
    use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: stage_name, stage_plan_type
@@ -62,7 +62,7 @@ module results
       type(bolt_answer_type), allocatable, private  :: bolts_now(:)
       type(cut_type), allocatable, private :: cuts(:) ! (joints) by planes of symmetry
       type(watch_state), private      :: watched_before ! at the end of the last stage, where nodes are watched
-      type(case_list), private        :: cases
+      type(case_row), allocatable, private :: cases(:) ! completed so far; none in a deck without FROM
    end type results_type
 
 contains
@@ -89,6 +89,7 @@ contains
       call find_cuts(model, planes, results%cuts)
       call start_bolts(model, planes, results%cuts, results%bolts)
       if (plan%has_watched_nodes) call start_watched(model, results%watched_before)
+      allocate (results%cases(0))
       call start_watch(model, results%watch)
       associate (page => results%page, control => deck%control)
          if (base == '') call page%file%start('')
@@ -261,7 +262,10 @@ contains
       m = findloc(modes%modes%is_rigid, .false., dim=1)
       results%counts%digest%frequency = -1.0_wp
       if (m > 0) results%counts%digest%frequency = modes%modes(m)%frequency
-      call note_frequency(stage, results%counts%digest%frequency, results%cases)
+      if (is_case(model%history, stage)) then
+         results%cases(size(results%cases))%values(size(case_names)) = results%counts%digest%frequency
+         results%cases(size(results%cases))%has(size(case_names)) = m > 0
+      end if
       associate (planned => plan%stages(stage), page => results%page)
          page%stage_id = planned%id
          call list_modes(page, model, planned, modes, results%watch%n_warnings)
@@ -270,12 +274,10 @@ contains
    end subroutine print_modes
 
    !> All of a stage of PLAN is in the files: they are kept up to here if the run ends early.
-   subroutine end_stage(model, plan, results)
-      type(model_type), intent(in)      :: model
+   subroutine end_stage(plan, results)
       type(stage_plan_type), intent(in) :: plan
       type(results_type), intent(inout) :: results
 
-      call write_cases(results%page, model, plan, results%cases)
       results%counts%n_warnings = results%watch%n_warnings
       call mark_finished(results%base, results%page, results%vtu, size(plan%stages), results%counts, results%finished)
    end subroutine end_stage

@@ -15,14 +15,15 @@ module restart_file
    use equation_solver, only: equation_system
    use equations, only: form_body_stiffness, start_equations
    use incomplete_results, only: create_part, name_part, say_at_interrupts
+   use kinds, only: long
    use model_data, only: model_type
    use run_of_deck, only: goes_on, is_over, is_refused, run_type, tell
    use restart_stream, only: open_restart, restart_stream_type
    use result_names, only: restart_ending
-   use results, only: record_reference, record_results
+   use results, only: record_reference, record_results, results_type
    use stage_plan, only: factorisations_of, stage_plan_type, where_in_plan
    use terminal, only: version
-   use text_tools, only: integer_text, one_of
+   use text_tools, only: integer_text, one_of, text_item
    implicit none
    private
 
@@ -67,9 +68,7 @@ contains
       character(:), allocatable :: name, words
 
       if (is_over(run) .or. .not. run%resumes) return
-      call record_analysis(run%restart, analysis)
-      call record_results(run%restart, run%results)
-      call record_kept(run%restart, run)
+      call record_run(run%restart, analysis, run%results, run%kept)
       run%problem = ''
       if (.not. run%restart%is_at_end()) then
          run%problem = 'it holds more than the state of this deck'
@@ -120,9 +119,7 @@ contains
       ok = descriptor >= 0
       if (ok) then
          call stream%start(descriptor, version, run%deck_sum)
-         call record_analysis(stream, analysis)
-         call record_results(stream, run%results)
-         call record_kept(stream, run)
+         call record_run(stream, analysis, run%results, run%kept)
          call stream%complete(ok)
          if (ok) ok = c_fsync(descriptor) == 0 ! before the older one is replaced: a power failure leaves one of the two
          call close_file(descriptor, closed)
@@ -143,19 +140,24 @@ contains
       call system%forget_past()
    end subroutine write_restart
 
-   !> Write the kept states of RUN to a restart file, or read them.
-   subroutine record_kept(stream, run)
+   !> Write the state of a run to a restart file, or read it: with the states KEPT for later stages.
+   subroutine record_run(stream, analysis, results, kept)
       type(restart_stream_type), intent(inout) :: stream
-      type(run_type), intent(inout)            :: run
+      type(analysis_type), intent(inout)       :: analysis
+      type(results_type), intent(inout)        :: results
+      type(text_item), intent(inout)           :: kept(:)
       integer :: s
 
-      do s = 1, size(run%kept)
-         call stream%text('kept', run%kept(s)%words)
+      call record_analysis(stream, analysis)
+      call record_results(stream, results)
+      do s = 1, size(kept)
+         call stream%text('kept', kept(s)%words)
       end do
-   end subroutine record_kept
+   end subroutine record_run
 
    !> FROM: keep the state at the end of the stage just completed, its bolts locked, if a later stage starts from it. Where the next
-   !! stage starts from an earlier one, return to the state that this one left.
+   !! stage starts from an earlier one, return to the state that this one left; the bodies are formed anew only where other bolts are
+   !! locked in it.
    subroutine go_to_start(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)         :: run
       type(deck_type), intent(in)           :: deck
@@ -164,49 +166,45 @@ contains
       class(equation_system), intent(inout), allocatable :: system
       type(analysis_type), intent(inout)    :: analysis
       type(restart_stream_type) :: stream
-      integer :: next, s
+      logical, allocatable :: locked(:)
+      integer :: done, next, s
 
       if (analysis%goes_on .or. analysis%stage == 0) return
+      done = analysis%stage
       next = analysis%next
-      associate (from => model%history%stages%from, done => analysis%stage)
+      associate (from => model%history%stages%from)
          if (any(from(next + 1:) == done)) then
             call lock_bolts(model, system, analysis)
-            call stream%start_in_memory()
-            call record_start(stream)
-            call stream%take_bytes(run%kept(done)%words)
+            stream%writes = .true.
+            stream%bytes = ''
+            call record_start()
+            run%kept(done)%words = stream%bytes(:stream%used)
          end if
-         if (from(next) /= done) call return_to(run%kept(from(next))%words)
-         do s = 1, next - 1
+         if (from(next) /= done) then
+            allocate (locked, source=[analysis%is_elastic, analysis%is_locked])
+            stream = restart_stream_type(bytes=run%kept(from(next))%words, last=len(run%kept(from(next))%words, long))
+            call record_start()
+            if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
+               call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
+               if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
+               if (run%failure%raised) return
+               call lock_again(model, analysis, system)
+            end if
+            call system%forget_past()
+            analysis%next = next
+         end if
+         do s = 1, done
             if (allocated(run%kept(s)%words) .and. all(from(next + 1:) /= s)) deallocate (run%kept(s)%words)
          end do
       end associate
-      analysis%next = next
 
    contains
 
-      !> Write or read all that a stage takes from the end of the stage from which it starts.
-      subroutine record_start(stream)
-         type(restart_stream_type), intent(inout) :: stream
-
+      !> Write or read all that a stage takes over from the end of the stage from which it starts.
+      subroutine record_start()
          call record_analysis(stream, analysis)
          call record_reference(stream, run%results)
       end subroutine record_start
-
-      !> Return to the state in BYTES. The bodies are formed anew only where other bolts are locked in it than now.
-      subroutine return_to(bytes)
-         character(*), intent(in) :: bytes
-         logical, allocatable :: locked(:)
-
-         allocate (locked, source=[analysis%is_elastic, analysis%is_locked])
-         call stream%read_bytes(bytes)
-         call record_start(stream)
-         if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
-            call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
-            if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
-            if (.not. run%failure%raised) call lock_again(model, analysis, system)
-         end if
-         if (.not. run%failure%raised) call system%forget_past()
-      end subroutine return_to
 
    end subroutine go_to_start
 

@@ -71,7 +71,7 @@ contains
             else
                call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
             end if
-            if (.not. run%failure%raised) call end_stage(model, plan, run%results)
+            if (.not. run%failure%raised) call end_stage(plan, run%results)
             call enter(run, phase_increments)
          end if
       end associate
@@ -124,7 +124,7 @@ contains
          if (.not. allocated(wanted%response)) return
          call find_response(model, structure, wanted%response, spectrum, modes, shifted, response, run%failure)
          if (run%failure%raised) then
-            call end_stage(model, plan, run%results) ! the modes and the backbone are complete
+            call end_stage(plan, run%results) ! the modes and the backbone are complete
             return
          end if
          call list_uncovered(page, model, modes, response, n_warnings)
@@ -137,7 +137,7 @@ contains
       !> Print the modes; they stay if the run ends early.
       subroutine keep_modes()
          call print_modes(model, plan, analysis%stage, modes, run%results)
-         call end_stage(model, plan, run%results)
+         call end_stage(plan, run%results)
       end subroutine keep_modes
 
    end subroutine oscillate
@@ -360,14 +360,14 @@ contains
             call enter(run, phase_write)
             run%solver = system%description
             call list_results(model, plan, analysis, run%results)
-            call advance(run, analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%fractions), &
-                         analysis%record%n_iterations)
+            call advance(run, plan%stages(analysis%stage)%id, analysis%increment, &
+                         size(plan%stages(analysis%stage)%fractions), analysis%record%n_iterations)
          end if
       end if
       if (analysis%increment > 0 .and. (completes_stage .or. run%keeps_results) .and. .not. overflow%raised) then
          call enter(run, phase_write)
          call print_stage(model, plan, analysis, run%results, overflow)
-         if (completes_stage .and. .not. (run%keeps_results .or. overflow%raised)) call end_stage(model, plan, run%results)
+         if (completes_stage .and. .not. (run%keeps_results .or. overflow%raised)) call end_stage(plan, run%results)
       end if
       if (overflow%raised) then
          run%failure = overflow
