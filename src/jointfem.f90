@@ -58,7 +58,7 @@ contains
          call go_to_start(run, deck, model, plan, system, analysis)
 
          ! --------------------------------------------------------------- NEXT STAGE
-         call start_stage(model, system, analysis)
+         if (.not. run%failure%raised) call start_stage(model, system, analysis)
 
          do while (another_increment(run, plan, analysis))
             ! ------------------------------------------------------------ NEXT INCREMENT OF THE LOAD

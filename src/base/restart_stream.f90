@@ -378,18 +378,13 @@ contains
    subroutine put(self, bytes)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: bytes
-      character(:), allocatable :: longer
       integer(long) :: n
       logical :: ok
 
       if (allocated(self%fault)) return
       if (allocated(self%bytes)) then ! in memory
          n = self%used + len(bytes, long)
-         if (n > len(self%bytes, long)) then
-            allocate (character(2*n) :: longer)
-            longer(:self%used) = self%bytes(:self%used)
-            call move_alloc(longer, self%bytes)
-         end if
+         if (n > len(self%bytes, long)) self%bytes = self%bytes//repeat(' ', n) ! room for as much again
          self%bytes(self%used + 1:n) = bytes
          self%used = n
          return

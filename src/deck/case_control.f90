@@ -10,7 +10,7 @@ module case_control
    use kinds, only: wp
    use nastran_compatibility, only: ignored_entries_type, parameters_type, read_echo, read_habit
    use stage_entries, only: check_vibration, read_stage_entry, stage_type
-   use text_tools, only: integer_text, one_of, upper
+   use text_tools, only: integer_text, upper
    use tolerances, only: back_tol, least_tol, newton_tol, path_tol
    implicit none
    private
@@ -286,24 +286,14 @@ contains
       end if
       if (control%method == method_back .and. size(control%stages) > 1) call errors%add(control%stages(2)%line, &
          'SUBCASE: METHOD = BACK solves one stage of loading only; expected METHOD = STEP or NEWTON for a history')
-      do i = 2, size(control%stages)
+      do i = 1, size(control%stages)
          associate (stage => control%stages(i), first => control%stages(1))
+            if (stage%from%id > 0 .and. all(control%stages(:i - 1)%id /= stage%from%id)) call errors%add(stage%from%line, &
+               'FROM: '//integer_text(stage%from%id)//', expected the number of an earlier SUBCASE')
             if (stage%supports%id /= first%supports%id) call errors%add(max(stage%supports%line, stage%line), &
                'SPC: all stages must have the same supports; give SPC above the first SUBCASE')
             if (stage%equations%id /= first%equations%id) call errors%add(max(stage%equations%line, stage%line), &
                'MPC: all stages must have the same equations; give MPC above the first SUBCASE')
-         end associate
-      end do
-      do i = 1, size(control%stages)
-         associate (stage => control%stages(i), from => control%stages(i)%from)
-            if (from%line == 0) cycle
-            if (from%line < stage%line .or. stage%line == 0) then
-               if (i == 1) call errors%add(from%line, 'FROM: expected below a SUBCASE, which starts from the end of an earlier one')
-            else if (all(control%stages(:i - 1)%id /= from%id)) then
-               call errors%add(from%line, 'FROM: '//integer_text(from%id)//one_of(from%id == stage%id, ' is this SUBCASE itself', &
-                  one_of(any(control%stages%id == from%id), ' is a later SUBCASE', ' is no SUBCASE'))// &
-                  ', expected the number of an earlier SUBCASE')
-            end if
          end associate
       end do
       call check_vibration(control%stages%vibration, control%stages%line, errors)

@@ -13,7 +13,7 @@ module model_data
    implicit none
    private
 
-   public :: bar_nodes, joint_node_id, n_bars, n_sections, stage_ends, supported
+   public :: bar_nodes, joint_node_id, n_bars, n_sections, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -303,15 +303,6 @@ contains
 
       nodes = pack(bar%nodes, bar%nodes > 0)
    end function bar_nodes
-
-   !> The stages at whose ends the load of STAGE begins and ends: the one that it starts from, if any, and itself.
-   pure function stage_ends(history, stage) result(ends)
-      type(history_type), intent(in) :: history
-      integer, intent(in)            :: stage !! position
-      integer, allocatable :: ends(:)
-
-      ends = pack([history%stages(stage)%from, stage], [history%stages(stage)%from > 0, .true.])
-   end function stage_ends
 
    !> The number of pretension sections.
    pure integer function n_sections(mesh)

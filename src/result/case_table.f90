@@ -20,14 +20,14 @@ module case_table
    public :: is_case, note_case, print_cases, record_cases
 
    integer, parameter :: n_values = size(case_names)
+   real(wp), parameter :: none = huge(1.0_wp)
    logical, parameter :: least_is_worst(n_values) = [.false., .false., .false., .true., .true., .true., .false., .false., .true., &
                                                      .true.] ! of case_names
 
    !> The values at the end of a case, those of case_names; the last of them, its frequency, comes with the modes.
    type, public :: case_row
       integer  :: stage = 0                      !! its position
-      real(wp) :: values(n_values) = 0.0_wp
-      logical  :: has(n_values) = .false.
+      real(wp) :: values(n_values) = none      !! NONE, of either sign: there is none
    end type case_row
 
 contains
@@ -57,19 +57,16 @@ contains
       type(watch_answer), intent(in)     :: watched
       type(case_row), allocatable, intent(inout) :: rows(:)
       type(watched_node) :: first
-      logical :: safe(size(joints)), used(size(bolts))
       integer :: id
 
       if (.not. is_case(model%history, analysis%stage) .or. analysis%record%ends_early) return
       if (allocated(plan%stages(analysis%stage)%watched)) call summarise_watched(model, watched, id, first)
-      safe = joints%has_safety .and. joints%safety <= largest_safety
-      used = bolts%is_locked .and. bolts%has_strength
       rows = [rows, case_row(analysis%stage, &
-         [bodies%displacement%value, bodies%at_node%value, maxval(joints%now%pressure), minval(joints%now%contact), &
-          minval(joints%safety, mask=safe), minval(bolts%force, mask=bolts%is_locked), maxval(bolts%use, mask=used), &
-          first%along, first%stiffness, 0.0_wp], &
-         [.true., model%mesh%n_elements > 0, size(joints) > 0, size(joints) > 0, any(safe), any(bolts%is_locked), any(used), &
-          first%is_loaded, first%moves, .false.])]
+         [bodies%displacement%value, merge(bodies%at_node%value, none, model%mesh%n_elements > 0), &
+          maxval(joints%now%pressure), minval(joints%now%contact), & ! huge where there are none
+          minval(joints%safety, mask=joints%has_safety .and. joints%safety <= largest_safety), &
+          minval(bolts%force, mask=bolts%is_locked), maxval(bolts%use, mask=bolts%is_locked .and. bolts%has_strength), &
+          merge(first%along, none, first%is_loaded), merge(first%stiffness, none, first%moves), none])]
    end subroutine note_case
 
    !> Print ROWS, then the worst of each column and its stage. Of values equal to rounding the first is the worst.
@@ -81,6 +78,7 @@ contains
       type(table_type) :: table
       type(column_type), allocatable :: columns(:)
       real(wp) :: badness(size(rows))
+      logical  :: has(size(rows))
       integer  :: before, i, k, worst(n_values) ! positions in ROWS, 0: none has the value
 
       if (size(rows) == 0) return
@@ -88,9 +86,10 @@ contains
          badness = rows%values(k)
          if (case_names(k) /= 'bolt_min') badness = abs(badness) ! a bolt may be in compression
          if (least_is_worst(k)) badness = -badness
-         i = maxloc(badness, mask=rows%has(k), dim=1)
+         has = abs(rows%values(k)) < none
+         i = maxloc(badness, mask=has, dim=1)
          worst(k) = 0
-         if (i > 0) worst(k) = findloc(rows%has(k) .and. badness >= badness(i) - symmetric_tie*abs(badness(i)), .true., dim=1)
+         if (i > 0) worst(k) = findloc(has .and. badness >= badness(i) - symmetric_tie*abs(badness(i)), .true., dim=1)
       end do
       columns = table_columns(cases_table, page%labels, model)
       do i = 1, size(columns) ! the listing leaves out columns without a value
@@ -102,31 +101,25 @@ contains
          associate (row => rows(i), stage => plan%stages(rows(i)%stage))
             call table%put('stage', stage%id)
             call table%put('from', plan%stages(model%history%stages(row%stage)%from)%id)
-            call table%put(case_names, row%values, where=row%has)
+            call table%put(case_names, row%values, where=abs(row%values) < none)
             call table%put('LABEL', '   '//stage%label)
          end associate
-         call end_row(' CASE')
+         call table%put('kind', ' CASE')
+         call table%print_row(page%screen, page%tables(cases_table))
       end do
       do k = 1, n_values
          call table%put(case_names(k), rows(max(1, worst(k)))%values(k), where=worst(k) > 0)
       end do
-      call end_row(' WORST')
+      call table%put('kind', ' WORST')
+      call table%leave_rest()
+      call table%print_row(page%screen, page%tables(cases_table))
       do k = 1, n_values
          call table%put(case_names(k), plan%stages(rows(max(1, worst(k)))%stage)%id, where=worst(k) > 0)
       end do
-      call end_row(' STAGE')
+      call table%put('kind', ' STAGE')
+      call table%leave_rest()
+      call table%print_row(page%screen, page%tables(cases_table))
       call page%file%put_lines(page%screen%text_behind(before))
-
-   contains
-
-      subroutine end_row(kind)
-         character(*), intent(in) :: kind
-
-         call table%put('kind', kind)
-         call table%leave_rest()
-         call table%print_row(page%screen, page%tables(cases_table))
-      end subroutine end_row
-
    end subroutine print_cases
 
    !> Write ROWS to a restart file, or read them.
@@ -142,7 +135,6 @@ contains
       call stream%item('stage', rows%stage)
       do k = 1, n_values
          call stream%item('values', rows%values(k))
-         call stream%item('has', rows%has(k))
       end do
    end subroutine record_cases
 

@@ -11,7 +11,7 @@ module passing_forces
    use kinds, only: wp
    use lists, only: join, root_of
    use mesh_queries, only: n_points, node_kind
-   use model_data, only: a_point, model_type, n_bars, stage_ends, supported
+   use model_data, only: a_point, model_type, n_bars, supported
    use symmetry_planes, only: cut_type, free_part
    use tolerances, only: parallel_in_mesh
    use unknowns, only: node_axes
@@ -167,10 +167,9 @@ contains
       real(wp), intent(in)            :: direction(:, :) !! (3, bolts) unit
       real(wp), intent(in)            :: tension(:)      !! (bolts) [force]
       real(wp) :: force(3, passages%n)
-      integer, allocatable :: ends(:)
-      integer  :: b, i, k
+      integer  :: b, ends(2), i, k
 
-      ends = stage_ends(model%history, analysis%stage)
+      ends = [model%history%stages(analysis%stage)%from, analysis%stage]
       force = 0.0_wp
       do i = 1, size(model%joints%element)
          k = passages%of_element(i)
@@ -179,7 +178,7 @@ contains
       end do
       do k = 1, passages%n
          if (passages%by_statics(k)) then
-            do i = 1, size(ends)
+            do i = merge(1, 2, ends(1) > 0), 2
                force(:, k) = force(:, k) + merge(analysis%fraction, 1.0_wp - analysis%fraction, ends(i) == analysis%stage)* &
                              resultant_on(model, passages, k, ends(i))
             end do

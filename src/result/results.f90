@@ -36,7 +36,7 @@ module results
    use symmetry_planes, only: cut_type, symmetry_plane
    use table_column, only: csv_titles
    use table_writer, only: table_type
-   use text_tools, only: integer_text, real_text, upper
+   use text_tools, only: integer_text, real_text, text_item, upper
    use vibration_tables, only: list_modes
    use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, write_modes, write_vtu
    use watched_nodes, only: find_watched, record_watched, start_watched, state_at_end, watch_answer, watch_state
@@ -51,6 +51,7 @@ module results
       type(finished_type)    :: finished            !! what the stages have that have ended
       type(page_type)        :: page
       type(watch_answer)     :: watched             !! of the last stage with watched nodes
+      type(text_item), allocatable :: kept(:)       !! (stages) the state at the end of a stage from which a later one starts
       type(range_watch_type) :: watch
       character(:), allocatable :: missing_vtu      !! why requested files for ParaView are missing; '': they exist
       character(:), allocatable :: base             !! beginning of the names of the files, folder included
@@ -89,7 +90,7 @@ contains
       call find_cuts(model, planes, results%cuts)
       call start_bolts(model, planes, results%cuts, results%bolts)
       if (plan%has_watched_nodes) call start_watched(model, results%watched_before)
-      allocate (results%cases(0))
+      allocate (results%cases(0), results%kept(size(plan%stages)))
       call start_watch(model, results%watch)
       associate (page => results%page, control => deck%control)
          if (base == '') call page%file%start('')
@@ -262,10 +263,8 @@ contains
       m = findloc(modes%modes%is_rigid, .false., dim=1)
       results%counts%digest%frequency = -1.0_wp
       if (m > 0) results%counts%digest%frequency = modes%modes(m)%frequency
-      if (is_case(model%history, stage)) then
+      if (is_case(model%history, stage) .and. m > 0) &
          results%cases(size(results%cases))%values(size(case_names)) = results%counts%digest%frequency
-         results%cases(size(results%cases))%has(size(case_names)) = m > 0
-      end if
       associate (planned => plan%stages(stage), page => results%page)
          page%stage_id = planned%id
          call list_modes(page, model, planned, modes, results%watch%n_warnings)
@@ -377,6 +376,9 @@ contains
       call record_bolts(stream, results%bolts)
       if (allocated(results%watched_before%u)) call record_watched(stream, results%watched_before)
       call record_cases(stream, results%cases)
+      do i = 1, size(results%kept)
+         call stream%text('kept', results%kept(i)%words)
+      end do
       call record_finished(stream, results%base, results%page, results%finished)
    end subroutine record_results
 

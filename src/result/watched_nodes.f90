@@ -15,7 +15,7 @@ module watched_nodes
    use kinds, only: wp
    use connected_bodies, only: find_bodies
    use mesh_queries, only: element_points, n_points, node_kind
-   use model_data, only: a_point, a_spring, bar_nodes, model_type, n_bars, stage_ends
+   use model_data, only: a_point, a_spring, bar_nodes, model_type, n_bars
    use restart_stream, only: restart_stream_type
    use stage_plan, only: between, force_between, node_pair
    use structural_elements, only: bar_elongation
@@ -78,8 +78,7 @@ contains
       type(watch_state) :: now
       real(wp), allocatable :: change(:, :), load(:, :)
       real(wp) :: on_nodes(3), total(3), amount, largest
-      integer, allocatable :: ends(:)
-      integer  :: d, i, k
+      integer  :: d, ends(2), i, k
 
       d = model%mesh%dimension
       now = state_at_end(model, analysis)
@@ -87,8 +86,8 @@ contains
       largest = maxval(abs(change(:, :n_points(model%mesh))))
       ! change over the stage of the loads of the deck, without preloads and moments [force]
       allocate (load(3, n_points(model%mesh)), source=0.0_wp)
-      ends = stage_ends(model%history, analysis%stage)
-      do i = 1, size(ends)
+      ends = [model%history%stages(analysis%stage)%from, analysis%stage]
+      do i = merge(1, 2, ends(1) > 0), 2
          associate (loads => model%history%stages(ends(i)))
             do k = 1, loads%n
                if (node_kind(model%mesh, loads%node(k)) == a_point) load(:, loads%node(k)) = load(:, loads%node(k)) + &

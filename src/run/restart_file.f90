@@ -20,10 +20,10 @@ module restart_file
    use run_of_deck, only: goes_on, is_over, is_refused, run_type, tell
    use restart_stream, only: open_restart, restart_stream_type
    use result_names, only: restart_ending
-   use results, only: record_reference, record_results, results_type
+   use results, only: record_reference, record_results
    use stage_plan, only: factorisations_of, stage_plan_type, where_in_plan
    use terminal, only: version
-   use text_tools, only: integer_text, one_of, text_item
+   use text_tools, only: integer_text, one_of
    implicit none
    private
 
@@ -68,7 +68,8 @@ contains
       character(:), allocatable :: name, words
 
       if (is_over(run) .or. .not. run%resumes) return
-      call record_run(run%restart, analysis, run%results, run%kept)
+      call record_analysis(run%restart, analysis)
+      call record_results(run%restart, run%results)
       run%problem = ''
       if (.not. run%restart%is_at_end()) then
          run%problem = 'it holds more than the state of this deck'
@@ -119,7 +120,8 @@ contains
       ok = descriptor >= 0
       if (ok) then
          call stream%start(descriptor, version, run%deck_sum)
-         call record_run(stream, analysis, run%results, run%kept)
+         call record_analysis(stream, analysis)
+         call record_results(stream, run%results)
          call stream%complete(ok)
          if (ok) ok = c_fsync(descriptor) == 0 ! before the older one is replaced: a power failure leaves one of the two
          call close_file(descriptor, closed)
@@ -140,21 +142,6 @@ contains
       call system%forget_past()
    end subroutine write_restart
 
-   !> Write the state of a run to a restart file, or read it: with the states KEPT for later stages.
-   subroutine record_run(stream, analysis, results, kept)
-      type(restart_stream_type), intent(inout) :: stream
-      type(analysis_type), intent(inout)       :: analysis
-      type(results_type), intent(inout)        :: results
-      type(text_item), intent(inout)           :: kept(:)
-      integer :: s
-
-      call record_analysis(stream, analysis)
-      call record_results(stream, results)
-      do s = 1, size(kept)
-         call stream%text('kept', kept(s)%words)
-      end do
-   end subroutine record_run
-
    !> FROM: keep the state at the end of the stage just completed, its bolts locked, if a later stage starts from it. Where the next
    !! stage starts from an earlier one, return to the state that this one left; the bodies are formed anew only where other bolts are
    !! locked in it.
@@ -167,7 +154,7 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       type(restart_stream_type) :: stream
       logical, allocatable :: locked(:)
-      integer :: done, next, s
+      integer :: done, next
 
       if (analysis%goes_on .or. analysis%stage == 0) return
       done = analysis%stage
@@ -177,35 +164,28 @@ contains
             call lock_bolts(model, system, analysis)
             stream%writes = .true.
             stream%bytes = ''
-            call record_start()
-            run%kept(done)%words = stream%bytes(:stream%used)
+            call record_analysis(stream, analysis)
+            call record_reference(stream, run%results)
+            run%results%kept(done)%words = stream%bytes(:stream%used)
          end if
-         if (from(next) /= done) then
-            allocate (locked, source=[analysis%is_elastic, analysis%is_locked])
-            stream = restart_stream_type(bytes=run%kept(from(next))%words, last=len(run%kept(from(next))%words, long))
-            call record_start()
-            if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
-               call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
-               if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
-               if (run%failure%raised) return
-               call lock_again(model, analysis, system)
-            end if
-            call system%forget_past()
-            analysis%next = next
-         end if
-         do s = 1, done
-            if (allocated(run%kept(s)%words) .and. all(from(next + 1:) /= s)) deallocate (run%kept(s)%words)
-         end do
-      end associate
-
-   contains
-
-      !> Write or read all that a stage takes over from the end of the stage from which it starts.
-      subroutine record_start()
+         if (from(next) == done) return
+         allocate (locked, source=[analysis%is_elastic, analysis%is_locked])
+         stream%writes = .false.
+         stream%bytes = run%results%kept(from(next))%words
+         stream%last = len(stream%bytes, long)
+         stream%used = 0
          call record_analysis(stream, analysis)
          call record_reference(stream, run%results)
-      end subroutine record_start
-
+         analysis%next = next
+         if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
+            call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
+            if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
+            if (run%failure%raised) return
+            call lock_again(model, analysis, system)
+         end if
+         call system%forget_past()
+         if (all(from(next + 1:) /= from(next))) deallocate (run%results%kept(from(next))%words)
+      end associate
    end subroutine go_to_start
 
 end module restart_file

@@ -266,7 +266,6 @@ contains
 
       if (is_over(run)) return
       call start_analysis(model, system, deck%control, analysis)
-      allocate (run%kept(size(plan%stages)))
       if (.not. run%resumes) then
          if (deck%control%method /= method_back) call seat_joints(model, analysis, system, run%failure)
          call interface_stiffness(model, system, analysis, run%failure)

@@ -29,7 +29,7 @@ module run_of_deck
    use table_column, only: column, column_type, csv, csv_titles
    use table_writer, only: table_type
    use terminal, only: clear_line, complain_of_input, log_line, open_line, say_line, show_line
-   use text_tools, only: integer_text, plural, text_item
+   use text_tools, only: integer_text, plural
    use unit_watch, only: stress_words
    use watched_nodes, only: summarise_watched, watched_node
    implicit none
@@ -62,7 +62,6 @@ module run_of_deck
       integer(long) :: deck_sum = 0            !! checksum of the deck
       type(restart_stream_type) :: restart     !! the restart file to continue from, while it is read
       logical :: resumes = .false.             !! there is such a file
-      type(text_item), allocatable :: kept(:)  !! (stages) the state at the end of a stage from which a later one starts
       character(:), allocatable :: problem     !! why the restart file cannot be used
       logical :: tells_drops = .false.         !! said that shear stresses without friction have dropped to zero
       logical :: misses_output = .false.       !! a restart file, the answer or a VTU file could not be written
