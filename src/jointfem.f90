@@ -13,6 +13,7 @@ program jointfem
    use run_boxes, only: another_increment, another_stage, build_structure, form_bodies, go_on, print_increment, read_data, &
                         start_joints, start_program
    use run_of_deck, only: end_program, finish_run, run_type, summary_row
+   use restart_file, only: go_to_start
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
@@ -53,8 +54,11 @@ contains
       call start_joints(run, deck, model, plan, system, analysis)
 
       do while (another_stage(run, plan, analysis))
+         ! --------------------------------------------------------------- NOT IN THE CHART: FROM THE END OF AN EARLIER STAGE
+         call go_to_start(run, deck, model, plan, system, analysis)
+
          ! --------------------------------------------------------------- NEXT STAGE
-         call start_stage(model, system, analysis)
+         if (.not. run%failure%raised) call start_stage(model, system, analysis)
 
          do while (another_increment(run, plan, analysis))
             ! ------------------------------------------------------------ NEXT INCREMENT OF THE LOAD

@@ -29,7 +29,7 @@ module restart_stream
 
    public :: open_restart
 
-   integer, parameter, public :: layout = 10 !! changes with the layout and with its contents
+   integer, parameter, public :: layout = 11 !! changes with the layout and with its contents
    character(*), parameter    :: magic = 'JOINTFEM RESTART'
    integer(int32), parameter  :: order_mark = int(z'01020304', int32), other_order = int(z'04030201', int32)
    integer, parameter, public :: version_length = 16
@@ -41,9 +41,9 @@ module restart_stream
    type, public :: restart_stream_type
       logical :: writes = .false.                 !! false: it reads
       character(:), allocatable :: fault          !! why it failed; not allocated: it has not failed
-      character(:), allocatable, private :: bytes ! reading: the file
-      integer(long), private  :: used = 0         ! bytes read or written so far
-      integer(long), private  :: last = 0         ! reading: the last byte before the tail
+      character(:), allocatable :: bytes          !! reading: the file; writing: allocated where the state stays in memory
+      integer(long) :: used = 0                   !! bytes read or written so far
+      integer(long) :: last = 0                   !! reading: the last byte before the tail
       integer(int64), private :: sum = no_bytes   ! checksum of the bytes written
       integer, private        :: descriptor = -1
       character(:), allocatable, private :: name  ! of the last part
@@ -378,9 +378,17 @@ contains
    subroutine put(self, bytes)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: bytes
+      integer(long) :: n
       logical :: ok
 
       if (allocated(self%fault)) return
+      if (allocated(self%bytes)) then ! in memory
+         n = self%used + len(bytes, long)
+         if (n > len(self%bytes, long)) self%bytes = self%bytes//repeat(' ', n) ! room for as much again
+         self%bytes(self%used + 1:n) = bytes
+         self%used = n
+         return
+      end if
       call add_to_checksum(bytes, self%sum)
       call write_bytes(self%descriptor, bytes, ok)
       self%used = self%used + len(bytes, long)

@@ -262,6 +262,8 @@ contains
       allocate (history%stages(size(deck%control%stages)), oscillating(size(deck%control%stages)))
       do s = 1, size(deck%control%stages)
          associate (loads => history%stages(s), stage => deck%control%stages(s))
+            loads%from = s - 1
+            if (stage%from%id > 0) loads%from = findloc(deck%control%stages%id, stage%from%id, dim=1)
             allocate (loads%node(size(deck%bulk%force)), loads%force(3, size(deck%bulk%force)))
             call keep_moved(deck, mesh, stage%load%id, loads)
             call add_case(stage%load, 'LOAD', loads)

@@ -32,6 +32,7 @@ contains
       do s = 1, size(plan%stages)
          associate (stage => plan%stages(s), given => deck%control%stages(s))
             stage%id = given%id
+            stage%from = given%from%id
             stage%label = given%label
             stage%output = given%output
             stage%shown_words = ''

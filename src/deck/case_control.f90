@@ -286,8 +286,10 @@ contains
       end if
       if (control%method == method_back .and. size(control%stages) > 1) call errors%add(control%stages(2)%line, &
          'SUBCASE: METHOD = BACK solves one stage of loading only; expected METHOD = STEP or NEWTON for a history')
-      do i = 2, size(control%stages)
+      do i = 1, size(control%stages)
          associate (stage => control%stages(i), first => control%stages(1))
+            if (stage%from%id > 0 .and. all(control%stages(:i - 1)%id /= stage%from%id)) call errors%add(stage%from%line, &
+               'FROM: '//integer_text(stage%from%id)//', expected the number of an earlier SUBCASE')
             if (stage%supports%id /= first%supports%id) call errors%add(max(stage%supports%line, stage%line), &
                'SPC: all stages must have the same supports; give SPC above the first SUBCASE')
             if (stage%equations%id /= first%equations%id) call errors%add(max(stage%equations%line, stage%line), &

@@ -63,6 +63,7 @@ module stage_entries
       character(:), allocatable :: label
       type(set_reference) :: load         !! total load at the end of the stage; none: no load
       type(set_reference) :: increments, supports
+      type(set_reference) :: from         !! SUBCASE from whose end it starts; none: the one before
       type(set_reference) :: temperature  !! at the end of the stage; none: TREF everywhere
       type(set_reference) :: equations    !! constraint equations, MPC
       type(output_request) :: output
@@ -92,6 +93,8 @@ contains
             call read_number(entry, stage%load, errors)
          case ('INCR')
             call read_number(entry, stage%increments, errors)
+         case ('FROM')
+            call read_number(entry, stage%from, errors)
          case ('SPC')
             call read_number(entry, stage%supports, errors)
          case ('MPC')

@@ -90,6 +90,7 @@ module analysis_state
    !! arrays (dimension, retained); recover_bodies completes them.
    type, public :: analysis_type
       integer  :: stage = 0, increment = 0
+      integer  :: next = 1                          !! position of the stage behind this one in the deck
       logical  :: goes_on = .false.                 !! the stage continues from a restart file
       real(wp) :: increment_fraction = 0.0_wp       !! of the stage's load change, this increment
       real(wp) :: fraction = 0.0_wp                 !! sum of these so far: exactly 1 at the end of the stage

@@ -16,7 +16,7 @@ module bolt_locking
 
 contains
 
-   !> Lock the bolts that the completed stage has tightened. The inelastic part of the bar forces becomes a load, and the overlap
+   !> Lock the bolts that the completed stage has tightened, if they are not yet locked. The inelastic part of the bar forces becomes a load, and the overlap
    !! of solid bolts a prescribed displacement.
    subroutine lock_bolts(model, system, analysis)
       type(model_type), intent(in)          :: model
@@ -26,7 +26,7 @@ contains
 
       do i = 1, n_bars(model%mesh)
          associate (bar => model%mesh%bars(i))
-            if (bar%bolt == 0 .or. bar%stage /= analysis%stage) cycle
+            if (analysis%is_elastic(i) .or. bar%stage /= analysis%stage) cycle
             analysis%is_elastic(i) = .true.
             analysis%rest_tension(i) = bar%preload - bar%stiffness*elongation_now(model, analysis, i)
             call add_axial_force(model, i, analysis%rest_tension(i) - bar%preload, analysis%now%load)
@@ -37,7 +37,7 @@ contains
       end do
       do i = 1, n_sections(model%mesh)
          associate (section => model%mesh%sections(i))
-            if (section%stage /= analysis%stage) cycle
+            if (analysis%is_locked(i) .or. section%stage /= analysis%stage) cycle
             analysis%is_locked(i) = .true.
             analysis%held(1, analysis%retained_index(section%node)) = .true.
             analysis%now%load(1, section%node) = analysis%now%load(1, section%node) - section%preload

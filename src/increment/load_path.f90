@@ -18,7 +18,7 @@ module load_path
 
 contains
 
-   !> Start the next stage from the end of the last one: the joint keeps its history, and bolts tightened in the last stage are
+   !> Start the next stage from the end of the present one: the joint keeps its history, and bolts tightened in this stage are
    !! locked. A stage that was restarted within continues.
    subroutine start_stage(model, system, analysis)
       type(model_type), intent(in)       :: model
@@ -31,7 +31,8 @@ contains
          return
       end if
       call lock_bolts(model, system, analysis)
-      stage = analysis%stage + 1
+      stage = analysis%next
+      analysis%next = stage + 1
       analysis%stage = stage
       analysis%increment = 0
       analysis%fraction = 0.0_wp

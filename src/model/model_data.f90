@@ -107,6 +107,7 @@ module model_data
 
    !> Forces on nodes, displacements of supports and temperatures: the total load at the end of a stage.
    type, public :: stage_load_type
+      integer :: from = 0                    !! position of the stage from whose end it starts, 0: the structure at rest
       integer :: n = 0
       integer, allocatable  :: node(:)       !! (n); a node may occur more than once
       real(wp), allocatable :: force(:, :)   !! (3, n)

@@ -11,7 +11,7 @@ module stage_plan
    private
 
    public :: between, force_between
-   public :: loss_at, asked_frequencies, merged, where_in_plan, factorisations_of, has_unloading_modes, shows_bodies
+   public :: loss_at, asked_frequencies, merged, stage_name, where_in_plan, factorisations_of, has_unloading_modes, shows_bodies
 
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping
 
@@ -56,6 +56,7 @@ module stage_plan
 
    type, public :: planned_stage
       integer :: id = 0
+      integer :: from = 0                   !! number of the stage that FROM names, 0: none
       character(:), allocatable :: label
       type(output_request) :: output
       logical, allocatable :: shown(:)      !! nodes to which its tables are limited; not allocated: all
@@ -181,13 +182,22 @@ contains
       if (size(f) > 1) f = pack(f, [.true., f(2:) - f(:size(f) - 1) > same_frequency*f(size(f))])
    end function merged
 
+   !> Text such as 'stage 12', or 'stage 12 from 2'.
+   pure function stage_name(stage) result(words)
+      type(planned_stage), intent(in) :: stage
+      character(:), allocatable :: words
+
+      words = 'stage '//integer_text(stage%id)
+      if (stage%from > 0) words = words//' from '//integer_text(stage%from)
+   end function stage_name
+
    !> Text such as 'stage 2, increment 7', for messages.
    pure function where_in_plan(plan, stage, increment) result(words)
       type(stage_plan_type), intent(in) :: plan
       integer, intent(in)               :: stage, increment
       character(:), allocatable         :: words
 
-      words = 'stage '//integer_text(plan%stages(stage)%id)//', increment '//integer_text(increment)
+      words = stage_name(plan%stages(stage))//', increment '//integer_text(increment)
       if (allocated(plan%stages(stage)%path)) words = plan%stages(stage)%path
    end function where_in_plan
 

@@ -164,7 +164,9 @@ contains
             answer%load_change = above(axial, floor)
             answer%has_ratio = bolt%stage /= stage .and. abs(answer%load_change) > along_it*whole
             if (answer%has_ratio) answer%ratio = answer%change/answer%load_change
-            answer%is_locked = bolt%stage < stage .or. (bolt%stage == stage .and. analysis%fraction >= 1.0_wp)
+            answer%is_locked = bolt%stage == stage .and. analysis%fraction >= 1.0_wp
+            if (bolt%bar > 0) answer%is_locked = answer%is_locked .or. analysis%is_elastic(bolt%bar)
+            if (bolt%section > 0) answer%is_locked = answer%is_locked .or. analysis%is_locked(bolt%section)
             if (.not. answer%is_locked) cycle
             answer%tightened = above(history%tightened(i), floor)
             answer%largest = above(history%largest(i), floor)

@@ -60,7 +60,8 @@ contains
       if (size(model%joints%list) > 0) call write_joints(page, model, has_unloading_modes(plan))
       call write_shear_laws(page%file, model)
       ! the load history: totals at the end of every stage
-      call table%start('STAGES', [column('STAGE', 'i11', heading_shift=-1), column('INCREMENTS', 'i11'), &
+      call table%start('STAGES', [column('STAGE', 'i11', heading_shift=-1), &
+                                  column('FROM', 'i6', is_listed=any(plan%stages%from > 0)), column('INCREMENTS', 'i11'), &
                                   column(['FIRST SHARE', 'LAST SHARE '], 'es14.5'), &
                                   column('TOTAL LOAD '//axes(:model%mesh%dimension), 'es15.5', page%labels%force), &
                                   column('   LABEL', 'a')], page%file)
@@ -70,6 +71,7 @@ contains
             total = sum(loads%force(:, :loads%n), dim=2, mask=spread(loads%node(:loads%n) <= n_points(model%mesh), 1, 3))
             largest = max(0.0_wp, maxval(abs(loads%force(:, :loads%n))))
             call table%put([character(10) :: 'STAGE', 'INCREMENTS'], [stage%id, size(stage%fractions)])
+            call table%put('FROM', stage%from, where=stage%from > 0)
             call table%put([character(11) :: 'FIRST SHARE', 'LAST SHARE'], stage%fractions([1, size(stage%fractions)]))
             call table%put('TOTAL LOAD '//axes(:model%mesh%dimension), total(:model%mesh%dimension), page_zero*largest)
             call table%put('LABEL', '   '//cut(stage%label, 33))

@@ -167,8 +167,9 @@ contains
       real(wp), intent(in)            :: direction(:, :) !! (3, bolts) unit
       real(wp), intent(in)            :: tension(:)      !! (bolts) [force]
       real(wp) :: force(3, passages%n)
-      integer  :: b, i, k, s
+      integer  :: b, ends(2), i, k
 
+      ends = [model%history%stages(analysis%stage)%from, analysis%stage]
       force = 0.0_wp
       do i = 1, size(model%joints%element)
          k = passages%of_element(i)
@@ -177,9 +178,9 @@ contains
       end do
       do k = 1, passages%n
          if (passages%by_statics(k)) then
-            do s = max(1, analysis%stage - 1), analysis%stage
-               force(:, k) = force(:, k) + merge(analysis%fraction, 1.0_wp - analysis%fraction, s == analysis%stage)* &
-                             resultant_on(model, passages, k, s)
+            do i = merge(1, 2, ends(1) > 0), 2
+               force(:, k) = force(:, k) + merge(analysis%fraction, 1.0_wp - analysis%fraction, ends(i) == analysis%stage)* &
+                             resultant_on(model, passages, k, ends(i))
             end do
          else
             do b = 1, size(tension)

@@ -19,11 +19,16 @@ module result_page
    integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
                                  response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9, watch_table = 10, &
                                  split_table = 11, reaction_table = 12, shell_table = 13, pair_table = 14, &
-                                 pair_modes_table = 15, pair_response_table = 16, clamping_table = 17
+                                 pair_modes_table = 15, pair_response_table = 16, cases_table = 17, clamping_table = 18
    character(*), parameter, public :: history_ending = '.joint.csv'
-   character(22), parameter, public :: table_endings(16) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
+   character(22), parameter, public :: table_endings(17) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
       '.modes.csv', '.modes.energy.csv', '.response.csv', '.backbone.csv', '.loop.csv', '.backbone.response.csv', '.watch.csv', &
-      '.watch.energy.csv', '.reaction.csv', '.shell.csv', '.between.csv', '.between.modes.csv', '.between.response.csv']
+      '.watch.energy.csv', '.reaction.csv', '.shell.csv', '.between.csv', '.between.modes.csv', '.between.response.csv', &
+      '.cases.csv']
+
+   !> The values of a case in .cases.csv.
+   character(9), parameter, public :: case_names(10) = [character(9) :: 'u_max', 'mises_max', 'p_max', 'contact', 'safety', &
+      'bolt_min', 'use', 'along', 'stiffness', 'frequency']
 
    ! the six components of a joint in .stage.csv, in its axes
    character(14), parameter, public :: &
@@ -173,6 +178,15 @@ contains
             column(['N X ', 'N Y ', 'N XY'], 'es13.5', labels%stiffness, name=['n_x ', 'n_y ', 'n_xy']), &
             column(['M X ', 'M Y ', 'M XY'], 'es13.5', labels%force, name=['m_x ', 'm_y ', 'm_xy']), &
             column(['Q X', 'Q Y'], 'es13.5', labels%stiffness, name=['q_x', 'q_y'])]
+      case (cases_table) ! for each case, then the worst of each column and its stage
+         columns = [column('', 'a6', name='kind'), column('STAGE', 'i6', name='stage'), column('FROM', 'i6', name='from'), &
+            column('U MAX', 'es11.3', labels%length, name='u_max'), &
+            column(['MISES MAX', 'P MAX    '], 'es11.3', labels%pressure, name=['mises_max', 'p_max    ']), &
+            column('CONTACT', 'f9.4', name='contact'), column('MU N/T', 'f9.3', name='safety'), &
+            column('LEAST BOLT', 'es11.3', labels%force, name='bolt_min'), column('OF ST', 'f8.4', name='use'), &
+            column('ALONG LOAD', 'es11.3', labels%length, name='along'), &
+            column('STIFFNESS', 'es11.3', labels%stiffness, name='stiffness'), &
+            column('FREQUENCY', 'es11.3', '1/TIME', name='frequency'), column('   LABEL', 'a')]
       case (modes_table) ! for each mode; the effective masses have a table of their own in the listing
          columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('FREQUENCY', 'es15.5', '1/TIME', name='frequency'), &
             column('OMEGA', 'es15.5', 'RAD/TIME', name='omega'), column('GENERALISED MASS', 'es18.5'), &

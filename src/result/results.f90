@@ -7,6 +7,7 @@ module results
    use bolt_answers, only: bolt_answer_type, bolt_history, end_bolts => end_stage, fault_of_bolts, follow_bolts, record_bolts, &
                            start_bolts
    use c_library, only: close_file, lock_folder
+   use case_table, only: case_row, is_case, note_case, print_cases, record_cases
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
@@ -24,19 +25,18 @@ module results
    use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, watch_increment, watch_stage
    use restart_stream, only: restart_stream_type
    use result_names, only: early_ending, listing_ending, remove_all
-   use result_page, only: backbone_table, bend_table, bolt_table, energy_table, joint_table, loop_table, modes_table, page_type, &
-                          record_page, pair_modes_table, pair_response_table, pair_table, response_table, set_labels, &
-                          shell_table, split_table, table_columns, &
-                          table_endings, watch_table
+   use result_page, only: backbone_table, bend_table, bolt_table, case_names, cases_table, energy_table, joint_table, &
+                          loop_table, modes_table, page_type, record_page, pair_modes_table, pair_response_table, pair_table, &
+                          response_table, set_labels, shell_table, split_table, table_columns, table_endings, watch_table
    use stage_entries, only: output_all, output_joint, output_last
-   use stage_plan, only: stage_plan_type
+   use stage_plan, only: stage_name, stage_plan_type
    use stage_tables, only: n_stage_tables, note_stage_tables, pass_rows
    use structural_results, only: list_shell_forces
    use support_reactions, only: find_reactions, reactions_type
    use symmetry_planes, only: cut_type, symmetry_plane
    use table_column, only: csv_titles
    use table_writer, only: table_type
-   use text_tools, only: integer_text, real_text, upper
+   use text_tools, only: integer_text, real_text, text_item, upper
    use vibration_tables, only: list_modes
    use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, write_modes, write_vtu
    use watched_nodes, only: find_watched, record_watched, start_watched, state_at_end, watch_answer, watch_state
@@ -44,13 +44,14 @@ module results
    private
 
    public :: start_results, print_increment, print_stage, print_modes, end_stage, keep_finished_stages, finish_results, &
-             discard_results, record_results, show_answers
+             discard_results, record_results, record_reference, show_answers
 
    type, public :: results_type
       type(count_type)       :: counts
       type(finished_type)    :: finished            !! what the stages have that have ended
       type(page_type)        :: page
       type(watch_answer)     :: watched             !! of the last stage with watched nodes
+      type(text_item), allocatable :: kept(:)       !! (stages) the state at the end of a stage from which a later one starts
       type(range_watch_type) :: watch
       character(:), allocatable :: missing_vtu      !! why requested files for ParaView are missing; '': they exist
       character(:), allocatable :: base             !! beginning of the names of the files, folder included
@@ -62,6 +63,7 @@ module results
       type(bolt_answer_type), allocatable, private  :: bolts_now(:)
       type(cut_type), allocatable, private :: cuts(:) ! (joints) by planes of symmetry
       type(watch_state), private      :: watched_before ! at the end of the last stage, where nodes are watched
+      type(case_row), allocatable, private :: cases(:) ! completed so far; none in a deck without FROM
    end type results_type
 
 contains
@@ -88,6 +90,7 @@ contains
       call find_cuts(model, planes, results%cuts)
       call start_bolts(model, planes, results%cuts, results%bolts)
       if (plan%has_watched_nodes) call start_watched(model, results%watched_before)
+      allocate (results%cases(0), results%kept(size(plan%stages)))
       call start_watch(model, results%watch)
       associate (page => results%page, control => deck%control)
          if (base == '') call page%file%start('')
@@ -111,6 +114,7 @@ contains
       is_asked(pair_modes_table) = plan%has_pairs .and. plan%has_modes
       is_asked(pair_response_table) = plan%has_pairs .and. plan%has_responses
       is_asked(shell_table) = any(plan%stages%output%forces)
+      is_asked(cases_table) = any([(is_case(model%history, i), i = 1, size(plan%stages))])
       do i = 1, size(table_endings)
          if (.not. is_asked(i)) cycle
          associate (table => results%page%tables(i))
@@ -134,8 +138,8 @@ contains
       associate (stage => plan%stages(analysis%stage), page => results%page)
          ! what the page shows in this increment, and the scale of its forces
          page%stage_id = stage%id
-         page%stage = 'STAGE '//integer_text(stage%id)
-         page%place = 'stage '//integer_text(stage%id)//', increment '//integer_text(analysis%increment)
+         page%stage = upper(stage_name(stage))
+         page%place = stage_name(stage)//', increment '//integer_text(analysis%increment)
          page%now = ', '//upper(page%place)//stage%shown_words
          page%label = trim(stage%label)
          page%along_cd = stage%output%along_cd
@@ -241,6 +245,7 @@ contains
          digest%contact = min(digest%contact, minval(joints%now%contact))
          digest%safety = min(digest%safety, minval(joints%safety, mask=joints%has_safety))
       end associate
+      call note_case(model, plan, analysis, bodies, joints, results%bolts_now, results%watched, results%cases)
       call end_bolts(results%bolts_now, results%bolts)
       if (plan%has_watched_nodes) results%watched_before = state_at_end(model, analysis)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
@@ -258,6 +263,8 @@ contains
       m = findloc(modes%modes%is_rigid, .false., dim=1)
       results%counts%digest%frequency = -1.0_wp
       if (m > 0) results%counts%digest%frequency = modes%modes(m)%frequency
+      if (is_case(model%history, stage) .and. m > 0) &
+         results%cases(size(results%cases))%values(size(case_names)) = results%counts%digest%frequency
       associate (planned => plan%stages(stage), page => results%page)
          page%stage_id = planned%id
          call list_modes(page, model, planned, modes, results%watch%n_warnings)
@@ -285,7 +292,8 @@ contains
 
    !> Give the files their names, all or none: OK is false where a file could not be written. Files for ParaView, the largest,
    !! are an exception: where they cannot be written the tables and the listing stay, and MISSING_VTU gives the reason.
-   subroutine finish_results(plan, failure, results, ok)
+   subroutine finish_results(model, plan, failure, results, ok)
+      type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(failure_type), intent(in)    :: failure !! raised: the results end before it
       type(results_type), intent(inout) :: results
@@ -296,6 +304,7 @@ contains
       call lock_folder(results%base(:index(results%base, '/', back=.true.))//'.', hold)
       call remove_all(results%base) ! of two runs of one name the later one leaves its own files only
       results%counts%n_warnings = results%watch%n_warnings
+      call print_cases(results%page, model, plan, results%cases)
       call name_companion(results%base, results%page, failure, results%finished, ok)
       do i = 1, size(table_endings)
          if (ok .and. results%page%tables(i)%is_open) call results%page%tables(i)%finish(ok)
@@ -356,7 +365,7 @@ contains
       type(results_type), intent(inout)        :: results
       integer :: i
 
-      call stream%part('results_type', 1)
+      call stream%part('results_type', 2)
       call record_page(stream, results%page)
       call record_counts(stream, results%counts)
       do i = 1, n_stage_tables
@@ -366,7 +375,21 @@ contains
       call record_vtu(results%vtu, stream)
       call record_bolts(stream, results%bolts)
       if (allocated(results%watched_before%u)) call record_watched(stream, results%watched_before)
+      call record_cases(stream, results%cases)
+      do i = 1, size(results%kept)
+         call stream%text('kept', results%kept(i)%words)
+      end do
       call record_finished(stream, results%base, results%page, results%finished)
    end subroutine record_results
+
+   !> Write or read the results to which those of a stage are referred: they belong to the stage from whose end it starts.
+   subroutine record_reference(stream, results)
+      type(restart_stream_type), intent(inout) :: stream
+      type(results_type), intent(inout)        :: results
+
+      call stream%item('largest_force', results%page%largest_force)
+      call record_bolts(stream, results%bolts)
+      if (allocated(results%watched_before%u)) call record_watched(stream, results%watched_before)
+   end subroutine record_reference
 
 end module results

@@ -54,7 +54,8 @@ contains
 
       associate (place => model%mesh%structural%place(e), now => analysis%now%temperature)
          load = beam_thermal_load(model%mesh%structural%beams(place), sum(element_rise(model, e, now))/2.0_wp)
-         load = load + analysis%fraction*of_stage(analysis%stage) + (1.0_wp - analysis%fraction)*of_stage(analysis%stage - 1)
+         load = load + analysis%fraction*of_stage(analysis%stage) + (1.0_wp - analysis%fraction)* &
+                of_stage(model%history%stages(analysis%stage)%from)
          s = beam_end_forces(model%mesh%structural%beams(place), model%mesh%x(:, element_points(model%mesh, e)), &
                              nodal_values(model, e, analysis%all_u(:, displaced_nodes(model%freedoms, e))), load)
       end associate

@@ -73,12 +73,12 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: watched(:)  !! positions
       type(node_pair), intent(in)     :: pairs(:)
-      type(watch_state), intent(in)   :: before      !! at the end of the last stage
+      type(watch_state), intent(in)   :: before      !! at the end of the stage from which it started
       type(watch_answer), intent(out) :: answer
       type(watch_state) :: now
       real(wp), allocatable :: change(:, :), load(:, :)
       real(wp) :: on_nodes(3), total(3), amount, largest
-      integer  :: d, k, s
+      integer  :: d, ends(2), i, k
 
       d = model%mesh%dimension
       now = state_at_end(model, analysis)
@@ -86,11 +86,12 @@ contains
       largest = maxval(abs(change(:, :n_points(model%mesh))))
       ! change over the stage of the loads of the deck, without preloads and moments [force]
       allocate (load(3, n_points(model%mesh)), source=0.0_wp)
-      do s = max(1, analysis%stage - 1), analysis%stage
-         associate (loads => model%history%stages(s))
+      ends = [model%history%stages(analysis%stage)%from, analysis%stage]
+      do i = merge(1, 2, ends(1) > 0), 2
+         associate (loads => model%history%stages(ends(i)))
             do k = 1, loads%n
                if (node_kind(model%mesh, loads%node(k)) == a_point) load(:, loads%node(k)) = load(:, loads%node(k)) + &
-                  merge(1, -1, s == analysis%stage)*analysis%fraction*loads%force(:, k)
+                  merge(1, -1, ends(i) == analysis%stage)*analysis%fraction*loads%force(:, k)
             end do
          end associate
       end do

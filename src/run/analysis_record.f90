@@ -18,22 +18,23 @@ module analysis_record
 
 contains
 
-   !> Write A, or read it into one that start_analysis has just made for the same model. goes_on is left out, which is true only
+   !> Write A, or read it into one that start_analysis has made for the same model. goes_on is left out, which is true only
    !! while the run resumes.
    subroutine record_analysis(stream, a)
       type(restart_stream_type), intent(inout) :: stream
       type(analysis_type), intent(inout)       :: a
       integer :: n, i
 
-      call stream%part('analysis_type', 2)
+      call stream%part('analysis_type', 3)
       call stream%item('stage', a%stage)
+      call stream%item('next', a%next)
       call stream%item('increment', a%increment)
       call stream%item('increment_fraction', a%increment_fraction)
       call stream%item('fraction', a%fraction)
       n = 0
       if (stream%writes) n = size(a%loaded)
       call stream%extent('loaded', n, 4)
-      if (.not. stream%writes) allocate (a%loaded(n))
+      if (.not. stream%writes) a%loaded = spread(0, 1, n)
       call stream%item('loaded', a%loaded)
       call stream%item('is_moved', a%is_moved)
       call stream%item('moves', a%moves)

@@ -1,30 +1,33 @@
 !> Writes and reads the restart file NAME.restart: the state for the next increments, and the results so far.
-!! RESTART asks for the file, and another run continues from it with --resume.
+!! RESTART asks for the file, and another run continues from it with --resume. A state at the end of a stage from which a later
+!! stage starts, FROM, is kept in memory in the same form, and in the file.
 !!
 !! The factors of the equations and the earlier solutions are too large for the file. The resumed run computes them anew, and the
 !! run that wrote the file discards them too: both runs then agree to the last digit. The model is built from the deck.
 module restart_file
    use analysis_record, only: record_analysis
    use analysis_state, only: analysis_type
-   use bolt_locking, only: lock_again
+   use bolt_locking, only: lock_again, lock_bolts
    use c_library, only: c_fsync, close_file, is_regular_file, read_all_bytes, remove_file
    use control_words, only: no_restart, restart_stages
    use deck_input, only: deck_type
    use deck_text, only: checksum_of
    use equation_solver, only: equation_system
+   use equations, only: form_body_stiffness, start_equations
    use incomplete_results, only: create_part, name_part, say_at_interrupts
+   use kinds, only: long
    use model_data, only: model_type
    use run_of_deck, only: goes_on, is_over, is_refused, run_type, tell
    use restart_stream, only: open_restart, restart_stream_type
    use result_names, only: restart_ending
-   use results, only: record_results
-   use stage_plan, only: stage_plan_type, where_in_plan
+   use results, only: record_reference, record_results
+   use stage_plan, only: factorisations_of, stage_plan_type, where_in_plan
    use terminal, only: version
    use text_tools, only: integer_text, one_of
    implicit none
    private
 
-   public :: open_restart_file, take_up, write_restart
+   public :: open_restart_file, take_up, write_restart, go_to_start
 
 contains
 
@@ -138,5 +141,51 @@ contains
       end if
       call system%forget_past()
    end subroutine write_restart
+
+   !> FROM: keep the state at the end of the stage just completed, its bolts locked, if a later stage starts from it. Where the next
+   !! stage starts from an earlier one, return to the state that this one left; the bodies are formed anew only where other bolts are
+   !! locked in it.
+   subroutine go_to_start(run, deck, model, plan, system, analysis)
+      type(run_type), intent(inout)         :: run
+      type(deck_type), intent(in)           :: deck
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      class(equation_system), intent(inout), allocatable :: system
+      type(analysis_type), intent(inout)    :: analysis
+      type(restart_stream_type) :: stream
+      logical, allocatable :: locked(:)
+      integer :: done, next
+
+      if (analysis%goes_on .or. analysis%stage == 0) return
+      done = analysis%stage
+      next = analysis%next
+      associate (from => model%history%stages%from)
+         if (any(from(next + 1:) == done)) then
+            call lock_bolts(model, system, analysis)
+            stream%writes = .true.
+            stream%bytes = ''
+            call record_analysis(stream, analysis)
+            call record_reference(stream, run%results)
+            run%results%kept(done)%words = stream%bytes(:stream%used)
+         end if
+         if (from(next) == done) return
+         allocate (locked, source=[analysis%is_elastic, analysis%is_locked])
+         stream%writes = .false.
+         stream%bytes = run%results%kept(from(next))%words
+         stream%last = len(stream%bytes, long)
+         stream%used = 0
+         call record_analysis(stream, analysis)
+         call record_reference(stream, run%results)
+         analysis%next = next
+         if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
+            call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
+            if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
+            if (run%failure%raised) return
+            call lock_again(model, analysis, system)
+         end if
+         call system%forget_past()
+         if (all(from(next + 1:) /= from(next))) deallocate (run%results%kept(from(next))%words)
+      end associate
+   end subroutine go_to_start
 
 end module restart_file

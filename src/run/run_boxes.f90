@@ -306,7 +306,7 @@ contains
       type(analysis_type), intent(in)   :: analysis
 
       another_stage = .not. is_over(run)
-      if (another_stage) another_stage = analysis%goes_on .or. analysis%stage < size(plan%stages)
+      if (another_stage) another_stage = analysis%goes_on .or. analysis%next <= size(plan%stages)
    end function another_stage
 
    !> Whether the stage has an increment left.
@@ -359,8 +359,8 @@ contains
             call enter(run, phase_write)
             run%solver = system%description
             call list_results(model, plan, analysis, run%results)
-            call advance(run, analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%fractions), &
-                         analysis%record%n_iterations)
+            call advance(run, plan%stages(analysis%stage)%id, analysis%increment, &
+                         size(plan%stages(analysis%stage)%fractions), analysis%record%n_iterations)
          end if
       end if
       if (analysis%increment > 0 .and. (completes_stage .or. run%keeps_results) .and. .not. overflow%raised) then

@@ -209,7 +209,7 @@ contains
       if (run%keeps_stages) call keep_finished_stages(run%results, run%keeps_stages)
       if (run%keeps_stages .or. run%keeps_results .or. .not. is_over(run)) then
          call enter(run, phase_write)
-         call finish_results(plan, run%failure, run%results, ok)
+         call finish_results(model, plan, run%failure, run%results, ok)
          call end_progress(run)
          associate (watch => run%results%watch)
             if (watch%n_warnings > 0) call tell(run, plural(watch%n_warnings, 'warning')//' in the listing')
@@ -270,7 +270,7 @@ contains
       if (allocated(model%mesh%kind_words)) call tell(run, model%mesh%kind_words)
       if (deck%bulk%ignored%n > 0) call tell(run, deck%bulk%ignored%words())
       if (deck%control%of_nastran .and. size(deck%control%stages) > 1) call tell(run, plural(size(deck%control%stages), &
-         'SUBCASE')//' are stages of one history: each starts from the end of the previous one')
+         'SUBCASE')//' are stages of one history: each starts from the end of the previous one, or of the one that FROM names')
    end subroutine say_of_deck
 
    !> Report the error, or that a deck is in order. A run that did not finish leaves no result.

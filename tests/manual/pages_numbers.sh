@@ -31,6 +31,10 @@ judge 'the decks: CPU s' '{ said[$1] = $2; took[$1] = $3; all_said += $2; all_to
             if (r > most || r < 1/most) print name ": " said[name] " s in the table, " took[name] " s of " all_took " s here" }
          print "checked " n + 0 }' "$work/seconds.txt"
 
+# ---- cases from one state: the table ----
+command=$(block $guide 'Cases from one state' 1 | sed -n '1s/^\$ //p')
+same 'cases from one state: the table' "$(block $guide 'Cases from one state' 1 | tail -n +2)" "$(bash -c "${command/mine/reference_output}" | sed 's/ *$//')"
+
 # ---- the first deck: areas of influence ----
 same 'the first deck: areas' "$(round %g "$(cell block 1 5 1 area)") $(round %g "$(cell block 1 5 4 area)")" '250 500'
 guide 'the first deck: areas' 'a_i is 250 mm2 at the two ends and 500 mm2 between'

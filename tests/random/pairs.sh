@@ -67,7 +67,26 @@ cut() {
    done
 } 2> /dev/null
 
-cut_runs=0 taken=0
+# again NUMBER: the last stage of the deck as it is, once more from the state before it, has the same rows in every table, but where a
+# bolt is tightened in it
+again() {
+   local ending last
+   [ -e "d$1a.bdf" ] || return 0
+   last=$(grep -c '^SUBCASE' "d$1a.bdf")
+   [ "$last" -lt 2 ] || grep -q "^BOLT.*,$last\$" "d$1a.bdf" && return 0
+   awk -v last="$last" '/^SUBCASE/ && $2 == last { on = 1 }
+      /^BEGIN BULK/ && on { printf "SUBCASE %d\n  FROM = %d\n%s", last + 1, last - 1, again; on = 0 }
+      on && !/^SUBCASE/ { again = again $0 "\n" } { print }' "d$1a.bdf" > "d$1f.bdf"
+   "$program" -q --threads 1 -o whole "d$1f.bdf" > said 2> error || { echo "its last stage once more: $(head -n 1 error)"; return 1; }
+   repeated=$((repeated + 1))
+   for ending in joint stage reaction bolt modes modes.energy; do
+      [ -e "whole/d$1f.$ending.csv" ] || continue
+      cmp -s <(sed -n "s/^$last,//p" "whole/d$1f.$ending.csv") <(sed -n "s/^$((last + 1)),//p" "whole/d$1f.$ending.csv") ||
+         { echo "its last stage once more has other rows in .$ending.csv"; return 1; }
+   done
+} 2> /dev/null
+
+cut_runs=0 taken=0 repeated=0
 for start in ${from//,/ }; do for ((first = start; first < start + decks; first += size)); do
    last=$((first + size - 1))
    [ $last -lt $((start + decks)) ] || last=$((start + decks - 1))
@@ -92,8 +111,18 @@ for start in ${from//,/ }; do for ((first = start; first < start + decks; first 
       keep "$number"
       awk -v n="$number" '$1 == "DECK" && $2 == n { $6++ } { print }' "$folder/tallies" > tallies && cp tallies "$folder/tallies"
    done
+   for number in $(awk '$1 == "DECK" && $5 == "solved" { print $2 }' tallies); do
+      what=$(again "$number"; echo "repeated $repeated")
+      repeated=${what##*repeated }
+      what=${what%repeated *}
+      [ -n "${what%$'\n'}" ] || continue
+      echo "FAILED: deck $number: ${what%$'\n'}"
+      cp "$work/d${number}f.bdf" "$folder/failed"
+      keep "$number"
+      awk -v n="$number" '$1 == "DECK" && $2 == n { $6++ } { print }' "$folder/tallies" > tallies && cp tallies "$folder/tallies"
+   done
 done; done
-echo "seed $seed, $decks decks from $from; $cut_runs runs cut, $taken of them behind a restart file"
+echo "seed $seed, $decks decks from $from; $cut_runs runs cut, $taken of them behind a restart file; $repeated last stages once more"
 awk -v matrix="$folder/pairs" -f "$here/pairs_table.awk" "$folder/tallies"
 made=$(grep -c '^DECK' "$folder/tallies")
 wrong=$(awk '$1 == "DECK" && $6 > 0' "$folder/tallies" | wc -l)

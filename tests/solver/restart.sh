@@ -60,6 +60,8 @@ deck bolted_cantilever bolts   'RESTART = 2; SOLVER = SKYLINE'
 deck bracket_spiders spiders   'RESTART = 1'
 deck flange_sector sector     'RESTART = 1'
 deck solid_bolt    solid       'RESTART = 1'
+deck cantilever_cases cases    'RESTART = 1; SOLVER = TREE; INCR = 5' # states kept for later stages
+sed -i 's/^ENDDATA/JINCR,5,2\nENDDATA/' decks/cases.bdf
 deck column_tetra10 bodies     'RESTART = 1'
 deck by_hand       hand        'RESTART = 1'
 deck bolted_lap    backbone   'RESTART = 0; SOLVER = TREE'
@@ -70,7 +72,7 @@ mv iwan.new decks/iwan.bdf
 sed -i 's/^JAMPL .*/JAMPL,6,1,0.1,2,0.01,0,2/; s/^+ *1\.0-6 *$/+,1.0-3/' decks/backbone.bdf decks/iwan.bdf # two amplitudes will do
 # the factor of an increment serves others: 1,300 unknowns of joints
 "$make_deck" hex8_18x18x6 TREE NONE | sed 's/^SPC = .*/&\nRESTART = 3/' > decks/factors.bdf
-decks='step skyline steps newton back friction cycles gaps warm bolts spiders sector solid bodies hand apart backbone iwan factors'
+decks='step skyline steps newton back friction cycles gaps warm bolts spiders sector solid cases bodies hand apart backbone iwan factors'
 
 # whole NAME: the run in peace, in NAME.whole, what it says in NAME.said, and how many calls it makes
 whole() {
