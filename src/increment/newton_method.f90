@@ -29,6 +29,7 @@ module newton_method
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
    integer, parameter  :: most_halvings = 12
+   integer, parameter  :: most_of_increment = 10000 ! iterations, in all its parts: an increment that needs more is given up
    real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
    integer, parameter  :: most_cuts = 3           ! to the share of a load that the limits seem to bear, without one that they bear
 
@@ -315,6 +316,9 @@ contains
                                                             model%joints%element%gap < 0.0_wp)
       attempt%least = huge(1.0_wp)
       first = 0.0_wp
+      attempt%converged = .false.
+      if (analysis%record%n_iterations >= most_of_increment) attempt%trouble = none
+      if (analysis%record%n_iterations >= most_of_increment) return
       do way = merge(extrapolated, straight, attempt%growth > 0.0_wp), sticking
          if (way == from_best .and. .not. attempt%least < promising*first) cycle
          if (way /= extrapolated) attempt%growth = 0.0_wp
@@ -352,6 +356,8 @@ contains
       integer :: worst
 
       words = attempt%where//': no equilibrium'
+      if (analysis%record%n_iterations >= most_of_increment) &
+         words = attempt%where//': given up after '//integer_text(analysis%record%n_iterations)//' iterations'
       if (attempt%loose > 0) then
          associate (joint => model%joints%list(attempt%loose))
             words = words//': joint '//integer_text(joint%id)//' slips or is open at all its nodes, from node '// &

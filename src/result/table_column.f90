@@ -9,7 +9,7 @@ module table_column
    type, public :: column_type
       character(48) :: heading = ''
       character(48) :: key = ''       ! by which its cells are put
-      character(16) :: name = ''      ! in the CSV file
+      character(40) :: name = ''      ! in the CSV file
       character(12) :: form = ''
       character(20) :: unit = ''
       integer :: width = 0            ! 0: text to the end of the row

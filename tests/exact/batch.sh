@@ -54,3 +54,42 @@ sed 's/^SPC = 1/TITLE = FREE/' "$work/varied.bdf" > "$work/free.bdf"
 "$program" -q -o "$work" --set T=2.0 --set C=1.0 --set EU=1.0 --set F=1.0 --summary "$work/sum.csv" "$work/free.bdf" "$work/varied.bdf" > "$work/varied.log" 2>&1
 same 'status of a batch' "$?" 3
 same '... and of its runs' "$(awk -F, 'NR > 1 { printf "%s ", $2 }' "$work/sum.csv")" '3 0 '
+
+# Rows of --set: pairs on the command line and lines of a CSV file run side by side, and give the bytes of single runs and of runs one after
+# another, the screen and the summary included but for its seconds. The second row is pulled off: status 3; the others go on.
+batch_cell() { # SUMMARY VALUES COLUMN: of the row of the run with these values
+   sed 's/, /;/g' "$1" | awk -F, -v deck=";${2//, /;}\"" -v name="$3" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == name) at = k; next }
+      index($1, deck) { print $at }'
+}
+batch_timeless() { sed 's/, /;/g' "$1" | awk -F, -v OFS=, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "seconds") at = k } { $at = ""; print }'; }
+batch_run() { # FOLDER OPTION...: rows of varied.bdf; one of them ends with status 3
+   local folder="$work/$1"
+   shift
+   mkdir -p "$folder"
+   "$program" -q -o "$folder" --set T=2.0 --set EU=1.0+6 --summary "$folder/sum.csv" "$@" "$work/varied.bdf" > "$folder/said" 2> "$folder/told"
+   same "status of rows, $*" "$?" 3
+   sed -i "s|$folder|FOLDER|g" "$folder/said" "$folder/told"
+   batch_timeless "$folder/sum.csv" > "$folder/timeless.csv"
+}
+printf 'C, F\r\n8.0-3,6.0\r\n\r\n8.0-3,-12.0\r\n4.0-3,7.25\r\n8.0-3,12.0' > "$work/rows.csv"
+batch_run rows_1 --threads 1 --watch 2,4,1-2 --set "$work/rows.csv"
+batch_run rows_all --watch 2,4,1-2 --set "$work/rows.csv"
+batch_run rows_pairs --watch 2,4,1-2 --set C=8.0-3,8.0-3,4.0-3,8.0-3:F=6.0,-12.0,7.25,12.0
+for batch_case in rows_all rows_pairs; do
+   same "$batch_case: files, screen and summary as one after another" "$(diff -rq -x sum.csv "$work/rows_1" "$work/$batch_case")" ''
+done
+for batch_row in 8.0-3,6.0 4.0-3,7.25 8.0-3,12.0; do
+   batch_c=${batch_row%,*} batch_f=${batch_row#*,}
+   "$program" -q -o "$work/rows_one" --watch 2,4,1-2 --set T=2.0 --set EU=1.0+6 --set C=$batch_c --set F=$batch_f "$work/varied.bdf" > /dev/null 2>&1
+   for batch_file in out joint.csv stage.csv reaction.csv watch.csv watch.energy.csv between.csv; do
+      same "row $batch_row: $batch_file of the single run" "$(cmp "$work/rows_one/varied.$batch_file" "$work/rows_all/varied_C=${batch_c}_F=${batch_f}.$batch_file" 2>&1)" ''
+   done
+   batch_down=$(number "${batch_c/-/e-}*sqrt(2*$batch_f/16) + 2*$batch_f*5/(9500*16)")
+   batch_of="C=$batch_c, F=$batch_f"
+   near "row $batch_row: the second watched node" "$(batch_cell "$work/rows_all/sum.csv" "$batch_of" stiffness_4)" "2*$batch_f/($batch_down)" 1e-9
+   near '... share of the joint' "$(batch_cell "$work/rows_all/sum.csv" "$batch_of" share_joint_1)" "1 - 2*$batch_f*5/(9500*16)/($batch_down)" 1e-9
+   near '... the block between two nodes' "$(batch_cell "$work/rows_all/sum.csv" "$batch_of" along_1-2)" "-2*$batch_f*5/(9500*16)" 1e-9
+done
+same 'the row that is pulled off' "$(batch_cell "$work/rows_all/sum.csv" 'C=8.0-3, F=-12.0' ended)" '"NO RESULTS"'
+same '... has no numbers' "$(batch_cell "$work/rows_all/sum.csv" 'C=8.0-3, F=-12.0' stiffness_4)" ''
+says '... and its reason' "$work/rows_all/told" 'F=-12.0: .*; no results'

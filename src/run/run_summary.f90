@@ -1,0 +1,192 @@
+!> The summary of the runs of the command: a row of values for each, on the screen and in the file of --summary. Ends the program.
+!! The values of a run are a list of names and numbers, those of the watched nodes, joints and frequencies that it has.
+!! The table has a column for each name of any run. The exit status is the highest of all runs.
+module run_summary
+   use c_library, only: end_run
+   use command_line, only: command_type
+   use distribution, only: leave_processes
+   use equation_solver, only: failure_type
+   use incomplete_results, only: hold_interrupts
+   use kinds, only: wp
+   use model_data, only: model_type
+   use output_file, only: output_file_type
+   use page_lines, only: heading
+   use result_page, only: largest_safety
+   use results, only: results_type
+   use stage_plan, only: pair_names
+   use table_column, only: column, column_type, csv, csv_titles
+   use table_writer, only: table_type
+   use terminal, only: say_line
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: summarise, end_program
+
+   integer, parameter, public :: status_unsolved = 3, status_unwritten = 4
+
+   type, public :: named_value
+      character(40) :: name = ''                !! of its column
+      real(wp)      :: value = 0.0_wp
+   end type named_value
+
+   !> The row of a run.
+   type, public :: summary_row
+      character(:), allocatable :: name
+      character(60) :: ended = ''               !! how, where the status is not 0
+      integer  :: status = 0, exit = 0          !! status of the deck; also of the output
+      real(wp) :: seconds = 0.0_wp
+      logical  :: is_short = .false.            !! ended for want of memory
+      type(named_value), allocatable :: values(:)
+   end type summary_row
+
+   character(10), parameter :: whole(4) = [character(10) :: 'stages', 'increments', 'iterations', 'watched'] ! numbers without fraction
+
+contains
+
+   !> The ROW of a run with the NAME of its deck and values, from its RESULTS; FAILURE is why they end early. A run that HAS_PART of a
+   !! stage has values without any finished stage.
+   subroutine summarise(name, model, results, failure, has_part, status, row)
+      character(*), intent(in)       :: name
+      type(model_type), intent(in)   :: model
+      type(results_type), intent(in) :: results
+      type(failure_type), intent(in) :: failure
+      logical, intent(in)            :: has_part
+      integer, intent(in)            :: status
+      type(summary_row), intent(out) :: row
+      integer :: i, id, k
+
+      row%name = name
+      row%status = status
+      if (status /= 0) row%ended = 'NO RESULTS'
+      if (results%finished%is_named()) row%ended = 'ENDED EARLY at '//results%page%place
+      if (failure%raised) row%is_short = index(failure%message, ' MiB ') > 0
+      if (failure%raised .and. index(failure%message//' ', 'given up') > 0) row%ended = 'GIVEN UP, '//row%ended(:50)
+      row%values = [named_value ::]
+      associate (d => results%counts%digest)
+         call add('stages', real(d%stages, wp))
+         call add('increments', real(d%increments, wp))
+         call add('iterations', real(d%iterations, wp))
+         if (d%stages == 0 .and. .not. has_part) return
+         call add('u_max', d%u_max)
+         call add('mises_max', d%mises_max, model%mesh%n_elements > 0)
+         call add('contact', d%contact, size(model%joints%list) > 0)
+         call add('safety', d%safety, d%safety < huge(1.0_wp))
+         call add('frequency', d%frequencies(1), d%frequencies(1) >= 0.0_wp)
+         call add('bolt_force', d%bolt_force, d%bolt_force < huge(1.0_wp))
+         call add('bolt_use', d%bolt_use, d%bolt_use >= 0.0_wp)
+         do k = 2, size(d%frequencies)
+            call add('frequency_'//integer_text(k), d%frequencies(k), d%frequencies(k) >= 0.0_wp)
+         end do
+      end associate
+      if (.not. allocated(results%watched%nodes)) return
+      associate (nodes => results%watched%nodes, pairs => results%watched%pairs, parts => results%watched%parts)
+         do k = 1, size(nodes)
+            id = model%mesh%node_id(nodes(k)%node)
+            call add_movement(id, integer_text(id), nodes(k)%along, nodes(k)%is_loaded, nodes(k)%stiffness, nodes(k)%moves)
+         end do
+         do k = 1, size(pairs)
+            do i = 1, size(pair_names) ! two nodes at one place have no line, but axes
+               if (.not. any(abs(pairs(k)%pair%along(:, i)) > 0.0_wp)) cycle
+               call add_movement(pairs(k)%pair%ids(1), integer_text(pairs(k)%pair%ids(1))//'-'// &
+                                 integer_text(pairs(k)%pair%ids(2))//trim(merge('  ', '_'//pair_names(i)(:1), i == 1)), &
+                                 pairs(k)%change(i), .true., pairs(k)%stiffness(i), abs(pairs(k)%stiffness(i)) > 0.0_wp)
+               if (i == 1) exit
+            end do
+         end do
+         do k = 1, size(parts)
+            call add('share_joint_'//integer_text(parts(k)%id), sum(parts(k)%share), parts(k)%kind == 'JOINT')
+         end do
+      end associate
+
+   contains
+
+      subroutine add(name, value, where)
+         character(*), intent(in)      :: name
+         real(wp), intent(in)          :: value
+         logical, intent(in), optional :: where !! default: true
+
+         if (present(where)) then
+            if (.not. where) return
+         end if
+         row%values = [row%values, named_value(name, value)]
+      end subroutine add
+
+      !> Movement and stiffness of a node or pair, the first of them also under the names without its number.
+      subroutine add_movement(id, of, along, has_load, stiffness, moves)
+         integer, intent(in)      :: id
+         character(*), intent(in) :: of
+         logical, intent(in)      :: has_load, moves
+         real(wp), intent(in)     :: along, stiffness
+
+         if (.not. any(row%values%name == 'watched')) then
+            call add('watched', real(id, wp))
+            call add('along', along, has_load)
+            call add('stiffness', stiffness, moves)
+         end if
+         call add('along_'//of, along, has_load)
+         call add('stiffness_'//of, stiffness, moves)
+      end subroutine add_movement
+
+   end subroutine summarise
+
+   !> End the program with the highest status of the runs of COMMAND, whose summary has the ROWS. The summary goes into the file of
+   !! --summary and, with several runs, to the screen. An interrupt that has waited ends the program here.
+   subroutine end_program(command, rows)
+      type(command_type), intent(in) :: command
+      type(summary_row), intent(in)  :: rows(:)
+      type(output_file_type) :: screen, summary
+      type(table_type)       :: table
+      type(column_type), allocatable :: columns(:)
+      character(40) :: name ! on the screen, where it is the end of a longer name
+      integer :: i, k
+      logical :: ok, shown
+
+      call screen%start('')
+      if (command%summary /= '') call summary%start(command%summary)
+      call heading(screen, 'ALL RUNS')
+      columns = [csv('deck'), column('', 'a41', key='name'), column('STATUS', 'i7', name='status'), csv('stages'), &
+                 column('INCREMENTS', 'i11', name='increments'), csv('iterations'), &
+                 column('U MAX', 'es12.4', name='u_max'), column('MISES MAX', 'es12.4', name='mises_max'), &
+                 csv('contact'), column('CONTACT %', 'f10.2'), csv('safety'), column('MU N/T', 'f10.3'), &
+                 column('FREQUENCY', 'es12.4', name='frequency'), csv(['watched', 'along  ']), &
+                 column('STIFFNESS', 'es12.4', name='stiffness'), csv(['seconds', 'ended  '])]
+      do i = 1, size(rows)
+         do k = 1, size(rows(i)%values)
+            if (all(columns%key /= rows(i)%values(k)%name)) columns = [columns, csv(rows(i)%values(k)%name)]
+         end do
+      end do
+      call table%start('', columns, screen)
+      if (summary%is_open) call summary%put(csv_titles(columns))
+      do i = 1, size(rows)
+         associate (row => rows(i))
+            name = row%name(max(1, len(row%name) - len(name) + 1):)
+            call table%put('deck', '"'//row%name//'"')
+            call table%put('name', ' '//name)
+            call table%put('status', row%status)
+            call table%put('seconds', row%seconds)
+            call table%put('ended', '"'//trim(row%ended)//'"')
+            do k = 1, size(row%values)
+               associate (item => row%values(k))
+                  if (any(whole == item%name)) call table%put(trim(item%name), nint(item%value))
+                  if (all(whole /= item%name)) call table%put(trim(item%name), item%value)
+                  if (item%name == 'contact') call table%put('CONTACT %', 100.0_wp*item%value)
+                  if (item%name == 'safety' .and. item%value <= largest_safety) call table%put('MU N/T', item%value)
+               end associate
+            end do
+            call table%leave_rest()
+            call table%print_row(screen, summary)
+            if (row%ended /= '') call screen%put('     '//trim(row%ended))
+         end associate
+      end do
+      ok = .true.
+      shown = .true.
+      if (command%summary /= '') call summary%finish(ok)
+      if (.not. ok) call say_line('the summary '//command%summary//' cannot be written')
+      if (size(rows) > 1 .and. .not. command%check_only) call screen%finish(shown)
+      call hold_interrupts(.false.)
+      call leave_processes()
+      call end_run(max(maxval(rows%exit), merge(0, status_unwritten, ok .and. shown)))
+   end subroutine end_program
+
+end module run_summary
