@@ -6,7 +6,7 @@ module run_summary
    use command_line, only: command_type
    use distribution, only: leave_processes
    use equation_solver, only: failure_type
-   use incomplete_results, only: hold_interrupts
+   use incomplete_results, only: all_complete, hold_interrupts
    use kinds, only: wp
    use model_data, only: model_type
    use output_file, only: output_file_type
@@ -184,6 +184,7 @@ contains
       if (command%summary /= '') call summary%finish(ok)
       if (.not. ok) call say_line('the summary '//command%summary//' cannot be written')
       if (size(rows) > 1 .and. .not. command%check_only) call screen%finish(shown)
+      call all_complete()
       call hold_interrupts(.false.)
       call leave_processes()
       call end_run(max(maxval(rows%exit), merge(0, status_unwritten, ok .and. shown)))

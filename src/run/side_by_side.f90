@@ -175,7 +175,7 @@ contains
 
    !> Take what the run of ROW has written into its STREAMS. It goes to the screen if the words ARE SHOWN.
    subroutine take_words(streams, row, are_shown)
-      integer(c_int), intent(in)       :: streams(3)
+      integer(c_int), intent(inout)    :: streams(3) !! closed
       type(summary_row), intent(inout) :: row
       logical, intent(in)              :: are_shown
       character(:), allocatable :: words
@@ -189,6 +189,7 @@ contains
          call close_file(int(streams(k)), ok)
          if (k < 3 .and. are_shown) call write_bytes(k, words, ok)
       end do
+      streams = -1
       if (ok .or. .not. are_shown) return
       row%exit = max(row%exit, status_unwritten)
       call say_line(row%name//': the standard output cannot be written')

@@ -93,3 +93,60 @@ done
 same 'the row that is pulled off' "$(batch_cell "$work/rows_all/sum.csv" 'C=8.0-3, F=-12.0' ended)" '"NO RESULTS"'
 same '... has no numbers' "$(batch_cell "$work/rows_all/sum.csv" 'C=8.0-3, F=-12.0' stiffness_4)" ''
 says '... and its reason' "$work/rows_all/told" 'F=-12.0: .*; no results'
+
+# Rows that take long, of two stages: one whose process is killed runs once more alone, with the same results; at an interrupt the complete row
+# stays, the rows that go on keep their first stage, and the summary has them all.
+cat > "$work/lasting.bdf" <<'DECK'
+METHOD = NEWTON
+SPC = 1
+OUTPUT = NONE
+SUBCASE 1
+  LOAD = 10
+SUBCASE 2
+  LOAD = 20
+  INCR = 5
+BEGIN BULK
+BLOCK2,1,1,30,30,0.0,0.0
++,8.0,5.0
++,5
+PSHELL,1,1,2.0
+MAT1,1,9500.0,,0.0
+PMARK,5
+JOINT,1,1,5
+PJOINT,1,1
+JNORM,1,8.0-3,0.5,1.0+6
+SPCM,1,1,5
+FORCE,10,961,,1.0,0.0,-1.0
+FORCE,20,961,,2.0,0.0,-1.0
+JINCR,5,${N},ARITH,${A}
+ENDDATA
+DECK
+batch_start() { # FOLDER VALUES: rows of lasting.bdf in the background, until two processes of rows go on
+   rm -rf "${work:?}/$1" && mkdir -p "$work/$1"
+   "$program" -q -o "$work/$1" --threads 2 --summary "$work/$1/sum.csv" --set "$2" "$work/lasting.bdf" > "$work/$1.said" 2> "$work/$1.told" &
+   batch_runner=$!
+   for ((batch_i = 0; batch_i < 600; batch_i++)); do
+      [ "$(find "$work/$1" -name '*.early.*.part' | wc -l)" -ge 2 ] && break
+      sleep 0.02
+   done
+}
+batch_start killed N=2,300,301,2:A=.5,3.333333333-3,3.322259136-3,.4
+kill -9 "$(cat /proc/$batch_runner/task/*/children | awk '{ print $1; exit }')"
+wait $batch_runner
+same 'rows, one of which was killed' "$?" 0
+"$program" -q -o "$work/whole" --threads 1 --summary "$work/whole.csv" --set N=2,300,301,2:A=.5,3.333333333-3,3.322259136-3,.4 "$work/lasting.bdf" > "$work/whole.said" 2>&1
+same '... the same files' "$(diff -rq -x sum.csv -x '*.part' "$work/killed" "$work/whole")" ''
+same '... the same summary' "$(batch_timeless "$work/killed/sum.csv")" "$(batch_timeless "$work/whole.csv")"
+batch_start stopped N=2,9000,9001,2:A=.5,1.111111111-4,1.110987668-4,.4
+kill -s TERM $batch_runner
+wait $batch_runner
+same 'rows that are interrupted' "$?" 143
+same '... the complete row' "$(cmp "$work/stopped/lasting_N=2_A=.5.joint.csv" "$work/whole/lasting_N=2_A=.5.joint.csv" 2>&1)" ''
+for batch_of in N=9000_A=1.111111111-4 N=9001_A=1.110987668-4; do
+   says "... $batch_of keeps its first stage" "$work/stopped/lasting_$batch_of.early" 'ENDED EARLY at stage 1, increment 1'
+   says '... and tells it' "$work/stopped.told" "lasting_$batch_of.out keeps the stages that had ended, up to stage 1, increment 1, marked"
+   same '... in the summary' "$(batch_cell "$work/stopped/sum.csv" "${batch_of/_/, }" ended)" '"INTERRUPTED"'
+done
+same '... as a row that had not begun' "$(batch_cell "$work/stopped/sum.csv" 'N=2, A=.4' ended)" '"INTERRUPTED"'
+same '... and the first row with its numbers' "$(batch_cell "$work/stopped/sum.csv" 'N=2, A=.5' increments)" 3
+same '... no part of a file' "$(find "$work/stopped" -name '*.part')" ''
