@@ -318,6 +318,7 @@ contains
       attempt%least = huge(1.0_wp)
       first = 0.0_wp
       attempt%converged = .false.
+      if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states)), source=0)
       if (is_given_up(analysis)) attempt%trouble = none
       if (is_given_up(analysis)) return
       do way = merge(extrapolated, straight, attempt%growth > 0.0_wp), sticking
@@ -333,7 +334,6 @@ contains
          attempt%iteration = 0
          attempt%gain = 1.0_wp
          attempt%n_slow = 0
-         if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states))) ! = alone would read its bounds
          attempt%flips = 0
          attempt%largest_noise = 0.0_wp
          attempt%converged = .false.

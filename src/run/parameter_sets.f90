@@ -10,7 +10,7 @@ module parameter_sets
 
    !> One --set: names, and rows of a value for each.
    type, public :: setting_type
-      integer :: n_rows = 0
+      integer :: n_rows = 0, n_names = 0
       character(:), allocatable, private :: text
       logical, private :: is_table = .false.
       integer, allocatable, private :: first(:, :), last(:, :) ! characters of the cells in TEXT: lines of a table, else columns
@@ -37,10 +37,10 @@ contains
          call cut_text(new, fault)
          if (fault /= '') fault = one_of(new%is_table, option//', ', '--set '//option//': ')//fault
          if (fault /= '') return
-         do k = 1, n_names(new)
+         do k = 1, new%n_names
             name = text_at(new, 0, k)
             do i = 1, size(longer)
-               do j = 1, merge(k - 1, n_names(longer(i)), i == size(longer))
+               do j = 1, merge(k - 1, longer(i)%n_names, i == size(longer))
                   if (text_at(longer(i), 0, j) == name) fault = '--set '//name//': given twice'
                end do
             end do
@@ -86,6 +86,7 @@ contains
       if (setting%is_table .and. n < 2) fault = 'expected a line of names, then lines with their values, with commas between them'
       if (setting%is_table .and. n < 2) return
       setting%n_rows = merge(n, size(setting%first, 2), setting%is_table) - 1
+      setting%n_names = merge(size(setting%first, 2), n, setting%is_table)
       call check_cells(line(:n), setting, fault)
    end subroutine cut_text
 
@@ -130,12 +131,6 @@ contains
       if (is_mark .and. .not. is_table) is_mark = is_parameter_name(text(k + 1:k + index(text(k + 1:), '=') - 1))
    end function is_mark
 
-   pure integer function n_names(setting)
-      type(setting_type), intent(in) :: setting
-
-      n_names = size(setting%first, merge(2, 1, setting%is_table))
-   end function n_names
-
    !> The text of column K in ROW; row 0 has the names.
    pure function text_at(setting, row, k) result(text)
       type(setting_type), intent(in) :: setting
@@ -158,10 +153,10 @@ contains
       integer :: at, j, k
 
       base = ''
-      allocate (parameters(sum([(n_names(settings(k)), k = 1, size(settings))])))
+      allocate (parameters(sum(settings%n_names)))
       at = 0
       do k = 1, size(settings)
-         do j = 1, n_names(settings(k))
+         do j = 1, settings(k)%n_names
             at = at + 1
             associate (parameter => parameters(at))
                parameter%name = text_at(settings(k), 0, j)

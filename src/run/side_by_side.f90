@@ -21,6 +21,9 @@ module side_by_side
 
    public :: another_run
 
+   character(*), parameter :: streams_at = '/proc/self/fd/' ! a process opens them there at their beginning
+   integer, parameter :: most_ahead = 100 ! of the first run that is not shown: the streams of all stay open until then
+
    !> The process of a run.
    type :: process_type
       integer(c_int) :: child = 0       ! its number while it goes on
@@ -113,6 +116,7 @@ contains
       associate (process => processes(next), goes_on => processes%child > 0)
          if (any(goes_on)) then
             if (process%alone .or. any(goes_on .and. processes%alone) .or. count(goes_on) >= cores) return
+            if (next > n_shown + most_ahead) return
             rest = available_memory()
             do k = 1, size(processes)
                if (goes_on(k)) rest = rest - max(0_long, need - kernel_figure('/proc/'// &
@@ -185,7 +189,7 @@ contains
       if (any(streams < 0)) return
       call empty_line()
       do k = 3, 1, -1
-         if (k < 3) call read_all_bytes(path_of(streams(k)), words, ok)
+         if (k < 3) call read_all_bytes(streams_at//integer_text(int(streams(k))), words, ok)
          call close_file(int(streams(k)), ok)
          if (k < 3 .and. are_shown) call write_bytes(k, words, ok)
       end do
@@ -195,20 +199,12 @@ contains
       call say_line(row%name//': the standard output cannot be written')
    end subroutine take_words
 
-   !> The path of STREAM, under which this process opens it at its beginning.
-   function path_of(stream) result(path)
-      integer(c_int), intent(in) :: stream
-      character(:), allocatable  :: path
-
-      path = '/proc/self/fd/'//integer_text(int(stream))
-   end function path_of
-
    !> Report ROW and the memory of this process to its parent, and end.
    subroutine end_child(row)
       type(summary_row), intent(in) :: row
       integer :: unit
 
-      open (newunit=unit, file=path_of(int(report, c_int)), access='stream', action='write', status='old')
+      open (newunit=unit, file=streams_at//integer_text(report), access='stream', action='write', status='old')
       write (unit) row%ended, row%status, row%exit, row%seconds, row%is_short, peak_memory(), size(row%values), row%values
       close (unit)
       call end_run(row%exit)
@@ -226,7 +222,8 @@ contains
       row%values = [named_value ::]
       status = -1
       if (processes(k)%streams(3) >= 0) then
-         open (newunit=unit, file=path_of(processes(k)%streams(3)), access='stream', action='read', status='old')
+         open (newunit=unit, file=streams_at//integer_text(int(processes(k)%streams(3))), access='stream', action='read', &
+               status='old')
          read (unit, iostat=status) row%ended, row%status, row%exit, row%seconds, row%is_short, memory, n
          if (status == 0) then
             need = max(need, memory)
