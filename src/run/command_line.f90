@@ -8,7 +8,7 @@ module command_line
    use parameter_sets, only: read_setting, setting_type, take_row
    use result_page, only: history_ending
    use result_names, only: is_result_ending, listing_ending
-   use text_tools, only: upper
+   use text_tools, only: one_of, upper
    use vtu_results, only: is_vtu_ending
    implicit none
    private
@@ -181,13 +181,14 @@ contains
          call complain(program, 'no deck given')
          return
       end if
-      do i = 1, size(files)
-         if (.not. command%resume .or. files(i)%path /= standard_input) cycle
-         call complain(program, '--resume: a deck from the standard input has no restart file')
-         return
-      end do
       n = product(settings%n_rows)
       command%n_rows = n
+      do i = 1, size(files)
+         if (files(i)%path /= standard_input .or. (n == 1 .and. .not. command%resume)) cycle
+         call complain(program, one_of(command%resume, '--resume: a deck from the standard input has no restart file', &
+                                       '--set with several runs: the standard input can be read only once'))
+         return
+      end do
       allocate (command%decks(size(files)*n))
       do i = 1, size(command%decks)
          associate (deck => command%decks(i))

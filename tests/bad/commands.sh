@@ -48,6 +48,7 @@ printf 'A,A\n1,2\n' > rows.csv
 run --set rows.csv good.bdf;          check '--set rows.csv with a name twice' 1 '--set A: given twice'
 printf 'A,B\n1,2\n' > rows.csv
 run --set B=2 --set rows.csv good.bdf; check '--set of a name of rows.csv' 1 '--set B: given twice'
+run --set T=1,2 -;                    check '--set with several runs of the standard input' 1 'the standard input can be read only once'
 run --set nowhere.csv good.bdf;       check '--set of a missing file' 1 '--set nowhere.csv: expected NAME=VALUE'
 printf 'T\n1\n1\n' > rows.csv
 run --set rows.csv -o results good.bdf; check '--set rows.csv with equal rows' 1 'would both write results/good_T=1.out'
