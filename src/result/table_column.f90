@@ -60,11 +60,14 @@ contains
    pure function csv_titles(columns) result(titles)
       type(column_type), intent(in) :: columns(:)
       character(:), allocatable     :: titles
-      integer :: i
+      integer :: at, i
 
-      titles = ''
+      allocate (character(sum(len_trim(columns%name) + 1, mask=columns%name /= '')) :: titles)
+      at = 0
       do i = 1, size(columns)
-         if (columns(i)%name /= '') titles = titles//','//trim(columns(i)%name)
+         if (columns(i)%name == '') cycle
+         titles(at + 1:) = ','//columns(i)%name
+         at = at + 1 + len_trim(columns(i)%name)
       end do
       titles = titles(2:)
    end function csv_titles

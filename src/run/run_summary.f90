@@ -54,7 +54,7 @@ contains
       logical, intent(in)            :: has_part
       integer, intent(in)            :: status
       type(summary_row), intent(out) :: row
-      integer :: i, id, k
+      integer :: first, i, id, k, n
 
       row%name = name
       row%status = status
@@ -62,12 +62,13 @@ contains
       if (results%finished%is_named()) row%ended = 'ENDED EARLY at '//results%page%place
       if (failure%raised) row%is_short = index(failure%message, ' MiB ') > 0
       if (failure%raised .and. index(failure%message//' ', 'given up') > 0) row%ended = 'GIVEN UP, '//row%ended(:50)
-      row%values = [named_value ::]
-      associate (d => results%counts%digest)
+      n = 0
+      allocate (row%values(1000))
+      collect: associate (d => results%counts%digest, watched => results%watched)
          call add('stages', real(d%stages, wp))
          call add('increments', real(d%increments, wp))
          call add('iterations', real(d%iterations, wp))
-         if (d%stages == 0 .and. .not. has_part) return
+         if (d%stages == 0 .and. .not. has_part) exit collect
          call add('u_max', d%u_max)
          call add('mises_max', d%mises_max, model%mesh%n_elements > 0)
          call add('contact', d%contact, size(model%joints%list) > 0)
@@ -78,26 +79,30 @@ contains
          do k = 2, size(d%frequencies)
             call add('frequency_'//integer_text(k), d%frequencies(k), d%frequencies(k) >= 0.0_wp)
          end do
-      end associate
-      if (.not. allocated(results%watched%nodes)) return
-      associate (nodes => results%watched%nodes, pairs => results%watched%pairs, parts => results%watched%parts)
-         do k = 1, size(nodes)
-            id = model%mesh%node_id(nodes(k)%node)
-            call add_movement(id, integer_text(id), nodes(k)%along, nodes(k)%is_loaded, nodes(k)%stiffness, nodes(k)%moves)
+         if (.not. allocated(watched%nodes)) exit collect
+         do k = 1, size(watched%nodes)
+            associate (node => watched%nodes(k))
+               id = model%mesh%node_id(node%node)
+               call add_movement(k == 1, id, integer_text(id), node%along, node%is_loaded, node%stiffness, node%moves)
+            end associate
          end do
-         do k = 1, size(pairs)
-            do i = 1, size(pair_names) ! two nodes at one place have no line, but axes
-               if (.not. any(abs(pairs(k)%pair%along(:, i)) > 0.0_wp)) cycle
-               call add_movement(pairs(k)%pair%ids(1), integer_text(pairs(k)%pair%ids(1))//'-'// &
-                                 integer_text(pairs(k)%pair%ids(2))//trim(merge('  ', '_'//pair_names(i)(:1), i == 1)), &
-                                 pairs(k)%change(i), .true., pairs(k)%stiffness(i), abs(pairs(k)%stiffness(i)) > 0.0_wp)
-               if (i == 1) exit
-            end do
+         do k = 1, size(watched%pairs)
+            associate (pair => watched%pairs(k), ids => watched%pairs(k)%pair%ids)
+               first = findloc(any(abs(pair%pair%along) > 0.0_wp, dim=1), .true., dim=1)
+               do i = first, merge(1, size(pair_names), first == 1) ! two nodes at one place have no line, but axes
+                  if (all(abs(pair%pair%along(:, i)) <= 0.0_wp)) cycle
+                  call add_movement(k == 1 .and. i == first .and. size(watched%nodes) == 0, ids(1), integer_text(ids(1))//'-'// &
+                                    integer_text(ids(2))//trim(merge('  ', '_'//pair_names(i)(:1), i == 1)), &
+                                    pair%change(i), .true., pair%stiffness(i), abs(pair%stiffness(i)) > 0.0_wp)
+               end do
+            end associate
          end do
-         do k = 1, size(parts)
-            call add('share_joint_'//integer_text(parts(k)%id), sum(parts(k)%share), parts(k)%kind == 'JOINT')
+         do k = 1, size(watched%parts)
+            call add('share_joint_'//integer_text(watched%parts(k)%id), sum(watched%parts(k)%share), &
+                     watched%parts(k)%kind == 'JOINT')
          end do
-      end associate
+      end associate collect
+      row%values = row%values(:n)
 
    contains
 
@@ -109,17 +114,20 @@ contains
          if (present(where)) then
             if (.not. where) return
          end if
-         row%values = [row%values, named_value(name, value)]
+         if (n == size(row%values)) row%values = [row%values, row%values]
+         n = n + 1
+         row%values(n) = named_value(name, value)
       end subroutine add
 
       !> Movement and stiffness of a node or pair, the first of them also under the names without its number.
-      subroutine add_movement(id, of, along, has_load, stiffness, moves)
+      subroutine add_movement(is_first, id, of, along, has_load, stiffness, moves)
+         logical, intent(in)      :: is_first
          integer, intent(in)      :: id
          character(*), intent(in) :: of
          logical, intent(in)      :: has_load, moves
          real(wp), intent(in)     :: along, stiffness
 
-         if (.not. any(row%values%name == 'watched')) then
+         if (is_first) then
             call add('watched', real(id, wp))
             call add('along', along, has_load)
             call add('stiffness', stiffness, moves)
@@ -152,9 +160,14 @@ contains
                  column('FREQUENCY', 'es12.4', name='frequency'), csv(['watched', 'along  ']), &
                  column('STIFFNESS', 'es12.4', name='stiffness'), csv(['seconds', 'ended  '])]
       do i = 1, size(rows)
-         do k = 1, size(rows(i)%values)
-            if (all(columns%key /= rows(i)%values(k)%name)) columns = [columns, csv(rows(i)%values(k)%name)]
-         end do
+         associate (names => rows(i)%values%name)
+            if (i > 1) then
+               if (size(names) == size(rows(1)%values)) then
+                  if (all(names == rows(1)%values%name)) cycle
+               end if
+            end if
+            columns = [columns, csv(pack(names, [(all(columns%key /= names(k)), k = 1, size(names))]))]
+         end associate
       end do
       call table%start('', columns, screen)
       if (summary%is_open) call summary%put(csv_titles(columns))
