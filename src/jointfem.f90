@@ -12,18 +12,20 @@ program jointfem
    use newton_method, only: close_gaps, crosses_gaps, newton_increment
    use run_boxes, only: another_increment, another_stage, build_structure, form_bodies, go_on, print_increment, read_data, &
                         start_joints, start_program
-   use run_of_deck, only: end_program, finish_run, run_type, summary_row
+   use run_of_deck, only: finish_run, run_type
+   use run_summary, only: end_program, summary_row
    use restart_file, only: go_to_start
+   use side_by_side, only: another_run
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
    type(command_type) :: command
    type(summary_row), allocatable :: rows(:)
-   integer :: i
+   integer :: i = 0
 
    call start_program(command)
    allocate (rows(size(command%decks)))
-   do i = 1, size(command%decks)
+   do while (another_run(command, rows, i))
       call analyse(command%decks(i), rows(i))
    end do
    call end_program(command, rows)

@@ -8,7 +8,7 @@ module c_library
 
    public :: open_standard_outputs, read_all_bytes, create_unique, open_to_write, write_bytes, close_file, rename_file, &
              remove_file, make_folders, true_path, kind_of_file, is_regular_file, is_same_file, tell_failed_writes, at_signals, &
-             lock_folder, end_run, go_to_byte, append_bytes, c_fsync, c_isatty, c_raise, c_rename, c_truncate, c_unlink
+             lock_folder, end_run, go_to_byte, append_bytes, c_fsync, c_isatty, c_raise, c_rename, c_truncate, c_unlink, c_usleep
 
    !> Kinds of file that a path may lead to.
    integer, parameter, public :: no_file = 0, pipe_file = 1, device_file = 2, folder_file = 4, block_file = 6, regular_file = 8, &

@@ -17,7 +17,7 @@ module incomplete_results
    private
 
    public :: create_part, name_part, remove_incomplete, give_up_parts, remove_old, all_complete, watch_ends, what_is_in_the_way, &
-             watch_interrupts, say_at_interrupts, keep_at_ends, forget_kept, keep_finished
+             watch_interrupts, say_at_interrupts, keep_at_ends, forget_kept, keep_finished, hold_interrupts, interrupt_so_far
 
    character(*), parameter, public :: suffix = '.part' !! of an incomplete file
    integer, parameter :: replaceable(2) = [no_file, regular_file] ! a result may take the place of these; links are followed
@@ -38,6 +38,7 @@ module incomplete_results
 
    logical, volatile        :: is_changing = .false. ! NAMES is about to change
    integer(c_int), volatile :: interrupt = 0         ! signal that came during the change
+   logical, volatile        :: is_held = .false.     ! an interrupt waits until other work is done
    logical, volatile        :: is_ending = .false.   ! a thread ends the run; a signal that comes twice may reach two
 
    integer(c_int), parameter :: status_of_library = 1, status_unsolved = 3
@@ -61,6 +62,19 @@ module incomplete_results
    end interface
 
 contains
+
+   !> An interrupt waits while it is HELD.
+   subroutine hold_interrupts(held)
+      logical, intent(in) :: held
+
+      is_held = held
+      if (.not. held) call end_of_change()
+   end subroutine hold_interrupts
+
+   !> The signal that waits, 0: none.
+   integer function interrupt_so_far()
+      interrupt_so_far = int(interrupt)
+   end function interrupt_so_far
 
    !> Set the WORDS that an interrupt prints; empty: none.
    subroutine say_at_interrupts(words)
@@ -142,7 +156,7 @@ contains
          return
       end if
       is_changing = .true.
-      if (interrupt == 0) call create_unique(path, suffix, part, descriptor) ! else another thread is removing the files
+      if (interrupt == 0 .or. is_held) call create_unique(path, suffix, part, descriptor) ! else another thread is removing the files
       if (descriptor >= 0) call note(part)
       call end_of_change()
    end subroutine create_part
@@ -175,7 +189,7 @@ contains
    !> Handle a signal that came during the change.
    subroutine end_of_change()
       is_changing = .false.
-      if (interrupt /= 0) call end_by_interrupt(interrupt)
+      if (interrupt /= 0 .and. .not. is_held) call end_by_interrupt(interrupt)
    end subroutine end_of_change
 
    !> Why the first file could not be created; empty where its name was free.
@@ -248,7 +262,7 @@ contains
       logical :: ok
 
       interrupt = signal
-      if (is_changing .or. is_ending) return
+      if (is_changing .or. is_held .or. is_ending) return
       is_ending = .true.
       call keep_finished()
       call remove_incomplete()

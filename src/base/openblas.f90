@@ -15,6 +15,7 @@ module openblas
    private
 
    public :: prepare_openblas, kernels_for, kernel_is_right, processor_flags, tell_kernel, kernel_words
+   public :: c_fork, c_waitpid ! for side_by_side
 
    ! environment variables
    character(*), parameter :: choice = 'OPENBLAS_CORETYPE'      ! the kernel, of the user or of this program

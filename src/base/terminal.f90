@@ -9,7 +9,8 @@ module terminal
    implicit none
    private
 
-   public :: argument_text, next_option, say, complain, complain_of_input, open_line, show_line, log_line, clear_line, say_line
+   public :: argument_text, next_option, say, complain, complain_of_input, open_line, show_line, log_line, clear_line, empty_line, &
+             say_line
 
    character(*), parameter, public :: version = '0.1.0'
    character(*), parameter, public :: standard_input = '/dev/stdin' !! the path of the file that `-` means
@@ -180,6 +181,7 @@ contains
       write (error_unit, '(a)') words
    end subroutine say_line
 
+   !> Clear the progress line; the next words show it again.
    subroutine empty_line()
       if (shown) write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', len(name) + width + 2)//achar(13)
    end subroutine empty_line

@@ -74,8 +74,6 @@ contains
                do i = 1, size(given%pairs)
                   call find_pair(deck, mesh, freedoms, given%pairs(i), stage%pairs(i))
                end do
-            else if (allocated(stage%watched)) then ! of --watch
-               allocate (stage%pairs(0))
             end if
             if (.not. allocated(given%only)) cycle
             call find_limited_nodes(deck, mesh, 'OUTPUT', given%only, stage%shown)

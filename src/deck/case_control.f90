@@ -9,7 +9,7 @@ module case_control
    use field_rules, only: parse_integer, parse_real
    use kinds, only: wp
    use nastran_compatibility, only: ignored_entries_type, parameters_type, read_echo, read_habit
-   use stage_entries, only: check_vibration, read_stage_entry, stage_type
+   use stage_entries, only: check_vibration, pair_reference, read_pair, read_stage_entry, stage_type
    use text_tools, only: integer_text, upper
    use tolerances, only: back_tol, least_tol, newton_tol, path_tol
    implicit none
@@ -42,7 +42,7 @@ module case_control
       type(stage_type), allocatable :: stages(:)
    end type case_control_type
 
-   logical :: has_petsc = .false.
+   logical, public, protected :: has_petsc = .false. !! see offer_petsc
 
 contains
 
@@ -119,16 +119,38 @@ contains
       call note_idle_sets(control)
    end subroutine read_case_control
 
-   !> Watch the nodes of LIST, numbers with commas, in all stages. They form a set whose number no deck can use.
-   pure subroutine watch_also(control, list)
+   !> Watch the nodes and pairs of LIST, numbers and N-M with commas, in all stages; not OK: a word is neither. The nodes form a set
+   !! whose number no deck can use.
+   pure subroutine watch_also(control, list, ok)
       type(case_control_type), intent(inout) :: control
       character(*), intent(in)               :: list
-      integer :: s
+      logical, intent(out)                   :: ok
+      type(pair_reference), allocatable :: pairs(:)
+      type(pair_reference) :: pair
+      character(:), allocatable :: nodes, rest
+      integer :: comma, s
 
+      nodes = ''
+      allocate (pairs(0))
+      rest = list
+      ok = .true.
+      do while (ok .and. rest /= '')
+         comma = index(rest//',', ',')
+         if (index(rest(:comma - 1), '-') > 0) then
+            call read_pair(rest(:comma - 1), pair, ok)
+            pairs = [pairs, pair]
+         else
+            nodes = nodes//','//rest(:comma - 1)
+         end if
+         rest = rest(min(comma + 1, len(rest) + 1):)
+      end do
       if (.not. allocated(control%sets)) allocate (control%sets(0))
-      control%sets = [control%sets, number_set(own_set, 0, list)]
+      if (nodes /= '') control%sets = [control%sets, number_set(own_set, 0, nodes(2:))]
       do s = 1, size(control%stages)
          associate (stage => control%stages(s))
+            if (.not. allocated(stage%pairs)) allocate (stage%pairs(0))
+            stage%pairs = [stage%pairs, pairs]
+            if (nodes == '') cycle
             if (.not. allocated(stage%watch)) allocate (stage%watch(0))
             stage%watch = [stage%watch, limit_type(.false., own_set, 0)]
          end associate

@@ -172,12 +172,14 @@ contains
       logical, intent(out)                 :: readable
       type(parameter_type), intent(in), optional :: parameters(:) !! of --set; default: none
       character(*), intent(in), optional   :: watched             !! of --watch: node numbers with commas; default and '': none
+      logical :: ok
 
       call read_deck_text(path, deck%text, errors, readable, parameters)
       if (readable) call read_lines(deck, errors)
       if (.not. present(watched) .or. .not. readable) return
       if (watched == '') return
-      call watch_also(deck%control, watched)
+      call watch_also(deck%control, watched, ok)
+      if (.not. ok) call errors%add(0, '--watch '//watched//': expected node numbers, or N-M for node M against node N')
       deck%text%options = '--watch '//watched
    end subroutine read_deck
 

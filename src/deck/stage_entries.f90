@@ -9,7 +9,7 @@ module stage_entries
    implicit none
    private
 
-   public :: read_stage_entry, check_vibration
+   public :: read_stage_entry, check_vibration, read_pair
 
    integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
 
@@ -238,9 +238,7 @@ contains
          word = trim(adjustl(rest(:comma - 1)))
          dash = index(word, '-')
          if (present(pairs) .and. dash > 1) then
-            call parse_integer(trim(word(:dash - 1)), pair%nodes(1), ok)
-            if (ok) call parse_integer(trim(adjustl(word(dash + 1:))), pair%nodes(2), ok)
-            ok = ok .and. all(pair%nodes > 0) .and. pair%nodes(1) /= pair%nodes(2)
+            call read_pair(word, pair, ok)
             pair%line = entry%line
             if (ok) pairs = [pairs, pair]
          else
@@ -251,6 +249,19 @@ contains
       if (.not. ok) call value_error(entry, 'SET N or PMARK N, several with commas between them: the nodes to be written'// &
                                      one_of(present(pairs), ', or N-M, node M against node N', ''), errors)
    end subroutine read_nodes
+
+   !> The PAIR of a WORD 9001-9002.
+   pure subroutine read_pair(word, pair, ok)
+      character(*), intent(in)          :: word
+      type(pair_reference), intent(out) :: pair
+      logical, intent(out)              :: ok
+      integer :: dash
+
+      dash = index(word, '-')
+      call parse_integer(trim(word(:dash - 1)), pair%nodes(1), ok)
+      if (ok) call parse_integer(trim(adjustl(word(dash + 1:))), pair%nodes(2), ok)
+      ok = ok .and. all(pair%nodes > 0) .and. pair%nodes(1) /= pair%nodes(2)
+   end subroutine read_pair
 
    !> Check that each vibration entry has the key it needs. An entry above the first SUBCASE has been copied into each stage. It has no
    !! effect in a stage without MODES, or without FREQUENCY, but one stage must have the key.

@@ -29,6 +29,8 @@ module newton_method
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
    integer, parameter  :: most_halvings = 12
+   integer, parameter  :: most_of_path = 10000    ! iterations in all parts of an increment: 1 + 2 + ... + 64 equal ones have fewer
+   integer, parameter  :: most_of_increment = 2000 ! likewise in an increment of INCR: it is given up
    real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
    integer, parameter  :: most_cuts = 3           ! to the share of a load that the limits seem to bear, without one that they bear
 
@@ -315,6 +317,10 @@ contains
                                                             model%joints%element%gap < 0.0_wp)
       attempt%least = huge(1.0_wp)
       first = 0.0_wp
+      attempt%converged = .false.
+      if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states)), source=0)
+      if (is_given_up(analysis)) attempt%trouble = none
+      if (is_given_up(analysis)) return
       do way = merge(extrapolated, straight, attempt%growth > 0.0_wp), sticking
          if (way == from_best .and. .not. attempt%least < promising*first) cycle
          if (way /= extrapolated) attempt%growth = 0.0_wp
@@ -328,7 +334,6 @@ contains
          attempt%iteration = 0
          attempt%gain = 1.0_wp
          attempt%n_slow = 0
-         if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states))) ! = alone would read its bounds
          attempt%flips = 0
          attempt%largest_noise = 0.0_wp
          attempt%converged = .false.
@@ -342,6 +347,13 @@ contains
       end do
    end subroutine try_part
 
+   !> Whether the increment has taken more iterations than one that ends.
+   pure logical function is_given_up(analysis)
+      type(analysis_type), intent(in) :: analysis
+
+      is_given_up = analysis%record%n_iterations >= merge(most_of_path, most_of_increment, analysis%record%follows_path)
+   end function is_given_up
+
    !> No part of the increment is small enough: report the cause as far as known, and the element with the most changes of branch.
    subroutine give_up(model, analysis, attempt, failure)
       type(model_type), intent(in)      :: model
@@ -352,6 +364,8 @@ contains
       integer :: worst
 
       words = attempt%where//': no equilibrium'
+      if (is_given_up(analysis)) words = attempt%where//': given up after '// &
+                                         integer_text(analysis%record%n_iterations)//' iterations'
       if (attempt%loose > 0) then
          associate (joint => model%joints%list(attempt%loose))
             words = words//': joint '//integer_text(joint%id)//' slips or is open at all its nodes, from node '// &

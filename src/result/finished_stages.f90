@@ -25,7 +25,9 @@ module finished_stages
       real(wp) :: strained = 0.0_wp                          !! largest von Mises stress over E, likewise
       real(wp) :: contact = 1.0_wp                           !! smallest share of any joint, likewise
       real(wp) :: safety = huge(1.0_wp)                      !! smallest against slip, likewise; huge: none
-      real(wp) :: frequency = -1.0_wp                        !! the first nonzero one of the last stage with modes [1/time]
+      real(wp) :: bolt_force = huge(1.0_wp)                  !! smallest of a tightened bolt, likewise; huge: none [force]
+      real(wp) :: bolt_use = -1.0_wp                         !! largest of a bolt, likewise; negative: none
+      real(wp) :: frequencies(5) = -1.0_wp                   !! the first nonzero ones of the last stage with modes [1/time]
    end type digest_type
 
    !> The numbers of a run up to a place.
@@ -217,7 +219,7 @@ contains
       type(restart_stream_type), intent(inout) :: stream
       type(digest_type), intent(inout)         :: d
 
-      call stream%part('digest_type', 1)
+      call stream%part('digest_type', 2)
       call stream%item('stages', d%stages)
       call stream%item('increments', d%increments)
       call stream%item('iterations', d%iterations)
@@ -226,7 +228,9 @@ contains
       call stream%item('strained', d%strained)
       call stream%item('contact', d%contact)
       call stream%item('safety', d%safety)
-      call stream%item('frequency', d%frequency)
+      call stream%item('bolt_force', d%bolt_force)
+      call stream%item('bolt_use', d%bolt_use)
+      call stream%item('frequencies', d%frequencies)
    end subroutine record_digest
 
 end module finished_stages

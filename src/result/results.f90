@@ -244,6 +244,8 @@ contains
          digest%strained = max(digest%strained, bodies%strained)
          digest%contact = min(digest%contact, minval(joints%now%contact))
          digest%safety = min(digest%safety, minval(joints%safety, mask=joints%has_safety))
+         digest%bolt_force = min(digest%bolt_force, minval(results%bolts_now%force, mask=results%bolts_now%is_locked))
+         digest%bolt_use = max(digest%bolt_use, maxval(results%bolts_now%use, mask=results%bolts_now%has_strength))
       end associate
       call note_case(model, plan, analysis, bodies, joints, results%bolts_now, results%watched, results%cases)
       call end_bolts(results%bolts_now, results%bolts)
@@ -258,13 +260,18 @@ contains
       integer, intent(in)               :: stage !! its position
       type(modes_type), intent(in)      :: modes
       type(results_type), intent(inout) :: results
-      integer :: m
+      integer :: m, n
 
+      associate (first => results%counts%digest%frequencies)
+         first = -1.0_wp
+         do m = 1, size(modes%modes)
+            n = count(.not. modes%modes(:m)%is_rigid)
+            if (.not. modes%modes(m)%is_rigid .and. n <= size(first)) first(n) = modes%modes(m)%frequency
+         end do
+      end associate
       m = findloc(modes%modes%is_rigid, .false., dim=1)
-      results%counts%digest%frequency = -1.0_wp
-      if (m > 0) results%counts%digest%frequency = modes%modes(m)%frequency
       if (is_case(model%history, stage) .and. m > 0) &
-         results%cases(size(results%cases))%values(size(case_names)) = results%counts%digest%frequency
+         results%cases(size(results%cases))%values(size(case_names)) = modes%modes(m)%frequency
       associate (planned => plan%stages(stage), page => results%page)
          page%stage_id = planned%id
          call list_modes(page, model, planned, modes, results%watch%n_warnings)

@@ -9,7 +9,7 @@ module table_column
    type, public :: column_type
       character(48) :: heading = ''
       character(48) :: key = ''       ! by which its cells are put
-      character(16) :: name = ''      ! in the CSV file
+      character(40) :: name = ''      ! in the CSV file
       character(12) :: form = ''
       character(20) :: unit = ''
       integer :: width = 0            ! 0: text to the end of the row
@@ -60,11 +60,14 @@ contains
    pure function csv_titles(columns) result(titles)
       type(column_type), intent(in) :: columns(:)
       character(:), allocatable     :: titles
-      integer :: i
+      integer :: at, i
 
-      titles = ''
+      allocate (character(sum(len_trim(columns%name) + 1, mask=columns%name /= '')) :: titles)
+      at = 0
       do i = 1, size(columns)
-         if (columns(i)%name /= '') titles = titles//','//trim(columns(i)%name)
+         if (columns(i)%name == '') cycle
+         titles(at + 1:) = ','//columns(i)%name
+         at = at + 1 + len_trim(columns(i)%name)
       end do
       titles = titles(2:)
    end function csv_titles

@@ -76,7 +76,7 @@ contains
       self%title = title
       self%columns = columns
       do i = 1, size(columns)
-         self%columns(i)%last = sum(columns(:i)%width)
+         self%columns(i)%last = columns(i)%width + merge(self%columns(max(1, i - 1))%last, 0, i > 1)
       end do
       call begin_row(self)
       if (present(file)) call self%print_head(file)

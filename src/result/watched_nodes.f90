@@ -23,7 +23,7 @@ module watched_nodes
    implicit none
    private
 
-   public :: start_watched, find_watched, state_at_end, record_watched, summarise_watched
+   public :: start_watched, find_watched, state_at_end, record_watched
 
    !> The structure at the end of a stage.
    type, public :: watch_state
@@ -51,7 +51,7 @@ module watched_nodes
    end type watched_pair
 
    !> A component and its shares of the work.
-   type :: compliance_share
+   type, public :: compliance_share
       character(6) :: kind = ''
       integer      :: id = 0
       integer      :: first = 0, last = 0       ! of a body: lowest and highest number of its elements
@@ -126,24 +126,6 @@ contains
       end do
       call share_work(model, analysis, change, before, now, answer)
    end subroutine find_watched
-
-   !> The row of the summary: the first WATCHED node of ANSWER or, without one, the first pair along its line; ID is 0 without both.
-   pure subroutine summarise_watched(model, answer, id, watched)
-      type(model_type), intent(in)    :: model
-      type(watch_answer), intent(in)  :: answer
-      integer, intent(out)            :: id
-      type(watched_node), intent(out) :: watched
-
-      id = 0
-      if (size(answer%nodes) > 0) then
-         watched = answer%nodes(1)
-         id = model%mesh%node_id(watched%node)
-      else if (size(answer%pairs) > 0) then
-         id = answer%pairs(1)%pair%ids(1)
-         watched = watched_node(is_loaded=abs(answer%pairs(1)%load(1)) > 0.0_wp, along=answer%pairs(1)%change(1), &
-                                moves=abs(answer%pairs(1)%stiffness(1)) > 0.0_wp, stiffness=answer%pairs(1)%stiffness(1))
-      end if
-   end subroutine summarise_watched
 
    !> The shares of bodies, joints, bars and springs in the work over the stage, in which the nodes moved by CHANGE. The work of a
    !! body is that of its nodal forces less the thermal forces.

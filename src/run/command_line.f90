@@ -3,11 +3,12 @@ module command_line
    use c_library, only: is_regular_file, is_same_file, read_all_bytes, true_path
    use card_manual, only: manual_entry, manual_names
    use terminal, only: command_reader, complain, input_argument, next_option, say, standard_input, version
-   use deck_parameters, only: is_parameter_name, parameter_type
+   use deck_parameters, only: parameter_type
    use field_rules, only: parse_integer
+   use parameter_sets, only: read_setting, setting_type, take_row
    use result_page, only: history_ending
    use result_names, only: is_result_ending, listing_ending
-   use text_tools, only: upper
+   use text_tools, only: one_of, upper
    use vtu_results, only: is_vtu_ending
    implicit none
    private
@@ -40,8 +41,10 @@ module command_line
       '   --progress LINES  a line for each increment to standard error; without it, where standard error is no terminal,'//nl// &
       '                 from the first minute of a run on'//nl// &
       '   --threads N   use at most N threads (default: all cores); the results do not depend on N'//nl// &
-      '   --set N=V     replace ${N} in the decks by V; N=V,V,V makes one run for each value, named beam_N=V'//nl// &
-      '   --watch N,N   nodes whose displacement and stiffness are added to the answer of every stage'//nl// &
+      '   --set N=V     replace ${N} in the decks by V; N=V,V,V makes one run for each value, named beam_N=V,'//nl// &
+      '                 N=V,V:M=W,W one for each pair, --set F one for each row of the CSV file F below its line of names;'//nl// &
+      '                 runs of one deck go on side by side on the cores'//nl// &
+      '   --watch N,N   nodes whose displacement and stiffness are added to the answer of every stage; N-M: M against N'//nl// &
       '   --summary F   write a table of all runs to the file F, one row for each run; F may be new or an earlier table'//nl// &
       '   --resume      continue each deck from its restart file, beam.restart: the results are those of an'//nl// &
       '                 uninterrupted run. A deck without a restart file starts from the beginning.'//nl// &
@@ -68,12 +71,6 @@ module command_line
       character(:), allocatable :: base !! base of the names of the results, with folder; empty: standard output
    end type deck_argument
 
-   !> --set NAME=V[,V...]
-   type :: setting_type
-      character(:), allocatable :: name, values
-      integer, allocatable :: commas(:) ! positions in VALUES: 0, and one behind each value
-   end type setting_type
-
    type, public :: command_type
       logical :: check_only = .false.       !! --check
       logical :: suggest    = .false.       !! --joints
@@ -83,7 +80,8 @@ module command_line
       logical :: dated      = .false.       !! --date
       logical :: resume     = .false.       !! --resume
       integer :: threads    = 0             !! --threads, 0: all cores
-      character(:), allocatable :: watched  !! --watch: numbers with commas, empty: none
+      integer :: n_rows     = 1             !! runs of each deck: the combinations of the rows of --set
+      character(:), allocatable :: watched  !! --watch: numbers and N-M with commas, empty: none
       character(:), allocatable :: summary  !! --summary: path of the table of the batch, empty: none
       character(:), allocatable :: folder   !! -o, with a slash at its end, empty: here
       type(deck_argument), allocatable :: decks(:)
@@ -143,15 +141,18 @@ contains
          case ('--summary')
             command%summary = value
          case ('--set')
-            call read_setting(value, settings, ok)
+            call read_setting(value, settings, text)
+            ok = text == ''
+            if (.not. ok) call complain(program, text)
          case ('--progress')
             command%in_lines = upper(value) == 'LINES'
             ok = command%in_lines
             if (.not. ok) call complain(program, '--progress '//value//': expected LINES')
          case ('--watch')
             command%watched = value
-            ok = value /= '' .and. verify(value, '0123456789,') == 0
-            if (.not. ok) call complain(program, '--watch '//value//': expected node numbers separated by commas')
+            ok = value /= '' .and. verify(value, '0123456789-,') == 0
+            if (.not. ok) call complain(program, '--watch '//value// &
+                                        ': expected node numbers, or N-M for node M against node N, separated by commas')
          case ('--threads')
             call parse_integer(value, command%threads, ok)
             ok = ok .and. command%threads >= 1
@@ -166,41 +167,7 @@ contains
       if (ok) status = -1
    end subroutine read_command_line
 
-   !> Read TEXT, 'NAME=V,V,V', into SETTINGS.
-   subroutine read_setting(text, settings, ok)
-      character(*), intent(in) :: text
-      type(setting_type), allocatable, intent(inout) :: settings(:)
-      logical, intent(out)     :: ok
-      type(setting_type), allocatable :: longer(:)
-      character(:), allocatable :: values
-      integer :: equals, k
-
-      equals = index(text, '=')
-      values = text(equals + 1:)//','
-      ok = equals > 1 .and. equals < len(text) .and. verify(text, ' ') > 0
-      if (ok) ok = is_parameter_name(text(:equals - 1)) .and. index(','//values, ',,') == 0
-      if (ok .and. scan(values, '$'//achar(9)//achar(10)//achar(13)) > 0) then
-         ok = .false.
-         call complain(program, '--set '//text//': a value is a number or a word, without $, tab or line end')
-         return
-      end if
-      if (.not. ok) then
-         call complain(program, '--set '//text//': expected NAME=VALUE, or NAME=VALUE,VALUE,... for a run with each')
-         return
-      end if
-      ok = all([(settings(k)%name /= text(:equals - 1), k = 1, size(settings))])
-      if (.not. ok) call complain(program, '--set '//text(:equals)//': given twice')
-      allocate (longer(size(settings) + 1)) ! gfortran 12 loses the texts of an array constructor
-      longer(:size(settings)) = settings
-      associate (setting => longer(size(longer)))
-         setting%name = text(:equals - 1)
-         setting%values = values
-         setting%commas = [0, pack([(k, k = 1, len(values))], [(values(k:k) == ',', k = 1, len(values))])]
-      end associate
-      call move_alloc(longer, settings)
-   end subroutine read_setting
-
-   !> The runs of COMMAND: each of FILES with every combination of values of SETTINGS. beam.bdf gives beam.out and beam.joint.csv.
+   !> The runs of COMMAND: each of FILES with every combination of rows of SETTINGS. beam.bdf gives beam.out and beam.joint.csv.
    !! No two runs may write the same file, and no result may replace a deck.
    subroutine plan_runs(files, settings, command, ok)
       type(input_argument), intent(in)  :: files(:)
@@ -214,12 +181,14 @@ contains
          call complain(program, 'no deck given')
          return
       end if
+      n = product(settings%n_rows)
+      command%n_rows = n
       do i = 1, size(files)
-         if (.not. command%resume .or. files(i)%path /= standard_input) cycle
-         call complain(program, '--resume: a deck from the standard input has no restart file')
+         if (files(i)%path /= standard_input .or. (n == 1 .and. .not. command%resume)) cycle
+         call complain(program, one_of(command%resume, '--resume: a deck from the standard input has no restart file', &
+                                       '--set with several runs: the standard input can be read only once'))
          return
       end do
-      n = product([(size(settings(k)%commas) - 1, k = 1, size(settings))])
       allocate (command%decks(size(files)*n))
       do i = 1, size(command%decks)
          associate (deck => command%decks(i))
@@ -227,7 +196,7 @@ contains
             deck%name = files((i - 1)/n + 1)%name
             deck%number = i
             deck%of = size(command%decks)
-            call set_parameters(settings, modulo(i - 1, n), deck)
+            call take_row(settings, modulo(i - 1, n), deck%parameters, deck%name, deck%base)
             if (deck%path == standard_input) cycle
             first = index(deck%path, '/', back=.true.) + 1
             dot = index(deck%path, '.', back=.true.)
@@ -243,11 +212,10 @@ contains
             end do
          end associate
       end do
-      do i = 1, size(command%decks)
+      do i = 1, size(files)
          do k = 1, size(command%decks)
-            if (is_result_of(true_path(command%decks(i)%path), command%decks(k))) then
-               call complain(program, 'the results of '//command%decks(k)%name//' would overwrite the deck '// &
-                             command%decks(i)%name)
+            if (is_result_of(true_path(files(i)%path), command%decks(k))) then
+               call complain(program, 'the results of '//command%decks(k)%name//' would overwrite the deck '//files(i)%name)
                return
             end if
          end do
@@ -284,32 +252,6 @@ contains
       if (.not. may_write_summary) call complain(program, '--summary '//command%summary// &
                                                 ': the file exists and is no summary; expected a new name, or an earlier summary')
    end function may_write_summary
-
-   !> Set the parameters of DECK to combination RUN = 0, 1, ... of the values of SETTINGS, the last setting changing fastest. The
-   !! values of a setting with several values become part of its name and its base.
-   subroutine set_parameters(settings, run, deck)
-      type(setting_type), intent(in)     :: settings(:)
-      integer, intent(in)                :: run
-      type(deck_argument), intent(inout) :: deck
-      integer :: i, k, n(size(settings)), which
-
-      n = [(size(settings(k)%commas) - 1, k = 1, size(settings))]
-      deck%base = ''
-      allocate (deck%parameters(size(settings)))
-      do k = 1, size(settings)
-         which = modulo(run/product(n(k + 1:)), n(k)) + 1
-         associate (commas => settings(k)%commas, parameter => deck%parameters(k))
-            parameter%name = settings(k)%name
-            parameter%value = settings(k)%values(commas(which) + 1:commas(which + 1) - 1)
-            if (n(k) == 1) cycle
-            deck%base = deck%base//'_'//parameter%name//'='//parameter%value
-            deck%name = deck%name//', '//parameter%name//'='//parameter%value
-         end associate
-      end do
-      do i = 1, len(deck%base) ! the name of a file cannot have slashes
-         if (deck%base(i:i) == '/') deck%base(i:i) = '-'
-      end do
-   end subroutine set_parameters
 
    !> Whether A and B could both write one VTU file, with a message: with OUTPUT = VTU, stage 1 of A writes A.1.vtu, which the deck
    !! A.1 may write too; likewise A.joint. The decks need not ask for VTU: each run also removes that file as its own of an earlier

@@ -1,17 +1,15 @@
-!> Holds the run of one deck, which its boxes share: state, progress on the terminal, end. Ends the program with a summary.
+!> Holds the run of one deck, which its boxes share: state, progress on the terminal, end.
 !! The progress line has the phase, the increment and the time left; it appears only where standard error is a terminal. With
-!! --times the run ends with a table: the seconds of each phase, operations, memory. The summary has a row for each run of the
-!! command. The exit status is the highest of all runs.
+!! --times the run ends with a table: the seconds of each phase, operations, memory.
 module run_of_deck
-   use c_library, only: end_run, write_bytes
+   use c_library, only: write_bytes
    use command_line, only: command_type, deck_argument, is_result_of
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use distance_watch, only: distance_words
-   use distribution, only: leave_processes, memory_of_all
+   use distribution, only: memory_of_all
    use equation_solver, only: failure_type, solver_description
    use error_report, only: print_errors
-   use finished_stages, only: digest_type
    use incomplete_results, only: say_at_interrupts, what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
@@ -19,23 +17,20 @@ module run_of_deck
    use model_data, only: model_type
    use openblas, only: kernel_words
    use output_file, only: output_file_type
-   use page_lines, only: heading
    use range_watch, only: tetra_words
    use restart_stream, only: restart_stream_type
-   use result_page, only: history_ending, largest_safety
+   use result_page, only: history_ending
    use result_names, only: listing_ending, restart_ending
    use results, only: discard_results, finish_results, keep_finished_stages, results_type, show_answers
+   use run_summary, only: status_unsolved, status_unwritten, summarise, summary_row
    use stage_plan, only: stage_plan_type
-   use table_column, only: column, column_type, csv, csv_titles
-   use table_writer, only: table_type
    use terminal, only: clear_line, complain_of_input, log_line, open_line, say_line, show_line
    use text_tools, only: integer_text, plural
    use unit_watch, only: stress_words
-   use watched_nodes, only: summarise_watched, watched_node
    implicit none
    private
 
-   public :: start_run, enter, expect, advance, is_over, tell, finish_run, end_program
+   public :: start_run, enter, expect, advance, is_over, tell, finish_run
 
    integer, parameter, public :: phase_read = 1, phase_build = 2, phase_order = 3, phase_factor = 4, phase_increments = 5, &
                                  phase_recover = 6, phase_write = 7, phase_modes = 8, phase_backbone = 9
@@ -45,8 +40,7 @@ module run_of_deck
    ! early ends of a run, and the exit status of each
    integer, parameter, public :: goes_on = 0, is_unreadable = 1, would_overwrite = 2, has_errors = 3, was_checked = 4, &
                                  is_unsolved = 5, is_unwritten = 6, is_refused = 7, was_searched = 8
-   integer, parameter :: status_of(0:8) = [0, 1, 1, 2, 0, 3, 4, 1, 0]
-   integer :: exit_status = 0 ! the highest so far
+   integer, parameter :: status_of(0:8) = [0, 1, 1, 2, 0, status_unsolved, status_unwritten, 1, 0]
 
    !> The run of one deck.
    type, public :: run_type
@@ -73,19 +67,6 @@ module run_of_deck
       integer(long), private :: entered = 0, increments_began = 0, rate = 1
       integer(long), private :: ticks(size(phase_name)) = 0
    end type run_type
-
-   !> The row of a run in the summary.
-   type, public :: summary_row
-      private
-      character(:), allocatable :: name
-      character(:), allocatable :: ended               ! how, where the status is not 0
-      integer  :: status = 0
-      type(digest_type) :: digest
-      logical  :: is_there(5) = .false.                ! u_max, mises_max, contact, safety, frequency
-      integer  :: node = 0                             ! number of the first watched node, 0: none
-      type(watched_node) :: watched
-      real(wp) :: seconds = 0.0_wp
-   end type summary_row
 
 contains
 
@@ -234,22 +215,10 @@ contains
       call clear_line()
       call say_at_interrupts('')
       call say_how_it_ended(run, deck, model, plan)
-      exit_status = max(exit_status, status_of(run%ending), merge(status_of(is_unwritten), 0, run%misses_output))
-      row%name = run%argument%name
-      row%status = status_of(run%ending)
       call system_clock(now, rate)
+      call summarise(run%argument%name, model, run%results, run%failure, run%keeps_results, status_of(run%ending), row)
+      row%exit = max(row%status, merge(status_unwritten, 0, run%misses_output))
       row%seconds = real(now - run%began, wp)/real(rate, wp)
-      row%digest = run%results%counts%digest
-      row%ended = ''
-      if (row%status /= 0) row%ended = 'NO RESULTS'
-      if (run%results%finished%is_named()) row%ended = 'ENDED EARLY at '//run%results%page%place
-      associate (digest => row%digest)
-         if (digest%stages == 0 .and. .not. run%keeps_results) return
-         row%is_there = [.true., model%mesh%n_elements > 0, size(model%joints%list) > 0, digest%safety < huge(1.0_wp), &
-                         digest%frequency >= 0.0_wp]
-      end associate
-      if (.not. allocated(run%results%watched%nodes)) return
-      call summarise_watched(model, run%results%watched, row%node, row%watched)
    end subroutine finish_run
 
    !> Report that the standard output is full or closed.
@@ -331,61 +300,5 @@ contains
          end select
       end associate
    end subroutine say_how_it_ended
-
-   !> End the program with the highest status of the runs of COMMAND, whose summary has the ROWS. The summary goes into the file of
-   !! --summary and, with several runs, to the screen.
-   subroutine end_program(command, rows)
-      type(command_type), intent(in) :: command
-      type(summary_row), intent(in)  :: rows(:)
-      type(output_file_type) :: screen, summary
-      type(table_type)       :: table
-      type(column_type), allocatable :: columns(:)
-      character(40) :: name ! on the screen, where it is the end of a longer name
-      integer :: i
-      logical :: ok, shown
-
-      call screen%start('')
-      if (command%summary /= '') call summary%start(command%summary)
-      call heading(screen, 'ALL RUNS')
-      columns = [csv('deck'), column('', 'a41', key='name'), column('STATUS', 'i7', name='status'), csv('stages'), &
-                 column('INCREMENTS', 'i11', name='increments'), csv('iterations'), &
-                 column('U MAX', 'es12.4', name='u_max'), column('MISES MAX', 'es12.4', name='mises_max'), &
-                 csv('contact'), column('CONTACT %', 'f10.2'), csv('safety'), column('MU N/T', 'f10.3'), &
-                 column('FREQUENCY', 'es12.4', name='frequency'), csv(['watched', 'along  ']), &
-                 column('STIFFNESS', 'es12.4', name='stiffness'), csv(['seconds', 'ended  '])]
-      call table%start('', columns, screen)
-      if (summary%is_open) call summary%put(csv_titles(columns))
-      do i = 1, size(rows)
-         associate (row => rows(i), d => rows(i)%digest)
-            name = row%name(max(1, len(row%name) - len(name) + 1):)
-            call table%put('deck', '"'//row%name//'"')
-            call table%put('name', ' '//name)
-            call table%put([character(10) :: 'status', 'stages', 'increments', 'iterations'], &
-                           [row%status, d%stages, d%increments, d%iterations])
-            call table%put('u_max', d%u_max, where=row%is_there(1))
-            call table%put('mises_max', d%mises_max, where=row%is_there(2))
-            call table%put('contact', d%contact, where=row%is_there(3))
-            call table%put('CONTACT %', 100.0_wp*d%contact, where=row%is_there(3))
-            call table%put('safety', d%safety, where=row%is_there(4))
-            call table%put('MU N/T', d%safety, where=row%is_there(4) .and. d%safety <= largest_safety)
-            call table%put('frequency', d%frequency, where=row%is_there(5))
-            call table%put('watched', row%node, where=row%node > 0)
-            call table%put('along', row%watched%along, where=row%watched%is_loaded)
-            call table%put('stiffness', row%watched%stiffness, where=row%watched%moves)
-            call table%put('seconds', row%seconds)
-            call table%put('ended', '"'//row%ended//'"')
-         end associate
-         call table%print_row(screen, summary)
-         if (rows(i)%ended /= '') call screen%put('     '//rows(i)%ended)
-      end do
-      ok = .true.
-      shown = .true.
-      if (command%summary /= '') call summary%finish(ok)
-      if (.not. ok) call say_line('the summary '//command%summary//' cannot be written')
-      if (size(rows) > 1 .and. .not. command%check_only) call screen%finish(shown)
-      if (.not. (ok .and. shown)) exit_status = max(exit_status, status_of(is_unwritten))
-      call leave_processes()
-      call end_run(exit_status)
-   end subroutine end_program
 
 end module run_of_deck

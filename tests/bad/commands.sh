@@ -27,6 +27,36 @@ run --set T=1 --set T=2 good.bdf;     check '--set twice' 1 'given twice'
 for s in 'T=${T}' 'T=1,${Q}' 'T=20$' $'T=1\t2' $'T=1\n2'; do
    LIMIT=20 run --set "$s" good.bdf;   check "--set '$s'" 1 'a value is a number or a word'
 done
+run --set A=1,2:B=3 good.bdf;         check '--set in pairs without a partner' 1 '--set A=1,2:B=3: B: 1 value, expected 2'
+run --set A=1:A=2 good.bdf;           check '--set in pairs, a name twice' 1 '--set A: given twice'
+# a CSV file of rows: content, message
+while IFS='|' read -r content message; do
+   printf '%b' "$content" > rows.csv
+   run --set rows.csv good.bdf;       check "--set rows.csv with $content" 1 "rows.csv, $message"
+done <<'ROWS'
+|expected a line of names, then lines with their values
+A,B\n|expected a line of names, then lines with their values
+A,B C\n1,2\n|line 1, column 2: "B C": a name has letters, digits and underscores
+A,\n1,2\n|line 1, column 2: "": a name has letters, digits and underscores
+A,B\n1,2\n\n3\n|line 4: 1 value, expected 2
+A,B\n1,2\n3,4,5\n|line 3: 3 values, expected 2
+A,B\r\n1, \r\n|line 2, column 2: "": a value is a number or a word
+A,B\n1,2\n3,${C}\n|line 3, column 2: "${C}": a value is a number or a word
+A;B\n1;2\n|line 1, column 1: "A;B": a name has letters, digits and underscores
+ROWS
+printf 'A,A\n1,2\n' > rows.csv
+run --set rows.csv good.bdf;          check '--set rows.csv with a name twice' 1 '--set A: given twice'
+printf 'A,B\n1,2\n' > rows.csv
+run --set B=2 --set rows.csv good.bdf; check '--set of a name of rows.csv' 1 '--set B: given twice'
+run --set T=1,2 -;                    check '--set with several runs of the standard input' 1 'the standard input can be read only once'
+run --set nowhere.csv good.bdf;       check '--set of a missing file' 1 '--set nowhere.csv: expected NAME=VALUE'
+printf 'T\n1\n1\n' > rows.csv
+run --set rows.csv -o results good.bdf; check '--set rows.csv with equal rows' 1 'would both write results/good_T=1.out'
+rm rows.csv
+for s in 1- -1 1-2-3 1-1 0-1; do
+   run --watch "2,$s" --check good.bdf; check "--watch '$s'" 2 "--watch 2,$s: expected node numbers, or N-M"
+done
+run --watch 1-9999 --check good.bdf;  check '--watch with a pair of a missing node' 2 'WATCH: node 9999 is not a node of an element'
 for s in '' x 1,b '3 4'; do
    run --watch "$s" good.bdf;          check "--watch '$s'" 1 "--watch $s: expected node numbers"
 done

@@ -54,3 +54,132 @@ sed 's/^SPC = 1/TITLE = FREE/' "$work/varied.bdf" > "$work/free.bdf"
 "$program" -q -o "$work" --set T=2.0 --set C=1.0 --set EU=1.0 --set F=1.0 --summary "$work/sum.csv" "$work/free.bdf" "$work/varied.bdf" > "$work/varied.log" 2>&1
 same 'status of a batch' "$?" 3
 same '... and of its runs' "$(awk -F, 'NR > 1 { printf "%s ", $2 }' "$work/sum.csv")" '3 0 '
+
+# Rows of --set: pairs on the command line and lines of a CSV file run side by side, and give the bytes of single runs and of runs one after
+# another, the screen and the summary included but for its seconds. The second row is pulled off: status 3; the others go on.
+batch_cell() { # SUMMARY VALUES COLUMN: of the row of the run with these values
+   sed 's/, /;/g' "$1" | awk -F, -v deck=";${2//, /;}\"" -v name="$3" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == name) at = k; next }
+      index($1, deck) { print $at }'
+}
+batch_timeless() { sed 's/, /;/g' "$1" | awk -F, -v OFS=, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "seconds") at = k } { $at = ""; print }'; }
+batch_run() { # FOLDER OPTION...: rows of varied.bdf; one of them ends with status 3
+   local folder="$work/$1"
+   shift
+   mkdir -p "$folder"
+   "$program" -q -o "$folder" --set T=2.0 --set EU=1.0+6 --summary "$folder/sum.csv" "$@" "$work/varied.bdf" > "$folder/said" 2> "$folder/told"
+   same "status of rows, $*" "$?" 3
+   sed -i "s|$folder|FOLDER|g" "$folder/said" "$folder/told"
+   batch_timeless "$folder/sum.csv" > "$folder/timeless.csv"
+}
+printf 'C, F\r\n8.0-3,6.0\r\n\r\n8.0-3,-12.0\r\n4.0-3,7.25\r\n8.0-3,12.0' > "$work/rows.csv"
+batch_run rows_1 --threads 1 --watch 2,4,1-2 --set "$work/rows.csv"
+batch_run rows_all --watch 2,4,1-2 --set "$work/rows.csv"
+batch_run rows_pairs --watch 2,4,1-2 --set C=8.0-3,8.0-3,4.0-3,8.0-3:F=6.0,-12.0,7.25,12.0
+for batch_case in rows_all rows_pairs; do
+   same "$batch_case: files, screen and summary as one after another" "$(diff -rq -x sum.csv "$work/rows_1" "$work/$batch_case")" ''
+done
+for batch_row in 8.0-3,6.0 4.0-3,7.25 8.0-3,12.0; do
+   batch_c=${batch_row%,*} batch_f=${batch_row#*,}
+   "$program" -q -o "$work/rows_one" --watch 2,4,1-2 --set T=2.0 --set EU=1.0+6 --set C=$batch_c --set F=$batch_f "$work/varied.bdf" > /dev/null 2>&1
+   for batch_file in out joint.csv stage.csv reaction.csv watch.csv watch.energy.csv between.csv; do
+      same "row $batch_row: $batch_file of the single run" "$(cmp "$work/rows_one/varied.$batch_file" "$work/rows_all/varied_C=${batch_c}_F=${batch_f}.$batch_file" 2>&1)" ''
+   done
+   batch_down=$(number "${batch_c/-/e-}*sqrt(2*$batch_f/16) + 2*$batch_f*5/(9500*16)")
+   batch_of="C=$batch_c, F=$batch_f"
+   near "row $batch_row: the second watched node" "$(batch_cell "$work/rows_all/sum.csv" "$batch_of" stiffness_4)" "2*$batch_f/($batch_down)" 1e-9
+   near '... share of the joint' "$(batch_cell "$work/rows_all/sum.csv" "$batch_of" share_joint_1)" "1 - 2*$batch_f*5/(9500*16)/($batch_down)" 1e-9
+   near '... the block between two nodes' "$(batch_cell "$work/rows_all/sum.csv" "$batch_of" along_1-2)" "-2*$batch_f*5/(9500*16)" 1e-9
+done
+same 'the row that is pulled off' "$(batch_cell "$work/rows_all/sum.csv" 'C=8.0-3, F=-12.0' ended)" '"NO RESULTS"'
+same '... has no numbers' "$(batch_cell "$work/rows_all/sum.csv" 'C=8.0-3, F=-12.0' stiffness_4)" ''
+says '... and its reason' "$work/rows_all/told" 'F=-12.0: .*; no results'
+
+# Rows that take long, of two stages: one whose process is killed runs once more alone, with the same results; at an interrupt the complete row
+# stays, the rows that go on keep their first stage, and the summary has them all.
+cat > "$work/lasting.bdf" <<'DECK'
+METHOD = NEWTON
+SPC = 1
+OUTPUT = NONE
+SUBCASE 1
+  LOAD = 10
+SUBCASE 2
+  LOAD = 20
+  INCR = 5
+BEGIN BULK
+BLOCK2,1,1,30,30,0.0,0.0
++,8.0,5.0
++,5
+PSHELL,1,1,2.0
+MAT1,1,9500.0,,0.0
+PMARK,5
+JOINT,1,1,5
+PJOINT,1,1
+JNORM,1,8.0-3,0.5,1.0+6
+SPCM,1,1,5
+FORCE,10,961,,1.0,0.0,-1.0
+FORCE,20,961,,2.0,0.0,-1.0
+JINCR,5,${N},ARITH,${A}
+ENDDATA
+DECK
+batch_start() { # FOLDER VALUES: rows of lasting.bdf in the background, until two processes of rows go on
+   rm -rf "${work:?}/$1" && mkdir -p "$work/$1"
+   "$program" -q -o "$work/$1" --threads 2 --summary "$work/$1/sum.csv" --set "$2" "$work/lasting.bdf" > "$work/$1.said" 2> "$work/$1.told" &
+   batch_runner=$!
+   for ((batch_i = 0; batch_i < 600; batch_i++)); do
+      [ "$(find "$work/$1" -name '*.early.*.part' | wc -l)" -ge 2 ] && break
+      sleep 0.02
+   done
+}
+batch_start killed N=2,300,301,2:A=.5,3.333333333-3,3.322259136-3,.4
+kill -9 "$(cat /proc/$batch_runner/task/*/children | awk '{ print $1; exit }')"
+wait $batch_runner
+same 'rows, one of which was killed' "$?" 0
+"$program" -q -o "$work/whole" --threads 1 --summary "$work/whole.csv" --set N=2,300,301,2:A=.5,3.333333333-3,3.322259136-3,.4 "$work/lasting.bdf" > "$work/whole.said" 2>&1
+same '... the same files' "$(diff -rq -x sum.csv -x '*.part' "$work/killed" "$work/whole")" ''
+same '... the same summary' "$(batch_timeless "$work/killed/sum.csv")" "$(batch_timeless "$work/whole.csv")"
+batch_start stopped N=2,9000,9001,2:A=.5,1.111111111-4,1.110987668-4,.4
+kill -s TERM $batch_runner
+wait $batch_runner
+same 'rows that are interrupted' "$?" 143
+same '... the complete row' "$(cmp "$work/stopped/lasting_N=2_A=.5.joint.csv" "$work/whole/lasting_N=2_A=.5.joint.csv" 2>&1)" ''
+for batch_of in N=9000_A=1.111111111-4 N=9001_A=1.110987668-4; do
+   says "... $batch_of keeps its first stage" "$work/stopped/lasting_$batch_of.early" 'ENDED EARLY at stage 1, increment 1'
+   says '... and tells it' "$work/stopped.told" "lasting_$batch_of.out keeps the stages that had ended, up to stage 1, increment 1, marked"
+   same '... in the summary' "$(batch_cell "$work/stopped/sum.csv" "${batch_of/_/, }" ended)" '"INTERRUPTED"'
+done
+same '... as a row that had not begun' "$(batch_cell "$work/stopped/sum.csv" 'N=2, A=.4' ended)" '"INTERRUPTED"'
+same '... and the first row with its numbers' "$(batch_cell "$work/stopped/sum.csv" 'N=2, A=.5' increments)" 3
+same '... no part of a file' "$(find "$work/stopped" -name '*.part')" ''
+
+# A row that NEWTON takes too many iterations in one increment for is given up; the rows beside it run. Strips that shear without friction: their
+# elements open one after another and drop their shear. The way of such iterations hangs on rounding, so that several rows may be given up, and
+# one of them at least.
+cat > "$work/endless.bdf" <<'DECK'
+METHOD = NEWTON
+OUTPUT = NONE
+LOAD = 10
+INCR = 5
+BEGIN BULK
+BLOCK2,1,1,${N},1,0.0,0.0
++,${L},4.0
++,5
+PSHELL,1,1,1.0
+MAT1,1,200000.0,,0.3
+PMARK,5
+JOINT,1,1,5
+PJOINT,1,1,1
+JNORM,1,1.0-3,0.5,1.0+4
+JSHEAR,1,5000.0
+FORCE,10,${TIP},,${S},1.0,0.0
+FORCE,10,${N},,1000.,0.0,-1.0
+JINCR,5,1
+ENDDATA
+DECK
+printf 'N,L,TIP,S\n40,40.,82,500.\n50,50.,102,5000.\n150,150.,302,9600.\n160,160.,322,9600.\n170,170.,342,9600.\n40,40.,82,400.\n' > "$work/endless_rows.csv"
+"$program" -q -o "$work/endless" --summary "$work/endless.csv" --set "$work/endless_rows.csv" "$work/endless.bdf" > "$work/endless.said" 2> "$work/endless.told"
+same 'rows that do not end' "$?" 3
+sed 's/, /;/g' "$work/endless.csv" | judge 'rows that do not end are given up, the others run' -F, 'NR == FNR { if (/given up after 2[0-9][0-9][0-9] iterations/) { gsub(/, /, ";"); sub(/: .*/, ""); told[$0] = 1 }; next }
+   FNR > 1 { deck = $1; gsub(/"/, "", deck); n++; given += $15 ~ /GIVEN UP;ENDED EARLY/
+      if (($15 ~ /GIVEN UP/) != (deck in told)) print deck ": " $15
+      if ((deck ~ /N=40;/) && $2 != 0) print deck ": status " $2 }
+   END { if (n != 6) print n " rows"; print "checked " given }' "$work/endless.told" -

@@ -42,6 +42,11 @@ clamped axial 1000. 0. 12. && {
    says 'bolts in the answer' "$work/axial.log" 'TIGHTENED *LARGEST *WHOLE LOAD'
 }
 
+"$program" -q -o "$work" --summary "$work/axial.sum" "$work/axial.bdf" > "$work/axial.log" 2>&1
+bolts_summary() { awk -F, -v c="$1" 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k } NR == 2 { print $at[c] }' "$work/axial.sum"; }
+near 'axial, summary: the least force is that of tightening' "$(bolts_summary bolt_force)" 60 1e-9
+near '... the largest use is that of the first bolt under the load' "$(bolts_summary bolt_use)" "($(of_bolt axial 2 1 force) + 12*$phi)/200" 1e-9
+
 # Loads that no bolt feels, 1000 each, along x against each other on the upper column, on the lower one, and on its support: they have no part
 # in any load of a bolt, whatever stage brings them.
 clamped foreign 1000. 0. 12. 'FORCE,10,102,,1000.,1.;FORCE,10,104,,1000.,-1.;FORCE,20,2,,1000.,-1.;FORCE,20,4,,1000.,1.;FORCE,10,1,,1000.,1.,1.' &&

@@ -213,3 +213,30 @@ between_deck between_modes 'WATCH = 9001-9002\nSET 3 = 9002\nMODES = 6\nFREQUENC
    near 'the largest compliance' "$(table between_modes 'RESPONSE BETWEEN' | awk '$3 == "X" { print $6 }')" \
         "$(awk -F, '$5 == "X" && $6/6 > most { most = $6/6 } END { printf "%.17g", most }' "$work/between_modes.between.response.csv")" 1e-5
 }
+
+# --watch n-m is WATCH = n-m, beside single nodes or alone; nodes of NODEAT, in the deck and on the command line, are those that they stand for.
+# The summary has every node and pair of the last stage with WATCH, and the frequencies.
+watch_also() { # NAME LIST: between_modes without its WATCH; the numbers of NODEAT are 7001, 7002, and 7003 in the place of 7001
+   sed '/^WATCH/d; s/^ENDDATA/NODEAT,7001,0.0,0.0\nNODEAT,7002,30.0,40.0\nENDDATA/' "$work/between_modes.bdf" > "$work/$1.bdf"
+   [ "$2" = deck ] && sed -i 's/^MODEL/WATCH = 7001-7002\n&/' "$work/$1.bdf"
+   "$program" -q -o "$work" --summary "$work/$1.csv" $([ "$2" = deck ] || echo --watch "$2") "$work/$1.bdf" > "$work/$1.log" 2>&1
+   same "--watch $2" "$?" 0
+}
+watch_summary() { sed 's/"[^"]*"/text/g' "$work/$1.csv" | awk -F, -v c="$2" 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k } NR == 2 && c in at { print $at[c] }'; }
+watch_also watch_pair 9001-9002
+watch_also watch_both 9001-9002,9002,9002-9001
+watch_also watch_at 7001-7002
+watch_also watch_deck deck
+for watch_file in between.csv between.modes.csv between.response.csv watch.energy.csv; do
+   same "--watch n-m: $watch_file as with WATCH" "$(cmp "$work/watch_pair.$watch_file" "$work/between_modes.$watch_file" 2>&1)" ''
+   same "... with nodes of NODEAT" "$(sed 's/,700\([12]\),700\([12]\),/,900\1,900\2,/' "$work/watch_at.$watch_file" | cmp - "$work/between_modes.$watch_file" 2>&1)" ''
+   same "... in the deck" "$(cmp "$work/watch_at.$watch_file" "$work/watch_deck.$watch_file" 2>&1)" ''
+done
+near 'summary: the pair' "$(watch_summary watch_both along_9001-9002)" "10*$between_line" 1e-10
+near '... its stiffness' "$(watch_summary watch_both stiffness_9002-9001)" "1/$between_line" 1e-10
+near '... the node' "$(watch_summary watch_both stiffness_9002)" "1/(0.36/4000 + 0.64/8000)" 1e-10
+near '... which is the first' "$(watch_summary watch_both stiffness)" "1/(0.36/4000 + 0.64/8000)" 1e-10
+near '... points of NODEAT' "$(watch_summary watch_at stiffness_7001-7002)" "1/$between_line" 1e-10
+near '... the second frequency' "$(watch_summary watch_at frequency_2)" "sqrt(2000/0.02)/(2*$pi)" 1e-9
+near '... the fourth' "$(watch_summary watch_at frequency_4)" "sqrt(8000/0.03)/(2*$pi)" 1e-9
+same '... and no fifth' "$(watch_summary watch_at frequency_5)" ''
