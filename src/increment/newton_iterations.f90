@@ -32,7 +32,7 @@ contains
 
    !> Iterate ATTEMPT from the committed state or from a guess, which is dropped if poor; commit a converged trial. The guess is
    !! FROM, or an extrapolation along the last increment: under a continued load, elements continue on their branches and in their
-   !! sliding.
+   !! sliding. Where a joint slides on as a whole, a poor guess has the right tangents, and the committed state has not.
    subroutine iterate(model, system, analysis, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -63,7 +63,10 @@ contains
          moves = attempt%moves
          direction = merge(attempt%growth*analysis%du, attempt%move, system%number(:, system%retained) > 0)
          call advance(model, system, analysis, attempt, now, direction, .true., next)
-         guessed = next%size <= half*merge(attempt%load_size, now%size, moves)
+         attempt%length = norm2(direction)
+         attempt%settled = .not. any(next%states%slips .neqv. analysis%states%slips)
+         guessed = next%size <= half*merge(attempt%load_size, now%size, moves) .or. &
+                   (attempt%settled .and. any(loose_joints(model, next%states)))
          call swap(now, next)
          if (.not. guessed) return
       end if

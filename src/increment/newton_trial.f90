@@ -9,8 +9,8 @@ module newton_trial
    use joint_work, only: work_along
    use kinds, only: wp
    use model_data, only: model_type
-   use normal_stiffness, only: normal_state
-   use tolerances, only: tight_direction
+   use normal_stiffness, only: branch_load, branch_unload, normal_state
+   use tolerances, only: rounding_of_forces, tight_direction
    implicit none
    private
 
@@ -240,13 +240,14 @@ contains
 
    end subroutine search
 
-   !> Commit the trial, which is in equilibrium, as the state of the structure.
+   !> Commit the trial, which is in equilibrium, as the state of the structure. An element does not leave its loading curve by the
+   !! rounding of the displacements, which may exceed that of its deflection by far.
    subroutine commit(model, system, trial, analysis)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(trial_type), intent(in)       :: trial
       type(analysis_type), intent(inout) :: analysis
-      integer :: i
+      integer :: i, was
 
       analysis%u = trial%u
       analysis%body = trial%body
@@ -255,7 +256,10 @@ contains
       do i = 1, size(model%joints%element)
          associate (state => analysis%states(i), element => model%joints%element(i), movement => analysis%movement(:, i))
             call analysis%energy(element%joint)%add(work_along(model%joints%list(element%joint)%law, element%area, state, movement))
+            was = state%normal%branch
             state = trial%states(i)
+            if (was == branch_load .and. state%normal%branch == branch_unload .and. state%normal%lambda_a - state%normal%lambda &
+                <= rounding_of_forces*maxval(abs(analysis%u(:, system%interface(i)%node)))) state%normal%branch = branch_load
             state%shear%k_s = [trial%tangent(1, 1, i), trial%tangent(2, 2, i)]
             call rest_when_open(state, movement)
             analysis%record%kind(i) = kind_on_branch(state%normal%branch)

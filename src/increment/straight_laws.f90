@@ -125,7 +125,7 @@ contains
          if (n > 4) then
             if (now%size > 0.5_wp*minval(attempt%sizes(n - 2:n))) attempt%n_slow = attempt%n_slow + 1
          end if
-         attempt%settled = n > 1
+         attempt%settled = attempt%settled .or. n > 1
       end associate
       softer = 1.0_wp
       if (attempt%n_slow > 0) softer = merge(10.0_wp, 0.1_wp, modulo(attempt%n_slow, 2) == 1)

@@ -424,7 +424,7 @@ contains
       ok = abs(q/wanted - 1.0_wp) <= 1.0e-4_wp
    end subroutine find_amplitude
 
-   !> Loops under ALPHA until they have settled.
+   !> Loops under ALPHA until they have settled: twice, for the change of q passes through zero while a loop still moves.
    subroutine run_loops(rest, phi, alpha, q, lost, ok)
       type(state_type), intent(in) :: rest
       real(wp), intent(in)         :: phi(3), alpha
@@ -432,8 +432,9 @@ contains
       logical, intent(out)         :: ok
       type(state_type) :: now
       real(wp) :: high, load(3), lost_before, low, q_before, top
-      integer  :: i
+      integer  :: i, settled
 
+      settled = 0
       load = alpha*inert(phi)
       now = rest
       q = 0.0_wp
@@ -451,8 +452,9 @@ contains
          call go(now, force - load, force + load, stroke, lost, ok)
          high = sum(inert(phi)*(now%u - rest%u))
          q = 0.25_wp*(top + high) - 0.5_wp*low
-         if (i > 1 .and. abs(q - q_before) <= 1.0e-6_wp*q .and. &
-             abs(lost - lost_before) <= 1.0e-3_wp*lost + 1.0e-7_wp*alpha*q) return
+         settled = merge(settled + 1, 0, i > 1 .and. abs(q - q_before) <= 1.0e-6_wp*q .and. &
+                         abs(lost - lost_before) <= 1.0e-3_wp*lost + 1.0e-7_wp*alpha*q)
+         if (settled == 2) return
       end do
    end subroutine run_loops
 

@@ -269,3 +269,18 @@ judge "slip turns with the load: ${turn_errors[*]}" -v p="$turn_p" -v movements=
       if (e[1]^2 > 1e-4 || e[2]^2 > (0.3*e[1])^2 || e[3]^2 > (0.3*e[2])^2 || e[4]^2 > 1e-6) print e[1] " " e[2] " " e[3] ", by default " e[4]
       print "checked 1"; exit }
    function rate(b) { return 1600/20000*300*cos(b)/(l*(1 + 50*1600/20000)) }'
+
+# ---- A block that slides on as a whole against a spring: the tangents of the sliding joint lead from an increment to the next. All nodes
+# slide from increment 7 on, until in 18 and 19 two of them open; the force of the joint is 0.2*2000, the spring takes the rest
+cards slides_on <<'DECK'
+METHOD = NEWTON;MODEL = PLANE;SUBCASE 1;  LOAD = 10;SUBCASE 2;  LOAD = 20;  INCR = 3;BEGIN BULK
+BLOCK2,1,1,8,2,0.0,0.0;+,100.0,20.0;+,14,,12;PMARK,12;PMARK,14;PSHELL,1,1,10.0;MAT1,1,2.1+5,,0.3
+JOINT,1,1,14;PJOINT,1,1,2,,0.2;JNORM,1,1.0-3,0.5,2.0+4;JSHEAR,2,5.0+3;JINCR,3,20;CELAS2,71,1000.0,3,1
+PLOADM,9,2.0,12;FORCE,19,27,,2000.0,1.0,0.0;LOAD,10,1.0,1.0,9;LOAD,20,1.0,1.0,9,1.0,19;ENDDATA
+DECK
+run slides_on && {
+   ask 'sliding on: all nodes are at mu p' slides_on rows 'stage = 2 and increment = 20' all 'tau_x = 0.2*pressure within 1e-6'
+   ask 'sliding on: the joint bears mu N' slides_on rows 'stage = 2 and increment = 20' all 'sum(tau_x*area) = 0.2*2000 within 1e-4'
+   same 'sliding on: one iteration an increment' \
+      "$(awk '/CONVERGENCE HISTORY/ { on = 1; next } /RESULTANTS/ { on = 0 } on && $1 >= 7 && $1 <= 17 && $3 > 1' "$work/slides_on.out")" ''
+}

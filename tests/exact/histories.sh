@@ -194,3 +194,10 @@ run past_a && {
    near 'reloaded past A: the second increment has the tangent of the loading curve' "$(cell past_a 3 2 1 k_n)" 34460.121880225546 1e-12
    near 'reloaded past A: lambda at the end' "$(cell past_a 3 2 1 lambda)" 1.2592095500484053e-2 1e-12
 }
+
+# ---- two leaves that slide under a constant pressure and move a million times the deflection of their joint: the rounding of the
+# displacements takes no element from its loading curve
+for tip in 41.0 57.0; do
+   sed "s/^FORCEM  19      20.0 /FORCEM  19      $tip /" input/two_leaves.bdf > "$work/leaves.bdf"
+   run leaves && ask "leaves under $tip: every element stays on its loading curve" leaves all 'branch = "LOAD"'
+done
