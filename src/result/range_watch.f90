@@ -6,7 +6,7 @@ module range_watch
    use analysis_state, only: analysis_type, free_norm
    use branch_cubic, only: cubic_slope
    use control_words, only: method_back, method_newton
-   use distance_watch, only: farthest_type, record_farthest, watch_distances, watch_path
+   use distance_watch, only: distance_words, farthest_type, record_farthest, watch_distances, watch_path
    use element_kinds, only: kind_tetra4
    use joint_laws, only: friction_excess, friction_limit
    use joint_values, only: joint_values_type
@@ -27,7 +27,7 @@ module range_watch
    implicit none
    private
 
-   public :: start_watch, watch_increment, watch_stage, print_warnings, record_watch, tetra_words
+   public :: start_watch, watch_increment, watch_stage, print_warnings, record_watch, tetra_words, warn
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: a smaller remainder gives no warning
 
@@ -115,7 +115,7 @@ contains
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
-      character(:), allocatable :: head
+      character(:), allocatable :: distance, head
       character(60) :: words
       real(wp) :: excess, limit, unbalanced
       integer  :: i, j, which
@@ -140,6 +140,13 @@ contains
          end do
       end do
       watch%tallies = tally_type()
+
+      if (watch%farthest%node > 0) then ! of the laws; the path was warned of already
+         distance = distance_words(watch%farthest)
+         i = index(distance, '; ')
+         if (i > 0 .and. index(watch%farthest%place, 'stage '//page%stage(7:)//',') == 1) &
+            call warn(watch, '  WARNING: '//upper(distance(:i + 1)), upper(distance(i + 2:)))
+      end if
 
       ! what remains unbalanced, or above a limit
       head = '  WARNING: '//upper(page%place)//': '

@@ -21,6 +21,7 @@ module results
    use mode_values, only: modes_type
    use model_data, only: model_type
    use node_coupling, only: held_forces
+   use page_lines, only: put_lines
    use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, watch_increment, watch_stage
    use restart_stream, only: restart_stream_type
    use result_names, only: early_ending, listing_ending, remove_all
@@ -37,6 +38,7 @@ module results
    use table_column, only: csv_titles
    use table_writer, only: table_type
    use text_tools, only: integer_text, real_text, upper
+   use unit_watch, only: stress_words
    use vibration_tables, only: list_modes
    use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, write_modes, write_vtu
    use watched_nodes, only: find_watched, record_watched, start_watched, state_at_end, watch_answer, watch_state
@@ -233,7 +235,11 @@ contains
          end if
          call page%file%put_lines(page%screen%text_behind(before)) ! the answer is repeated in the listing
       end associate
-      associate (digest => results%counts%digest)
+      associate (digest => results%counts%digest, n_warnings => results%watch%n_warnings)
+         if (bodies%strained > digest%strained .and. stress_words(bodies%strained) /= '') then
+            call put_lines(results%page%file, 'WARNING: '//results%page%stage//': '//upper(stress_words(bodies%strained)), ' ')
+            n_warnings = n_warnings + 1
+         end if
          if (.not. analysis%record%ends_early) digest%stages = digest%stages + 1
          digest%u_max = max(digest%u_max, bodies%displacement%value)
          digest%mises_max = max(digest%mises_max, bodies%at_node%value)

@@ -160,6 +160,7 @@ BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,$1,,0.0;SPC1,1
 DECK
    run units
    same "stress of E = $1" "$(grep -c 'of E, more than solids bear' "$work/units.log")" "$2"
+   same "stress of E = $1: in the listing, counted" "$(grep -c '  WARNING: STAGE 1: THE LARGEST VON MISES' "$work/units.out") $(grep -c " $2 WARNING" "$work/units.out")" "$2 1"
 done
 
 # Between two nodes: 9001 on rods along x and y (k = 1000, 2000), 9002 at (30, 40) from it on others (4000, 8000), pulled apart along their line
