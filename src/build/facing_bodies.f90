@@ -19,7 +19,7 @@ module facing_bodies
    implicit none
    private
 
-   public :: list_bodies, body_words, box_words, list_outer_sides, find_facing, loose_words, rounded
+   public :: list_bodies, body_words, box_words, list_outer_sides, find_facing, gather_facing, loose_words, rounded
 
    integer, parameter  :: most_said = 5        ! number of unsupported bodies that a message lists
 
@@ -174,19 +174,21 @@ contains
       end if
    end subroutine measure
 
-   !> The facing bodies, in the order of their numbers, and for each of SIDES the body that its centre SEES, 0: none.
-   pure subroutine find_facing(mesh, sides, pairs, sees)
+   !> For each of SIDES the nearest side of another body that its centre SEES, 0: none, and how far they are APART.
+   pure subroutine find_facing(mesh, sides, sees, apart)
       type(mesh_type), intent(in) :: mesh
       type(outer_side), intent(in)  :: sides(:)
-      type(facing_type), allocatable, intent(out) :: pairs(:)
-      integer, allocatable, intent(out) :: sees(:) !! (sides)
+      integer, allocatable, intent(out)  :: sees(:)  !! (sides)
+      real(wp), allocatable, intent(out) :: apart(:) !! likewise; huge: it sees none [length]
       type(spatial_search_type) :: search
       real(wp), allocatable :: boxes(:, :, :)
       integer, allocatable  :: found(:)
-      real(wp) :: distance, nearest
-      integer  :: i, k, n, p
+      real(wp) :: distance
+      integer  :: i, k, n
 
-      allocate (boxes(3, 2, size(sides)), sees(size(sides)), pairs(0))
+      allocate (boxes(3, 2, size(sides)))
+      allocate (sees(size(sides)), source=0)
+      allocate (apart(size(sides)), source=huge(1.0_wp))
       do i = 1, size(sides)
          associate (x => mesh%x(:, sides(i)%corners(:sides(i)%n)))
             boxes(:, 1, i) = min(minval(x, dim=2), sides(i)%centre) ! the centre of a shell face lies off its nodes
@@ -195,30 +197,51 @@ contains
       end do
       call search%build(boxes(:, 1, :), boxes(:, 2, :))
       allocate (found(64))
-      sees = 0
       do i = 1, size(sides)
          associate (side => sides(i))
             call search%list_meeting(side%centre - reach*side%size, side%centre + reach*side%size, found, n)
-            nearest = huge(1.0_wp)
             do k = 1, n
                if (sides(found(k))%body == side%body) cycle
                distance = distance_over(mesh, side, sides(found(k)))
-               if (distance >= nearest) cycle
-               nearest = distance
-               sees(i) = sides(found(k))%body
+               if (distance >= apart(i)) cycle
+               apart(i) = distance
+               sees(i) = found(k)
             end do
-            if (sees(i) == 0) cycle
-            p = findloc(pairs%body(1) == min(side%body, sees(i)) .and. pairs%body(2) == max(side%body, sees(i)), .true., dim=1)
-            if (p == 0) then
-               pairs = [pairs, facing_type(body=[min(side%body, sees(i)), max(side%body, sees(i))])]
-               p = size(pairs)
+         end associate
+      end do
+   end subroutine find_facing
+
+   !> The groups of facing sides with the same two bodies and equal columns of KEY, in the order of their first sides; GROUP of
+   !! each side, 0: it sees none.
+   pure subroutine gather_facing(sides, sees, apart, key, pairs, group)
+      type(outer_side), intent(in) :: sides(:)
+      integer, intent(in)          :: sees(:)
+      real(wp), intent(in)         :: apart(:)
+      integer, intent(in)          :: key(:, :) !! (any, sides)
+      type(facing_type), allocatable, intent(out) :: pairs(:)
+      integer, allocatable, intent(out) :: group(:)
+      integer, allocatable :: first(:)          ! side of each group
+      integer :: i, p
+
+      allocate (group(size(sides)), source=0)
+      allocate (pairs(0), first(0))
+      do i = 1, size(sides)
+         if (sees(i) == 0) cycle
+         associate (bodies => [min(sides(i)%body, sides(sees(i))%body), max(sides(i)%body, sides(sees(i))%body)])
+            do p = 1, size(pairs)
+               if (all(pairs(p)%body == bodies) .and. all(key(:, first(p)) == key(:, i))) exit
+            end do
+            if (p > size(pairs)) then
+               pairs = [pairs, facing_type(body=bodies)]
+               first = [first, i]
             end if
-            associate (pair => pairs(p), k => merge(1, 2, side%body == pairs(p)%body(1)))
-               pair%n(k) = pair%n(k) + 1
-               pair%area(k) = pair%area(k) + side%area
-               pair%gap = [min(pair%gap(1), nearest), max(pair%gap(2), nearest)]
-               pair%normal = pair%normal + merge(1, -1, k == 1)*side%area*side%normal
-            end associate
+         end associate
+         group(i) = p
+         associate (pair => pairs(p), side => sides(i), k => merge(1, 2, sides(i)%body == pairs(p)%body(1)))
+            pair%n(k) = pair%n(k) + 1
+            pair%area(k) = pair%area(k) + side%area
+            pair%gap = [min(pair%gap(1), apart(i)), max(pair%gap(2), apart(i))]
+            pair%normal = pair%normal + merge(1, -1, k == 1)*side%area*side%normal
          end associate
       end do
       do p = 1, size(pairs)
@@ -232,7 +255,7 @@ contains
             end if
          end associate
       end do
-   end subroutine find_facing
+   end subroutine gather_facing
 
    !> Distance of the centre of SIDE from OTHER along its normal, gap or overlap [length]; huge where OTHER does not face SIDE
    !! there, or is farther away than the reach of the search.
@@ -331,13 +354,15 @@ contains
       type(outer_side), allocatable  :: sides(:)
       type(facing_type), allocatable :: pairs(:)
       type(spatial_search_type) :: search
-      integer, allocatable :: sees(:), of_body(:), others(:)
+      integer, allocatable :: sees(:), group(:), of_body(:), others(:)
+      real(wp), allocatable :: apart(:)
       real(wp) :: distance, nearest
       integer  :: k, p, point
 
       words = ''
       call list_outer_sides(mesh, body, sides)
-      call find_facing(mesh, sides, pairs, sees)
+      call find_facing(mesh, sides, sees, apart)
+      call gather_facing(sides, sees, apart, reshape([integer ::], [0, size(sides)]), pairs, group)
       pairs = pack(pairs, [(any(pairs(k)%body == i), k = 1, size(pairs))])
       if (size(pairs) > 0) then
          associate (pair => pairs(maxloc([(maxval(pairs(k)%n), k = 1, size(pairs))], dim=1)))

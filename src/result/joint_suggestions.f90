@@ -1,16 +1,18 @@
 !> Suggested cards (--joints) for joints that a deck may lack, and a support for a model without any. A JOINT is suggested
-!! wherever outer sides of two bodies face each other, with the marks of both sides. The support is for a flat underside.
+!! wherever outer sides of two bodies face each other, one for each plane or smooth surface of either body and each mark of the deck
+!! there, with the marks of both sides. The support is for a flat underside.
 module joint_suggestions
+   use curved_faces, only: smooth
    use deck_input, only: deck_type
    use element_kinds, only: element_table
-   use facing_bodies, only: body_type, body_words, box_words, facing_type, find_facing, list_bodies, list_outer_sides, outer_side, &
-                            rounded
+   use facing_bodies, only: body_type, body_words, box_words, facing_type, find_facing, gather_facing, list_bodies, &
+                            list_outer_sides, outer_side, rounded
    use kinds, only: wp
-   use lists, only: list_owners
-   use model_data, only: model_type
+   use lists, only: join, list_owners, root_of
+   use model_data, only: mesh_type, model_type
    use output_file, only: output_file_type
-   use text_tools, only: clean, integer_text, one_of, real_text
-   use tolerances, only: at_the_bottom
+   use text_tools, only: clean, integer_text, one_of, real_text, upper
+   use tolerances, only: at_the_bottom, most_aside, parallel_in_mesh
    implicit none
    private
 
@@ -34,16 +36,25 @@ contains
       type(outer_side), allocatable  :: sides(:)
       type(facing_type), allocatable :: pairs(:)
       type(next_numbers)   :: next
-      integer, allocatable :: sees(:), mark(:)
+      integer, allocatable :: sees(:), mark(:), patch(:), group(:), key(:, :)
+      real(wp), allocatable :: apart(:)
       logical, allocatable :: on_side(:, :)
       integer  :: body(model%mesh%n_elements), first, i, k, marks(2), p
-      logical  :: is_new(2)
+      logical  :: is_new(2), stands_apart
       real(wp) :: reach
 
       call list_bodies(model%mesh, body, bodies)
       call list_outer_sides(model%mesh, body, sides)
-      call find_facing(model%mesh, sides, pairs, sees)
+      call find_facing(model%mesh, sides, sees, apart)
       call find_marks(model, sides, mark)
+      call find_patches(model%mesh, sides, sees, patch)
+      allocate (key(4, size(sides)), source=0) ! patch and mark of the body with the lower number, of the other one
+      do i = 1, size(sides)
+         if (sees(i) == 0) cycle
+         key(:, i) = [patch(i), mark(i), patch(sees(i)), mark(sees(i))]
+         if (sides(i)%body > sides(sees(i))%body) key(:, i) = key([3, 4, 1, 2], i)
+      end do
+      call gather_facing(sides, sees, apart, key, pairs, group)
       associate (bulk => deck%bulk)
          next%element = 1 + maxval([0, model%mesh%element_id, bulk%edge%id, bulk%element%id, bulk%rigid%id, &
                                     bulk%conrod%id, bulk%spring%id, bulk%mass%id, bulk%cjoint%id])
@@ -65,13 +76,15 @@ contains
                integer_text(pair%n(1))//' and '//integer_text(pair%n(2))//' sides, areas '//number(pair%area(1))//' and '// &
                number(pair%area(2))//', gap '//number(pair%gap(1))//' to '//number(pair%gap(2))// &
                ', normal '//box_words(pair%normal))
-            if (minval(pair%n) == 0) then
-               call file%put('$ only body '//integer_text(pair%body(maxloc(pair%n, dim=1)))// &
-                             ' has sides opposite to the other; marks on its sides alone would have no opposite side')
+            do k = 1, 2 ! with the sides of a coarser mesh that are seen, but whose centres see no side of this group
+               on_side(:, k) = sides%body == pair%body(k) .and. group == p
+               if (k == 2) on_side(pack(sees, group == p .and. sides%body == pair%body(1)), k) = .true.
+            end do
+            stands_apart = pair%gap(2) > most_aside*minval(sides%size, mask=on_side(:, 1))
+            if (stands_apart .and. pair%n(2) == 0) then
+               call file%put('$ only body '//integer_text(pair%body(1))//' has sides opposite to the other, apart: no JOINT')
                cycle
             end if
-            on_side(:, 1) = sides%body == pair%body(1) .and. sees == pair%body(2)
-            on_side(:, 2) = sides%body == pair%body(2) .and. sees == pair%body(1)
             do i = 1, size(deck%bulk%joint) ! a joint connects them there if its marks cover more than half of the area
                associate (joint => deck%bulk%joint(i))
                   do k = 1, 2
@@ -85,11 +98,18 @@ contains
             end do
             do k = 1, 2
                call take_mark(deck, pack(mark, on_side(:, k)), next, marks(k), is_new(k))
+               if (is_new(k)) cycle
+               i = findloc(on_side(:, k), .true., dim=1) ! a mark of several patches is none of this joint
+               if (.not. any(mark == marks(k) .and. sides%body == pair%body(k) .and. patch > 0 .and. patch /= patch(i))) cycle
+               call take_mark(deck, [0], next, marks(k), is_new(k))
+            end do
+            do k = 1, 2
                if (is_new(k)) call file%put('PMARK,'//integer_text(marks(k)))
             end do
             reach = max(2.0_wp*pair%gap(2), 0.01_wp*minval(sides%size, mask=sides%body == pair%body(1))) ! TOL
             call file%put('JOINT,'//integer_text(next%joint)//','//integer_text(next%law)//','//integer_text(marks(1))//','// &
                           integer_text(marks(2))//','//number(reach))
+            if (stands_apart) call file%put('JGAP,'//integer_text(next%joint)//',TRUE')
             next%joint = next%joint + 1
             do k = 1, 2
                if (is_new(k)) call put_sides(model, pack(sides, on_side(:, k)), marks(k), next, file)
@@ -97,10 +117,78 @@ contains
          end associate
       end do each_pair
       if (size(pairs) == 0) call file%put('$ no sides of two bodies face each other within a tenth of the edge of a side')
-      if (next%joint > first .and. all(deck%bulk%pjoint%id /= next%law)) call file%put( &
-         '$ PJOINT '//integer_text(next%law)//', the laws of these joints, is not in the deck: --help PJOINT')
+      if (next%joint > first .and. all(deck%bulk%pjoint%id /= next%law)) call suggest_law(deck, next%law, file)
       if (size(deck%bulk%support) == 0) call suggest_support(deck, model, sides, sees, mark, next, file)
    end subroutine suggest_joints
+
+   !> The PATCH of each of SIDES that sees or is seen, 0: neither. Sides at a common edge are of one patch if the surface is smooth
+   !! there; so are flat patches of a body in one plane.
+   pure subroutine find_patches(mesh, sides, sees, patch)
+      type(mesh_type), intent(in)       :: mesh
+      type(outer_side), intent(in)      :: sides(:)
+      integer, intent(in)               :: sees(:)
+      integer, allocatable, intent(out) :: patch(:)
+      integer, allocatable :: first(:), owners(:), roots(:)
+      logical :: faces(size(sides)), is_flat(size(sides))
+      integer :: c, i, j, k
+
+      faces = sees > 0
+      faces(pack(sees, sees > 0)) = .true.
+      patch = [(i, i = 1, size(sides))]
+      call list_owners(mesh%n_nodes, reshape([(merge(sides(i)%corners, 0, faces(i)), i = 1, size(sides))], [4, size(sides)]), &
+                       first, owners)
+      do i = 1, size(sides)
+         if (.not. faces(i)) cycle
+         do c = 1, sides(i)%n
+            do k = first(sides(i)%corners(c)), first(sides(i)%corners(c) + 1) - 1
+               j = owners(k)
+               if (j >= i .or. sides(j)%body /= sides(i)%body) cycle
+               if (dot_product(sides(i)%normal, sides(j)%normal) < smooth) cycle
+               if (count([(any(sides(j)%corners(:sides(j)%n) == sides(i)%corners(k)), k = 1, sides(i)%n)]) >= mesh%dimension - 1) &
+                  call join(patch, i, j)
+            end do
+         end do
+      end do
+      patch = [(merge(root_of(patch, i), 0, faces(i)), i = 1, size(sides))]
+      is_flat = .true.
+      do i = 1, size(sides)
+         if (faces(i)) is_flat(patch(i)) = is_flat(patch(i)) .and. in_plane(i, patch(i))
+      end do
+      roots = pack([(i, i = 1, size(sides))], patch == [(i, i = 1, size(sides))] .and. is_flat)
+      do k = 2, size(roots)
+         do c = 1, k - 1
+            if (patch(roots(c)) /= roots(c) .or. sides(roots(c))%body /= sides(roots(k))%body) cycle
+            if (.not. in_plane(roots(k), roots(c))) cycle
+            where (patch == roots(k)) patch = roots(c)
+            exit
+         end do
+      end do
+
+   contains
+
+      !> Whether side I lies in the plane of side J, on the same side of it.
+      pure logical function in_plane(i, j)
+         integer, intent(in) :: i, j
+
+         in_plane = norm2(sides(i)%normal - sides(j)%normal) < parallel_in_mesh .and. &
+            abs(dot_product(sides(i)%centre - sides(j)%centre, sides(j)%normal)) < most_aside*(sides(i)%size + sides(j)%size)
+      end function in_plane
+
+   end subroutine find_patches
+
+   !> Comments about PJOINT LAW, which the deck lacks: a published surface in its units.
+   subroutine suggest_law(deck, law, file)
+      type(deck_type), intent(in)           :: deck
+      integer, intent(in)                   :: law
+      type(output_file_type), intent(inout) :: file
+
+      call file%put('$')
+      call file%put('$ PJOINT '//integer_text(law)//', the laws of these joints, is not in the deck; for ground faces (others: '// &
+                    'input/surfaces/README.md):')
+      call file%put('$ PJOINT,'//integer_text(law)//',9106,9106,9106')
+      call file%put("$ INCLUDE 'surfaces/"//one_of(upper(trim(deck%control%force_unit)) == 'KGF', 'mm_kgf', 'mm_n')// &
+                    "/ground_on_ground.bdf'")
+   end subroutine suggest_law
 
    !> The MARK of the deck of each of SIDES, the last of several; 0: none.
    subroutine find_marks(model, sides, mark)
