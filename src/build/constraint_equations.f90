@@ -15,7 +15,7 @@ module constraint_equations
    implicit none
    private
 
-   public :: add_dependence, add_expansion, add_term, check_dependences, eliminate, solve_for
+   public :: add_dependence, add_expansion, add_term, check_dependences, eliminate, follow_dependents, solve_for
 
    !> What a rigid element adds to a constraint equation when it is warmed: GROWTH times T - REFERENCE, T the mean of two POINTS.
    type, public :: expansion_type
@@ -86,6 +86,37 @@ contains
          list%expansions = [list%expansions, expansion_type(item%node, item%d, points, item%line, growth, reference)]
       end associate
    end subroutine add_expansion
+
+   !> Put the equations of dependent components in their place in the equations FIRST to LAST of LIST. A dependent component that
+   !! expands stays, and is an error.
+   pure subroutine follow_dependents(mesh, list, first, last)
+      type(mesh_type), intent(in)          :: mesh
+      type(dependence_list), intent(inout) :: list
+      integer, intent(in)                  :: first, last
+      type(component_place), allocatable :: terms(:)
+      integer, allocatable :: of(:, :) ! (dimension, n_nodes) the other equation of a component, 0: none
+      integer :: i, j, k, m
+
+      allocate (of(mesh%dimension, mesh%n_nodes), source=0)
+      do i = 1, list%n
+         if ((i < first .or. i > last) .and. .not. list%item(i)%expands) of(list%item(i)%d, list%item(i)%node) = i
+      end do
+      do i = first, last
+         terms = list%item(i)%on(:list%item(i)%n)
+         list%item(i)%on = [component_place ::]
+         do k = 1, size(terms)
+            j = of(terms(k)%d, terms(k)%node)
+            if (j == 0) then
+               list%item(i)%on = [list%item(i)%on, terms(k)]
+            else
+               associate (on => list%item(j)%on(:list%item(j)%n), factor => terms(k)%scale)
+                  list%item(i)%on = [list%item(i)%on, [(component_place(on(m)%node, on(m)%d, factor*on(m)%scale), m = 1, size(on))]]
+               end associate
+            end if
+         end do
+         list%item(i)%n = size(list%item(i)%on)
+      end do
+   end subroutine follow_dependents
 
    !> Errors: a component that depends twice, is supported too, or depends on a dependent component.
    subroutine check_dependences(deck, mesh, freedoms, list)
