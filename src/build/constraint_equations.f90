@@ -5,7 +5,7 @@ module constraint_equations
    use blas_lapack, only: dgesv
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use mesh_queries, only: node_kind, open_left_out, point_of
+   use mesh_queries, only: node_kind, open_left_out, point_of, shown_number
    use model_data, only: a_rotation, freedoms_type, mesh_type
    use node_coupling, only: couple_node
    use numbers, only: identity
@@ -221,7 +221,7 @@ contains
 
       digit = d
       if (node_kind(mesh, node) == a_rotation) digit = merge(d + 3, 6, mesh%dimension == 3)
-      words = 'component '//integer_text(digit)//' of node '//integer_text(mesh%node_id(point_of(mesh, node)))
+      words = 'component '//integer_text(digit)//' of node '//integer_text(shown_number(mesh, point_of(mesh, node)))
    end function component_text
 
    !> Couple the nodes of LIST, whose cards have no errors: their dependent components lose their unknowns and follow the equations,

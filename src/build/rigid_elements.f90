@@ -91,7 +91,7 @@ contains
             if (card%is_mean) then ! on second-order triangles only mid-side nodes have an area
                counts = abs(list%area) > zero_area*maxval(abs(list%area))
             else
-               counts = mesh%node_id(list%node) /= card%node
+               counts = list%node /= mesh%node_table%find(card%node) ! GN may be a NODEAT
             end if
             card%nodes = pack(mesh%node_id(list%node), counts)
             card%weight = pack(list%area, counts)

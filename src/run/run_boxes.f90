@@ -22,6 +22,7 @@ module run_boxes
    use load_path, only: recover_bodies
    use machine, only: keep_memory, note_first_call, use_threads
    use memory_need, only: check_buffers, check_model_size
+   use mesh_queries, only: name_placed
    use modal_response, only: find_response, response_type
    use mode_values, only: evaluate_modes, modes_type
    use model_build, only: build_model
@@ -221,6 +222,7 @@ contains
       do i = 1, size(model%warnings)
          call tell(run, model%warnings(i)%words)
       end do
+      if (.not. is_over(run)) call name_placed(model%mesh)
    end subroutine build_structure
 
    !> Form [k_b] of the bodies and factorise the part that no joint changes; then the listing can be opened.

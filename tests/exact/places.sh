@@ -45,8 +45,19 @@ by_place near 'RBE2M,905,15,123456,30;NODEAT,7001,10.,10.,14.;NODEAT,7002,10.,10
    same 'NODEAT: of a surface' "$(placed_row near 7002 1)" 15
    near 'NODEAT: distance' "$(placed_row near 7001 8)" 1 1e-9
    same 'NODEAT: of equally near ones the lowest' "$(placed_row near 7003 1)" 3
-   same 'SET of NODEAT and PMARK' "$(awk -F, 'NR > 1 { n = n " " $2 } END { print n }' "$work/near.watch.csv")" ' 3 6 9 12 14 15 18 21 24 27'
+   same 'SET of NODEAT and PMARK' "$(awk -F, 'NR > 1 { n = n " " $2 } END { print n }' "$work/near.watch.csv")" ' 7003 6 9 12 7001 7002 18 21 24 27'
 }
+# results have the numbers of NODEAT, of two of one node the first: joint history, summary, messages; GN of an RBE2M may be one
+by_place named 'RBE2M,905,15,123456,30;NODEAT,7004,,,;NODEAT,7005,,,' 15 'WATCH = SET 4;SET 4 = 7005' && {
+   same 'NODEAT in the joint history' "$(awk -F, '$2 == 3 && $5 == 1 { print $6 }' "$work/named.joint.csv")" 7004
+   same 'NODEAT in WATCH' "$(awk -F, 'END { print $2 }' "$work/named.watch.csv")" 7004
+   "$program" -q -o "$work" --summary "$work/named.sum" "$work/named.bdf" > "$work/named.log" 2>&1
+   same 'NODEAT in the summary' "$(awk -F, 'NR == 1 { for (c = 1; c <= NF; c++) if ($c == "watched") n = c } END { print $n }' "$work/named.sum")" 7004
+}
+sed 's/^\(JAMPL.*\)2$/\1 2       7004/; s/^ENDDATA/NODEAT,7004,,,\n&/' input/bolted_lap.bdf > "$work/named.bdf"
+grep -q '7004$' "$work/named.bdf" && "$program" --check "$work/named.bdf" > "$work/named.log" 2>&1
+same 'NODEAT as GID of JAMPL' $? 0
+by_place near_gn 'RBE2M,905,7004,123456,30;NODEAT,7004,10.,10.,30.,30' 7004 && same_rows 'RBE2M with a GN of NODEAT' near_gn rigid_mark 1e-9 $resultant
 by_place near_list 'RBE2M,905,15,123456,30' 15 && same_rows 'force on NODEAT' near near_list 0 $resultant
 
 # an even traction by RBE3M on faces of second order: the pressure of the joint is even
