@@ -1,18 +1,23 @@
-!> How far a run is from what it should follow: STEP from its laws, NEWTON from the path of many increments. The largest distance is
-!! told on the screen; that of NEWTON is warned of in the listing too.
+!> How far a run is from what it should follow: STEP from its laws, NEWTON from the path of many increments; and how much of the
+!! movement of a stage a default E_u decides.
 module distance_watch
-   use analysis_state, only: path_error_type
+   use analysis_state, only: analysis_type, path_error_type
    use joint_values, only: joint_values_type
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
+   use normal_curve, only: loading_pressure, normal_tangent
+   use normal_stiffness, only: branch_load, branch_open
    use restart_stream, only: restart_stream_type
+   use stage_plan, only: node_pair
    use text_tools, only: integer_text, real_text
+   use watched_nodes, only: find_watched, watch_answer, watch_state
    implicit none
    private
 
-   public :: watch_distances, watch_path, distance_words, record_farthest
+   public :: watch_distances, watch_path, distance_words, default_slope_words, record_farthest
 
    real(wp), parameter :: far = 0.02_wp      ! of the largest deflection or stress: beyond it the answer is not that of the laws
+   real(wp), parameter :: decides = 0.01_wp  ! of the movement of a stage: by an E_u that nobody gave
    real(wp), parameter :: off_path = 0.01_wp ! of the largest deflection or pressure, of the area of a joint: likewise of the path
 
    !> The largest distance from a law, or from the path, in a run.
@@ -89,6 +94,47 @@ contains
                  ' away from the path of many increments, in '//farthest%place//'; without INCR it follows the path'
       end if
    end function distance_words
+
+   !> What the default E_u decides of the stage just completed, BEFORE is its start: the share in the work of the structure of the
+   !! movements on lines of this slope, and by how much the movement would grow at most with the slope of loading at point A for E_u
+   !! (the same forces, so that the complementary energy is an upper bound). '' where both are small. WORK as in watched_nodes.
+   function default_slope_words(model, analysis, before) result(words)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(watch_state), intent(in)   :: before
+      character(:), allocatable :: words
+      type(watch_answer) :: answer
+      real(wp) :: shares(2, size(model%joints%list)), p(2), lambda(2), dp, moved ! at the start and at the end of the way on the line
+      integer  :: i
+
+      words = ''
+      shares = 0.0_wp
+      do i = 1, size(model%joints%element)
+         associate (element => model%joints%element(i), j => model%joints%element(i)%joint, state => analysis%states(i)%normal)
+            if (model%joints%list(j)%e_u_given .or. state%branch == branch_load .or. .not. state%p_a > 0.0_wp) cycle
+            associate (law => model%joints%list(j)%law%normal)
+               lambda = [max(before%movement(3, i) - element%gap, state%lambda_a - state%p_a/law%e_u), state%lambda]
+               if (state%branch == branch_open) lambda(2) = state%lambda_b
+               p = [before%force(3, i)/element%area, state%pressure]
+               if (lambda(1) >= state%lambda_a .or. abs(p(1) - loading_pressure(law, lambda(1))) < &
+                   abs(p(1) - (state%p_a - law%e_u*(state%lambda_a - lambda(1))))) then ! it came along the loading curve, through A
+                  p(1) = state%p_a
+                  lambda(1) = state%lambda_a
+               end if
+               dp = abs(p(2) - p(1))
+               moved = abs(lambda(2) - lambda(1))
+               shares(:, j) = shares(:, j) + 0.5_wp*element%area*dp* &
+                              [moved, max(0.0_wp, dp/normal_tangent(law, 1.0_wp, state%p_a, state%p_av) - moved)]
+            end associate
+         end associate
+      end do
+      if (.not. any(shares > 0.0_wp)) return
+      call find_watched(model, analysis, [integer ::], [node_pair ::], before, answer)
+      if (.not. answer%work > 0.0_wp .or. sum(shares) < decides*answer%work) return
+      words = 'ELEMENTS UNLOADED ON THE DEFAULT E_U, MOST IN JOINT '//integer_text(model%joints%list(maxloc(sum(shares, dim=1), &
+         dim=1))%id)//': '//percent(sum(shares(1, :))/answer%work)//' OF THE MOVEMENT; UP TO '// &
+         percent(sum(shares(2, :))/answer%work)//' MORE WITH THE SLOPE OF LOADING: GIVE EU ON JNORM'
+   end function default_slope_words
 
    !> SHARE in per cent, with one decimal.
    pure function percent(share) result(words)

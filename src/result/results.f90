@@ -8,6 +8,7 @@ module results
                            start_bolts
    use c_library, only: close_file, lock_folder
    use deck_input, only: deck_type
+   use distance_watch, only: default_slope_words
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
    use finished_stages, only: count_increment, count_type, finished_type, listing_end, mark_finished, name_companion, &
@@ -22,7 +23,8 @@ module results
    use model_data, only: model_type
    use node_coupling, only: held_forces
    use page_lines, only: put_lines
-   use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, watch_increment, watch_stage
+   use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, warn, watch_increment, &
+                          watch_stage
    use restart_stream, only: restart_stream_type
    use result_names, only: early_ending, listing_ending, remove_all
    use result_page, only: backbone_table, bend_table, bolt_table, energy_table, joint_table, loop_table, modes_table, page_type, &
@@ -63,7 +65,7 @@ module results
       type(joint_values_type), allocatable, private :: joints_now(:) ! after the last increment
       type(bolt_answer_type), allocatable, private  :: bolts_now(:)
       type(cut_type), allocatable, private :: cuts(:) ! (joints) by planes of symmetry
-      type(watch_state), private      :: watched_before ! at the end of the last stage, where nodes are watched
+      type(watch_state), private      :: watched_before ! at the end of the last stage
    end type results_type
 
 contains
@@ -89,7 +91,7 @@ contains
       results%method = deck%control%method
       call find_cuts(model, planes, results%cuts)
       call start_bolts(model, planes, results%cuts, results%bolts)
-      if (plan%has_watched_nodes) call start_watched(model, results%watched_before)
+      call start_watched(model, results%watched_before)
       call start_watch(model, results%watch)
       associate (page => results%page, control => deck%control)
          if (base == '') call page%file%start('')
@@ -192,7 +194,7 @@ contains
       type(body_values_type) :: bodies
       type(joint_answer), allocatable :: joints(:)
       type(reactions_type) :: reactions
-      character(:), allocatable :: fault, title
+      character(:), allocatable :: fault, title, words
       integer :: before, i
 
       associate (stage => plan%stages(analysis%stage), page => results%page)
@@ -209,6 +211,9 @@ contains
             call list_shell_forces(page, model, analysis, is_listed=.false.)
          end if
          call watch_stage(page, model, analysis, results%watch)
+         words = default_slope_words(model, analysis, results%watched_before)
+         i = index(words, '; ') + 1
+         if (i > 1) call warn(results%watch, '  WARNING: '//page%stage//': '//words(:i), words(i + 1:))
          do i = 1, n_stage_tables
             if (i == pass_rows) call print_warnings(results%watch, page%file)
             call results%stage_tables(i)%print_kept(page%file)
@@ -248,7 +253,7 @@ contains
          digest%safety = min(digest%safety, minval(joints%safety, mask=joints%has_safety))
       end associate
       call end_bolts(results%bolts_now, results%bolts)
-      if (plan%has_watched_nodes) results%watched_before = state_at_end(model, analysis)
+      results%watched_before = state_at_end(model, analysis)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
 
@@ -371,7 +376,7 @@ contains
       call record_watch(stream, results%watch)
       call record_vtu(results%vtu, stream)
       call record_bolts(stream, results%bolts)
-      if (allocated(results%watched_before%u)) call record_watched(stream, results%watched_before)
+      call record_watched(stream, results%watched_before)
       call record_finished(stream, results%base, results%page, results%finished)
    end subroutine record_results
 
