@@ -93,28 +93,26 @@ contains
       type(mesh_type), intent(in)          :: mesh
       type(dependence_list), intent(inout) :: list
       integer, intent(in)                  :: first, last
-      type(component_place), allocatable :: terms(:)
-      integer, allocatable :: of(:, :) ! (dimension, n_nodes) the other equation of a component, 0: none
+      type(component_place), allocatable :: on(:)
+      integer :: of(mesh%dimension, mesh%n_nodes) ! the other equation of a component, 0: none
       integer :: i, j, k, m
 
-      allocate (of(mesh%dimension, mesh%n_nodes), source=0)
+      of = 0
       do i = 1, list%n
          if ((i < first .or. i > last) .and. .not. list%item(i)%expands) of(list%item(i)%d, list%item(i)%node) = i
       end do
       do i = first, last
-         terms = list%item(i)%on(:list%item(i)%n)
-         list%item(i)%on = [component_place ::]
-         do k = 1, size(terms)
-            j = of(terms(k)%d, terms(k)%node)
-            if (j == 0) then
-               list%item(i)%on = [list%item(i)%on, terms(k)]
-            else
-               associate (on => list%item(j)%on(:list%item(j)%n), factor => terms(k)%scale)
-                  list%item(i)%on = [list%item(i)%on, [(component_place(on(m)%node, on(m)%d, factor*on(m)%scale), m = 1, size(on))]]
-               end associate
-            end if
+         on = [component_place ::]
+         do k = 1, list%item(i)%n
+            associate (term => list%item(i)%on(k))
+               j = of(term%d, term%node)
+               if (j == 0) on = [on, term]
+               if (j > 0) on = [on, [(component_place(list%item(j)%on(m)%node, list%item(j)%on(m)%d, &
+                                                      term%scale*list%item(j)%on(m)%scale), m = 1, list%item(j)%n)]]
+            end associate
          end do
-         list%item(i)%n = size(list%item(i)%on)
+         list%item(i)%n = size(on)
+         call move_alloc(on, list%item(i)%on)
       end do
    end subroutine follow_dependents
 

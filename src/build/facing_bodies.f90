@@ -39,6 +39,8 @@ module facing_bodies
       real(wp) :: normal(3) = 0.0_wp           !! unit, out of the body
       real(wp) :: area = 0.0_wp                !! [length^2]
       real(wp) :: size = 0.0_wp                !! longest edge [length]
+      integer  :: sees = 0                     !! the nearest side of another body over its centre, 0: none
+      real(wp) :: apart = huge(1.0_wp)         !! their distance [length]
    end type outer_side
 
    !> Two facing bodies, with the sides whose centres face the other body. SIDE1, with the finer mesh, comes first.
@@ -174,12 +176,10 @@ contains
       end if
    end subroutine measure
 
-   !> For each of SIDES the nearest side of another body that its centre SEES, 0: none, and how far they are APART.
-   pure subroutine find_facing(mesh, sides, sees, apart)
+   !> What each of SIDES sees.
+   pure subroutine find_facing(mesh, sides)
       type(mesh_type), intent(in) :: mesh
-      type(outer_side), intent(in)  :: sides(:)
-      integer, allocatable, intent(out)  :: sees(:)  !! (sides)
-      real(wp), allocatable, intent(out) :: apart(:) !! likewise; huge: it sees none [length]
+      type(outer_side), intent(inout) :: sides(:)
       type(spatial_search_type) :: search
       real(wp), allocatable :: boxes(:, :, :)
       integer, allocatable  :: found(:)
@@ -187,8 +187,6 @@ contains
       integer  :: i, k, n
 
       allocate (boxes(3, 2, size(sides)))
-      allocate (sees(size(sides)), source=0)
-      allocate (apart(size(sides)), source=huge(1.0_wp))
       do i = 1, size(sides)
          associate (x => mesh%x(:, sides(i)%corners(:sides(i)%n)))
             boxes(:, 1, i) = min(minval(x, dim=2), sides(i)%centre) ! the centre of a shell face lies off its nodes
@@ -203,9 +201,9 @@ contains
             do k = 1, n
                if (sides(found(k))%body == side%body) cycle
                distance = distance_over(mesh, side, sides(found(k)))
-               if (distance >= apart(i)) cycle
-               apart(i) = distance
-               sees(i) = found(k)
+               if (distance >= side%apart) cycle
+               side%apart = distance
+               side%sees = found(k)
             end do
          end associate
       end do
@@ -213,34 +211,32 @@ contains
 
    !> The groups of facing sides with the same two bodies and equal columns of KEY, in the order of their first sides; GROUP of
    !! each side, 0: it sees none.
-   pure subroutine gather_facing(sides, sees, apart, key, pairs, group)
+   pure subroutine gather_facing(sides, key, pairs, group)
       type(outer_side), intent(in) :: sides(:)
-      integer, intent(in)          :: sees(:)
-      real(wp), intent(in)         :: apart(:)
       integer, intent(in)          :: key(:, :) !! (any, sides)
       type(facing_type), allocatable, intent(out) :: pairs(:)
       integer, allocatable, intent(out) :: group(:)
       integer, allocatable :: first(:)          ! side of each group
-      integer :: i, p
+      integer :: bodies(2), i, p
 
       allocate (group(size(sides)), source=0)
       allocate (pairs(0), first(0))
       do i = 1, size(sides)
-         if (sees(i) == 0) cycle
-         associate (bodies => [min(sides(i)%body, sides(sees(i))%body), max(sides(i)%body, sides(sees(i))%body)])
-            do p = 1, size(pairs)
-               if (all(pairs(p)%body == bodies) .and. all(key(:, first(p)) == key(:, i))) exit
-            end do
-            if (p > size(pairs)) then
-               pairs = [pairs, facing_type(body=bodies)]
-               first = [first, i]
-            end if
-         end associate
+         if (sides(i)%sees == 0) cycle
+         bodies = [sides(i)%body, sides(sides(i)%sees)%body]
+         bodies = [minval(bodies), maxval(bodies)]
+         do p = 1, size(pairs)
+            if (all(pairs(p)%body == bodies) .and. all(key(:, first(p)) == key(:, i))) exit
+         end do
+         if (p > size(pairs)) then
+            pairs = [pairs, facing_type(body=bodies)]
+            first = [first, i]
+         end if
          group(i) = p
          associate (pair => pairs(p), side => sides(i), k => merge(1, 2, sides(i)%body == pairs(p)%body(1)))
             pair%n(k) = pair%n(k) + 1
             pair%area(k) = pair%area(k) + side%area
-            pair%gap = [min(pair%gap(1), apart(i)), max(pair%gap(2), apart(i))]
+            pair%gap = [min(pair%gap(1), side%apart), max(pair%gap(2), side%apart)]
             pair%normal = pair%normal + merge(1, -1, k == 1)*side%area*side%normal
          end associate
       end do
@@ -354,15 +350,14 @@ contains
       type(outer_side), allocatable  :: sides(:)
       type(facing_type), allocatable :: pairs(:)
       type(spatial_search_type) :: search
-      integer, allocatable :: sees(:), group(:), of_body(:), others(:)
-      real(wp), allocatable :: apart(:)
+      integer, allocatable :: group(:), of_body(:), others(:)
       real(wp) :: distance, nearest
       integer  :: k, p, point
 
       words = ''
       call list_outer_sides(mesh, body, sides)
-      call find_facing(mesh, sides, sees, apart)
-      call gather_facing(sides, sees, apart, reshape([integer ::], [0, size(sides)]), pairs, group)
+      call find_facing(mesh, sides)
+      call gather_facing(sides, reshape([integer ::], [0, size(sides)]), pairs, group)
       pairs = pack(pairs, [(any(pairs(k)%body == i), k = 1, size(pairs))])
       if (size(pairs) > 0) then
          associate (pair => pairs(maxloc([(maxval(pairs(k)%n), k = 1, size(pairs))], dim=1)))

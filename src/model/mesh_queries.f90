@@ -8,7 +8,7 @@ module mesh_queries
 
    public :: start_mesh, start_freedoms, start_parts, open_left_out
    public :: n_points, n_rotations, node_kind, place_in_kind, point_of, element_points, is_shell, is_beam, is_face_node, &
-             shown_number, name_placed
+             shown_number
 
 contains
 
@@ -22,16 +22,6 @@ contains
       k = findloc(mesh%placed%id > 0 .and. mesh%placed%node == node, .true., dim=1)
       if (k > 0) number = mesh%placed(k)%id
    end function shown_number
-
-   !> Once the model is built numbers are for print only: the nodes of NODEAT get its numbers.
-   pure subroutine name_placed(mesh)
-      type(mesh_type), intent(inout) :: mesh
-      integer :: k
-
-      do k = 1, size(mesh%placed)
-         mesh%node_id(mesh%placed(k)%node) = shown_number(mesh, mesh%placed(k)%node)
-      end do
-   end subroutine name_placed
 
    !> Start MESH: the lists that a deck need not fill are empty.
    pure subroutine start_mesh(mesh)

@@ -104,28 +104,27 @@ contains
       type(watch_state), intent(in)   :: before
       character(:), allocatable :: words
       type(watch_answer) :: answer
-      real(wp) :: shares(2, size(model%joints%list)), p(2), lambda(2), dp, moved ! at the start and at the end of the way on the line
+      real(wp) :: shares(2, size(model%joints%list)), dp, lambda, moved, p
       integer  :: i
 
       words = ''
       shares = 0.0_wp
       do i = 1, size(model%joints%element)
-         associate (element => model%joints%element(i), j => model%joints%element(i)%joint, state => analysis%states(i)%normal)
-            if (model%joints%list(j)%e_u_given .or. state%branch == branch_load .or. .not. state%p_a > 0.0_wp) cycle
-            associate (law => model%joints%list(j)%law%normal)
-               lambda = [max(before%movement(3, i) - element%gap, state%lambda_a - state%p_a/law%e_u), state%lambda]
-               if (state%branch == branch_open) lambda(2) = state%lambda_b
-               p = [before%force(3, i)/element%area, state%pressure]
-               if (lambda(1) >= state%lambda_a .or. abs(p(1) - loading_pressure(law, lambda(1))) < &
-                   abs(p(1) - (state%p_a - law%e_u*(state%lambda_a - lambda(1))))) then ! it came along the loading curve, through A
-                  p(1) = state%p_a
-                  lambda(1) = state%lambda_a
-               end if
-               dp = abs(p(2) - p(1))
-               moved = abs(lambda(2) - lambda(1))
-               shares(:, j) = shares(:, j) + 0.5_wp*element%area*dp* &
-                              [moved, max(0.0_wp, dp/normal_tangent(law, 1.0_wp, state%p_a, state%p_av) - moved)]
-            end associate
+         associate (element => model%joints%element(i), state => analysis%states(i)%normal, &
+                    joint => model%joints%list(model%joints%element(i)%joint))
+            if (joint%e_u_given .or. state%branch == branch_load .or. .not. state%p_a > 0.0_wp) cycle
+            lambda = before%movement(3, i) - element%gap ! from where, and from which pressure, it moved on the line
+            p = before%force(3, i)/element%area
+            if (lambda >= state%lambda_a .or. abs(p - loading_pressure(joint%law%normal, lambda)) < &
+                abs(p - max(0.0_wp, state%p_a - joint%law%normal%e_u*(state%lambda_a - lambda)))) then
+               lambda = state%lambda_a ! it came along the loading curve to A
+               p = state%p_a
+            end if
+            dp = abs(state%pressure - p)
+            moved = abs(merge(state%lambda_b, state%lambda, state%branch == branch_open) - &
+                        max(lambda, state%lambda_a - state%p_a/joint%law%normal%e_u))
+            shares(:, element%joint) = shares(:, element%joint) + 0.5_wp*element%area*dp* &
+               [moved, max(0.0_wp, dp/normal_tangent(joint%law%normal, 1.0_wp, state%p_a, state%p_av) - moved)]
          end associate
       end do
       if (.not. any(shares > 0.0_wp)) return

@@ -36,8 +36,8 @@ contains
       type(outer_side), allocatable  :: sides(:)
       type(facing_type), allocatable :: pairs(:)
       type(next_numbers)   :: next
-      integer, allocatable :: sees(:), mark(:), patch(:), group(:), key(:, :)
-      real(wp), allocatable :: apart(:)
+      character(1), parameter :: nl = new_line('a')
+      integer, allocatable :: mark(:), own(:), patch(:), group(:), key(:, :)
       logical, allocatable :: on_side(:, :)
       integer  :: body(model%mesh%n_elements), first, i, k, marks(2), p
       logical  :: is_new(2), stands_apart
@@ -45,16 +45,19 @@ contains
 
       call list_bodies(model%mesh, body, bodies)
       call list_outer_sides(model%mesh, body, sides)
-      call find_facing(model%mesh, sides, sees, apart)
+      call find_facing(model%mesh, sides)
       call find_marks(model, sides, mark)
-      call find_patches(model%mesh, sides, sees, patch)
+      call find_patches(model%mesh, sides, patch)
+      own = [(merge(0, mark(i), any(mark == mark(i) .and. sides%body == sides(i)%body .and. patch > 0 .and. patch /= patch(i))), &
+              i = 1, size(sides))] ! without marks over several patches
       allocate (key(4, size(sides)), source=0) ! patch and mark of the body with the lower number, of the other one
       do i = 1, size(sides)
-         if (sees(i) == 0) cycle
-         key(:, i) = [patch(i), mark(i), patch(sees(i)), mark(sees(i))]
-         if (sides(i)%body > sides(sees(i))%body) key(:, i) = key([3, 4, 1, 2], i)
+         k = sides(i)%sees
+         if (k == 0) cycle
+         key(:, i) = [patch(i), own(i), patch(k), own(k)]
+         if (sides(i)%body > sides(k)%body) key(:, i) = key([3, 4, 1, 2], i)
       end do
-      call gather_facing(sides, sees, apart, key, pairs, group)
+      call gather_facing(sides, key, pairs, group)
       associate (bulk => deck%bulk)
          next%element = 1 + maxval([0, model%mesh%element_id, bulk%edge%id, bulk%element%id, bulk%rigid%id, &
                                     bulk%conrod%id, bulk%spring%id, bulk%mass%id, bulk%cjoint%id])
@@ -78,7 +81,7 @@ contains
                ', normal '//box_words(pair%normal))
             do k = 1, 2 ! with the sides of a coarser mesh that are seen, but whose centres see no side of this group
                on_side(:, k) = sides%body == pair%body(k) .and. group == p
-               if (k == 2) on_side(pack(sees, group == p .and. sides%body == pair%body(1)), k) = .true.
+               if (k == 2) on_side(pack(sides%sees, group == p .and. sides%body == pair%body(1)), k) = .true.
             end do
             stands_apart = pair%gap(2) > most_aside*minval(sides%size, mask=on_side(:, 1))
             if (stands_apart .and. pair%n(2) == 0) then
@@ -97,13 +100,7 @@ contains
                end associate
             end do
             do k = 1, 2
-               call take_mark(deck, pack(mark, on_side(:, k)), next, marks(k), is_new(k))
-               if (is_new(k)) cycle
-               i = findloc(on_side(:, k), .true., dim=1) ! a mark of several patches is none of this joint
-               if (.not. any(mark == marks(k) .and. sides%body == pair%body(k) .and. patch > 0 .and. patch /= patch(i))) cycle
-               call take_mark(deck, [0], next, marks(k), is_new(k))
-            end do
-            do k = 1, 2
+               call take_mark(deck, pack(own, on_side(:, k)), next, marks(k), is_new(k))
                if (is_new(k)) call file%put('PMARK,'//integer_text(marks(k)))
             end do
             reach = max(2.0_wp*pair%gap(2), 0.01_wp*minval(sides%size, mask=sides%body == pair%body(1))) ! TOL
@@ -117,78 +114,38 @@ contains
          end associate
       end do each_pair
       if (size(pairs) == 0) call file%put('$ no sides of two bodies face each other within a tenth of the edge of a side')
-      if (next%joint > first .and. all(deck%bulk%pjoint%id /= next%law)) call suggest_law(deck, next%law, file)
-      if (size(deck%bulk%support) == 0) call suggest_support(deck, model, sides, sees, mark, next, file)
+      if (next%joint > first .and. all(deck%bulk%pjoint%id /= next%law)) call file%put_lines('$'//nl// &
+         '$ PJOINT '//integer_text(next%law)//', the laws of these joints, is not in the deck; a published surface:'//nl// &
+         '$ PJOINT,'//integer_text(next%law)//",9106,9106,9106"//nl//"$ INCLUDE 'surfaces/"// &
+         one_of(upper(deck%control%force_unit) == 'KGF', 'mm_kgf', 'mm_n')//"/ground_on_ground.bdf'"//nl)
+      if (size(deck%bulk%support) == 0) call suggest_support(deck, model, sides, mark, next, file)
    end subroutine suggest_joints
 
-   !> The PATCH of each of SIDES that sees or is seen, 0: neither. Sides at a common edge are of one patch if the surface is smooth
-   !! there; so are flat patches of a body in one plane.
-   pure subroutine find_patches(mesh, sides, sees, patch)
+   !> The PATCH of each of SIDES that sees or is seen, 0: neither. Sides of a body are of one patch if they lie in one plane, or
+   !! share an edge at which the surface is smooth.
+   pure subroutine find_patches(mesh, sides, patch)
       type(mesh_type), intent(in)       :: mesh
       type(outer_side), intent(in)      :: sides(:)
-      integer, intent(in)               :: sees(:)
       integer, allocatable, intent(out) :: patch(:)
-      integer, allocatable :: first(:), owners(:), roots(:)
-      logical :: faces(size(sides)), is_flat(size(sides))
-      integer :: c, i, j, k
+      logical :: faces(size(sides))
+      integer :: i, j, k
 
-      faces = sees > 0
-      faces(pack(sees, sees > 0)) = .true.
+      faces = sides%sees > 0
+      faces(pack(sides%sees, faces)) = .true.
       patch = [(i, i = 1, size(sides))]
-      call list_owners(mesh%n_nodes, reshape([(merge(sides(i)%corners, 0, faces(i)), i = 1, size(sides))], [4, size(sides)]), &
-                       first, owners)
       do i = 1, size(sides)
          if (.not. faces(i)) cycle
-         do c = 1, sides(i)%n
-            do k = first(sides(i)%corners(c)), first(sides(i)%corners(c) + 1) - 1
-               j = owners(k)
-               if (j >= i .or. sides(j)%body /= sides(i)%body) cycle
-               if (dot_product(sides(i)%normal, sides(j)%normal) < smooth) cycle
-               if (count([(any(sides(j)%corners(:sides(j)%n) == sides(i)%corners(k)), k = 1, sides(i)%n)]) >= mesh%dimension - 1) &
-                  call join(patch, i, j)
-            end do
+         do j = 1, i - 1
+            associate (a => sides(i), b => sides(j))
+               if (.not. faces(j) .or. a%body /= b%body .or. dot_product(a%normal, b%normal) < smooth) cycle
+               if (count([(any(b%corners(:b%n) == a%corners(k)), k = 1, a%n)]) >= mesh%dimension - 1 .or. &
+                   norm2(a%normal - b%normal) < parallel_in_mesh .and. &
+                   abs(dot_product(a%centre - b%centre, b%normal)) < most_aside*(a%size + b%size)) call join(patch, i, j)
+            end associate
          end do
       end do
       patch = [(merge(root_of(patch, i), 0, faces(i)), i = 1, size(sides))]
-      is_flat = .true.
-      do i = 1, size(sides)
-         if (faces(i)) is_flat(patch(i)) = is_flat(patch(i)) .and. in_plane(i, patch(i))
-      end do
-      roots = pack([(i, i = 1, size(sides))], patch == [(i, i = 1, size(sides))] .and. is_flat)
-      do k = 2, size(roots)
-         do c = 1, k - 1
-            if (patch(roots(c)) /= roots(c) .or. sides(roots(c))%body /= sides(roots(k))%body) cycle
-            if (.not. in_plane(roots(k), roots(c))) cycle
-            where (patch == roots(k)) patch = roots(c)
-            exit
-         end do
-      end do
-
-   contains
-
-      !> Whether side I lies in the plane of side J, on the same side of it.
-      pure logical function in_plane(i, j)
-         integer, intent(in) :: i, j
-
-         in_plane = norm2(sides(i)%normal - sides(j)%normal) < parallel_in_mesh .and. &
-            abs(dot_product(sides(i)%centre - sides(j)%centre, sides(j)%normal)) < most_aside*(sides(i)%size + sides(j)%size)
-      end function in_plane
-
    end subroutine find_patches
-
-   !> Comments about PJOINT LAW, which the deck lacks: a published surface in its units.
-   subroutine suggest_law(deck, law, file)
-      type(deck_type), intent(in)           :: deck
-      integer, intent(in)                   :: law
-      type(output_file_type), intent(inout) :: file
-
-      call file%put('$')
-      call file%put('$ PJOINT '//integer_text(law)//', the laws of these joints, is not in the deck; for ground faces (others: '// &
-                    'input/surfaces/README.md):')
-      call file%put('$ PJOINT,'//integer_text(law)//',9106,9106,9106')
-      call file%put("$ INCLUDE 'surfaces/"//one_of(upper(trim(deck%control%force_unit)) == 'KGF', 'mm_kgf', 'mm_n')// &
-                    "/ground_on_ground.bdf'")
-   end subroutine suggest_law
 
    !> The MARK of the deck of each of SIDES, the last of several; 0: none.
    subroutine find_marks(model, sides, mark)
@@ -288,11 +245,11 @@ contains
    end subroutine put_sides
 
    !> A support for the flat sides at the lowest z (y in the plane) that face down and see no other body.
-   subroutine suggest_support(deck, model, sides, sees, mark, next, file)
+   subroutine suggest_support(deck, model, sides, mark, next, file)
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
       type(outer_side), intent(in)          :: sides(:)
-      integer, intent(in)                   :: sees(:), mark(:)
+      integer, intent(in)                   :: mark(:)
       type(next_numbers), intent(inout)     :: next
       type(output_file_type), intent(inout) :: file
       logical  :: lowest(size(sides)), is_new
@@ -302,7 +259,8 @@ contains
       d = model%mesh%dimension
       if (size(sides) == 0) return
       extent = maxval(sides%centre(d)) - minval(sides%centre(d))
-      lowest = sides%centre(d) <= minval(sides%centre(d)) + at_the_bottom*extent .and. sides%normal(d) < -0.999_wp .and. sees == 0
+      lowest = sides%centre(d) <= minval(sides%centre(d)) + at_the_bottom*extent .and. sides%normal(d) < -0.999_wp .and. &
+               sides%sees == 0
       if (.not. any(lowest)) return
       call take_mark(deck, pack(mark, lowest), next, id, is_new)
       call file%put('$')

@@ -115,7 +115,7 @@ contains
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
-      character(:), allocatable :: distance, head
+      character(:), allocatable :: head
       character(60) :: words
       real(wp) :: excess, limit, unbalanced
       integer  :: i, j, which
@@ -141,12 +141,8 @@ contains
       end do
       watch%tallies = tally_type()
 
-      if (watch%farthest%node > 0) then ! of the laws; the path was warned of already
-         distance = distance_words(watch%farthest)
-         i = index(distance, '; ')
-         if (i > 0 .and. index(watch%farthest%place, 'stage '//page%stage(7:)//',') == 1) &
-            call warn(watch, '  WARNING: '//upper(distance(:i + 1)), upper(distance(i + 2:)))
-      end if
+      head = upper(distance_words(watch%farthest)) ! from the laws; the path was warned of already
+      if (index(head, 'STEP IS') == 1 .and. index(head, ' IN '//page%stage//',') > 0) call warn(watch, '  WARNING: '//head)
 
       ! what remains unbalanced, or above a limit
       head = '  WARNING: '//upper(page%place)//': '
@@ -256,12 +252,18 @@ contains
    end subroutine watch_ranges
 
    !> Keep the line of a warning, or of a NOTE, which is not counted. If both parts are too long for one line, SECOND has a line
-   !! of its own.
-   pure subroutine warn(watch, first, second)
+   !! of its own; without it so has what is behind a semicolon.
+   pure recursive subroutine warn(watch, first, second)
       type(range_watch_type), intent(inout) :: watch
       character(*), intent(in)              :: first
       character(*), intent(in), optional    :: second
+      integer :: i
 
+      i = index(first(:min(page_width, len(first))), '; ', back=.true.) + 1
+      if (len(first) > page_width .and. i > 1) then
+         call warn(watch, first(:i), first(i + 1:))
+         return
+      end if
       if (index(first, '  NOTE:') /= 1) watch%n_warnings = watch%n_warnings + 1
       if (.not. present(second)) then
          call append(watch%lines, first)

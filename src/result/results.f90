@@ -22,7 +22,6 @@ module results
    use mode_values, only: modes_type
    use model_data, only: model_type
    use node_coupling, only: held_forces
-   use page_lines, only: put_lines
    use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, warn, watch_increment, &
                           watch_stage
    use restart_stream, only: restart_stream_type
@@ -211,15 +210,17 @@ contains
             call list_shell_forces(page, model, analysis, is_listed=.false.)
          end if
          call watch_stage(page, model, analysis, results%watch)
+         call find_body_values(model, analysis, bodies)
+         words = upper(stress_words(bodies%strained))
+         if (bodies%strained > results%counts%digest%strained .and. words /= '') &
+            call warn(results%watch, '  WARNING: '//page%stage//': '//words)
          words = default_slope_words(model, analysis, results%watched_before)
-         i = index(words, '; ') + 1
-         if (i > 1) call warn(results%watch, '  WARNING: '//page%stage//': '//words(:i), words(i + 1:))
+         if (words /= '') call warn(results%watch, '  WARNING: '//page%stage//': '//words)
          do i = 1, n_stage_tables
             if (i == pass_rows) call print_warnings(results%watch, page%file)
             call results%stage_tables(i)%print_kept(page%file)
          end do
          call list_energy(page, model, analysis)
-         call find_body_values(model, analysis, bodies)
          call find_joint_answers(model, results%cuts, analysis, results%joints_now, results%method, page%largest_force, joints)
          fault = fault_of_bodies(bodies)
          if (fault == '') fault = fault_of_joints(model, joints)
@@ -240,11 +241,7 @@ contains
          end if
          call page%file%put_lines(page%screen%text_behind(before)) ! the answer is repeated in the listing
       end associate
-      associate (digest => results%counts%digest, n_warnings => results%watch%n_warnings)
-         if (bodies%strained > digest%strained .and. stress_words(bodies%strained) /= '') then
-            call put_lines(results%page%file, 'WARNING: '//results%page%stage//': '//upper(stress_words(bodies%strained)), ' ')
-            n_warnings = n_warnings + 1
-         end if
+      associate (digest => results%counts%digest)
          if (.not. analysis%record%ends_early) digest%stages = digest%stages + 1
          digest%u_max = max(digest%u_max, bodies%displacement%value)
          digest%mises_max = max(digest%mises_max, bodies%at_node%value)

@@ -22,7 +22,7 @@ module run_boxes
    use load_path, only: recover_bodies
    use machine, only: keep_memory, note_first_call, use_threads
    use memory_need, only: check_buffers, check_model_size
-   use mesh_queries, only: name_placed
+   use mesh_queries, only: shown_number
    use modal_response, only: find_response, response_type
    use mode_values, only: evaluate_modes, modes_type
    use model_build, only: build_model
@@ -222,7 +222,9 @@ contains
       do i = 1, size(model%warnings)
          call tell(run, model%warnings(i)%words)
       end do
-      if (.not. is_over(run)) call name_placed(model%mesh)
+      do i = 1, size(model%mesh%placed) ! from here on numbers are for print only
+         model%mesh%node_id(model%mesh%placed(i)%node) = shown_number(model%mesh, model%mesh%placed(i)%node)
+      end do
    end subroutine build_structure
 
    !> Form [k_b] of the bodies and factorise the part that no joint changes; then the listing can be opened.
@@ -297,10 +299,10 @@ contains
          end associate
          run%tells_drops = .true.
          words = 'JOINT '//integer_text(model%joints%list(model%joints%element(i)%joint)%id)//', node '// &
-                 integer_text(joint_node_id(model, i, 1))//': an element with shear stiffness and without MU on PJOINT has opened; '
-         call tell(run, words//'it drops its shear at once, and the equilibrium may be one of several that rounding chooses')
-         call warn(run%results%watch, '  WARNING: '//upper(words), &
-                   upper('it drops its shear at once, and the equilibrium may be one of several that rounding chooses'))
+                 integer_text(joint_node_id(model, i, 1))//': an element with shear stiffness and without MU on '// &
+                 'PJOINT has opened; it drops its shear at once, and the equilibrium may be one of several that rounding chooses'
+         call tell(run, words)
+         call warn(run%results%watch, '  WARNING: '//upper(words))
          return
       end do
    end subroutine note_drops
