@@ -6,9 +6,8 @@ module mesh_queries
    implicit none
    private
 
-   public :: start_mesh, start_freedoms, start_parts, open_left_out
-   public :: n_points, n_rotations, node_kind, place_in_kind, point_of, element_points, is_shell, is_beam, is_face_node, &
-             shown_number
+   public :: start_mesh, start_freedoms, start_parts, open_left_out, shown_number
+   public :: n_points, n_rotations, node_kind, place_in_kind, point_of, element_points, is_shell, is_beam, is_face_node
 
 contains
 

@@ -95,9 +95,8 @@ contains
       end if
    end function distance_words
 
-   !> What the default E_u decides of the stage just completed, BEFORE is its start: the share in the work of the structure of the
-   !! movements on lines of this slope, and by how much the movement would grow at most with the slope of loading at point A for E_u
-   !! (the same forces, so that the complementary energy is an upper bound). '' where both are small. WORK as in watched_nodes.
+   !> What the default E_u decides of the stage since BEFORE: the share of the movements on its lines in the work of watched_nodes,
+   !! and how much more the work is at most with the slope of loading at A (the same forces: an upper bound); '' where little.
    function default_slope_words(model, analysis, before) result(words)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis

@@ -253,19 +253,18 @@ contains
 
    !> Keep the line of a warning, or of a NOTE, which is not counted. If both parts are too long for one line, SECOND has a line
    !! of its own; without it so has what is behind a semicolon.
-   pure recursive subroutine warn(watch, first, second)
+   pure subroutine warn(watch, first, second)
       type(range_watch_type), intent(inout) :: watch
       character(*), intent(in)              :: first
       character(*), intent(in), optional    :: second
       integer :: i
 
-      i = index(first(:min(page_width, len(first))), '; ', back=.true.) + 1
-      if (len(first) > page_width .and. i > 1) then
-         call warn(watch, first(:i), first(i + 1:))
-         return
-      end if
       if (index(first, '  NOTE:') /= 1) watch%n_warnings = watch%n_warnings + 1
-      if (.not. present(second)) then
+      i = index(first(:min(page_width, len(first))), '; ', back=.true.) + 1
+      if (.not. present(second) .and. len(first) > page_width .and. i > 1) then
+         call append(watch%lines, first(:i))
+         call append(watch%lines, '          '//first(i + 1:))
+      else if (.not. present(second)) then
          call append(watch%lines, first)
       else if (len(first) + len(second) <= page_width) then
          call append(watch%lines, first//second)

@@ -22,8 +22,7 @@ module results
    use mode_values, only: modes_type
    use model_data, only: model_type
    use node_coupling, only: held_forces
-   use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, warn, watch_increment, &
-                          watch_stage
+   use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, warn, watch_increment, watch_stage
    use restart_stream, only: restart_stream_type
    use result_names, only: early_ending, listing_ending, remove_all
    use result_page, only: backbone_table, bend_table, bolt_table, energy_table, joint_table, loop_table, modes_table, page_type, &
