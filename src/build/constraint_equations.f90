@@ -5,7 +5,7 @@ module constraint_equations
    use blas_lapack, only: dgesv
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use mesh_queries, only: node_kind, open_left_out, point_of
+   use mesh_queries, only: node_kind, open_left_out, point_of, shown_number
    use model_data, only: a_rotation, freedoms_type, mesh_type
    use node_coupling, only: couple_node
    use numbers, only: identity
@@ -15,7 +15,7 @@ module constraint_equations
    implicit none
    private
 
-   public :: add_dependence, add_expansion, add_term, check_dependences, eliminate, solve_for
+   public :: add_dependence, add_expansion, add_term, check_dependences, eliminate, follow_dependents, solve_for
 
    !> What a rigid element adds to a constraint equation when it is warmed: GROWTH times T - REFERENCE, T the mean of two POINTS.
    type, public :: expansion_type
@@ -86,6 +86,35 @@ contains
          list%expansions = [list%expansions, expansion_type(item%node, item%d, points, item%line, growth, reference)]
       end associate
    end subroutine add_expansion
+
+   !> Put the equations of dependent components in their place in the equations FIRST to LAST of LIST. A dependent component that
+   !! expands stays, and is an error.
+   pure subroutine follow_dependents(mesh, list, first, last)
+      type(mesh_type), intent(in)          :: mesh
+      type(dependence_list), intent(inout) :: list
+      integer, intent(in)                  :: first, last
+      type(component_place), allocatable :: on(:)
+      integer :: of(mesh%dimension, mesh%n_nodes) ! the other equation of a component, 0: none
+      integer :: i, j, k, m
+
+      of = 0
+      do i = 1, list%n
+         if ((i < first .or. i > last) .and. .not. list%item(i)%expands) of(list%item(i)%d, list%item(i)%node) = i
+      end do
+      do i = first, last
+         on = [component_place ::]
+         do k = 1, list%item(i)%n
+            associate (term => list%item(i)%on(k))
+               j = of(term%d, term%node)
+               if (j == 0) on = [on, term]
+               if (j > 0) on = [on, [(component_place(list%item(j)%on(m)%node, list%item(j)%on(m)%d, &
+                                                      term%scale*list%item(j)%on(m)%scale), m = 1, list%item(j)%n)]]
+            end associate
+         end do
+         list%item(i)%n = size(on)
+         call move_alloc(on, list%item(i)%on)
+      end do
+   end subroutine follow_dependents
 
    !> Errors: a component that depends twice, is supported too, or depends on a dependent component.
    subroutine check_dependences(deck, mesh, freedoms, list)
@@ -190,7 +219,7 @@ contains
 
       digit = d
       if (node_kind(mesh, node) == a_rotation) digit = merge(d + 3, 6, mesh%dimension == 3)
-      words = 'component '//integer_text(digit)//' of node '//integer_text(mesh%node_id(point_of(mesh, node)))
+      words = 'component '//integer_text(digit)//' of node '//integer_text(shown_number(mesh, point_of(mesh, node)))
    end function component_text
 
    !> Couple the nodes of LIST, whose cards have no errors: their dependent components lose their unknowns and follow the equations,

@@ -21,7 +21,7 @@ module curved_faces
 
    public :: find_tilts, height_over_chords, largest_sagitta
 
-   real(wp), parameter :: smooth = 0.76_wp   ! cosine of the angle between faces of one smooth surface, at least: 40 degrees
+   real(wp), parameter, public :: smooth = 0.76_wp !! cosine of the angle between faces of one smooth surface, at least: 40 degrees
 
 contains
 

@@ -146,8 +146,8 @@ contains
              (state == solid .eqv. kind%dimension == 3)) return
          property = 0
          if (state == shell .and. kind%linear /= card%kind) then
-            call deck%errors%add(card%line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells, or MODEL = '// &
-                                 'PLANE for bodies in x-y')
+            call deck%errors%add(card%line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells, '// &
+               'which Gmsh meshes in a run of their own with FirstNodeTag, or MODEL = PLANE for bodies in x-y')
          else if (kind%dimension == 2 .and. card%property > 0 .and. any(deck%bulk%pmark%id == card%property)) then
             call deck%field_error(card%line, 'PID', integer_text(card%property)//' is a PMARK: a surface of a plane body is '// &
                                   'marked with CBAR or CROD edges')

@@ -19,7 +19,7 @@ module facing_bodies
    implicit none
    private
 
-   public :: list_bodies, body_words, box_words, list_outer_sides, find_facing, loose_words, rounded
+   public :: list_bodies, body_words, box_words, list_outer_sides, find_facing, gather_facing, loose_words, rounded
 
    integer, parameter  :: most_said = 5        ! number of unsupported bodies that a message lists
 
@@ -39,6 +39,8 @@ module facing_bodies
       real(wp) :: normal(3) = 0.0_wp           !! unit, out of the body
       real(wp) :: area = 0.0_wp                !! [length^2]
       real(wp) :: size = 0.0_wp                !! longest edge [length]
+      integer  :: sees = 0                     !! the nearest side of another body over its centre, 0: none
+      real(wp) :: apart = huge(1.0_wp)         !! their distance [length]
    end type outer_side
 
    !> Two facing bodies, with the sides whose centres face the other body. SIDE1, with the finer mesh, comes first.
@@ -174,19 +176,17 @@ contains
       end if
    end subroutine measure
 
-   !> The facing bodies, in the order of their numbers, and for each of SIDES the body that its centre SEES, 0: none.
-   pure subroutine find_facing(mesh, sides, pairs, sees)
+   !> What each of SIDES sees.
+   pure subroutine find_facing(mesh, sides)
       type(mesh_type), intent(in) :: mesh
-      type(outer_side), intent(in)  :: sides(:)
-      type(facing_type), allocatable, intent(out) :: pairs(:)
-      integer, allocatable, intent(out) :: sees(:) !! (sides)
+      type(outer_side), intent(inout) :: sides(:)
       type(spatial_search_type) :: search
       real(wp), allocatable :: boxes(:, :, :)
       integer, allocatable  :: found(:)
-      real(wp) :: distance, nearest
-      integer  :: i, k, n, p
+      real(wp) :: distance
+      integer  :: i, k, n
 
-      allocate (boxes(3, 2, size(sides)), sees(size(sides)), pairs(0))
+      allocate (boxes(3, 2, size(sides)))
       do i = 1, size(sides)
          associate (x => mesh%x(:, sides(i)%corners(:sides(i)%n)))
             boxes(:, 1, i) = min(minval(x, dim=2), sides(i)%centre) ! the centre of a shell face lies off its nodes
@@ -195,30 +195,49 @@ contains
       end do
       call search%build(boxes(:, 1, :), boxes(:, 2, :))
       allocate (found(64))
-      sees = 0
       do i = 1, size(sides)
          associate (side => sides(i))
             call search%list_meeting(side%centre - reach*side%size, side%centre + reach*side%size, found, n)
-            nearest = huge(1.0_wp)
             do k = 1, n
                if (sides(found(k))%body == side%body) cycle
                distance = distance_over(mesh, side, sides(found(k)))
-               if (distance >= nearest) cycle
-               nearest = distance
-               sees(i) = sides(found(k))%body
+               if (distance >= side%apart) cycle
+               side%apart = distance
+               side%sees = found(k)
             end do
-            if (sees(i) == 0) cycle
-            p = findloc(pairs%body(1) == min(side%body, sees(i)) .and. pairs%body(2) == max(side%body, sees(i)), .true., dim=1)
-            if (p == 0) then
-               pairs = [pairs, facing_type(body=[min(side%body, sees(i)), max(side%body, sees(i))])]
-               p = size(pairs)
-            end if
-            associate (pair => pairs(p), k => merge(1, 2, side%body == pairs(p)%body(1)))
-               pair%n(k) = pair%n(k) + 1
-               pair%area(k) = pair%area(k) + side%area
-               pair%gap = [min(pair%gap(1), nearest), max(pair%gap(2), nearest)]
-               pair%normal = pair%normal + merge(1, -1, k == 1)*side%area*side%normal
-            end associate
+         end associate
+      end do
+   end subroutine find_facing
+
+   !> The groups of facing sides with the same two bodies and equal columns of KEY, in the order of their first sides; GROUP of
+   !! each side, 0: it sees none.
+   pure subroutine gather_facing(sides, key, pairs, group)
+      type(outer_side), intent(in) :: sides(:)
+      integer, intent(in)          :: key(:, :) !! (any, sides)
+      type(facing_type), allocatable, intent(out) :: pairs(:)
+      integer, allocatable, intent(out) :: group(:)
+      integer, allocatable :: first(:)          ! side of each group
+      integer :: bodies(2), i, p
+
+      allocate (group(size(sides)), source=0)
+      allocate (pairs(0), first(0))
+      do i = 1, size(sides)
+         if (sides(i)%sees == 0) cycle
+         bodies = [sides(i)%body, sides(sides(i)%sees)%body]
+         bodies = [minval(bodies), maxval(bodies)]
+         do p = 1, size(pairs)
+            if (all(pairs(p)%body == bodies) .and. all(key(:, first(p)) == key(:, i))) exit
+         end do
+         if (p > size(pairs)) then
+            pairs = [pairs, facing_type(body=bodies)]
+            first = [first, i]
+         end if
+         group(i) = p
+         associate (pair => pairs(p), side => sides(i), k => merge(1, 2, sides(i)%body == pairs(p)%body(1)))
+            pair%n(k) = pair%n(k) + 1
+            pair%area(k) = pair%area(k) + side%area
+            pair%gap = [min(pair%gap(1), side%apart), max(pair%gap(2), side%apart)]
+            pair%normal = pair%normal + merge(1, -1, k == 1)*side%area*side%normal
          end associate
       end do
       do p = 1, size(pairs)
@@ -232,7 +251,7 @@ contains
             end if
          end associate
       end do
-   end subroutine find_facing
+   end subroutine gather_facing
 
    !> Distance of the centre of SIDE from OTHER along its normal, gap or overlap [length]; huge where OTHER does not face SIDE
    !! there, or is farther away than the reach of the search.
@@ -331,13 +350,14 @@ contains
       type(outer_side), allocatable  :: sides(:)
       type(facing_type), allocatable :: pairs(:)
       type(spatial_search_type) :: search
-      integer, allocatable :: sees(:), of_body(:), others(:)
+      integer, allocatable :: group(:), of_body(:), others(:)
       real(wp) :: distance, nearest
       integer  :: k, p, point
 
       words = ''
       call list_outer_sides(mesh, body, sides)
-      call find_facing(mesh, sides, pairs, sees)
+      call find_facing(mesh, sides)
+      call gather_facing(sides, reshape([integer ::], [0, size(sides)]), pairs, group)
       pairs = pack(pairs, [(any(pairs(k)%body == i), k = 1, size(pairs))])
       if (size(pairs) > 0) then
          associate (pair => pairs(maxloc([(maxval(pairs(k)%n), k = 1, size(pairs))], dim=1)))

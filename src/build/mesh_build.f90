@@ -110,7 +110,7 @@ contains
       mesh%placed = [placed_node ::] ! the reference nodes, then the nodes of NODEAT
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
-            if (card%surface > 0) mesh%placed = [mesh%placed, placed_node(element=card%id, surface=card%surface, &
+            if (card%surface > 0) mesh%placed = [mesh%placed, placed_node(element=card%id, surface=card%surface, number=card%node, &
                                                                             node=mesh%node_table%find(card%node))]
          end associate
       end do
@@ -148,6 +148,7 @@ contains
          end associate
       end do
       associate (named => mesh%placed%id > 0)
+         where (named) mesh%placed%number = mesh%node_id(max(1, mesh%placed%node))
          call mesh%node_table%add(pack(mesh%placed%id, named), pack(mesh%placed%node, named))
       end associate
    end subroutine place_nodes

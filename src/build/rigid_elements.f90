@@ -4,7 +4,7 @@
 module rigid_elements
    use bulk_data, only: equation_card, rigid_card
    use constraint_equations, only: add_dependence, add_expansion, add_term, check_dependences, dependence_list, eliminate, &
-                                   expansion_type, solve_for
+                                   expansion_type, follow_dependents, solve_for
    use deck_check, only: checked_deck
    use field_rules, only: has_component
    use kinds, only: wp
@@ -35,7 +35,7 @@ contains
       type(expansion_type), allocatable, intent(out) :: expansions(:) !! of rigid elements, for temperatures
       type(dependence_list) :: list
       integer, allocatable  :: active(:)  ! active sets of equations
-      integer :: i, set
+      integer :: first, i, last, set ! equations of ties: FIRST to LAST
 
       allocate (expansions(0))
       set = 0
@@ -55,13 +55,16 @@ contains
             if (.not. card%is_mean) call add_rigid(deck, card, mesh, freedoms, list)
          end associate
       end do
+      first = list%n + 1
       call add_ties(mesh, ties, list)
+      last = list%n
       do i = 1, size(deck%bulk%equation)
          call add_equation(deck, deck%bulk%equation(i), any(active == deck%bulk%equation(i)%set), mesh, freedoms, list)
       end do
       freedoms%used = freedoms%used .or. list%without
       if (allocated(list%expansions)) call move_alloc(list%expansions, expansions)
       if (deck%errors%any() .or. list%n == 0) return
+      call follow_dependents(mesh, list, first, last)
       call check_dependences(deck, mesh, freedoms, list)
       do i = 1, n_rotations(mesh)
          freedoms%used(mesh%rotations(i)%node) = .true.
@@ -88,7 +91,7 @@ contains
             if (card%is_mean) then ! on second-order triangles only mid-side nodes have an area
                counts = abs(list%area) > zero_area*maxval(abs(list%area))
             else
-               counts = mesh%node_id(list%node) /= card%node
+               counts = list%node /= mesh%node_table%find(card%node) ! GN may be a NODEAT
             end if
             card%nodes = pack(mesh%node_id(list%node), counts)
             card%weight = pack(list%area, counts)

@@ -5,6 +5,7 @@ module spring_build
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use kinds, only: wp
+   use mesh_queries, only: shown_number
    use model_data, only: a_spring, bar_type, mesh_type
    use model_kind, only: space_hint
    use node_build, only: find_nodes
@@ -244,7 +245,7 @@ contains
                if (nodes(end) == 0) cycle
                if (rotation_at(mesh, nodes(end)) == 0) then
                   call deck%errors%add(card%line, 'spring '//integer_text(card%id)//': node '// &
-                     integer_text(mesh%node_id(nodes(end)))// &
+                     integer_text(shown_number(mesh, nodes(end)))// &
                      ' has no rotations; expected a node of shells or beams, or the reference node of an RBE2, RBAR, or RBE3 '// &
                      'with rotations in REFC')
                   return
@@ -301,7 +302,7 @@ contains
          if (rotation_at(mesh, nodes(end)) == 0) cycle
          if (lever <= no_lever*mesh%rotations(rotation_at(mesh, nodes(end)))%arm) cycle
          call deck%field_error(card%line, 'GB', 'a spring across the line from GA to GB gives node '// &
-            integer_text(mesh%node_id(nodes(end)))//' a moment, since the nodes are apart; expected nodes in one place, '// &
+            integer_text(shown_number(mesh, nodes(end)))//' a moment, since the nodes are apart; expected nodes in one place, '// &
             'one of them tied to GA or GB by an RBAR')
          return
       end do

@@ -149,7 +149,8 @@ contains
             call deck%errors%add(card%line, 'JAMPL: mode '//integer_text(card%mode)//' is not among the '// &
                                  integer_text(vibration%most)//' lowest that EIGRL '//integer_text(vibration%id)//' asks for')
          if (card%node > 0) then
-            backbone%node = findloc(mesh%node_id == card%node .and. freedoms%used, .true., dim=1)
+            backbone%node = mesh%node_table%find(card%node)
+            if (backbone%node > 0) backbone%node = merge(backbone%node, 0, freedoms%used(backbone%node))
             if (backbone%node == 0 .and. .not. deck%errors%any()) call deck%errors%add(card%line, &
                'JAMPL: GID '//integer_text(card%node)//' is not a node of an element')
          end if

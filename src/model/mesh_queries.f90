@@ -6,10 +6,21 @@ module mesh_queries
    implicit none
    private
 
-   public :: start_mesh, start_freedoms, start_parts, open_left_out
+   public :: start_mesh, start_freedoms, start_parts, open_left_out, shown_number
    public :: n_points, n_rotations, node_kind, place_in_kind, point_of, element_points, is_shell, is_beam, is_face_node
 
 contains
+
+   !> The number of NODE in messages: that of the first NODEAT that names it, else its own.
+   pure integer function shown_number(mesh, node) result(number)
+      type(mesh_type), intent(in) :: mesh
+      integer, intent(in)         :: node
+      integer :: k
+
+      number = mesh%node_id(node)
+      k = findloc(mesh%placed%id > 0 .and. mesh%placed%node == node, .true., dim=1)
+      if (k > 0) number = mesh%placed(k)%id
+   end function shown_number
 
    !> Start MESH: the lists that a deck need not fill are empty.
    pure subroutine start_mesh(mesh)

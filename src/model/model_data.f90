@@ -187,6 +187,7 @@ module model_data
       integer  :: element = 0                !! the rigid element of a reference node; 0: NODEAT
       integer  :: surface = 0                !! PMARK, 0: none
       integer  :: node = 0
+      integer  :: number = 0                 !! of the node, from the mesh or by the program
       real(wp) :: x(3) = 0.0_wp              !! the position that NODEAT gives [length]
    end type placed_node
 
@@ -222,7 +223,7 @@ module model_data
       integer :: n_nodes = 0
       integer :: n_filled = 0                !! number of mid-edge nodes that the program added, see node_build
       integer :: first_filled = 0            !! position of the first of these nodes
-      integer, allocatable  :: node_id(:)    !! ascending; 0 for the nodes of rotations and of sections, which follow
+      integer, allocatable  :: node_id(:)    !! ascending until the model is built; 0 for the nodes of rotations and of sections, which follow
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
       integer, allocatable  :: duplicate(:)  !! (n_nodes) the duplicate of a node on a split surface, 0: none; empty before
       integer, allocatable  :: node_system(:) !! (n_nodes) the system CD of a node, 0: global axes; empty: no node has one

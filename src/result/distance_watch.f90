@@ -1,18 +1,23 @@
-!> How far a run is from what it should follow: STEP from its laws, NEWTON from the path of many increments. The largest distance is
-!! told on the screen; that of NEWTON is warned of in the listing too.
+!> How far a run is from what it should follow: STEP from its laws, NEWTON from the path of many increments; and how much of the
+!! movement of a stage a default E_u decides.
 module distance_watch
-   use analysis_state, only: path_error_type
+   use analysis_state, only: analysis_type, path_error_type
    use joint_values, only: joint_values_type
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
+   use normal_curve, only: loading_pressure, normal_tangent
+   use normal_stiffness, only: branch_load, branch_open
    use restart_stream, only: restart_stream_type
+   use stage_plan, only: node_pair
    use text_tools, only: integer_text, real_text
+   use watched_nodes, only: find_watched, watch_answer, watch_state
    implicit none
    private
 
-   public :: watch_distances, watch_path, distance_words, record_farthest
+   public :: watch_distances, watch_path, distance_words, default_slope_words, record_farthest
 
    real(wp), parameter :: far = 0.02_wp      ! of the largest deflection or stress: beyond it the answer is not that of the laws
+   real(wp), parameter :: decides = 0.01_wp  ! of the movement of a stage: by an E_u that nobody gave
    real(wp), parameter :: off_path = 0.01_wp ! of the largest deflection or pressure, of the area of a joint: likewise of the path
 
    !> The largest distance from a law, or from the path, in a run.
@@ -89,6 +94,45 @@ contains
                  ' away from the path of many increments, in '//farthest%place//'; without INCR it follows the path'
       end if
    end function distance_words
+
+   !> What the default E_u decides of the stage since BEFORE: the share of the movements on its lines in the work of watched_nodes,
+   !! and how much more the work is at most with the slope of loading at A (the same forces: an upper bound); '' where little.
+   function default_slope_words(model, analysis, before) result(words)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(watch_state), intent(in)   :: before
+      character(:), allocatable :: words
+      type(watch_answer) :: answer
+      real(wp) :: shares(2, size(model%joints%list)), dp, lambda, moved, p
+      integer  :: i
+
+      words = ''
+      shares = 0.0_wp
+      do i = 1, size(model%joints%element)
+         associate (element => model%joints%element(i), state => analysis%states(i)%normal, &
+                    joint => model%joints%list(model%joints%element(i)%joint))
+            if (joint%e_u_given .or. state%branch == branch_load .or. .not. state%p_a > 0.0_wp) cycle
+            lambda = before%movement(3, i) - element%gap ! from where, and from which pressure, it moved on the line
+            p = before%force(3, i)/element%area
+            if (lambda >= state%lambda_a .or. abs(p - loading_pressure(joint%law%normal, lambda)) < &
+                abs(p - max(0.0_wp, state%p_a - joint%law%normal%e_u*(state%lambda_a - lambda)))) then
+               lambda = state%lambda_a ! it came along the loading curve to A
+               p = state%p_a
+            end if
+            dp = abs(state%pressure - p)
+            moved = abs(merge(state%lambda_b, state%lambda, state%branch == branch_open) - &
+                        max(lambda, state%lambda_a - state%p_a/joint%law%normal%e_u))
+            shares(:, element%joint) = shares(:, element%joint) + 0.5_wp*element%area*dp* &
+               [moved, max(0.0_wp, dp/normal_tangent(joint%law%normal, 1.0_wp, state%p_a, state%p_av) - moved)]
+         end associate
+      end do
+      if (.not. any(shares > 0.0_wp)) return
+      call find_watched(model, analysis, [integer ::], [node_pair ::], before, answer)
+      if (.not. answer%work > 0.0_wp .or. sum(shares) < decides*answer%work) return
+      words = 'ELEMENTS UNLOADED ON THE DEFAULT E_U, MOST IN JOINT '//integer_text(model%joints%list(maxloc(sum(shares, dim=1), &
+         dim=1))%id)//': '//percent(sum(shares(1, :))/answer%work)//' OF THE MOVEMENT; UP TO '// &
+         percent(sum(shares(2, :))/answer%work)//' MORE WITH THE SLOPE OF LOADING: GIVE EU ON JNORM'
+   end function default_slope_words
 
    !> SHARE in per cent, with one decimal.
    pure function percent(share) result(words)

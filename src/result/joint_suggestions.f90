@@ -1,16 +1,18 @@
 !> Suggested cards (--joints) for joints that a deck may lack, and a support for a model without any. A JOINT is suggested
-!! wherever outer sides of two bodies face each other, with the marks of both sides. The support is for a flat underside.
+!! wherever outer sides of two bodies face each other, one for each plane or smooth surface of either body and each mark of the deck
+!! there, with the marks of both sides. The support is for a flat underside.
 module joint_suggestions
+   use curved_faces, only: smooth
    use deck_input, only: deck_type
    use element_kinds, only: element_table
-   use facing_bodies, only: body_type, body_words, box_words, facing_type, find_facing, list_bodies, list_outer_sides, outer_side, &
-                            rounded
+   use facing_bodies, only: body_type, body_words, box_words, facing_type, find_facing, gather_facing, list_bodies, &
+                            list_outer_sides, outer_side, rounded
    use kinds, only: wp
-   use lists, only: list_owners
-   use model_data, only: model_type
+   use lists, only: join, list_owners, root_of
+   use model_data, only: mesh_type, model_type
    use output_file, only: output_file_type
-   use text_tools, only: clean, integer_text, one_of, real_text
-   use tolerances, only: at_the_bottom
+   use text_tools, only: clean, integer_text, one_of, real_text, upper
+   use tolerances, only: at_the_bottom, most_aside, parallel_in_mesh
    implicit none
    private
 
@@ -34,16 +36,28 @@ contains
       type(outer_side), allocatable  :: sides(:)
       type(facing_type), allocatable :: pairs(:)
       type(next_numbers)   :: next
-      integer, allocatable :: sees(:), mark(:)
+      character(1), parameter :: nl = new_line('a')
+      integer, allocatable :: mark(:), own(:), patch(:), group(:), key(:, :)
       logical, allocatable :: on_side(:, :)
       integer  :: body(model%mesh%n_elements), first, i, k, marks(2), p
-      logical  :: is_new(2)
+      logical  :: is_new(2), stands_apart
       real(wp) :: reach
 
       call list_bodies(model%mesh, body, bodies)
       call list_outer_sides(model%mesh, body, sides)
-      call find_facing(model%mesh, sides, pairs, sees)
+      call find_facing(model%mesh, sides)
       call find_marks(model, sides, mark)
+      call find_patches(model%mesh, sides, patch)
+      own = [(merge(0, mark(i), any(mark == mark(i) .and. sides%body == sides(i)%body .and. patch > 0 .and. patch /= patch(i))), &
+              i = 1, size(sides))] ! without marks over several patches
+      allocate (key(4, size(sides)), source=0) ! patch and mark of the body with the lower number, of the other one
+      do i = 1, size(sides)
+         k = sides(i)%sees
+         if (k == 0) cycle
+         key(:, i) = [patch(i), own(i), patch(k), own(k)]
+         if (sides(i)%body > sides(k)%body) key(:, i) = key([3, 4, 1, 2], i)
+      end do
+      call gather_facing(sides, key, pairs, group)
       associate (bulk => deck%bulk)
          next%element = 1 + maxval([0, model%mesh%element_id, bulk%edge%id, bulk%element%id, bulk%rigid%id, &
                                     bulk%conrod%id, bulk%spring%id, bulk%mass%id, bulk%cjoint%id])
@@ -65,13 +79,15 @@ contains
                integer_text(pair%n(1))//' and '//integer_text(pair%n(2))//' sides, areas '//number(pair%area(1))//' and '// &
                number(pair%area(2))//', gap '//number(pair%gap(1))//' to '//number(pair%gap(2))// &
                ', normal '//box_words(pair%normal))
-            if (minval(pair%n) == 0) then
-               call file%put('$ only body '//integer_text(pair%body(maxloc(pair%n, dim=1)))// &
-                             ' has sides opposite to the other; marks on its sides alone would have no opposite side')
+            do k = 1, 2 ! with the sides of a coarser mesh that are seen, but whose centres see no side of this group
+               on_side(:, k) = sides%body == pair%body(k) .and. group == p
+               if (k == 2) on_side(pack(sides%sees, group == p .and. sides%body == pair%body(1)), k) = .true.
+            end do
+            stands_apart = pair%gap(2) > most_aside*minval(sides%size, mask=on_side(:, 1))
+            if (stands_apart .and. pair%n(2) == 0) then
+               call file%put('$ only body '//integer_text(pair%body(1))//' has sides opposite to the other, apart: no JOINT')
                cycle
             end if
-            on_side(:, 1) = sides%body == pair%body(1) .and. sees == pair%body(2)
-            on_side(:, 2) = sides%body == pair%body(2) .and. sees == pair%body(1)
             do i = 1, size(deck%bulk%joint) ! a joint connects them there if its marks cover more than half of the area
                associate (joint => deck%bulk%joint(i))
                   do k = 1, 2
@@ -84,12 +100,13 @@ contains
                end associate
             end do
             do k = 1, 2
-               call take_mark(deck, pack(mark, on_side(:, k)), next, marks(k), is_new(k))
+               call take_mark(deck, pack(own, on_side(:, k)), next, marks(k), is_new(k))
                if (is_new(k)) call file%put('PMARK,'//integer_text(marks(k)))
             end do
             reach = max(2.0_wp*pair%gap(2), 0.01_wp*minval(sides%size, mask=sides%body == pair%body(1))) ! TOL
             call file%put('JOINT,'//integer_text(next%joint)//','//integer_text(next%law)//','//integer_text(marks(1))//','// &
                           integer_text(marks(2))//','//number(reach))
+            if (stands_apart) call file%put('JGAP,'//integer_text(next%joint)//',TRUE')
             next%joint = next%joint + 1
             do k = 1, 2
                if (is_new(k)) call put_sides(model, pack(sides, on_side(:, k)), marks(k), next, file)
@@ -97,10 +114,38 @@ contains
          end associate
       end do each_pair
       if (size(pairs) == 0) call file%put('$ no sides of two bodies face each other within a tenth of the edge of a side')
-      if (next%joint > first .and. all(deck%bulk%pjoint%id /= next%law)) call file%put( &
-         '$ PJOINT '//integer_text(next%law)//', the laws of these joints, is not in the deck: --help PJOINT')
-      if (size(deck%bulk%support) == 0) call suggest_support(deck, model, sides, sees, mark, next, file)
+      if (next%joint > first .and. all(deck%bulk%pjoint%id /= next%law)) call file%put_lines('$'//nl// &
+         '$ PJOINT '//integer_text(next%law)//', the laws of these joints, is not in the deck; a published surface:'//nl// &
+         '$ PJOINT,'//integer_text(next%law)//",9106,9106,9106"//nl//"$ INCLUDE 'surfaces/"// &
+         one_of(upper(deck%control%force_unit) == 'KGF', 'mm_kgf', 'mm_n')//"/ground_on_ground.bdf'"//nl)
+      if (size(deck%bulk%support) == 0) call suggest_support(deck, model, sides, mark, next, file)
    end subroutine suggest_joints
+
+   !> The PATCH of each of SIDES that sees or is seen, 0: neither. Sides of a body are of one patch if they lie in one plane, or
+   !! share an edge at which the surface is smooth.
+   pure subroutine find_patches(mesh, sides, patch)
+      type(mesh_type), intent(in)       :: mesh
+      type(outer_side), intent(in)      :: sides(:)
+      integer, allocatable, intent(out) :: patch(:)
+      logical :: faces(size(sides))
+      integer :: i, j, k
+
+      faces = sides%sees > 0
+      faces(pack(sides%sees, faces)) = .true.
+      patch = [(i, i = 1, size(sides))]
+      do i = 1, size(sides)
+         if (.not. faces(i)) cycle
+         do j = 1, i - 1
+            associate (a => sides(i), b => sides(j))
+               if (.not. faces(j) .or. a%body /= b%body .or. dot_product(a%normal, b%normal) < smooth) cycle
+               if (count([(any(b%corners(:b%n) == a%corners(k)), k = 1, a%n)]) >= mesh%dimension - 1 .or. &
+                   norm2(a%normal - b%normal) < parallel_in_mesh .and. &
+                   abs(dot_product(a%centre - b%centre, b%normal)) < most_aside*(a%size + b%size)) call join(patch, i, j)
+            end associate
+         end do
+      end do
+      patch = [(merge(root_of(patch, i), 0, faces(i)), i = 1, size(sides))]
+   end subroutine find_patches
 
    !> The MARK of the deck of each of SIDES, the last of several; 0: none.
    subroutine find_marks(model, sides, mark)
@@ -200,11 +245,11 @@ contains
    end subroutine put_sides
 
    !> A support for the flat sides at the lowest z (y in the plane) that face down and see no other body.
-   subroutine suggest_support(deck, model, sides, sees, mark, next, file)
+   subroutine suggest_support(deck, model, sides, mark, next, file)
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
       type(outer_side), intent(in)          :: sides(:)
-      integer, intent(in)                   :: sees(:), mark(:)
+      integer, intent(in)                   :: mark(:)
       type(next_numbers), intent(inout)     :: next
       type(output_file_type), intent(inout) :: file
       logical  :: lowest(size(sides)), is_new
@@ -214,7 +259,8 @@ contains
       d = model%mesh%dimension
       if (size(sides) == 0) return
       extent = maxval(sides%centre(d)) - minval(sides%centre(d))
-      lowest = sides%centre(d) <= minval(sides%centre(d)) + at_the_bottom*extent .and. sides%normal(d) < -0.999_wp .and. sees == 0
+      lowest = sides%centre(d) <= minval(sides%centre(d)) + at_the_bottom*extent .and. sides%normal(d) < -0.999_wp .and. &
+               sides%sees == 0
       if (.not. any(lowest)) return
       call take_mark(deck, pack(mark, lowest), next, id, is_new)
       call file%put('$')

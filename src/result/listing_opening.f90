@@ -113,7 +113,7 @@ contains
       do i = 1, size(model%mesh%placed)
          associate (placed => model%mesh%placed(i), x => model%mesh%x(:, model%mesh%placed(i)%node))
             call table%put([character(7) :: 'NODE', 'NODEAT', 'ELEMENT', 'PMARK'], &
-                           [model%mesh%node_id(placed%node), placed%id, placed%element, placed%surface])
+                           [placed%number, placed%id, placed%element, placed%surface])
             call table%put(axes(:d), x(:d))
             call table%put('DISTANCE', merge(norm2(x - placed%x), 0.0_wp, placed%id > 0))
             call table%print_row(page%file)

@@ -6,7 +6,7 @@ module range_watch
    use analysis_state, only: analysis_type, free_norm
    use branch_cubic, only: cubic_slope
    use control_words, only: method_back, method_newton
-   use distance_watch, only: farthest_type, record_farthest, watch_distances, watch_path
+   use distance_watch, only: distance_words, farthest_type, record_farthest, watch_distances, watch_path
    use element_kinds, only: kind_tetra4
    use joint_laws, only: friction_excess, friction_limit
    use joint_values, only: joint_values_type
@@ -27,7 +27,7 @@ module range_watch
    implicit none
    private
 
-   public :: start_watch, watch_increment, watch_stage, print_warnings, record_watch, tetra_words
+   public :: start_watch, watch_increment, watch_stage, print_warnings, record_watch, tetra_words, warn
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: a smaller remainder gives no warning
 
@@ -141,6 +141,9 @@ contains
       end do
       watch%tallies = tally_type()
 
+      head = upper(distance_words(watch%farthest)) ! from the laws; the path was warned of already
+      if (index(head, 'STEP IS') == 1 .and. index(head, ' IN '//page%stage//',') > 0) call warn(watch, '  WARNING: '//head)
+
       ! what remains unbalanced, or above a limit
       head = '  WARNING: '//upper(page%place)//': '
       unbalanced = free_norm(analysis%unbalanced, analysis%held)
@@ -249,14 +252,19 @@ contains
    end subroutine watch_ranges
 
    !> Keep the line of a warning, or of a NOTE, which is not counted. If both parts are too long for one line, SECOND has a line
-   !! of its own.
+   !! of its own; without it so has what is behind a semicolon.
    pure subroutine warn(watch, first, second)
       type(range_watch_type), intent(inout) :: watch
       character(*), intent(in)              :: first
       character(*), intent(in), optional    :: second
+      integer :: i
 
       if (index(first, '  NOTE:') /= 1) watch%n_warnings = watch%n_warnings + 1
-      if (.not. present(second)) then
+      i = index(first(:min(page_width, len(first))), '; ', back=.true.) + 1
+      if (.not. present(second) .and. len(first) > page_width .and. i > 1) then
+         call append(watch%lines, first(:i))
+         call append(watch%lines, '          '//first(i + 1:))
+      else if (.not. present(second)) then
          call append(watch%lines, first)
       else if (len(first) + len(second) <= page_width) then
          call append(watch%lines, first//second)

@@ -9,6 +9,7 @@ module results
    use c_library, only: close_file, lock_folder
    use case_table, only: case_row, is_case, note_case, print_cases, record_cases
    use deck_input, only: deck_type
+   use distance_watch, only: default_slope_words
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
    use finished_stages, only: count_increment, count_type, finished_type, listing_end, mark_finished, name_companion, &
@@ -22,7 +23,7 @@ module results
    use mode_values, only: modes_type
    use model_data, only: model_type
    use node_coupling, only: held_forces
-   use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, watch_increment, watch_stage
+   use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, warn, watch_increment, watch_stage
    use restart_stream, only: restart_stream_type
    use result_names, only: early_ending, listing_ending, remove_all
    use result_page, only: backbone_table, bend_table, bolt_table, case_names, cases_table, energy_table, joint_table, &
@@ -37,6 +38,7 @@ module results
    use table_column, only: csv_titles
    use table_writer, only: table_type
    use text_tools, only: integer_text, real_text, text_item, upper
+   use unit_watch, only: stress_words
    use vibration_tables, only: list_modes
    use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, write_modes, write_vtu
    use watched_nodes, only: find_watched, record_watched, start_watched, state_at_end, watch_answer, watch_state
@@ -62,7 +64,7 @@ module results
       type(joint_values_type), allocatable, private :: joints_now(:) ! after the last increment
       type(bolt_answer_type), allocatable, private  :: bolts_now(:)
       type(cut_type), allocatable, private :: cuts(:) ! (joints) by planes of symmetry
-      type(watch_state), private      :: watched_before ! at the end of the last stage, where nodes are watched
+      type(watch_state), private      :: watched_before ! at the end of the last stage
       type(case_row), allocatable, private :: cases(:) ! completed so far; none in a deck without FROM
    end type results_type
 
@@ -89,7 +91,7 @@ contains
       results%method = deck%control%method
       call find_cuts(model, planes, results%cuts)
       call start_bolts(model, planes, results%cuts, results%bolts)
-      if (plan%has_watched_nodes) call start_watched(model, results%watched_before)
+      call start_watched(model, results%watched_before)
       allocate (results%cases(0), results%kept(size(plan%stages)))
       call start_watch(model, results%watch)
       associate (page => results%page, control => deck%control)
@@ -194,7 +196,7 @@ contains
       type(body_values_type) :: bodies
       type(joint_answer), allocatable :: joints(:)
       type(reactions_type) :: reactions
-      character(:), allocatable :: fault, title
+      character(:), allocatable :: fault, title, words
       integer :: before, i
 
       associate (stage => plan%stages(analysis%stage), page => results%page)
@@ -211,12 +213,17 @@ contains
             call list_shell_forces(page, model, analysis, is_listed=.false.)
          end if
          call watch_stage(page, model, analysis, results%watch)
+         call find_body_values(model, analysis, bodies)
+         words = upper(stress_words(bodies%strained))
+         if (bodies%strained > results%counts%digest%strained .and. words /= '') &
+            call warn(results%watch, '  WARNING: '//page%stage//': '//words)
+         words = default_slope_words(model, analysis, results%watched_before)
+         if (words /= '') call warn(results%watch, '  WARNING: '//page%stage//': '//words)
          do i = 1, n_stage_tables
             if (i == pass_rows) call print_warnings(results%watch, page%file)
             call results%stage_tables(i)%print_kept(page%file)
          end do
          call list_energy(page, model, analysis)
-         call find_body_values(model, analysis, bodies)
          call find_joint_answers(model, results%cuts, analysis, results%joints_now, results%method, page%largest_force, joints)
          fault = fault_of_bodies(bodies)
          if (fault == '') fault = fault_of_joints(model, joints)
@@ -249,7 +256,7 @@ contains
       end associate
       call note_case(model, plan, analysis, bodies, joints, results%bolts_now, results%watched, results%cases)
       call end_bolts(results%bolts_now, results%bolts)
-      if (plan%has_watched_nodes) results%watched_before = state_at_end(model, analysis)
+      results%watched_before = state_at_end(model, analysis)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
 
@@ -381,7 +388,7 @@ contains
       call record_watch(stream, results%watch)
       call record_vtu(results%vtu, stream)
       call record_bolts(stream, results%bolts)
-      if (allocated(results%watched_before%u)) call record_watched(stream, results%watched_before)
+      call record_watched(stream, results%watched_before)
       call record_cases(stream, results%cases)
       do i = 1, size(results%kept)
          call stream%text('kept', results%kept(i)%words)

@@ -22,6 +22,7 @@ module run_boxes
    use load_path, only: recover_bodies
    use machine, only: keep_memory, note_first_call, use_threads
    use memory_need, only: check_buffers, check_model_size
+   use mesh_queries, only: shown_number
    use modal_response, only: find_response, response_type
    use mode_values, only: evaluate_modes, modes_type
    use model_build, only: build_model
@@ -30,6 +31,7 @@ module run_boxes
    use newton_method, only: seat_joints
    use normal_stiffness, only: branch_open
    use openblas, only: prepare_openblas, tell_kernel
+   use range_watch, only: warn
    use restart_file, only: open_restart_file, take_up, write_restart
    use result_names, only: remove_old_results
    use results, only: end_stage, list_results => print_increment, print_modes, print_stage, start_results
@@ -40,7 +42,7 @@ module run_boxes
    use response_tables, only: list_pair_response, list_response, list_uncovered
    use vibration_tables, only: list_backbone
    use vtu_grids, only: write_piece
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, upper
    implicit none
    private
 
@@ -220,6 +222,9 @@ contains
       do i = 1, size(model%warnings)
          call tell(run, model%warnings(i)%words)
       end do
+      do i = 1, size(model%mesh%placed) ! from here on numbers are for print only
+         model%mesh%node_id(model%mesh%placed(i)%node) = shown_number(model%mesh, model%mesh%placed(i)%node)
+      end do
    end subroutine build_structure
 
    !> Form [k_b] of the bodies and factorise the part that no joint changes; then the listing can be opened.
@@ -283,6 +288,7 @@ contains
       type(run_type), intent(inout)   :: run
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
+      character(:), allocatable :: words
       integer :: i
 
       if (run%tells_drops .or. run%failure%raised) return
@@ -292,9 +298,11 @@ contains
             if (state%gap > 0.0_wp .and. .not. state%p_a > 0.0_wp) cycle
          end associate
          run%tells_drops = .true.
-         call tell(run, 'JOINT '//integer_text(model%joints%list(model%joints%element(i)%joint)%id)//', node '// &
-                   integer_text(joint_node_id(model, i, 1))//': an element with shear stiffness and without MU on '// &
-                   'PJOINT has opened; it drops its shear at once, and the equilibrium may be one of several that rounding chooses')
+         words = 'JOINT '//integer_text(model%joints%list(model%joints%element(i)%joint)%id)//', node '// &
+                 integer_text(joint_node_id(model, i, 1))//': an element with shear stiffness and without MU on '// &
+                 'PJOINT has opened; it drops its shear at once, and the equilibrium may be one of several that rounding chooses'
+         call tell(run, words)
+         call warn(run%results%watch, '  WARNING: '//upper(words))
          return
       end do
    end subroutine note_drops

@@ -58,7 +58,7 @@ law() {
    awk -v id="$1" -v stiff="$3" '
       function real(text) { if (text ~ /[0-9.][-+][0-9]/ && text !~ /[eE]/) sub(/[-+][0-9]+$/, "E&", text); return text + 0 }
       BEGIN { f = stiff == "stiff" ? 100 : 1 }
-      $1 == "JNORM"  { printf "JNORM,%d,%.6E,%s%s\n", id, real($3)/f, $4, f == 100 ? ",2.0E+6" : "" }
+      $1 == "JNORM"  { printf "JNORM,%d,%.6E,%s%s\n", id, real($3)/f, $4, f == 100 ? ",2.0E+6" : sprintf(",%.6E", real($5)) }
       $1 == "JSHEAR" { printf "JSHEAR,%d,%.6E,%.6E\n", id, real($3)*f, real($4)*f }' "$surfaces/$2.bdf"
 }
 

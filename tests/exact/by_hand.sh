@@ -27,9 +27,12 @@ run_input by_hand && {
    says 'by hand: kind of stiffness' "$work/by_hand.out" ' 7  5.66577E-04  6.73247E-04  2.50000E+03   SECANT$'
    says 'by hand: the line on the screen' "$work/by_hand.log" \
       'by_hand.bdf: STEP is up to 24.1 % of the largest deflection away from its law, at node 10 in stage 1, increment 3; METHOD = NEWTON'
+   says 'by hand: the same warning in the listing' "$work/by_hand.out" '^  WARNING: STEP IS UP TO 24.1 % OF THE LARGEST DEFLECTION AWAY FROM ITS LAW, AT NODE 10 IN STAGE 1, INCREMENT 3;'
+   says 'by hand: the warning is counted' "$work/by_hand.out" '^ END OF LISTING .* 1 WARNING$'
+   says 'by hand: counted on the screen' "$work/by_hand.log" '1 warning in the listing'
    judge 'by hand: the share stands before the increment, the tables of a stage behind all of its increments' '
       /^ STAGE [0-9]+, INCREMENT [0-9]+   SHARE/ { now = $2 + 0 " " $4 + 0; shares++ }
-      /STAGE [0-9]+, INCREMENT [0-9]+/ && !/SHARE/ { match($0, /STAGE [0-9]+, INCREMENT [0-9]+/); split(substr($0, RSTART, RLENGTH), w, /[ ,]+/)
+      /STAGE [0-9]+, INCREMENT [0-9]+/ && !/SHARE|WARNING/ { match($0, /STAGE [0-9]+, INCREMENT [0-9]+/); split(substr($0, RSTART, RLENGTH), w, /[ ,]+/)
          if (w[2] " " w[4] != now || w[2] == ended) print NR ": " $0 }
       /^ INCREMENTS OF STAGE/ { ended = $4 + 0 }
       END { if (shares != 6) print shares " increments"; print "checked " shares }' "$work/by_hand.out"
@@ -41,6 +44,7 @@ run exactly && same 'by hand, NEWTON: no line on the screen' "$(grep -c 'STEP is
 sed '/^JNORM/s/0.5 /1.0 /' input/by_hand.bdf | sed '/^SUBCASE 2/,/OUTPUT/d' > "$work/straight.bdf"
 run straight && {
    same 'by hand, a straight law: no line on the screen' "$(grep -c 'STEP is' "$work/straight.log")" 0
+   says 'by hand, a straight law: no warning' "$work/straight.out" '^ END OF LISTING .* 0 WARNINGS$'
    same 'by hand, a straight law: no distance' "$(table straight 'DISTANCE FROM THE LAWS' | awk '$3 > 0 && NF == 6' | grep -c .)" 0
 }
 

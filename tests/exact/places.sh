@@ -45,8 +45,19 @@ by_place near 'RBE2M,905,15,123456,30;NODEAT,7001,10.,10.,14.;NODEAT,7002,10.,10
    same 'NODEAT: of a surface' "$(placed_row near 7002 1)" 15
    near 'NODEAT: distance' "$(placed_row near 7001 8)" 1 1e-9
    same 'NODEAT: of equally near ones the lowest' "$(placed_row near 7003 1)" 3
-   same 'SET of NODEAT and PMARK' "$(awk -F, 'NR > 1 { n = n " " $2 } END { print n }' "$work/near.watch.csv")" ' 3 6 9 12 14 15 18 21 24 27'
+   same 'SET of NODEAT and PMARK' "$(awk -F, 'NR > 1 { n = n " " $2 } END { print n }' "$work/near.watch.csv")" ' 7003 6 9 12 7001 7002 18 21 24 27'
 }
+# results have the numbers of NODEAT, of two of one node the first: joint history, summary, messages; GN of an RBE2M may be one
+by_place named 'RBE2M,905,15,123456,30;NODEAT,7004,,,;NODEAT,7005,,,' 15 'WATCH = SET 4;SET 4 = 7005' && {
+   same 'NODEAT in the joint history' "$(awk -F, '$2 == 3 && $5 == 1 { print $6 }' "$work/named.joint.csv")" 7004
+   same 'NODEAT in WATCH' "$(awk -F, 'END { print $2 }' "$work/named.watch.csv")" 7004
+   "$program" -q -o "$work" --summary "$work/named.sum" "$work/named.bdf" > "$work/named.log" 2>&1
+   same 'NODEAT in the summary' "$(awk -F, 'NR == 1 { for (c = 1; c <= NF; c++) if ($c == "watched") n = c } END { print $n }' "$work/named.sum")" 7004
+}
+sed 's/^\(JAMPL.*\)2$/\1 2       7004/; s/^ENDDATA/NODEAT,7004,,,\n&/' input/bolted_lap.bdf > "$work/named.bdf"
+grep -q '7004$' "$work/named.bdf" && "$program" --check "$work/named.bdf" > "$work/named.log" 2>&1
+same 'NODEAT as GID of JAMPL' $? 0
+by_place near_gn 'RBE2M,905,7004,123456,30;NODEAT,7004,10.,10.,30.,30' 7004 && same_rows 'RBE2M with a GN of NODEAT' near_gn rigid_mark 1e-9 $resultant
 by_place near_list 'RBE2M,905,15,123456,30' 15 && same_rows 'force on NODEAT' near near_list 0 $resultant
 
 # an even traction by RBE3M on faces of second order: the pressure of the joint is even
@@ -80,6 +91,7 @@ DECK
 "$program" --joints "$work/loose_blocks.bdf" > "$work/loose_blocks.cards" 2> "$work/loose_blocks.log"
 same '--joints: exit status' $? 0
 says '--joints: the pair' "$work/loose_blocks.cards" 'face each other: 9 and 4 sides, areas 400.0 and 400.0, gap 0.02'
+says '--joints: the gap of the mesh' "$work/loose_blocks.cards" '^JGAP,1,TRUE$'
 same '--joints: cards of faces' "$(grep -c '^CQUAD4' "$work/loose_blocks.cards")" 13
 says '--joints: the law of the deck' "$work/loose_blocks.cards" '^JOINT,1,7,'
 same '--joints writes nothing' "$(ls "$work"/loose_blocks.*.csv "$work"/loose_blocks.out 2> /dev/null)" ''
@@ -100,6 +112,34 @@ sed -i 's/;SPC = 1//' "$work/loose.bdf"
 "$program" --joints "$work/loose.bdf" > "$work/loose.cards"
 says '--joints: a support' "$work/loose.cards" '^SPCM,1,123,'
 same '--joints: its faces' "$(grep -c '^CQUAD4' "$work/loose.cards")" 17
+
+# a joint for each plane and distance: a step of the lower body under the upper one, 0 below, 0.5 above, 0.02 beside it. Without PJOINT
+# its comments have a published surface
+cards places_step <<'DECK'
+METHOD = NEWTON;SPC = 1;LOAD = 1;INCR = 5;BEGIN BULK
+BLOCK3,1,1,4,2,1,0.0,0.0,0.0;+,40.0,20.0,10.0,,,,1,1;BLOCK3,2,1,2,2,1,20.0,0.0,10.0;+,40.0,20.0,19.5,,,,201,201;+,,,,,,,1
+BLOCK3,3,1,4,2,1,0.0,0.0,20.0;+,40.0,20.0,30.0,,,,401,401;BLOCK3,4,1,2,2,1,0.0,0.0,10.0;+,19.98,20.0,20.0,,,,601,601;+,,,,,,,3
+PSOLID,1,1;MAT1,1,9500.,,.25;JINCR,5,2;FORCE,1,402,,100.,0.,0.,-1.;SPC1,1,123,1,3,5;SPC1,1,12,401,430;ENDDATA
+DECK
+"$program" --joints "$work/places_step.bdf" > "$work/places_step.cards"
+places_kinds() { awk -F'[ ,]+' '/gap/ { sub(/.*gap /, ""); print }' "$work/$1.cards" | paste -sd';'; }
+same '--joints: planes and distances' "$(places_kinds places_step)" \
+   '0.0 to 0.0, normal (0, 0, 1);0.5 to 0.5, normal (0, 0, 1);0.02 to 0.02, normal (-1, 0, 0)'
+same '--joints: gaps of two of them' "$(grep '^JGAP' "$work/places_step.cards" | paste -sd' ')" 'JGAP,2,TRUE JGAP,3,TRUE'
+says '--joints: a published surface' "$work/places_step.cards" "^\$ INCLUDE 'surfaces/mm_n/ground_on_ground.bdf'"
+{ sed '/^ENDDATA/d' "$work/places_step.bdf"; cat "$work/places_step.cards"; echo 'PJOINT,1,1'; echo 'JNORM,1,8.-3,.5'; echo ENDDATA; } > "$work/places_stepped.bdf"
+run places_stepped && near '--joints: the plane without a gap bears the load' \
+   "$(value places_stepped rows 'increment = 2 and joint = 1' print 'sum(force)' | tail -1)" 100 1e-6
+# marks of the deck divide a plane: half of the lower side is 31, the rest 32, on the upper body one mark, which both joints name
+{ sed 's/^ENDDATA/PMARK,31\nPMARK,32\nPMARK,33/' "$work/places_step.bdf"
+   sed -n 's/^CQUAD4,\(60[56]\),2,/CQUAD4,\1,31,/p; s/^CQUAD4,\(60[78]\),2,/CQUAD4,\1,32,/p; s/^\(CQUAD4,6[01][0-9],\)3,/\133,/p' "$work/places_step.cards"
+   echo ENDDATA; } > "$work/places_marked.bdf"
+"$program" --joints "$work/places_marked.bdf" > "$work/places_marked.cards"
+same '--joints: by the marks of the deck' "$(awk -F, '/^JOINT/ { print $4, $5 }' "$work/places_marked.cards" | sort | paste -sd';')" '31 33;32 33;34 35;36 37'
+# a mark over several planes is no side of a joint
+sed 's/^CQUAD4,605,31,.*/&\nCQUAD4,801,31,202,208,210,204/' "$work/places_marked.bdf" > "$work/places_over.bdf"
+"$program" --joints "$work/places_over.bdf" > "$work/places_over.cards"
+same '--joints: no mark of two planes' "$(grep -c '^JOINT.*,31,' "$work/places_over.cards")" 0
 
 # shells: the faces that lie on each other, half a thickness off the nodes, and a surface of Gmsh's mesh that is missing
 cards sheets <<'DECK'

@@ -213,6 +213,34 @@ run tied_turned && {
    near 'a tied wall, turned: no stress' "$(shell_stress tied_turned 502 2 7)" 0 0 1e-4
 }
 
+# the face is rigid by an RBE2M whose GN is turned about the origin; loaded, the wall moves as one whose edge belongs to the RBE2
+tied tied_spider <<< 'RBE2M,905,999,123456,6
+GRID,999
+FORCE,1,524,,0.0,1.0
+SPC,1,999,123,0.0
+SPC,1,999,4,1.-4
+SPC,1,999,5,2.-4
+SPC,1,999,6,3.-4'
+run tied_spider && {
+   near 'a wall tied to an RBE2M, turned: x' "$(moved tied_spider 524 1)" 16e-4 1e-6
+   near 'a wall tied to an RBE2M, turned: y' "$(moved tied_spider 524 2)" 190e-4 1e-6
+   near 'a wall tied to an RBE2M, turned: z' "$(moved tied_spider 524 3)" -132e-4 1e-6
+   near 'a wall tied to an RBE2M, turned: no stress' "$(shell_stress tied_spider 502 2 7)" 0 0 1e-4
+}
+tied tied_spider <<< 'FORCE,1,524,,700.0,1.0,2.0,-1.0
+GRID,999,,10.0,10.0,10.0
+RBE2M,905,999,123456,6'
+tied tied_rigid <<< 'FORCE,1,524,,700.0,1.0,2.0,-1.0
+GRID,999,,10.0,10.0,10.0
+RBE2M,905,999,123456,6
+RBE2,906,999,123456,501,502,503,504,505
++,506,507,508'
+sed -i '/^SHELLTO/d' "$work/tied_rigid.bdf"
+run tied_spider && run tied_rigid && for c in 1 2 3; do
+   near "a wall tied to an RBE2M, loaded: $c" "$(moved tied_spider 524 $c)" "$(moved tied_rigid 524 $c)" 1e-6
+   near "a wall tied to an RBE2M: the balance of forces, $c" "$(total tied_spider 'SUM: LEFT UNBALANCED' $c)" 0 0 1e-6
+done
+
 # ---- joints on the faces of shells: two sheets, pressed evenly ----
 
 # sheets NAME LINES: 4 x 4 sheets of 100 x 100, 10 thick, the lower one held; LINES are those of case control

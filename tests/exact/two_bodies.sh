@@ -77,7 +77,7 @@ unequal up 20,21 && unequal down 21,20 && {
 # An E_u less steep than the loading curve is warned of, once a joint: at p = 0.5 the slope is 2 sqrt(0.5)/8E-3 = 176.777, the set of
 # 150 is 5.657E-3 - 0.5/150 > 0; that of 80 would be negative.
 says 'E_u below the slope of the loading curve' "$work/up.out" 'STAGE 1, INCREMENT 1: E_U = 150 OF JOINT 1 IS BELOW THE LOADING SLOPE 176.7767 AT P = 0.5$'
-same 'E_u below the slope: once' "$(grep -c 'WARNING.*E_U' "$work/up.out")" 1
+same 'E_u below the slope: once' "$(grep -c 'WARNING.*: E_U = ' "$work/up.out")" 1
 sed 's/^JNORM.*/&,80.0/' "$work/up.bdf" > "$work/negative.bdf"
 run negative && says 'E_u below the secant' "$work/negative.out" 'E_U = 80 OF JOINT 1 IS BELOW THE LOADING SLOPE 176.7767 AT P = 0.5: NEGATIVE SET$'
 sed 's/^JNORM.*/&,180.0/' "$work/up.bdf" > "$work/steep.bdf"

@@ -160,6 +160,7 @@ BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,$1,,0.0;SPC1,1
 DECK
    run units
    same "stress of E = $1" "$(grep -c 'of E, more than solids bear' "$work/units.log")" "$2"
+   same "stress of E = $1: in the listing, counted" "$(grep -c '  WARNING: STAGE 1: THE LARGEST VON MISES' "$work/units.out") $(grep -c " $2 WARNING" "$work/units.out")" "$2 1"
 done
 
 # Between two nodes: 9001 on rods along x and y (k = 1000, 2000), 9002 at (30, 40) from it on others (4000, 8000), pulled apart along their line
@@ -240,3 +241,24 @@ near '... points of NODEAT' "$(watch_summary watch_at stiffness_7001-7002)" "1/$
 near '... the second frequency' "$(watch_summary watch_at frequency_2)" "sqrt(2000/0.02)/(2*$pi)" 1e-9
 near '... the fourth' "$(watch_summary watch_at frequency_4)" "sqrt(8000/0.03)/(2*$pi)" 1e-9
 same '... and no fifth' "$(watch_summary watch_at frequency_5)" ''
+# ---- the default E_u: E of the body per unit length, a bar of 10 on it: the line has 1/11 of the movement. With the slope of loading, E/36, the
+# joint would move by 36 for 1 beside the 10 of the bar: 35/11 more. Unloading, reloading below A, past A, off to zero
+slope_deck() { # NAME METHOD [EU]
+   cards "$1" <<DECK
+METHOD = $2;SPC = 1;WATCH = SET 4;SET 4 = 4;INCR = 5;SUBCASE 1;LOAD = 1;SUBCASE 2;LOAD = 2;SUBCASE 3;LOAD = 3;SUBCASE 4;LOAD = 4;SUBCASE 5
+BEGIN BULK;BLOCK2,1,1,2,1,0.0,0.0;+,20.0,10.0;+,20,,30;PSHELL,1,1,5.0;MAT1,1,9000.,,0.0;JOINT,1,1,20;PJOINT,1,1;JNORM,1,4.-3,1.0,${3:-}
+SPC1,1,1,1;PMARK,20;PMARK,30;JINCR,5,2
+PLOADM,1,4.0,30;PLOADM,2,1.0,30;PLOADM,3,2.0,30;PLOADM,4,6.0,30;ENDDATA
+DECK
+}
+slope_moved() { awk -F, -v s="$2" '$1 == s { print $10 }' "$work/$1.watch.csv"; }
+slope_deck slope_default NEWTON
+slope_deck slope_given NEWTON 250.0
+run slope_default && run slope_given && {
+   same 'default E_u: stages' "$(sed -n 's/ *WARNING: STAGE \(.\): ELEMENTS UNLOADED ON THE DEFAULT E_U, MOST IN JOINT 1: 9.1 % OF THE MOVEMENT;$/\1/p' "$work/slope_default.out" | paste -sd' ')" '2 3 5'
+   same 'default E_u: with the slope of loading' "$(grep -c '^ *UP TO 318.2 % MORE' "$work/slope_default.out")" 3
+   near 'default E_u: what the slope of loading gives' "$(slope_moved slope_given 2)" "$(slope_moved slope_default 2)*(1 + 35/11)" 1e-9
+   same 'E_u given: no warning' "$(grep -c 'ON THE DEFAULT E_U' "$work/slope_given.out")" 0
+}
+slope_deck slope_step STEP # follows its tangents, the first of which is that of loading
+run slope_step && says 'default E_u: STEP' "$work/slope_step.out" 'WARNING: STAGE 3: ELEMENTS UNLOADED ON THE DEFAULT E_U, MOST IN JOINT 1'

@@ -42,7 +42,7 @@ guide 'the first deck: areas' 'a_i is 250 mm2 at the two ends and 500 mm2 betwee
 # ---- a column foot: the answers, by the listing ----
 foot() { awk -v stage="$1" "/ANSWER AT THE END OF STAGE/ { on = \$7 == stage } on && $2" reference_output/column_foot.out; }
 answers() { shown "a column foot, $1" $guide "$2"; }
-tool() { foot "$1" '/^ +9053 / { printf "%.1f N/um along '"$2"'", $NF/1000 }'; }
+tool() { foot "$1" '/^ +9001 / { printf "%.1f N/um along '"$2"'", $NF/1000 }'; }
 answers 'stiffness at the tool' "| $(tool 2 x), $(tool 3 y)."
 share() { foot 2 "/^ +$1 +$2 +[-0-9.]+ +[-0-9.]+ +[-0-9.]+( |\$)/ && !/E\\+/ { printf \"%.0f %%\", \$3 }"; }
 answers 'what gives way' "| column with foot $(share BODY 2), joint $(share JOINT 1), bed $(share BODY 1), bolts"
@@ -54,7 +54,7 @@ answers 'slip' "| $(foot 3 '/JOINT CONTACT/ { n = NR + 2 } NR == n { printf "%.1
 answers 'forces on the bed' "| $(foot 3 '/^ SPCM/ && !done++ { printf "%.0f N along x and y; MCX %d,000", $4, $10/1000 }') N mm = 2000 x (400 + 60) |"
 modes=$(awk '/^ FREQUENCIES/ { on = 1 } on && /^ +[1-3] / && n < 3 { n++; printf("%s%.0f Hz", (n > 1 ? ", " : ""), $2) }' reference_output/column_foot.out)
 answers 'frequencies' "| $modes in the tightened state. |"
-answers 'frequency by hand' "| sqrt(k/m)/(2 pi) = $(round %.0f 'sqrt(69.5e3/(0.04 + 0.24*0.023))/(2*3.14159265)') Hz"
+answers 'frequency by hand' "| sqrt(k/m)/(2 pi) = $(round %.0f "sqrt($(tool 3 y | cut -d' ' -f1)*1e3/(0.04 + 0.24*0.023))/(2*3.14159265)") Hz with $(tool 3 y | cut -d' ' -f1) N/um"
 # the box by hand: a cantilever of 370 with shear in the walls along the force, 140 x 120 with walls of 20
 by_hand=$(awk '/^MAT1 +1 /{ e = substr($0, 17, 8) + 0; nu = substr($0, 33, 8) + 0; exit } END { print e, nu }' input/column_foot.bdf |
    awk '{ g = $1/(2*(1 + $2)); l = 370; printf "%.0f and %.0f", k(140, 120), k(120, 140) }

@@ -132,6 +132,20 @@ if command -v gmsh > /dev/null; then
    anew pin_in_bore 's/{1, 2} = 11;/{1, 2} = 19;/; s/{11} = 17;/{11} = 28;/' 2
    mkdir -p "$work/surfaces" && cp -R input/surfaces/mm_n "$work/surfaces" # which the deck includes
    anew column_foot 's/{column()}; } } = 100;/{column()}; } } = 80;/' 0
+   # shells beside solids of second order: two runs on one file, by the lines of the manual
+   cp input/gmsh/sheet_on_bed.geo "$work/gmsh" && rm -f "$work"/gmsh/{bed,sheet}_mesh.bdf
+   sed -n '/^gmsh .* sheet_on_bed.geo$/p' input/README.md > "$work/gmsh/manual.sh"
+   (cd "$work/gmsh" && sh ./manual.sh > log 2>&1)
+   printf '%s\n' 'MODEL = SPACE' 'SPC = 1' 'LOAD = 1' 'BEGIN BULK' "INCLUDE 'gmsh/bed_mesh.bdf'" "INCLUDE 'gmsh/sheet_mesh.bdf'" 'PSOLID,1,1' \
+      'PSHELL,2,1,4.0,1,,1' 'MAT1,1,210000.,,.3' 'PMARK,20' 'PMARK,21' 'PMARK,30' 'SHELLTO,30,21' 'SPCM,1,123,20' 'NODEAT,9001,180.,50.,80.' \
+      'FORCE,1,9001,,100.,0.,1.,0.' 'ENDDATA' > "$work/sheet_on_bed.bdf"
+   if "$program" -q -o "$work" "$work/sheet_on_bed.bdf" > "$work/sheet_on_bed.log"; then
+      # forces and moments of the supports about the origin: F = (0, 100, 0) at (180, 50, 80)
+      same 'a sheet on a bed, two runs of Gmsh: reactions' "$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+         $at["kind"] == "SPCM" { printf "%.3f %.3f %.1f %.1f", $at["force_x"] + 0, $at["force_y"], $at["moment_x"], $at["moment_z"] }' "$work/sheet_on_bed.reaction.csv")" '0.000 -100.000 8000.0 -18000.0'
+   else
+      fail 'a sheet on a bed, two runs of Gmsh'
+   fi
    if tests/programs/column.sh "$program" "$work/column"; then passed=$((passed + 1)); else fail "a flanged column"; fi
    tests/programs/gmsh_fine.sh "$work"
    carries 'two_blocks: 50,000 nodes' two_blocks "$work/two_blocks_fine.bdf"
