@@ -241,7 +241,7 @@ contains
          digest%contact = min(digest%contact, minval(joints%now%contact))
          digest%safety = min(digest%safety, minval(joints%safety, mask=joints%has_safety))
       end associate
-      call end_bolts(results%bolts_now, results%bolts)
+      call end_bolts(analysis%stage, results%bolts_now, results%bolts)
       if (plan%has_watched_nodes) results%watched_before = state_at_end(model, analysis)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
