@@ -261,17 +261,16 @@ contains
       call check_kept(deck, mesh)
       call find_pressed_sides(deck, mesh, cards%pressed)
       allocate (history%stages(size(deck%control%stages)), oscillating(size(deck%control%stages)))
-      if (size(deck%bulk%bolt) > 0 .and. .not. deck%errors%any()) allocate (before(3, mesh%n_nodes, 2), source=0.0_wp)
+      allocate (before(3, merge(mesh%n_nodes, 0, size(deck%bulk%bolt) > 0), 2), source=0.0_wp)
+      if (size(deck%bulk%bolt) > 0 .and. .not. deck%errors%any()) allocate (cards%pressing(3, mesh%n_nodes))
       do s = 1, size(deck%control%stages)
          associate (loads => history%stages(s), stage => deck%control%stages(s))
-            if (allocated(before)) cards%pressing = 0.0_wp*before(:, :, 1)
+            if (allocated(cards%pressing)) cards%pressing = 0.0_wp
             allocate (loads%node(size(deck%bulk%force)), loads%force(3, size(deck%bulk%force)))
             call keep_moved(deck, mesh, stage%load%id, loads)
             call add_case(stage%load, 'LOAD', loads)
-            if (allocated(before)) then
-               call note_changes(cards%pressing, before, loads)
-               if (s > 1) loads%changes(1) = loads%changes(1) .or. differ(history%stages(s - 1)%moved, loads%moved)
-            end if
+            if (allocated(cards%pressing)) call note_changes(cards%pressing, before, loads)
+            if (s > 1) loads%changes(1) = loads%changes(1) .or. differ(history%stages(s - 1)%moved, loads%moved)
             allocate (oscillating(s)%node(0), oscillating(s)%force(3, 0))
             call add_case(stage%vibration%load, 'DLOAD', oscillating(s))
          end associate
@@ -308,9 +307,10 @@ contains
       real(wp), intent(in)                 :: pressing(:, :)  !! (3, n_nodes)
       real(wp), intent(inout)              :: before(:, :, :) !! (3, n_nodes, 2) nodal forces: of forces, of pressures
       type(stage_load_type), intent(inout) :: loads
-      real(wp) :: now(3, size(pressing, 2), 2)
-      integer  :: i, k
+      real(wp), allocatable :: now(:, :, :)
+      integer :: i, k
 
+      allocate (now, mold=before)
       now(:, :, 1) = -pressing
       now(:, :, 2) = pressing
       do i = 1, loads%n

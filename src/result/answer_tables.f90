@@ -199,7 +199,7 @@ contains
             end associate
          end do
       end if
-      if (any(bolts%is_locked) .and. has_parts(model)) then
+      if (has_parts(model) .and. any([(any(abs(bolts(i)%by) > 0.0_wp), i = 1, size(bolts))])) then
          call page%screen%put('')
          call table%start('', table_columns(parts_table, page%labels, model), page%screen)
          do i = 1, size(bolts)
@@ -233,7 +233,7 @@ contains
       do i = 1, size(bolts)
          if (bolts(i)%thread == '') cycle
          call table%put('BOLT', bolts(i)%id)
-         call table%put('THREAD', trim(bolts(i)%thread)//' '//bolts(i)%class)
+         call table%put('THREAD', trim(bolts(i)%thread)//' '//trim(bolts(i)%class))
          call table%put('ALPHA A', bolts(i)%tightening)
          call table%put(vdi_names, bolts(i)%vdi, where=bolts(i)%has_vdi)
          call table%print_row(page%screen)

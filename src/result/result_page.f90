@@ -38,7 +38,7 @@ module result_page
    character(14), parameter, public :: &
       part_names(4) = [character(14) :: 'by_forces', 'by_temperature', 'by_pressure', 'by_several'], &
       vdi_names(10) = [character(14) :: 'assembly_force', 'allowed_force', 'working_load', 'residual', 'amplitude', 'yield', &
-                       'fatigue', 'rolled_last', 'slip', 'opening']
+                       'fatigue', 'fatigue_rolled', 'slip', 'opening']
 
    !> The units of the numbers of the listing, blank where the deck names none.
    type, public :: label_type
@@ -155,10 +155,10 @@ contains
          columns = [column('BOLT', 'i11'), column([character(14) :: 'BY FORCES', 'BY TEMPERATURE', 'BY PRESSURE', 'BY SEVERAL'], &
             'es15.4', labels%force, key=part_names), column(['SHARE         ', 'SHARE PRESSURE'], 'f15.5')]
       case (vdi_table) ! for each bolt with a thread
-         columns = [column('BOLT', 'i9'), column('THREAD', 'a10'), column('ALPHA A', 'f8.2'), &
+         columns = [column('BOLT', 'i11'), column('THREAD', 'a10'), column('ALPHA A', 'f9.2'), &
             column([character(8) :: 'ASSEMBLY', 'ALLOWED', 'WORKING', 'RESIDUAL'], 'es11.3', labels%force, key=vdi_names(:4)), &
-            column('AMPLITUDE', 'es11.3', labels%pressure, key=vdi_names(5)), column([character(11) :: 'YIELD', 'FATIGUE', &
-            'ROLLED LAST', 'SLIP', 'OPENING'], 'f12.2', key=vdi_names(6:))]
+            column('AMPLITUDE', 'es11.3', labels%pressure, key=vdi_names(5)), column([character(7) :: 'YIELD', 'FATIGUE', &
+            'ROLLED', 'SLIP', 'OPENING'], 'f9.2', key=vdi_names(6:))]
       case (reaction_table) ! for each support, their sum, the loads
          columns = [csv('stage'), column('REACTIONS', 'a9', name='kind'), column('NUMBER', 'i11'), csv(['id  ', 'line']), &
             column('NODES', 'i8', name='nodes'), csv(xyz), &
