@@ -34,7 +34,7 @@ SCALE = ["#440154", "#3b528b", "#21918c", "#5ec962", "#fde725"]  # of displaceme
 VIEWER = (0.549, -0.713, 0.436)  # where the viewer stands
 COLOURS = ["#7b9fc7", "#c9a66b", "#8fb58a", "#b48ead", "#a3a3a3", "#d08770", "#6fb7b7", "#c2b280"]
 class Grid:
-    """Points, cells (kind, nodes) and columns of a VTU file; the unit stands behind the name of a column."""
+    """Points, cells (kind, nodes) and columns of a VTU file; of a column 'pressure [N/MM2]' UNITS has ' [n/mm2]'."""
 
     def __init__(self, path):
         data = path.read_bytes()
@@ -45,7 +45,7 @@ class Grid:
             at, form = start + int(offset), FORMATS[kind]
             count = struct.unpack_from("<Q", data, at)[0]//struct.calcsize(form)
             key, _, unit = name.partition(" [")
-            self.columns[key], self.units[key] = struct.unpack_from(f"<{count}{form}", data, at + 8), unit.rstrip("]")
+            self.columns[key], self.units[key] = struct.unpack_from(f"<{count}{form}", data, at + 8), unit and f" [{unit.lower()}"
         self.points = list(zip(*[iter(self.columns["points"])]*3))
         offsets = (0,) + self.columns["offsets"]
         nodes = self.columns["connectivity"]
@@ -66,8 +66,7 @@ class Grid:
                                                           tuple(middle[frozenset(e)] for e in outline) if middle else ())
         return [face for face in single.values() if face]
 
-def dot(a, b):
-    return sum(x*y for x, y in zip(a, b))
+dot = lambda a, b: sum(x*y for x, y in zip(a, b))
 
 def cross(a, b):
     return [a[1]*b[2] - a[2]*b[1], a[2]*b[0] - a[0]*b[2], a[0]*b[1] - a[1]*b[0]]
@@ -83,9 +82,7 @@ def figure(picture, caption):
         picture = f'<img alt="{picture.stem}" src="data:image/png;base64,{base64.b64encode(picture.read_bytes()).decode()}">'
     return f"<figure>{picture}<figcaption>{html.escape(caption)}</figcaption></figure>"
 
-def is_plane(points):
-    return max(p[2] for p in points) - min(p[2] for p in points) <= 1e-9
-
+is_plane = lambda points: max(p[2] for p in points) - min(p[2] for p in points) <= 1e-9
 def draw_pyvista(png, points, faces, values, title):
     import pyvista as pv
     mesh = pv.PolyData(points, [k for face in faces for k in (len(ring(face)), *ring(face))])
@@ -148,10 +145,10 @@ def draw_gnuplot(png, points, faces, values, title, cells):
     wide, tall, deep = (high - low for low, high in span)
     zoom = 1.8*max(wide, tall, deep)/max(wide, tall)*(0.85 if wide > tall else 1.0)
     scale = "unset colorbox" if isinstance(values[0], str) else f"""set cbrange [{min(values):.6g}:{max(max(values), 1e-30):.6g}]; set cbtics
-set palette defined ({", ".join(f'{k} "{c}"' for k, c in enumerate(SCALE))}); set colorbox user origin 0.88, 0.25 size 0.02, 0.5"""
+set palette defined ({", ".join(f'{k} "{c}"' for k, c in enumerate(SCALE))}); set colorbox user origin 0.84, 0.25 size 0.02, 0.5"""
     subprocess.run(["gnuplot"], check=True, text=True, stderr=subprocess.DEVNULL, input=f"""set terminal pngcairo size 1000,760 font 'DejaVu Sans,15'
-set output '{png}'; set pm3d depthorder corners2color c1; {ranges}; set view 0, 0, {zoom:.4g}; set view equal xyz; unset border; unset key
-unset xtics; unset ytics; unset ztics; {scale}
+set output '{png}'; set pm3d depthorder corners2color c1; {ranges}; set view 0, 0, {zoom:.4g}; set view equal xyz; unset border; unset key; set lmargin at screen 0.02
+set rmargin at screen 0.86; unset xtics; unset ytics; unset ztics; {scale}
 set cblabel '{title}'; set format cb '%.3g'; splot '{data}' using 1:2:3:4 with pm3d fillcolor rgb variable, NaN with lines palette
 """)
 
@@ -253,14 +250,14 @@ def shapes(work, name, kind):
             continue
         grid, words = Grid(path), f"Stage {stage[1]}: " if stage[1] else ""
         for i, key in enumerate([k for k in grid.columns if k.startswith("mode ")][:8] if kind else ["displacement"]):
-            vectors, unit = list(zip(*[iter(grid.columns[key])]*3)), grid.units[key].lower()
+            vectors, unit = list(zip(*[iter(grid.columns[key])]*3)), grid.units[key]
             size = [math.hypot(*v) for v in vectors]
             span = max(max(p[k] for p in grid.points) - min(p[k] for p in grid.points) for k in range(3))
             scale = float(f"{(0.1 if kind else 0.06)*span/max(size):.0e}") if max(size) > 0 else 1.0
             points = [tuple(p[k] + scale*u[k] for k in range(3)) for p, u in zip(grid.points, vectors)]
-            picture = draw_bodies(work / f"{path.stem}.{i}.png", grid, points, size, "shape" if kind else f"displacement [{unit}]")
+            picture = draw_bodies(work / f"{path.stem}.{i}.png", grid, points, size, "shape" if kind else f"displacement{unit}")
             text.append(figure(picture, words + (f"{key.split(',')[0]}, {float(key.split()[-1]):.4g} Hz" if kind else
-                                                 f"displacement up to {max(size):.4g} {unit}, drawn {scale:g} times")))
+                                                 f"displacement{unit} up to {max(size):.4g}, drawn {scale:g} times")))
     return "".join(text)
 
 def joints(work, name, stages):
@@ -272,7 +269,7 @@ def joints(work, name, stages):
         highest = max((p for g in grids.values() for p, j in zip(g.columns["pressure"], g.columns["joint"]) if j == joint), default=0.0)
         picture = joint_picture(grid, joint, highest, [float(row["normal_" + x]) for x in "xyz"]) if grid and highest > 0 else ""
         if picture:
-            text.append(figure(picture, f"Joint {joint}, stage {row['stage']}: pressure [{grid.units['pressure']}], largest "
+            text.append(figure(picture, f"Joint {joint}, stage {row['stage']}: pressure{grid.units['pressure']}, largest "
                                         f"{float(row['p_max']):.4g}, contact {100*float(row['contact']):.1f} %; white: open"))
     return "".join(text)
 
@@ -321,20 +318,20 @@ def build_page(name, work, run):
     for words, kinds in (("Response", ("response",)), ("Backbone", ("backbone", "loops"))):
         parts[words] = "".join(figure(p, f"{kind.capitalize()}, stage {stage}") for p, kind, stage in curves if kind in kinds)
     parts["Warnings"] = warnings_of(listing, run.stderr)
+    title = lines[2] if not lines[2].startswith("DECK ") else name
+    about = next(line for line in lines if line.startswith("DECK "))
     parts = {k: v for k, v in parts.items() if v}
     style = (HERE / "report.css").read_text()
     slug = {k: k.lower().replace(" ", "-") for k in parts}
     return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-            f"<title>{html.escape(lines[2])}</title><style>{style}</style></head><body><h1>{html.escape(lines[2])}</h1><p>{html.escape(lines[3])}. {html.escape(lines[-1])}</p><nav>"
+            f"<title>{html.escape(title)}</title><style>{style}</style></head><body><h1>{html.escape(title)}</h1><p>{html.escape(about)}. {html.escape(lines[-1])}</p><nav>"
             + "".join(f'<a href="#{slug[k]}">{k}</a>' for k in parts) + "</nav>\n"
             + "\n".join(f'<section id="{slug[k]}"><h2>{k}</h2>{v}</section>' for k, v in parts.items()) + "\n</body></html>\n")
 
 def main():
     program, deck, folder = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-    if not deck.is_file():
-        sys.exit(f"there is no deck {deck}")
-    if not shutil.which("gnuplot"):
-        sys.exit("make report needs gnuplot: apt-get install gnuplot-nox")
+    deck.is_file() or sys.exit(f"there is no deck {deck}")
+    shutil.which("gnuplot") or sys.exit("make report needs gnuplot: apt-get install gnuplot-nox")
     work = folder / f"{deck.stem}.files"
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)

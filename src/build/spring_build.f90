@@ -173,7 +173,7 @@ contains
       end if
       if (mesh%axisymmetric .and. .not. card%thread%count > 0.0_wp) call deck%field_error(card%line, 'COUNT', &
          'blank; expected the number of bolts round the ring of an axisymmetric model')
-      thread = in_units(card%thread, 1.0e-3_wp/metre, 1.0e6_wp*metre**2/newton)
+      thread = in_units(card%thread, 1.0_wp/(1000.0_wp*metre), 1.0e6_wp*metre**2/newton)
    end subroutine find_thread
 
    !> Append the springs to the bars of the model.

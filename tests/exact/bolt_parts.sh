@@ -56,3 +56,13 @@ bolt_parts parts && {
    says 'VDI 2230 in the answer' "$work/parts.log" 'M3 8.8'
 }
 
+
+# A ring: the bar is four bolts M12, so that each has a quarter of the forces.
+cp input/flange_pair.bdf "$work/ring_bolts.bdf"
+sed -i 's/^BOLT .*/BOLT,1,901,8.+4,1,,M12,8.8\n+,1.25,.1,4./' "$work/ring_bolts.bdf"
+run ring_bolts && {
+   near 'ring: assembly force of one bolt' "$(of_bolt ring_bolts 2 1 assembly_force)" 20000 1e-7
+   near 'ring: allowed force' "$(of_bolt ring_bolts 2 1 allowed_force)" 49100 2e-3 # Table A of VDI 2230: M12 x 1.25, 8.8, 0.10
+   near 'ring: amplitude' "$(of_bolt ring_bolts 2 1 amplitude)" \
+      "$("$query" "$work/ring_bolts.bolt.csv" rows 'stage = 2' print 'max(force) - min(force)')/(8*pi/4*(12 - 13/12*0.75^0.5*1.25)^2)" 1e-7
+}
