@@ -34,7 +34,7 @@ SCALE = ["#440154", "#3b528b", "#21918c", "#5ec962", "#fde725"]  # of displaceme
 VIEWER = (0.549, -0.713, 0.436)  # where the viewer stands
 COLOURS = ["#7b9fc7", "#c9a66b", "#8fb58a", "#b48ead", "#a3a3a3", "#d08770", "#6fb7b7", "#c2b280"]
 class Grid:
-    """Points, cells (kind, nodes) and columns of a VTU file; of a column 'pressure [N/MM2]' UNITS has ' [n/mm2]'."""
+    """Points, cells (kind, nodes) and columns of a VTU file; of a column 'pressure [N/MM2]' UNITS has ' [N/mm2]'."""
 
     def __init__(self, path):
         data = path.read_bytes()
@@ -45,7 +45,7 @@ class Grid:
             at, form = start + int(offset), FORMATS[kind]
             count = struct.unpack_from("<Q", data, at)[0]//struct.calcsize(form)
             key, _, unit = name.partition(" [")
-            self.columns[key], self.units[key] = struct.unpack_from(f"<{count}{form}", data, at + 8), unit and f" [{unit.lower()}"
+            self.columns[key], self.units[key] = struct.unpack_from(f"<{count}{form}", data, at + 8), unit and " [" + re.sub(r"(k?)n\b", r"\1N", unit.lower())
         self.points = list(zip(*[iter(self.columns["points"])]*3))
         offsets = (0,) + self.columns["offsets"]
         nodes = self.columns["connectivity"]
@@ -93,7 +93,8 @@ def draw_pyvista(png, points, faces, values, title):
         plotter.add_mesh(mesh, rgb=True, **how)
     else:
         mesh["values"] = values
-        plotter.add_mesh(mesh, cmap="viridis", scalar_bar_args=dict(title=title, color="black", n_labels=4), **how)
+        bar = dict(title=title + " ", color="black", n_labels=4, fmt="%.3g", vertical=True, position_x=0.86, position_y=0.25, height=0.5)
+        plotter.add_mesh(mesh, cmap="viridis", scalar_bar_args=bar, **how)
     plotter.view_vector(*(((0, 0, 1), (0, 1, 0)) if is_plane(points) else (VIEWER, (0, 0, 1))))
     plotter.screenshot(str(png))
     plotter.close()
@@ -131,7 +132,6 @@ def pieces_of(points, faces, values, cells):
             one, two = (values[face[0]],)*2 if by_cell else SCALE[i:i + 2]
             rgb = [int(shade*(int(one[k:k + 2], 16)*(i + 1 - at) + int(two[k:k + 2], 16)*(at - i))) for k in (1, 3, 5)]
             yield [q[:3] for q in (a, b, c)], rgb[0]*65536 + rgb[1]*256 + rgb[2]
-
 def draw_gnuplot(png, points, faces, values, title, cells):
     data, spots = png.with_suffix(".faces"), []
     with open(data, "w") as file:
