@@ -64,6 +64,7 @@ help:
 	@echo 'make mutants    which single changes of src no test notices: N=150 SEED=1 JOBS=1'
 	@echo 'make figures    the pictures, from the CSV files of the decks'
 	@echo 'make figures DECK=path   pressure, deflection and loops of the joints of any deck'
+	@echo 'make report DECK=path    a page of the results of any deck, with pictures'
 	@echo 'make figures DATA=file   test data and their fit'
 	@echo 'make fuzz MINUTES=60 SEED=7  decks made at random, through the program, with run-time checks and sanitizers'
 	@echo 'make pairs N=5000 SEED=7  decks in which every pair of features meets: other solver, renumbered, mirrored, turned, other units'
@@ -251,6 +252,11 @@ else
 figures: bin/jointfem bin/jointfit $(QUERY)
 	@reference_output/figures/draw.sh bin/jointfem bin/jointfit $(QUERY) $(BUILD)/figures
 endif
+
+# One page of the results of a deck
+.PHONY: report
+report: bin/jointfem
+	@python3 reference_output/figures/report.py bin/jointfem '$(DECK)' $(BUILD)/figures
 
 .PHONY: clean
 clean:

@@ -2,23 +2,22 @@
 !! FORCE, FORCE1 and FORCE2 are vectors in global axes; MOMENT acts on rotations.
 module load_build
    use body_loads, only: acceleration_field, add_gravity, add_to_beam, check_plane, find_beam_loads, find_fields
-   use bulk_data, only: bulk_data_type, force_card, surface_load_card
+   use bulk_data, only: bulk_data_type, force_card
    use case_entries, only: set_reference
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
-   use element_kinds, only: max_side_nodes
    use field_rules, only: has_component
    use kinds, only: wp
-   use model_data, only: freedoms_type, history_type, mesh_type, stage_load_type, supported, surface_type
+   use model_data, only: freedoms_type, history_type, mesh_type, stage_load_type, supported
    use model_kind, only: space_hint
-   use node_coupling, only: coupling_parts, add_section_share
+   use node_coupling, only: coupling_parts
    use numbers, only: cross, identity
-   use pressure_loads, only: add_pressure, find_pressed_sides, pressed_side
-   use support_build, only: check_kept, keep_moved, move
-   use surface_build, only: find_surface, side_influence
+   use pressure_loads, only: add_pressure, add_surface_load, find_pressed_sides, pressed_side
+   use support_build, only: check_kept, differ, keep_moved, move
+   use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text, one_of
-   use tolerances, only: zero_component, zero_component_along
+   use tolerances, only: zero_component, zero_component_along, zero_remainder
    use unknowns, only: node_axes, place_of_component, rotation_at, rotation_component
    implicit none
    private
@@ -33,7 +32,13 @@ module load_build
       type(acceleration_field), allocatable :: fields(:)
       integer, allocatable  :: beam(:)          ! (PLOAD1) the loaded element
       real(wp), allocatable :: end_force(:, :)  ! (12, PLOAD1) [force], [moment]
+      real(wp), allocatable :: pressing(:, :)   ! (3, n_nodes) nodal forces of the pressures of a stage, where there are bolts [force]
    end type card_loads
+
+   !> The nodal forces at the end of a stage; not allocated where no later stage starts from it.
+   type :: nodal_loads
+      real(wp), allocatable :: of_kind(:, :, :) ! (3, n_nodes, 2) of forces, of pressures [force]
+   end type nodal_loads
 
    character(*), parameter :: others = 'PLOAD4, PLOADE, PLOAD, PLOAD1, PLOAD2, PLOADM, FORCEM, GRAV or SPCD' ! the other load cards
    character(*), parameter :: nor_others = ', nor a '//others ! behind the text `there is no FORCE`
@@ -251,7 +256,8 @@ contains
       type(history_type), intent(inout) :: history
       type(stage_load_type), allocatable, intent(out) :: oscillating(:) !! (stages) DLOAD; empty where none is given
       type(card_loads) :: cards
-      integer :: s
+      type(nodal_loads), allocatable :: at_end(:) ! (0:stages)
+      integer :: i, s
 
       call find_nodal_forces(deck, mesh, freedoms, cards%node, cards%force)
       call check_cards(deck, mesh, freedoms)
@@ -260,13 +266,29 @@ contains
       call check_kept(deck, mesh)
       call find_pressed_sides(deck, mesh, cards%pressed)
       allocate (history%stages(size(deck%control%stages)), oscillating(size(deck%control%stages)))
+      history%stages%from = [(s - 1, s=1, size(history%stages))]
+      do s = 1, size(history%stages)
+         associate (from => deck%control%stages(s)%from%id)
+            if (from > 0) history%stages(s)%from = findloc(deck%control%stages%id, from, dim=1)
+         end associate
+      end do
+      if (size(deck%bulk%bolt) > 0 .and. .not. deck%errors%any()) then
+         allocate (cards%pressing(3, mesh%n_nodes), at_end(0:size(history%stages)))
+         allocate (at_end(0)%of_kind(3, mesh%n_nodes, 2), source=0.0_wp)
+      end if
       do s = 1, size(deck%control%stages)
          associate (loads => history%stages(s), stage => deck%control%stages(s))
-            loads%from = s - 1
-            if (stage%from%id > 0) loads%from = findloc(deck%control%stages%id, stage%from%id, dim=1)
+            if (allocated(cards%pressing)) cards%pressing = 0.0_wp
             allocate (loads%node(size(deck%bulk%force)), loads%force(3, size(deck%bulk%force)))
             call keep_moved(deck, mesh, stage%load%id, loads)
             call add_case(stage%load, 'LOAD', loads)
+            if (allocated(cards%pressing)) then
+               call note_changes(cards%pressing, at_end(loads%from)%of_kind, loads, at_end(s)%of_kind)
+               do i = 0, s
+                  if (all(history%stages(s + 1:)%from /= i) .and. allocated(at_end(i)%of_kind)) deallocate (at_end(i)%of_kind)
+               end do
+            end if
+            if (loads%from > 0) loads%changes(1) = loads%changes(1) .or. differ(history%stages(loads%from)%moved, loads%moved)
             allocate (oscillating(s)%node(0), oscillating(s)%force(3, 0))
             call add_case(stage%vibration%load, 'DLOAD', oscillating(s))
          end associate
@@ -298,17 +320,37 @@ contains
 
    end subroutine build_loads
 
+   !> Note what of LOADS, of which the pressures are PRESSING, differs from the nodal forces BEFORE, those of the stage from which this
+   !! one starts. NOW are its own.
+   pure subroutine note_changes(pressing, before, loads, now)
+      real(wp), intent(in)                 :: pressing(:, :)  !! (3, n_nodes)
+      real(wp), intent(in)                 :: before(:, :, :) !! (3, n_nodes, 2) of forces, of pressures
+      type(stage_load_type), intent(inout) :: loads
+      real(wp), allocatable, intent(out)   :: now(:, :, :)    !! likewise
+      integer :: i, k
+
+      allocate (now, mold=before)
+      now(:, :, 1) = -pressing
+      now(:, :, 2) = pressing
+      do i = 1, loads%n
+         now(:, loads%node(i), 1) = now(:, loads%node(i), 1) + loads%force(:, i)
+      end do
+      do k = 1, 2
+         loads%changes(k) = any(abs(now(:, :, k) - before(:, :, k)) > zero_remainder*max(maxval(abs(now)), maxval(abs(before))))
+      end do
+   end subroutine note_changes
+
    !> Add FACTOR times all loads of SET to LOADS: nodal forces one by one, distributed loads as sums per node.
    subroutine add_set(deck, mesh, freedoms, cards, set, factor, loads)
       type(checked_deck), intent(in)       :: deck
       type(mesh_type), intent(in)          :: mesh
       type(freedoms_type), intent(in)      :: freedoms
-      type(card_loads), intent(in)         :: cards
+      type(card_loads), intent(inout)      :: cards
       integer, intent(in)                  :: set
       real(wp), intent(in)                 :: factor
       type(stage_load_type), intent(inout) :: loads
       real(wp), allocatable :: spread_out(:, :)
-      integer  :: i, node, s
+      integer  :: i, node
 
       associate (bulk => deck%bulk)
          do i = 1, size(bulk%force)
@@ -323,14 +365,8 @@ contains
              all(bulk%beam_load%set /= set)) return
          if (deck%errors%any()) return ! elements in error may have no area or volume
          allocate (spread_out(3, mesh%n_nodes), source=0.0_wp)
-         do i = 1, size(cards%pressed)
-            if (bulk%pressure(cards%pressed(i)%card)%set == set) call add_pressure(mesh, cards%pressed(i), factor, spread_out)
-         end do
-         do i = 1, size(bulk%surface_load)
-            if (bulk%surface_load(i)%set /= set) cycle
-            s = findloc(mesh%surfaces%id, bulk%surface_load(i)%surface, dim=1)
-            if (s > 0) call add_surface_load(mesh, mesh%surfaces(s), bulk%surface_load(i), factor, spread_out)
-         end do
+         call add_faces(.true., spread_out)
+         if (allocated(cards%pressing)) call add_faces(.false., cards%pressing)
          call add_gravity(mesh, freedoms, cards%fields, set, factor, loads, spread_out)
          do i = 1, size(bulk%beam_load)
             if (bulk%beam_load(i)%set == set .and. cards%beam(i) > 0) &
@@ -340,6 +376,27 @@ contains
       do node = 1, mesh%n_nodes
          if (any(abs(spread_out(:, node)) > 0.0_wp)) call add_force(node, spread_out(:, node), loads)
       end do
+
+   contains
+
+      !> Add the nodal FORCE of pressures, and WITH_FORCES that of forces on surfaces.
+      subroutine add_faces(with_forces, force)
+         logical, intent(in)     :: with_forces
+         real(wp), intent(inout) :: force(:, :) !! (3, n_nodes)
+         integer :: i, s
+
+         do i = 1, size(cards%pressed)
+            if (deck%bulk%pressure(cards%pressed(i)%card)%set == set) call add_pressure(mesh, cards%pressed(i), factor, force)
+         end do
+         do i = 1, size(deck%bulk%surface_load)
+            associate (card => deck%bulk%surface_load(i))
+               if (card%set /= set .or. .not. (with_forces .or. card%is_pressure)) cycle
+               s = findloc(mesh%surfaces%id, card%surface, dim=1)
+               if (s > 0) call add_surface_load(mesh, mesh%surfaces(s), card, factor, force)
+            end associate
+         end do
+      end subroutine add_faces
+
    end subroutine add_set
 
    !> Append a FORCE at NODE.
@@ -356,35 +413,5 @@ contains
       loads%node(loads%n) = node
       loads%force(:, loads%n) = force
    end subroutine add_force
-
-   !> Nodal forces of CARD on SURFACE, times FACTOR: a pressure, positive into the body, or a total force distributed uniformly over
-   !! the area.
-   pure subroutine add_surface_load(mesh, surface, card, factor, force)
-      type(mesh_type), intent(in) :: mesh
-      type(surface_type), intent(in)      :: surface
-      type(surface_load_card), intent(in) :: card
-      real(wp), intent(in)                :: factor
-      real(wp), intent(inout)             :: force(:, :) !! (3, n_nodes)
-      real(wp) :: area(max_side_nodes), f(3, max_side_nodes), normal(3, max_side_nodes), total_area
-      integer  :: k, s
-
-      total_area = 0.0_wp
-      if (.not. card%is_pressure) then
-         do s = 1, surface%n
-            call side_influence(mesh, surface, s, area, normal)
-            total_area = total_area + sum(area)
-         end do
-      end if
-      if (total_area <= 0.0_wp .and. .not. card%is_pressure) return
-      do s = 1, surface%n
-         call side_influence(mesh, surface, s, area, normal)
-         do k = 1, surface%n_nodes(s)
-            if (card%is_pressure) f(:, k) = -factor*card%pressure*normal(:, k)
-            if (.not. card%is_pressure) f(:, k) = area(k)/total_area*(factor*card%force)
-            force(:, surface%nodes(k, s)) = force(:, surface%nodes(k, s)) + f(:, k)
-         end do
-         call add_section_share(mesh, surface%element(s), surface%nodes(:surface%n_nodes(s), s), f, force)
-      end do
-   end subroutine add_surface_load
 
 end module load_build

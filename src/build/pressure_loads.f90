@@ -1,6 +1,7 @@
-!> PLOAD4, PLOADE, PLOAD and PLOAD2: the loaded sides, found by their corners or elements, and their nodal forces.
+!> PLOAD4, PLOADE, PLOAD and PLOAD2: the loaded sides, found by their corners or elements, and their nodal forces; those of PLOADM
+!! and FORCEM.
 module pressure_loads
-   use bulk_data, only: of_face, of_marks, of_nodes, pressure_card
+   use bulk_data, only: of_face, of_marks, of_nodes, pressure_card, surface_load_card
    use deck_check, only: checked_deck
    use displacement_systems, only: rectangular_axes
    use element_build, only: is_face
@@ -9,14 +10,15 @@ module pressure_loads
    use kinds, only: wp
    use lists, only: id_table_type
    use mesh_queries, only: element_points, is_shell
-   use model_data, only: mesh_type
+   use model_data, only: mesh_type, surface_type
    use node_coupling, only: add_section_share
+   use surface_build, only: side_influence
    use surface_sides, only: side_corners
    use text_tools, only: integer_text, one_of
    implicit none
    private
 
-   public :: find_pressed_sides, add_pressure
+   public :: find_pressed_sides, add_pressure, add_surface_load
 
    !> A face that a card names by its corners, and the order of these corners on it.
    type :: named_face
@@ -345,5 +347,35 @@ contains
          call add_section_share(mesh, e, nodes(:n), f, force)
       end associate
    end subroutine add_pressure
+
+   !> Nodal forces of CARD on SURFACE, times FACTOR: a pressure, positive into the body, or a total force distributed uniformly over
+   !! the area.
+   pure subroutine add_surface_load(mesh, surface, card, factor, force)
+      type(mesh_type), intent(in) :: mesh
+      type(surface_type), intent(in)      :: surface
+      type(surface_load_card), intent(in) :: card
+      real(wp), intent(in)                :: factor
+      real(wp), intent(inout)             :: force(:, :) !! (3, n_nodes)
+      real(wp) :: area(max_side_nodes), f(3, max_side_nodes), normal(3, max_side_nodes), total_area
+      integer  :: k, s
+
+      total_area = 0.0_wp
+      if (.not. card%is_pressure) then
+         do s = 1, surface%n
+            call side_influence(mesh, surface, s, area, normal)
+            total_area = total_area + sum(area)
+         end do
+      end if
+      if (total_area <= 0.0_wp .and. .not. card%is_pressure) return
+      do s = 1, surface%n
+         call side_influence(mesh, surface, s, area, normal)
+         do k = 1, surface%n_nodes(s)
+            if (card%is_pressure) f(:, k) = -factor*card%pressure*normal(:, k)
+            if (.not. card%is_pressure) f(:, k) = area(k)/total_area*(factor*card%force)
+            force(:, surface%nodes(k, s)) = force(:, surface%nodes(k, s)) + f(:, k)
+         end do
+         call add_section_share(mesh, surface%element(s), surface%nodes(:surface%n_nodes(s), s), f, force)
+      end do
+   end subroutine add_surface_load
 
 end module pressure_loads

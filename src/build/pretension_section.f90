@@ -6,7 +6,7 @@ module pretension_section
    use kinds, only: wp
    use model_data, only: mesh_type, section_type
    use node_build, only: append_unknowns
-   use spring_build, only: find_stage
+   use spring_build, only: find_stage, find_thread
    use surface_build, only: find_surface, side_influence, surface_node_list, surface_nodes
    use surface_sides, only: elements_behind, list_sides, side_list, reverse_side
    use text_tools, only: integer_text
@@ -61,6 +61,7 @@ contains
       mesh%sections(k)%surface = card%surface
       mesh%sections(k)%preload = card%preload
       call find_stage(deck, card, mesh%sections(k)%stage)
+      call find_thread(deck, card, mesh, mesh%sections(k)%thread)
       call find_surface(deck, card%line, 'PMARK', card%surface, mesh, s)
       if (s == 0) return
       if (mesh%surfaces(s)%n == 0) return ! reported already

@@ -1,6 +1,7 @@
 !> Bars of CROD and CONROD, BOLT cards of bars, and springs of CELAS1, CELAS2 and CBUSH.
 !! A spring is stored as a bar of the model, one per direction; springs follow the bars.
 module spring_build
+   use bolt_threads, only: in_units, thread_type
    use bulk_data, only: bolt_card, edge_card, edge_crod, prod_card, spring_card
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
@@ -13,11 +14,12 @@ module spring_build
    use structural_build, only: is_beam_edge
    use text_tools, only: integer_text, one_of
    use tolerances, only: no_lever, zero_cosine
+   use unit_watch, only: find_units
    use unknowns, only: node_axes, rotation_at
    implicit none
    private
 
-   public :: build_bars, is_bar, find_stage, build_springs
+   public :: build_bars, is_bar, find_stage, find_thread, build_springs
 
    character(2), parameter :: axis_names(6) = ['T1', 'T2', 'T3', 'R1', 'R2', 'R3']
 
@@ -88,6 +90,7 @@ contains
             mesh%bars(k)%bolt = card%id
             mesh%bars(k)%preload = card%preload
             mesh%bars(k)%stage = stage
+            call find_thread(deck, card, mesh, mesh%bars(k)%thread)
          end associate
       end do
    end subroutine build_bars
@@ -153,6 +156,26 @@ contains
       if (stage == 0 .and. card%stage > 0) call deck%field_error(card%line, 'STAGE', &
          'there is no SUBCASE '//integer_text(card%stage))
    end subroutine find_stage
+
+   !> The THREAD of the bolt of CARD in the units of the deck.
+   subroutine find_thread(deck, card, mesh, thread)
+      type(checked_deck), intent(in) :: deck
+      type(bolt_card), intent(in)    :: card
+      type(mesh_type), intent(in)    :: mesh
+      type(thread_type), intent(out) :: thread
+      real(wp) :: metre, newton
+
+      if (card%thread%size == '') return
+      call find_units(deck%control, metre, newton)
+      if (.not. (metre > 0.0_wp .and. newton > 0.0_wp)) then
+         call deck%field_error(card%line, 'SIZE', 'the strength of a class is in N/mm2, and case control names no units known '// &
+                               'here; expected UNITS, of MM, M or IN and of N, KN, KGF or LBF')
+         return
+      end if
+      if (mesh%axisymmetric .and. .not. card%thread%count > 0.0_wp) call deck%field_error(card%line, 'COUNT', &
+         'blank; expected the number of bolts round the ring of an axisymmetric model')
+      thread = in_units(card%thread, 1.0_wp/(1000.0_wp*metre), 1.0e6_wp*metre**2/newton)
+   end subroutine find_thread
 
    !> Append the springs to the bars of the model.
    subroutine build_springs(deck, mesh)

@@ -17,7 +17,7 @@ module support_build
    implicit none
    private
 
-   public :: build_supports, hold, move, keep_moved, check_kept, summed_sets, check_sums
+   public :: build_supports, hold, move, keep_moved, check_kept, differ, summed_sets, check_sums
 
    integer, parameter :: most_places = 12 ! of one node: six components, of a split node twice
 
@@ -295,5 +295,19 @@ contains
          end associate
       end do
    end subroutine check_sums
+
+   !> Whether A and B differ; what is not there is zero.
+   pure logical function differ(a, b)
+      real(wp), allocatable, intent(in) :: a(:, :), b(:, :)
+
+      differ = .false.
+      if (allocated(a) .and. allocated(b)) then
+         differ = any(abs(a - b) > 0.0_wp)
+      else if (allocated(a)) then
+         differ = any(abs(a) > 0.0_wp)
+      else if (allocated(b)) then
+         differ = any(abs(b) > 0.0_wp)
+      end if
+   end function differ
 
 end module support_build

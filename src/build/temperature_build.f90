@@ -9,6 +9,7 @@ module temperature_build
    use lists, only: first_not_below
    use mesh_queries, only: element_points, is_shell, n_points
    use model_data, only: a_bar, freedoms_type, history_type, mesh_type, n_bars, stage_load_type, temperature_type
+   use support_build, only: differ
    use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: least_misfit
    use unknowns, only: node_axes
@@ -70,6 +71,13 @@ contains
          end associate
       end do
       if (deck%errors%any()) return
+      do s = 2, size(history%stages)
+         associate (a => history%stages(history%stages(s)%from)%temperature, b => history%stages(s)%temperature)
+            history%stages(s)%changes(3) = abs(a%reference_share - b%reference_share) > 0.0_wp .or. differ(a%plate, b%plate)
+            if (allocated(a%at) .and. allocated(b%at)) history%stages(s)%changes(3) = history%stages(s)%changes(3) .or. &
+               any(abs(a%at - b%at) > 0.0_wp)
+         end associate
+      end do
       do s = 1, size(history%stages)
          call expand(expansions, history%stages(s), mesh)
       end do

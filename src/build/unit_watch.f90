@@ -3,6 +3,7 @@
 !! beryllium 12400), less in rubber and foam; gravity is 9.81 m/s2; the faces of a joint approach by micrometres; no solid bears a
 !! stress of E/50. UNITS of the deck gives the units of length and force where it is there; else any usual system may be meant.
 module unit_watch
+   use case_control, only: case_control_type
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use kinds, only: wp
@@ -13,7 +14,7 @@ module unit_watch
    implicit none
    private
 
-   public :: watch_units, stress_words
+   public :: watch_units, find_units, stress_words
 
    real(wp), parameter :: slowest = 500.0_wp, fastest = 15000.0_wp ! of waves in solids [m/s]
    real(wp), parameter :: usual = 5000.0_wp                        ! of metals [m/s]
@@ -53,23 +54,29 @@ contains
       type(deck_error_list), intent(inout) :: errors !! gets the warnings
       logical  :: meant(4) ! systems that UNITS and the wave speeds allow
       real(wp) :: metre, newton, pascals
-      integer  :: i
 
-      associate (control => deck%control)
-         meant = length_name == upper(control%length_unit) .or. all(length_name /= upper(control%length_unit))
-         metre = 0.0_wp
-         newton = 0.0_wp
-         i = findloc(length_name, upper(control%length_unit), dim=1)
-         if (i > 0) metre = metres(i)
-         i = findloc(force_name, upper(control%force_unit), dim=1)
-         if (i > 0) newton = newtons(i)
-      end associate
+      meant = length_name == upper(deck%control%length_unit) .or. all(length_name /= upper(deck%control%length_unit))
+      call find_units(deck%control, metre, newton)
       pascals = 0.0_wp
       if (metre > 0.0_wp) pascals = newton/metre**2
       call errors%warn(material_words(deck, meant, pascals))
       call errors%warn(approach_words(deck, joints, metre, newton))
       call errors%warn(gravity_words(deck, meant))
    end subroutine watch_units
+
+   !> The units of length and force that UNITS of CONTROL names, 0: not known.
+   pure subroutine find_units(control, metre, newton)
+      type(case_control_type), intent(in) :: control
+      real(wp), intent(out)               :: metre, newton !! of the units [m], [N]
+      integer :: i
+
+      metre = 0.0_wp
+      newton = 0.0_wp
+      i = findloc(length_name, upper(control%length_unit), dim=1)
+      if (i > 0) metre = metres(i)
+      i = findloc(force_name, upper(control%force_unit), dim=1)
+      if (i > 0) newton = newtons(i)
+   end subroutine find_units
 
    !> The first MAT1 that is no solid in any system MEANT, or '' and the systems in which all may be.
    function material_words(deck, meant, pascals) result(words)

@@ -2,6 +2,7 @@
 !! The component LINE is always the index of the card's first line in the deck text. Messages need it.
 module bulk_data
    use beam_sections, only: beam_section
+   use bolt_threads, only: thread_type
    use card_fields, only: id_ranges
    use elasticity, only: plane_stress
    use element_kinds, only: max_nodes
@@ -242,6 +243,7 @@ module bulk_data
    type, public :: bolt_card
       integer  :: line = 0, id = 0, element = 0, stage = 0, surface = 0
       real(wp) :: preload = 0.0_wp
+      type(thread_type) :: thread                       ! in mm and N
    end type bolt_card
 
    type, public :: load_card

@@ -2,9 +2,10 @@
 !! Each array of the bulk data has a routine, each kind of card a table. The increment fractions of a stage's load change
 !! (section 5: arithmetic or geometric progression) are here too.
 module load_cards
+   use bolt_threads, only: complete_thread, strength_classes, thread_sizes, thread_type
    use bulk_data, only: bulk_data_type, of_edge, of_face, of_marks, of_nodes, temperature_card
    use card_fields, only: card_fields_type, id_ranges
-   use field_rules, only: at_least_1, positive
+   use field_rules, only: at_least_1, not_negative, positive, real_range
    use kinds, only: wp
    use text_tools, only: integer_text, one_of
    use tolerances, only: least_fraction
@@ -279,10 +280,13 @@ contains
       end associate
    end subroutine read_load
 
-   !> BOLT: the CROD EID, or the solid cut at the surface PMARK, tightened to PRELOAD in SUBCASE STAGE and locked in later stages.
+   !> BOLT: the CROD EID, or the solid cut at the surface PMARK, tightened to PRELOAD in SUBCASE STAGE and locked in later stages;
+   !! its thread.
    subroutine read_bolt(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
+      real(wp), parameter :: usual_friction = 0.12_wp ! mu_G
+      logical :: ok
 
       associate (bolt => bulk%bolt(card%i))
          call card%field('BID', bolt%id)
@@ -290,7 +294,21 @@ contains
          call card%field('PRELOAD', bolt%preload, positive)
          call card%field('STAGE', bolt%stage, default=1)
          call card%field('PMARK', bolt%surface, default=0)
+         call card%word('SIZE', thread_sizes, bolt%thread%size)
+         call card%word('CLASS', strength_classes, bolt%thread%class)
+         call card%field('ALPHAA', bolt%thread%tightening, real_range(1.0_wp), default=1.0_wp)
+         call card%field('PITCH', bolt%thread%pitch, positive, default=0.0_wp)
+         call card%field('MUG', bolt%thread%friction, not_negative, default=usual_friction)
+         call card%field('COUNT', bolt%thread%count, positive, default=0.0_wp)
          call card%finish(bolt%line)
+         if (card%given('SIZE') .neqv. card%given('CLASS')) call card%error(one_of(card%given('SIZE'), 'CLASS', 'SIZE'), &
+            'blank, expected the '//one_of(card%given('SIZE'), 'strength class beside SIZE', 'thread beside CLASS'))
+         if (.not. card%given('SIZE')) bolt%thread = thread_type()
+         ok = .true.
+         if (card%given('SIZE') .and. .not. card%is_faulty()) call complete_thread(bolt%thread, ok)
+         if (.not. ok) call card%error('PITCH', 'more than that of the coarse thread; expected a pitch in mm, blank: coarse')
+         if (any(card%given(['ALPHAA', 'PITCH ', 'MUG   ', 'COUNT ']) .and. .not. card%given('SIZE'))) call card%error('SIZE', &
+            'blank, expected the thread, to which ALPHAA, PITCH, MUG and COUNT belong')
       end associate
       if (all(card%given(['EID  ', 'PMARK']))) then
          call card%error('PMARK', 'given beside EID; expected one of them: the CROD of a bolt, or the surface at which a solid '// &

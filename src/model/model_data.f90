@@ -2,6 +2,7 @@
 !! It is built once from a deck and does not change afterwards.
 module model_data
    use beam_element, only: beam_law
+   use bolt_threads, only: thread_type
    use coordinate_systems, only: coordinate_system
    use elasticity, only: plane_stress
    use interface_operator, only: interface_element, named_node
@@ -114,6 +115,7 @@ module model_data
       real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) of held unknowns [length]; allocated if any is moved
       real(wp), allocatable :: beam(:, :)    !! (12, beams) end forces of the loads along beams [force], [moment]; if there are any
       type(temperature_type) :: temperature
+      logical :: changes(3) = .false.        !! forces or support movements, pressures, temperatures differ from those of the stage before
    end type stage_load_type
 
    integer, parameter, public :: a_point = 1, a_rotation = 2, an_overlap = 3 !! kinds of nodes
@@ -133,6 +135,7 @@ module model_data
       real(wp) :: area = 0.0_wp              !! of a bar [length^2]
       real(wp) :: strength = 0.0_wp          !! ST of its material, 0: not given [pressure]
       integer  :: stage = 0                  !! position of the stage that tightens the bolt; elastic from its end on
+      type(thread_type) :: thread            !! of a bolt, in the units of the deck
       real(wp) :: torsion = 0.0_wp           !! G J/L of a bar [force x length]
       real(wp) :: mass = 0.0_wp              !! (rho A + NSM) L of a bar [force x time^2/length]
       real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
@@ -160,6 +163,7 @@ module model_data
       real(wp) :: strength = 0.0_wp          !! ST of its material, 0: not given [pressure]
       real(wp) :: preload = 0.0_wp           !! tension [force]
       integer  :: stage = 0                  !! position of the stage that tightens it; from the end of this stage on g is held
+      type(thread_type) :: thread            !! in the units of the deck
    end type section_type
 
    !> The rotations of a node of shells or beams, or of a reference node, which moves with others as a rigid body. They are the

@@ -3,14 +3,14 @@
 module answer_tables
    use analysis_state, only: analysis_type
    use body_values, only: body_values_type, peak_type
-   use bolt_answers, only: bolt_answer_type
+   use bolt_answers, only: bolt_answer_type, by_several
    use joint_answers, only: joint_answer
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use page_lines, only: axes, heading
-   use result_page, only: bolt_table, clamping_table, largest_safety, movement_names, page_type, pair_table, reaction_table, &
-                          resultant_names, secant_names, &
-                          split_table, stage_table, table_columns, tangent_names, watch_table, xyz
+   use result_page, only: bolt_table, clamping_table, has_parts, has_threads, largest_safety, movement_names, page_type, &
+                          pair_table, part_names, parts_table, reaction_table, resultant_names, secant_names, split_table, &
+                          stage_table, table_columns, tangent_names, vdi_names, vdi_table, watch_table, xyz
    use stage_plan, only: pair_names
    use support_reactions, only: reaction_type, reactions_type
    use table_column, only: column
@@ -176,7 +176,7 @@ contains
       call page%screen%put('')
       call table%start('', table_columns(bolt_table, page%labels, model), page%screen)
       do i = 1, size(bolts)
-         call fill_bolt_row(page%stage_id, analysis, bolts(i), table)
+         call fill_bolt_row(page%stage_id, model, analysis, bolts(i), table)
          call table%print_row(page%screen)
       end do
       if (any(bolts%is_locked)) then
@@ -186,24 +186,59 @@ contains
             associate (bolt => bolts(i), clamps => bolts(i)%joint > 0)
                if (.not. bolt%is_locked) cycle
                call table%put('BOLT', bolt%id)
-               call table%put('TIGHTENED', bolt%tightened)
-               call table%put('LARGEST', bolt%largest)
+               call table%put(['TIGHTENED', 'LARGEST  '], [bolt%tightened, bolt%largest])
                call table%put('WHOLE LOAD', bolt%load, where=bolt%has_load)
                call table%put('SHARE', bolt%share, where=bolt%has_share)
                call table%put('STRESS', bolt%stress)
                call table%put('AND BENDING', bolt%edge_stress, where=bolt%has_moment)
                call table%put('OF ST %', 100.0_wp*bolt%use, where=bolt%has_strength)
                call table%put('JOINT', bolt%joint, where=clamps)
-               call table%put('CLAMPING', bolt%clamping, where=clamps)
-               call table%put('LOSS %', 100.0_wp*bolt%loss, where=clamps)
+               call table%put(['CLAMPING', 'LOSS %  '], [bolt%clamping, 100.0_wp*bolt%loss], where=[clamps, clamps])
                call table%put('MU N/T', bolt%safety, where=bolt%has_safety .and. bolt%safety <= largest_safety)
                call table%print_row(page%screen)
             end associate
          end do
       end if
+      if (has_parts(model) .and. any([(any(abs(bolts(i)%by) > 0.0_wp), i = 1, size(bolts))])) then
+         call page%screen%put('')
+         call table%start('', table_columns(parts_table, page%labels, model), page%screen)
+         do i = 1, size(bolts)
+            if (.not. bolts(i)%is_locked) cycle
+            call table%put('BOLT', bolts(i)%id)
+            call table%put(part_names, bolts(i)%by)
+            call table%put('SHARE', bolts(i)%share, where=bolts(i)%has_share)
+            call table%put('SHARE PRESSURE', bolts(i)%pressure_share, where=bolts(i)%has_pressure_share)
+            call table%print_row(page%screen)
+         end do
+         if (any(abs(bolts%by(by_several)) > 0.0_wp)) call page%screen%put('    NOTE: A STAGE CHANGES LOADS OF SEVERAL KINDS: '// &
+            'BY SEVERAL IS NOT SEPARABLE, AND NO PART OF A SHARE; GIVE EACH KIND A STAGE')
+      end if
+      call print_vdi(page, model, bolts)
       if (analysis%stage == 1) call note_cuts(page, 'BOLT', bolts%id, bolts%n_cuts, &
                      'FORCES AND BENDING ARE OF ITS PART IN THE MODEL, STRESS AND MU N/T OF THE WHOLE')
    end subroutine print_bolts
+
+   !> Print the values of VDI 2230 of the BOLTS with a thread.
+   subroutine print_vdi(page, model, bolts)
+      type(page_type), intent(inout)     :: page
+      type(model_type), intent(in)       :: model
+      type(bolt_answer_type), intent(in) :: bolts(:)
+      type(table_type) :: table
+      integer :: i
+
+      if (all(bolts%thread == '')) return
+      call page%screen%put('')
+      call page%screen%put('    ONE REAL BOLT AFTER VDI 2230: FORCES, AMPLITUDE OF THE STRESS, SAFETIES')
+      call table%start('', table_columns(vdi_table, page%labels, model), page%screen)
+      do i = 1, size(bolts)
+         if (bolts(i)%thread == '') cycle
+         call table%put('BOLT', bolts(i)%id)
+         call table%put('THREAD', trim(bolts(i)%thread)//' '//trim(bolts(i)%class))
+         call table%put('ALPHA A', bolts(i)%tightening)
+         call table%put(vdi_names, bolts(i)%vdi, where=bolts(i)%has_vdi)
+         call table%print_row(page%screen)
+      end do
+   end subroutine print_vdi
 
    !> Write the BOLTS after an increment into their file.
    subroutine write_bolts(page, model, analysis, bolts)
@@ -217,14 +252,15 @@ contains
       if (size(bolts) == 0) return
       call table%start('', table_columns(bolt_table, page%labels, model))
       do i = 1, size(bolts)
-         call fill_bolt_row(page%stage_id, analysis, bolts(i), table)
+         call fill_bolt_row(page%stage_id, model, analysis, bolts(i), table)
          call table%print_row(csv_file=page%tables(bolt_table))
       end do
    end subroutine write_bolts
 
    !> Put the values of BOLT into a row of its TABLE.
-   subroutine fill_bolt_row(stage, analysis, bolt, table)
+   subroutine fill_bolt_row(stage, model, analysis, bolt, table)
       integer, intent(in)                :: stage !! its number
+      type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
       type(bolt_answer_type), intent(in) :: bolt
       type(table_type), intent(inout)    :: table
@@ -242,17 +278,20 @@ contains
       call table%put('bending', bolt%moment, where=bolt%has_moment)
       call table%put('longer', bolt%longer)
       call table%put(['element', 'surface'], [bolt%element, bolt%surface])
-      call table%put('tightened', bolt%tightened, where=bolt%is_locked)
-      call table%put('largest', bolt%largest, where=bolt%is_locked)
+      call table%put(['tightened', 'largest  '], [bolt%tightened, bolt%largest], where=spread(bolt%is_locked, 1, 2))
       call table%put('whole_load', bolt%load, where=bolt%is_locked .and. bolt%has_load)
       call table%put('share', bolt%share, where=bolt%has_share)
       call table%put('stress', bolt%stress)
       call table%put('edge_stress', bolt%edge_stress, where=bolt%has_moment)
       call table%put('use', bolt%use, where=bolt%has_strength)
       call table%put('joint', bolt%joint, where=clamps)
-      call table%put('clamping', bolt%clamping, where=clamps)
-      call table%put('loss', bolt%loss, where=clamps)
+      call table%put(['clamping', 'loss    '], [bolt%clamping, bolt%loss], where=[clamps, clamps])
       call table%put('safety', bolt%safety, where=bolt%has_safety)
+      if (has_parts(model)) then
+         call table%put(part_names, bolt%by, where=spread(bolt%is_locked, 1, 4))
+         call table%put('share_pressure', bolt%pressure_share, where=bolt%has_pressure_share)
+      end if
+      if (has_threads(model)) call table%put(vdi_names, bolt%vdi, where=bolt%has_vdi)
    end subroutine fill_bolt_row
 
    !> Print the support reactions; the last line is the balance.

@@ -10,16 +10,17 @@ module result_page
    implicit none
    private
 
-   public :: set_labels, shows, has_gaps, table_columns, record_page
+   public :: set_labels, shows, has_gaps, has_parts, has_threads, table_columns, record_page
 
    character(1), parameter, public :: xyz(3) = ['x', 'y', 'z']
    real(wp), parameter, public :: largest_safety = 1000.0_wp !! against slip: tables leave a larger one blank
 
-   ! the CSV files in the order of their endings; the clamping of the bolts is a table of the listing without a file of its own
+   ! the CSV files in the order of their endings; clamping, parts and safeties of the bolts are tables of the listing only
    integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
                                  response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9, watch_table = 10, &
                                  split_table = 11, reaction_table = 12, shell_table = 13, pair_table = 14, &
-                                 pair_modes_table = 15, pair_response_table = 16, cases_table = 17, clamping_table = 18
+                                 pair_modes_table = 15, pair_response_table = 16, cases_table = 17, clamping_table = 18, &
+                                 parts_table = 19, vdi_table = 20
    character(*), parameter, public :: history_ending = '.joint.csv'
    character(22), parameter, public :: table_endings(17) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
       '.modes.csv', '.modes.energy.csv', '.response.csv', '.backbone.csv', '.loop.csv', '.backbone.response.csv', '.watch.csv', &
@@ -37,6 +38,12 @@ module result_page
       tangent_names(6) = [character(14) :: 'tangent_x', 'tangent_y', 'tangent_n', 'tangent_tilt_x', 'tangent_tilt_y', &
                           'tangent_twist'], &
       secant_names(6) = [character(14) :: 'secant_x', 'secant_y', 'secant_n', 'secant_tilt_x', 'secant_tilt_y', 'secant_twist']
+
+   ! bolts: changes of the tension by kinds of stages; values of VDI 2230
+   character(14), parameter, public :: &
+      part_names(4) = [character(14) :: 'by_forces', 'by_temperature', 'by_pressure', 'by_several'], &
+      vdi_names(10) = [character(14) :: 'assembly_force', 'allowed_force', 'working_load', 'residual', 'amplitude', 'yield', &
+                       'fatigue', 'fatigue_rolled', 'slip', 'opening']
 
    !> The units of the numbers of the listing, blank where the deck names none.
    type, public :: label_type
@@ -93,6 +100,21 @@ contains
       has_gaps = any(model%joints%list%gap_kind /= '')
    end function has_gaps
 
+   !> Whether the tensions of bolts are said by kinds: a stage changes pressures or temperatures.
+   pure logical function has_parts(model)
+      type(model_type), intent(in) :: model
+      integer :: s
+
+      has_parts = any([(model%history%stages(s)%changes(2:), s = 1, size(model%history%stages))])
+   end function has_parts
+
+   !> Whether any bolt has a thread.
+   pure logical function has_threads(model)
+      type(model_type), intent(in) :: model
+
+      has_threads = any(model%mesh%bars%thread%size /= '') .or. any(model%mesh%sections%thread%size /= '')
+   end function has_threads
+
    !> The columns of one of the tables with a CSV file. Of a plane model the listing shows components in the plane and moments
    !! about z only.
    function table_columns(table, labels, model) result(columns)
@@ -127,11 +149,21 @@ contains
             name=[character(11) :: 'force', 'change', 'load_change']), column('CHANGE/LOAD', 'f13.5', name='ratio'), &
             column('BENDING', 'es13.4', labels%moment, name='bending'), csv([character(11) :: 'longer', 'element', 'surface', &
             'tightened', 'largest', 'whole_load', 'share', 'stress', 'edge_stress', 'use', 'joint', 'clamping', 'loss', 'safety'])]
+         if (has_parts(model)) columns = [columns, csv(part_names), csv('share_pressure')]
+         if (has_threads(model)) columns = [columns, csv(vdi_names)]
       case (clamping_table) ! for each bolt: values since it was tightened, stress, clamping force
          columns = [column('BOLT', 'i11'), column([character(10) :: 'TIGHTENED', 'LARGEST', 'WHOLE LOAD'], 'es12.4', &
             labels%force), column('SHARE', 'f9.5'), column(['STRESS     ', 'AND BENDING'], 'es12.4', labels%pressure), &
             column('OF ST %', 'f9.2'), column('JOINT', 'i9'), column('CLAMPING', 'es12.4', labels%force), &
             column('LOSS %', 'f9.2'), column('MU N/T', 'f11.3')]
+      case (parts_table) ! for each bolt: changes of its tension since assembly, by kinds of stages
+         columns = [column('BOLT', 'i11'), column([character(14) :: 'BY FORCES', 'BY TEMPERATURE', 'BY PRESSURE', 'BY SEVERAL'], &
+            'es15.4', labels%force, key=part_names), column(['SHARE         ', 'SHARE PRESSURE'], 'f15.5')]
+      case (vdi_table) ! for each bolt with a thread
+         columns = [column('BOLT', 'i11'), column('THREAD', 'a10'), column('ALPHA A', 'f9.2'), &
+            column([character(8) :: 'ASSEMBLY', 'ALLOWED', 'WORKING', 'RESIDUAL'], 'es11.3', labels%force, key=vdi_names(:4)), &
+            column('AMPLITUDE', 'es11.3', labels%pressure, key=vdi_names(5)), column([character(7) :: 'YIELD', 'FATIGUE', &
+            'ROLLED', 'SLIP', 'OPENING'], 'f9.2', key=vdi_names(6:))]
       case (reaction_table) ! for each support, their sum, the loads
          columns = [csv('stage'), column('REACTIONS', 'a9', name='kind'), column('NUMBER', 'i11'), csv(['id  ', 'line']), &
             column('NODES', 'i8', name='nodes'), csv(xyz), &

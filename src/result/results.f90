@@ -255,7 +255,7 @@ contains
          digest%bolt_use = max(digest%bolt_use, maxval(results%bolts_now%use, mask=results%bolts_now%has_strength))
       end associate
       call note_case(model, plan, analysis, bodies, joints, results%bolts_now, results%watched, results%cases)
-      call end_bolts(results%bolts_now, results%bolts)
+      call end_bolts(analysis%stage, results%bolts_now, results%bolts)
       results%watched_before = state_at_end(model, analysis)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage

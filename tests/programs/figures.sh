@@ -74,6 +74,36 @@ if command -v gnuplot > /dev/null; then
    same 'the picture of a backbone hangs on no last digit' "$(sort -u "$work/ends" | wc -l) $([ "$(grep -c gpPt "$work/ends.svg")" -gt 6 ] && echo drawn)" '1 drawn'
 fi
 
+# The report of a deck (make report): sections, pictures and numbers of the page, and what a browser makes of it
+report() { # NAME DECK SECTIONS...
+   local page="$work/$1.report.html"
+   python3 $figures/report.py "$program" "$2" "$work" > "$work/said" 2>&1
+   same "report of $1" "$? $(cat "$work/said")" "0 $page"
+   says "report of $1: its page" <(python3 tests/programs/report_check.py "$page" "$work/$1.files/$1" "${@:3}" > "$work/checked"; cat "$work/checked") \
+      '^checked [1-9]'
+   same "report of $1: no fault" "$(sed '$d' "$work/checked")" ''
+   [ "$browser" ] || return
+   python3 tests/programs/report_check.py --browser "$page" > "$work/browser.html"
+   "$browser" --headless --no-sandbox --disable-gpu --dump-dom "file://$(realpath "$work")/browser.html" 2> /dev/null | tr ';<' '\n\n' > "$work/dom"
+   same "report of $1: a browser shows its pictures" "$(grep -c -E 'image [1-9]|svg [1-9]' "$work/dom")" \
+      "$(awk '{ print $2 + $4 }' "$work/checked")"
+}
+browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome)
+if ! command -v gnuplot > /dev/null || ! command -v python3 > /dev/null; then
+   echo 'skipped: reports of decks: gnuplot or python3 is not installed'
+else
+   [ "$browser" ] || echo 'skipped: the report in a browser: chromium is not installed'
+   report column_foot input/column_foot.bdf answer model deflected-shape joints bolts modes warnings
+   same 'joints of Tet10 are filled areas' "$(grep -o '<svg' "$work/column_foot.report.html" | wc -l) $(grep -o '<polygon' "$work/column_foot.report.html" |
+      awk 'END { print (NR > 500) }')" '3 1'
+   report column_modes_08 input/column_modes_08.bdf joints bolts modes response
+   sed 's/^BOLT .*/BOLT,1,901,8.+4,1,,M12,8.8,1.6\n+,,,4./' input/flange_pair.bdf > "$work/threads.bdf"
+   report threads "$work/threads.bdf" answer deflected-shape joints bolts
+   says 'report: values of VDI 2230' "$work/threads.report.html" 'One real bolt after VDI 2230'
+   python3 $figures/report.py "$program" "$work/none.bdf" "$work" > "$work/said" 2>&1
+   same 'report of no deck' "$? $(cat "$work/said")" "1 there is no deck $work/none.bdf"
+fi
+
 # every word of a chart in characters is in the SVG file, which is the one that the script makes of it
 for chart in a b c; do
    awk -v title="Fig. 6($chart)" -f $figures/chart.awk $figures/README.md > "$work/fig6$chart.svg"

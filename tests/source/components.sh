@@ -12,7 +12,7 @@ increment_record condensed: of one increment, the first prints it
 page_type labels date: from the deck, in the head of the listing
 table_type title last line: come with the next row
 vtu_results_type name labels many is_listed subdomains: start_vtu makes them anew
-bolt_history bolts passages crossing: start_bolts makes them anew
+bolt_history bolts passages crossing kind: start_bolts makes them anew
 bolt_history passed: of the last increment
 finished_type companion: written anew
 results_type missing_vtu method cuts: start_results makes them anew
