@@ -272,8 +272,9 @@ contains
             if (from > 0) history%stages(s)%from = findloc(deck%control%stages%id, from, dim=1)
          end associate
       end do
+      allocate (at_end(0:size(history%stages)))
       if (size(deck%bulk%bolt) > 0 .and. .not. deck%errors%any()) then
-         allocate (cards%pressing(3, mesh%n_nodes), at_end(0:size(history%stages)))
+         allocate (cards%pressing(3, mesh%n_nodes))
          allocate (at_end(0)%of_kind(3, mesh%n_nodes, 2), source=0.0_wp)
       end if
       do s = 1, size(deck%control%stages)

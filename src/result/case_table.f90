@@ -13,7 +13,7 @@ module case_table
    use table_column, only: column_type, csv
    use table_writer, only: table_type
    use tolerances, only: symmetric_tie
-   use watched_nodes, only: summarise_watched, watch_answer, watched_node
+   use watched_nodes, only: watch_answer, watched_node
    implicit none
    private
 
@@ -57,10 +57,9 @@ contains
       type(watch_answer), intent(in)     :: watched
       type(case_row), allocatable, intent(inout) :: rows(:)
       type(watched_node) :: first
-      integer :: id
 
       if (.not. is_case(model%history, analysis%stage) .or. analysis%record%ends_early) return
-      if (allocated(plan%stages(analysis%stage)%watched)) call summarise_watched(model, watched, id, first)
+      if (allocated(plan%stages(analysis%stage)%watched)) first = first_watched(watched)
       rows = [rows, case_row(analysis%stage, &
          [bodies%displacement%value, merge(bodies%at_node%value, none, model%mesh%n_elements > 0), &
           maxval(joints%now%pressure), minval(joints%now%contact), & ! huge where there are none
@@ -68,6 +67,20 @@ contains
           minval(bolts%force, mask=bolts%is_locked), maxval(bolts%use, mask=bolts%is_locked .and. bolts%has_strength), &
           merge(first%along, none, first%is_loaded), merge(first%stiffness, none, first%moves), none])]
    end subroutine note_case
+
+   !> The first watched node of ANSWER or, without one, the first pair along its line.
+   pure type(watched_node) function first_watched(answer) result(watched)
+      type(watch_answer), intent(in) :: answer
+
+      if (size(answer%nodes) > 0) then
+         watched = answer%nodes(1)
+      else if (size(answer%pairs) > 0) then
+         associate (pair => answer%pairs(1))
+            watched = watched_node(is_loaded=abs(pair%load(1)) > 0.0_wp, along=pair%change(1), &
+                                   moves=abs(pair%stiffness(1)) > 0.0_wp, stiffness=pair%stiffness(1))
+         end associate
+      end if
+   end function first_watched
 
    !> Print ROWS, then the worst of each column and its stage. Of values equal to rounding the first is the worst.
    subroutine print_cases(page, model, plan, rows)
