@@ -11,6 +11,9 @@ module stage_plan
    private
 
    public :: between, force_between
+
+   real(wp), parameter, public :: least_load = 1.0e-6_wp !! of all loads: less is none, as corners of sides of second order have
+   real(wp), parameter :: least_component = 0.01_wp      ! of a force: across less of it, a movement says nothing of a stiffness
    public :: loss_at, asked_frequencies, merged, stage_name, where_in_plan, factorisations_of, has_unloading_modes, shows_bodies
 
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping
@@ -96,7 +99,8 @@ contains
    end function between
 
    !> The force between the nodes of PAIR along its directions, from the forces F on all nodes: positive where it moves them apart.
-   !! It is the mean of the forces on both nodes, or the force on one of them where the other has none above FLOOR.
+   !! It is the mean of the forces on both nodes, or the force on one of them where the other has none above FLOOR. Small components
+   !! of it are zero.
    pure function force_between(pair, f, floor) result(force)
       type(node_pair), intent(in) :: pair
       real(wp), intent(in)        :: f(:, :) !! (dimension, nodes)
@@ -112,7 +116,7 @@ contains
       end do
       force = last - first
       where (min(abs(first), abs(last)) > floor) force = 0.5_wp*force
-      where (abs(force) <= floor) force = 0.0_wp
+      where (abs(force) <= max(floor, least_component*norm2(force(2:)))) force = 0.0_wp
    end function force_between
 
    !> Structural damping g [-] at FREQUENCY, by the rules of NASTRAN for TABDMP1: linear interpolation, extrapolation of the first

@@ -68,16 +68,20 @@ contains
           merge(first%along, none, first%is_loaded), merge(first%stiffness, none, first%moves), none])]
    end subroutine note_case
 
-   !> The first watched node of ANSWER or, without one, the first pair along its line.
+   !> The first watched node of ANSWER or, without one, the first pair along the force between its nodes.
    pure type(watched_node) function first_watched(answer) result(watched)
       type(watch_answer), intent(in) :: answer
+      real(wp) :: force
 
       if (size(answer%nodes) > 0) then
          watched = answer%nodes(1)
       else if (size(answer%pairs) > 0) then
-         associate (pair => answer%pairs(1))
-            watched = watched_node(is_loaded=abs(pair%load(1)) > 0.0_wp, along=pair%change(1), &
-                                   moves=abs(pair%stiffness(1)) > 0.0_wp, stiffness=pair%stiffness(1))
+         associate (load => answer%pairs(1)%load(2:), change => answer%pairs(1)%change(2:)) ! along three axes
+            force = norm2(load)
+            watched%is_loaded = force > 0.0_wp
+            if (watched%is_loaded) watched%along = dot_product(change, load)/force
+            watched%moves = any(abs(answer%pairs(1)%stiffness(2:)) > 0.0_wp)
+            if (watched%moves) watched%stiffness = force/watched%along
          end associate
       end if
    end function first_watched

@@ -17,7 +17,7 @@ module watched_nodes
    use mesh_queries, only: element_points, n_points, node_kind
    use model_data, only: a_point, a_spring, bar_nodes, model_type, n_bars
    use restart_stream, only: restart_stream_type
-   use stage_plan, only: between, force_between, node_pair
+   use stage_plan, only: between, force_between, least_load, node_pair
    use structural_elements, only: bar_elongation
    use tolerances, only: zero_movement, zero_of_sums
    implicit none
@@ -95,7 +95,7 @@ contains
             end do
          end associate
       end do
-      amount = zero_of_sums*sum(abs(load))
+      amount = least_load*sum(abs(load))
       on_nodes = sum(load(:, watched), dim=2)
       total = sum(load, dim=2)
       allocate (answer%nodes(size(watched)))

@@ -22,7 +22,7 @@ module modal_response
    use model_data, only: model_type
    use natural_modes, only: factorise_at, oscillating_type, spectrum_type
    use numbers, only: first_largest
-   use stage_plan, only: asked_frequencies, between, force_between, loss_at, response_plan
+   use stage_plan, only: asked_frequencies, between, force_between, least_load, loss_at, response_plan
    use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: at_resonance, no_motion, same_frequency, unexcited
    implicit none
@@ -199,7 +199,7 @@ contains
       response%n_beyond = count(plan%frequencies > (1.0_wp + same_frequency)*modes%reach)
       allocate (response%amplitude(d, n, size(response%frequency)), response%phase(d, n, size(response%frequency)), &
                 response%between(4, size(plan%pairs), size(response%frequency)))
-      response%force = reshape([(force_between(plan%pairs(k), plan%force(:d, :), unexcited*norm2(plan%force)), &
+      response%force = reshape([(force_between(plan%pairs(k), plan%force(:d, :), least_load*norm2(plan%force)), &
                                  k = 1, size(plan%pairs))], [4, size(plan%pairs)])
       do f = 1, size(response%frequency)
          call response_at(superposed, response%frequency(f), u, ok)
