@@ -39,6 +39,7 @@ module range_watch
       type(farthest_type) :: farthest
       character(:), allocatable :: poor_condition !! last warning of the condition for the screen, '': none
       character(:), allocatable :: divided    !! message about the last divided increment, '': none
+      logical :: tells_drops = .false.        !! said that shear stresses without friction have dropped to zero
       integer, allocatable, private :: stage(:, :)   ! (bounds, n) stage in which an element was last found beyond a bound
       type(tally_type), allocatable, private :: tallies(:, :) ! (bounds, joints)
       logical, allocatable, private :: soft_line(:)  ! whether the E_u of a joint was warned of
@@ -338,10 +339,11 @@ contains
       type(range_watch_type), intent(inout)    :: watch
       integer :: i, n
 
-      call stream%part('range_watch_type', 1)
+      call stream%part('range_watch_type', 2)
       call stream%item('n_warnings', watch%n_warnings)
       call stream%text('poor_condition', watch%poor_condition)
       call stream%text('divided', watch%divided)
+      call stream%item('tells_drops', watch%tells_drops)
       call stream%item('stage', watch%stage)
       call stream%item('soft_line', watch%soft_line)
       call stream%item('first_of', watch%first_of)

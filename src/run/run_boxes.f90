@@ -291,13 +291,13 @@ contains
       character(:), allocatable :: words
       integer :: i
 
-      if (run%tells_drops .or. run%failure%raised) return
+      if (run%results%watch%tells_drops .or. run%failure%raised) return
       do i = 1, size(model%joints%element)
          associate (law => model%joints%list(model%joints%element(i)%joint)%law, state => analysis%states(i)%normal)
             if (state%branch /= branch_open .or. law%has_friction .or. .not. any(law%shear%given)) cycle
             if (state%gap > 0.0_wp .and. .not. state%p_a > 0.0_wp) cycle
          end associate
-         run%tells_drops = .true.
+         run%results%watch%tells_drops = .true.
          words = 'JOINT '//integer_text(model%joints%list(model%joints%element(i)%joint)%id)//', node '// &
                  integer_text(joint_node_id(model, i, 1))//': an element with shear stiffness and without MU on '// &
                  'PJOINT has opened; it drops its shear at once, and the equilibrium may be one of several that rounding chooses'

@@ -57,7 +57,6 @@ module run_of_deck
       type(restart_stream_type) :: restart     !! the restart file to continue from, while it is read
       logical :: resumes = .false.             !! there is such a file
       character(:), allocatable :: problem     !! why the restart file cannot be used
-      logical :: tells_drops = .false.         !! said that shear stresses without friction have dropped to zero
       logical :: misses_output = .false.       !! a restart file, the answer or a VTU file could not be written
       integer(long), private :: began = 0      ! clock at the start
       type(solver_description) :: solver       !! for the operations in the table at the end
