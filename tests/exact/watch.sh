@@ -196,6 +196,16 @@ between_deck between_one 'WATCH = 9001-9002' '' 0.0 0.0 && {
    same 'two nodes at one place: no line' "$(between between_one LINE movement)" ''
    near '... along x' "$(between between_one X stiffness)" "1/$between_x" 1e-10
 }
+# across the line, and across it with 1/200 along it, which gives no stiffness along it; the table of cases has the movement along the force
+sed -e 's/^WATCH.*/&\nSUBCASE 1\nSUBCASE 2\nLOAD = 30\nFROM = 1\nSUBCASE 3\nLOAD = 31\nFROM = 1/' \
+    -e 's/^ENDDATA/LOAD,30,1.0,1.0,20,1.0,21\nLOAD,31,1.0,1.0,20,1.0,22\nFORCE,21,9002,,10.0,-0.8,0.6\nFORCE,21,9001,,10.0,0.8,-0.6\nFORCE,22,9002,,1.0,-7.97,6.04\nFORCE,22,9001,,1.0,7.97,-6.04\n&/' \
+    "$work/between_static.bdf" > "$work/between_cases.bdf"
+case_of() { awk -F, -v s="$1" -v c="$2" 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k } $1 ~ /CASE/ && $2 == s { print $at[c] }' "$work/between_cases.cases.csv"; }
+run between_cases && {
+   same 'a force across the line: no stiffness along it' "$(awk -F, '$1 == 3 && $4 == "LINE" { print "row" $7 $8 }' "$work/between_cases.between.csv")" row
+   near 'cases: movement along the force between two nodes' "$(case_of 2 along)" "10*(0.64*$between_x + 0.36*$between_y)" 1e-9
+   near '... stiffness' "$(case_of 2 stiffness)" "1/(0.64*$between_x + 0.36*$between_y)" 1e-9
+}
 sed 's/^FORCE,20,9001.*//' "$work/between_static.bdf" > "$work/between_load.bdf"
 run between_load && near 'a force on one node alone' "$(between between_load X stiffness)" 4000 1e-10
 "$program" -q -o "$work" --summary "$work/between.csv" "$work/between_static.bdf" > "$work/between.log" 2>&1
@@ -235,7 +245,7 @@ for watch_file in between.csv between.modes.csv between.response.csv watch.energ
 done
 near 'summary: the pair' "$(watch_summary watch_both along_9001-9002)" "10*$between_line" 1e-10
 near '... its stiffness' "$(watch_summary watch_both stiffness_9002-9001)" "1/$between_line" 1e-10
-near '... the node' "$(watch_summary watch_both stiffness_9002)" "1/(0.36/4000 + 0.64/8000)" 1e-10
+near '... the node, by its number of NODEAT' "$(watch_summary watch_both stiffness_7002)" "1/(0.36/4000 + 0.64/8000)" 1e-10
 near '... which is the first' "$(watch_summary watch_both stiffness)" "1/(0.36/4000 + 0.64/8000)" 1e-10
 near '... points of NODEAT' "$(watch_summary watch_at stiffness_7001-7002)" "1/$between_line" 1e-10
 near '... the second frequency' "$(watch_summary watch_at frequency_2)" "sqrt(2000/0.02)/(2*$pi)" 1e-9
