@@ -8,6 +8,7 @@ module load_build
    use displacement_systems, only: find_directions
    use field_rules, only: has_component
    use kinds, only: wp
+   use load_changes, only: forget_others, nodal_loads, note_changes
    use model_data, only: freedoms_type, history_type, mesh_type, stage_load_type, supported
    use model_kind, only: space_hint
    use node_coupling, only: coupling_parts
@@ -17,7 +18,7 @@ module load_build
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text, one_of
-   use tolerances, only: zero_component, zero_component_along, zero_remainder
+   use tolerances, only: zero_component, zero_component_along
    use unknowns, only: node_axes, place_of_component, rotation_at, rotation_component
    implicit none
    private
@@ -34,11 +35,6 @@ module load_build
       real(wp), allocatable :: end_force(:, :)  ! (12, PLOAD1) [force], [moment]
       real(wp), allocatable :: pressing(:, :)   ! (3, n_nodes) nodal forces of the pressures of a stage, where there are bolts [force]
    end type card_loads
-
-   !> The nodal forces at the end of a stage; not allocated where no later stage starts from it.
-   type :: nodal_loads
-      real(wp), allocatable :: of_kind(:, :, :) ! (3, n_nodes, 2) of forces, of pressures [force]
-   end type nodal_loads
 
    character(*), parameter :: others = 'PLOAD4, PLOADE, PLOAD, PLOAD1, PLOAD2, PLOADM, FORCEM, GRAV or SPCD' ! the other load cards
    character(*), parameter :: nor_others = ', nor a '//others ! behind the text `there is no FORCE`
@@ -257,7 +253,7 @@ contains
       type(stage_load_type), allocatable, intent(out) :: oscillating(:) !! (stages) DLOAD; empty where none is given
       type(card_loads) :: cards
       type(nodal_loads), allocatable :: at_end(:) ! (0:stages)
-      integer :: i, s
+      integer :: s
 
       call find_nodal_forces(deck, mesh, freedoms, cards%node, cards%force)
       call check_cards(deck, mesh, freedoms)
@@ -285,9 +281,7 @@ contains
             call add_case(stage%load, 'LOAD', loads)
             if (allocated(cards%pressing)) then
                call note_changes(cards%pressing, at_end(loads%from)%of_kind, loads, at_end(s)%of_kind)
-               do i = 0, s
-                  if (all(history%stages(s + 1:)%from /= i) .and. allocated(at_end(i)%of_kind)) deallocate (at_end(i)%of_kind)
-               end do
+               call forget_others(history%stages(s + 1:)%from, at_end)
             end if
             if (loads%from > 0) loads%changes(1) = loads%changes(1) .or. differ(history%stages(loads%from)%moved, loads%moved)
             allocate (oscillating(s)%node(0), oscillating(s)%force(3, 0))
@@ -320,26 +314,6 @@ contains
       end subroutine add_case
 
    end subroutine build_loads
-
-   !> Note what of LOADS, of which the pressures are PRESSING, differs from the nodal forces BEFORE, those of the stage from which this
-   !! one starts. NOW are its own.
-   pure subroutine note_changes(pressing, before, loads, now)
-      real(wp), intent(in)                 :: pressing(:, :)  !! (3, n_nodes)
-      real(wp), intent(in)                 :: before(:, :, :) !! (3, n_nodes, 2) of forces, of pressures
-      type(stage_load_type), intent(inout) :: loads
-      real(wp), allocatable, intent(out)   :: now(:, :, :)    !! likewise
-      integer :: i, k
-
-      allocate (now, mold=before)
-      now(:, :, 1) = -pressing
-      now(:, :, 2) = pressing
-      do i = 1, loads%n
-         now(:, loads%node(i), 1) = now(:, loads%node(i), 1) + loads%force(:, i)
-      end do
-      do k = 1, 2
-         loads%changes(k) = any(abs(now(:, :, k) - before(:, :, k)) > zero_remainder*max(maxval(abs(now)), maxval(abs(before))))
-      end do
-   end subroutine note_changes
 
    !> Add FACTOR times all loads of SET to LOADS: nodal forces one by one, distributed loads as sums per node.
    subroutine add_set(deck, mesh, freedoms, cards, set, factor, loads)

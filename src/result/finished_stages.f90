@@ -16,7 +16,8 @@ module finished_stages
    implicit none
    private
 
-   public :: count_increment, mark_finished, return_to_finished, name_companion, listing_end, record_finished, record_counts
+   public :: count_increment, count_frequencies, mark_finished, return_to_finished, name_companion, listing_end, record_finished, &
+             record_counts
 
    !> The values of a run in a row of a batch.
    type, public :: digest_type
@@ -65,6 +66,17 @@ contains
       counts%digest%iterations = counts%digest%iterations + n_iterations
       counts%n_removed = counts%n_removed + n_removed
    end subroutine count_increment
+
+   !> Note the first natural FREQUENCIES of the stage that has been completed last.
+   pure subroutine count_frequencies(frequencies, counts)
+      real(wp), intent(in)            :: frequencies(:) !! ascending [1/time]
+      type(count_type), intent(inout) :: counts
+      integer :: n
+
+      n = min(size(frequencies), size(counts%digest%frequencies))
+      counts%digest%frequencies = -1.0_wp
+      counts%digest%frequencies(:n) = frequencies(:n)
+   end subroutine count_frequencies
 
    !> Mark the files of PAGE and VTU, whose names begin with BASE, where one of N_STAGES has ended, and note the COUNTS.
    subroutine mark_finished(base, page, vtu, n_stages, counts, finished)

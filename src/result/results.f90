@@ -12,8 +12,8 @@ module results
    use distance_watch, only: default_slope_words
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
-   use finished_stages, only: count_increment, count_type, finished_type, listing_end, mark_finished, name_companion, &
-                              record_counts, record_finished, return_to_finished
+   use finished_stages, only: count_frequencies, count_increment, count_type, finished_type, listing_end, mark_finished, &
+                              name_companion, record_counts, record_finished, return_to_finished
    use incomplete_results, only: all_complete, give_up_parts, what_is_in_the_way
    use joint_answers, only: fault_of_joints, find_joint_answers, joint_answer
    use joint_tables, only: list_energy, list_joints, plot_joint, write_history
@@ -267,18 +267,12 @@ contains
       integer, intent(in)               :: stage !! its position
       type(modes_type), intent(in)      :: modes
       type(results_type), intent(inout) :: results
-      integer :: m, n
+      real(wp), allocatable :: elastic(:) ! frequencies
 
-      associate (first => results%counts%digest%frequencies)
-         first = -1.0_wp
-         do m = 1, size(modes%modes)
-            n = count(.not. modes%modes(:m)%is_rigid)
-            if (.not. modes%modes(m)%is_rigid .and. n <= size(first)) first(n) = modes%modes(m)%frequency
-         end do
-      end associate
-      m = findloc(modes%modes%is_rigid, .false., dim=1)
-      if (is_case(model%history, stage) .and. m > 0) &
-         results%cases(size(results%cases))%values(size(case_names)) = modes%modes(m)%frequency
+      elastic = pack(modes%modes%frequency, .not. modes%modes%is_rigid)
+      call count_frequencies(elastic, results%counts)
+      if (is_case(model%history, stage) .and. size(elastic) > 0) &
+         results%cases(size(results%cases))%values(size(case_names)) = elastic(1)
       associate (planned => plan%stages(stage), page => results%page)
          page%stage_id = planned%id
          call list_modes(page, model, planned, modes, results%watch%n_warnings)
