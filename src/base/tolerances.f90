@@ -157,6 +157,8 @@ module tolerances
 
    ! ---- results
    real(wp), parameter :: page_zero = 1.0e-9_wp      !! of the largest number of its kind: printed as zero, other processors differ
+   real(wp), parameter :: least_load = 1.0e-6_wp     !! of all loads: less on a node is none, as at corners of sides of second order
+   real(wp), parameter :: least_component = 0.01_wp  !! of a force between two nodes: less gives no stiffness along its direction
    real(wp), parameter :: zero_of_sums = 1.0e-9_wp   !! of the sum of amounts: forces, or works, that cancel
    real(wp), parameter :: zero_remainder = 1.0e-7_wp !! of forces and movements: a difference, zero but for the TOL of iterations
    real(wp), parameter :: zero_movement = 1.0e-7_wp  !! of the largest movement over the stage: a point that rests

@@ -6,14 +6,11 @@ module stage_plan
    use kinds, only: wp
    use stage_entries, only: output_all, output_last, output_request
    use text_tools, only: integer_text
-   use tolerances, only: same_frequency
+   use tolerances, only: least_component, same_frequency
    implicit none
    private
 
    public :: between, force_between
-
-   real(wp), parameter, public :: least_load = 1.0e-6_wp !! of all loads: less is none, as corners of sides of second order have
-   real(wp), parameter :: least_component = 0.01_wp      ! of a force: across less of it, a movement says nothing of a stiffness
    public :: loss_at, asked_frequencies, merged, stage_name, where_in_plan, factorisations_of, has_unloading_modes, shows_bodies
 
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping

@@ -16,6 +16,7 @@ module answer_tables
    use table_column, only: column
    use table_writer, only: table_type
    use text_tools, only: integer_text, one_of
+   use tolerances, only: page_zero
    use watched_nodes, only: watch_answer
    implicit none
    private
@@ -351,12 +352,11 @@ contains
             call table%put('stage', page%stage_id)
             call table%put('node', model%mesh%node_id(node%node))
             call table%put(xyz, model%mesh%x(:, node%node))
-            call table%put('u_'//xyz, node%u)
-            call table%put('change_'//xyz, node%change)
+            call table%put([character(8) :: 'u_'//xyz, 'change_'//xyz], [node%u, node%change], &
+                           page_zero*maxval(abs([node%u, node%change])))
             call table%put('load_'//xyz, node%load)
-            call table%put('LOAD', norm2(node%load), where=node%is_loaded)
-            call table%put('along', node%along, where=node%is_loaded)
-            call table%put('load', norm2(node%load), where=node%is_loaded)
+            call table%put(['LOAD ', 'along', 'load '], [norm2(node%load), node%along, norm2(node%load)], &
+                           where=spread(node%is_loaded, 1, 3))
             call table%put('stiffness', node%stiffness, where=node%moves)
          end associate
          call table%print_row(page%screen, page%tables(watch_table))
@@ -372,7 +372,8 @@ contains
                call table%put('stage', page%stage_id)
                call table%put(['from', 'to  '], pair%pair%ids)
                call table%put('along', trim(pair_names(i)))
-               call table%put([character(8) :: 'movement', 'change'], [pair%moved(i), pair%change(i)])
+               call table%put([character(8) :: 'movement', 'change'], [pair%moved(i), pair%change(i)], &
+                              page_zero*maxval(abs([pair%moved, pair%change])))
                call table%put('load', pair%load(i), where=abs(pair%load(i)) > 0.0_wp)
                call table%put('stiffness', pair%stiffness(i), where=abs(pair%stiffness(i)) > 0.0_wp)
                call table%print_row(page%screen, page%tables(pair_table))

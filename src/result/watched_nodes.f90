@@ -17,9 +17,9 @@ module watched_nodes
    use mesh_queries, only: element_points, n_points, node_kind
    use model_data, only: a_point, a_spring, bar_nodes, model_type, n_bars
    use restart_stream, only: restart_stream_type
-   use stage_plan, only: between, force_between, least_load, node_pair
+   use stage_plan, only: between, force_between, node_pair
    use structural_elements, only: bar_elongation
-   use tolerances, only: zero_movement, zero_of_sums
+   use tolerances, only: least_load, zero_movement, zero_of_sums
    implicit none
    private
 

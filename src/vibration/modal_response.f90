@@ -22,9 +22,9 @@ module modal_response
    use model_data, only: model_type
    use natural_modes, only: factorise_at, oscillating_type, spectrum_type
    use numbers, only: first_largest
-   use stage_plan, only: asked_frequencies, between, force_between, least_load, loss_at, response_plan
+   use stage_plan, only: asked_frequencies, between, force_between, loss_at, response_plan
    use text_tools, only: integer_text, one_of, real_text
-   use tolerances, only: at_resonance, no_motion, same_frequency, unexcited
+   use tolerances, only: at_resonance, least_load, no_motion, same_frequency, unexcited
    implicit none
    private
 
