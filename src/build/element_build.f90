@@ -315,7 +315,7 @@ contains
                end do
                words = words//', but would have with straight edges: mid-side nodes are at fault, most of all G'// &
                        integer_text(worst)//', node '//integer_text(mesh%node_id(nodes(worst)))//', which stands '// &
-                       integer_text(nint(100.0_wp*largest))//' % of its edge off the middle'
+                       integer_text(nint(min(100.0_wp*largest, 1.0e9_wp)))//' % of its edge off the middle'
                if (largest < misplaced) words = words//'; expected smaller elements, or straight edges'
                if (largest < misplaced) return
             end if
