@@ -114,7 +114,7 @@ contains
             if (joint%e_u_given .or. state%branch == branch_load .or. .not. state%p_a > 0.0_wp) cycle
             lambda = before%movement(3, i) - element%gap ! from where, and from which pressure, it moved on the line
             p = before%force(3, i)/element%area
-            if (lambda >= state%lambda_a .or. abs(p - loading_pressure(joint%law%normal, lambda)) < &
+            if (lambda >= state%lambda_a .or. abs(p - loading_pressure(joint%law%normal, max(0.0_wp, lambda))) < &
                 abs(p - max(0.0_wp, state%p_a - joint%law%normal%e_u*(state%lambda_a - lambda)))) then
                lambda = state%lambda_a ! it came along the loading curve to A
                p = state%p_a
