@@ -73,7 +73,8 @@ contains
             mesh%masses(n)%mass = 0.0_wp
             n = n + 1
             n_off = n_off + 1 ! nodes of masses with offset are the first face nodes
-            mesh%masses(n)%node = mesh%faces(n_off)%node
+            mesh%masses(n)%node = node
+            if (n_off <= size(mesh%faces)) mesh%masses(n)%node = mesh%faces(n_off)%node ! otherwise the deck has errors
             mesh%masses(n)%mass = deck%bulk%parameters%mass_factor*card%mass
          end associate
       end do

@@ -15,6 +15,7 @@ module normal_fit
    public :: fit_normal_test, fit_power_law, fit_proportional, fit_stiffness, check_residual
 
    real(wp), parameter :: much = 0.05_wp ! a residual above this share of the largest reading is reported
+   real(wp), parameter :: largest_power = 300.0_wp ! of e: beyond it values are no readings
    integer, parameter  :: most_steps = 200, most_halvings = 60
 
    type, public :: normal_fit_type
@@ -178,8 +179,9 @@ contains
          before = now
          if (maxval(abs(step)) <= settled_curve) exit
       end do
-      ok = ok .and. k <= most_steps
       m = q(2)
+      ok = ok .and. k <= most_steps .and. abs(q(1) - m*mean) < largest_power
+      if (.not. ok) return
       c = exp(q(1) - m*mean)
 
    contains
@@ -188,7 +190,7 @@ contains
          real(wp), intent(in) :: trial(2)
 
          total = huge(total)
-         if (maxval(abs(trial(1) + trial(2)*x)) < 300.0_wp) total = sum((exp(trial(1) + trial(2)*x) - y)**2)
+         if (maxval(abs(trial(1) + trial(2)*x)) < largest_power) total = sum((exp(trial(1) + trial(2)*x) - y)**2)
       end function sum_of_squares
 
    end subroutine fit_power_law

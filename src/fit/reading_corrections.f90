@@ -113,7 +113,7 @@ contains
       scale = maxval(p)
       if (scale <= 0.0_wp .or. maxval(lambda) <= 0.0_wp) return
       call fit_power_law(p, lambda, other%c_before, other%m_before, ok)
-      if (.not. ok .or. other%m_before > 1.0_wp) then
+      if (.not. (ok .and. other%m_before > 0.0_wp .and. other%m_before <= 1.0_wp)) then
          other%m_before = 1.0_wp
          other%c_before = fit_proportional(p, lambda)
       end if

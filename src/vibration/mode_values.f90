@@ -325,7 +325,7 @@ contains
       real(wp), intent(out)              :: f(:, :, :)  !! as U [force]
       real(wp) :: k(max_section_dofs, max_section_dofs), q(max_section_dofs, size(energies))
       real(wp) :: p(max_section_dofs, size(energies)), energy
-      real(wp) :: movement(3), tension
+      real(wp) :: elongation, movement(3), tension
       integer  :: body(model%mesh%n_elements), d, e, i, j, m, n, n_bodies
 
       d = model%mesh%dimension
@@ -354,8 +354,9 @@ contains
          do i = 1, n_bars(model%mesh)
             if (.not. structure%is_elastic(i)) cycle
             associate (bar => model%mesh%bars(i))
-               tension = bar%stiffness*bar_elongation(bar, u(:, bar_nodes(bar), m))
-               energies(m)%bar(i) = 0.5_wp*tension**2/bar%stiffness
+               elongation = bar_elongation(bar, u(:, bar_nodes(bar), m))
+               tension = bar%stiffness*elongation
+               energies(m)%bar(i) = 0.5_wp*tension*elongation
                energies(m)%damped = energies(m)%damped + bar%damping*energies(m)%bar(i)
                call add_axial_force(model, i, -tension, f(:, :, m))
             end associate

@@ -225,6 +225,12 @@ between_deck between_modes 'WATCH = 9001-9002\nSET 3 = 9002\nMODES = 6\nFREQUENC
         "$(awk -F, '$5 == "X" && $6/6 > most { most = $6/6 } END { printf "%.17g", most }' "$work/between_modes.between.response.csv")" 1e-5
 }
 
+sed 's/^ENDDATA/CELAS2,99,0.0,9001,1\n&/' "$work/between_modes.bdf" > "$work/between_none.bdf"
+run between_none && {
+   near 'modes: a spring of no stiffness changes no frequency' "$(mode between_none 1 frequency)" "$(mode between_modes 1 frequency)" 1e-12
+   same '... and no energy' "$(grep -c 'NaN' "$work/between_none.modes.energy.csv")" 0
+}
+
 # --watch n-m is WATCH = n-m, beside single nodes or alone; nodes of NODEAT, in the deck and on the command line, are those that they stand for.
 # The summary has every node and pair of the last stage with WATCH, and the frequencies.
 watch_also() { # NAME LIST: between_modes without its WATCH; the numbers of NODEAT are 7001, 7002, and 7003 in the place of 7001

@@ -287,6 +287,7 @@ bad 'few points of unloading' 'UNLOAD, p = 5: 3 points' 'expected four different
    <<< $'d tau p branch\n1 1 5 LOAD\n2 2 5 LOAD\n3 3 5 LOAD\n1 1 6 LOAD\n2 3 6 LOAD\n3 4 6 LOAD\n1 1 5 UNLOAD\n2 2 5 UNLOAD\n3 3 5 UNLOAD'
 bad 'one point of normal tests' 'two or more different p' <<< $'lambda p\n0 0\n1 1\n2 1'
 bad 'falling deflection' 'lambda does not grow with p: m = -1' <<< $'lambda p\n4 1\n2 2\n1 4'
+bad 'zero of a pressure that is almost none' 'lambda does not grow with p: m = -' <<< $'lambda p\n0 0\n2 1E-160\n1.9 0.5\n1.8 1\n1.7 2\n1.6 4'
 bad 'too stiff a law' 'has a number of 1.00079E-90' 'none below 1E-75' <<< $'lambda p\n1E-90 1\n1.4E-90 2\n1.7E-90 3'
 bad 'units of two kinds' 'line 3' "UNITS: 'MM, N', but above it was 'MM, KGF'" <<< $'UNITS = MM, KGF\nlambda p\nUNITS = MM, N\n1 1\n2 4'
 bad 'binary' 'not text' < <(printf 'lambda p\n1 2\0 3\n')
