@@ -7,7 +7,7 @@ module joint_laws
    use normal_curve, only: loading_pressure, normal_law, normal_secant
    use normal_stiffness, only: branch_load, branch_open, branch_unload, closed_share, follow_normal, is_virgin, norm, normal_state
    use shear_path, only: follow_shear
-   use slip_path, only: meet_limit, return_to_limit, turn_slip
+   use slip_path, only: return_to_limit, turn_slip
    use shear_stiffness, only: shear, shear_law, shear_state, slid_from, stand_at_limit
    use tolerances, only: pressure_floor, settled_secant, slip_margin
    implicit none
@@ -18,7 +18,6 @@ module joint_laws
    public :: friction_limit, friction_excess, exceeds_limit, limit_cuts
    public :: back_stiffness
    public :: slices_of, slices_to, limit_scales
-   public :: changes_tangent, share_to_change
 
    type, public :: joint_law
       type(normal_law) :: normal
@@ -196,35 +195,6 @@ contains
       end if
       if (law%has_friction) exceeds_limit = norm2(state%shear%tau) > friction_limit(law, state%normal%pressure)*(1.0_wp + margin)
    end function exceeds_limit
-
-   !> Whether an element begins to slip, opens, closes or comes to its point A from state A to B.
-   elemental logical function changes_tangent(a, b)
-      type(element_state), intent(in) :: a, b
-
-      changes_tangent = (b%slips .and. .not. a%slips) .or. (b%normal%branch == branch_open .neqv. a%normal%branch == branch_open) &
-                        .or. (b%normal%branch == branch_load .and. a%normal%branch /= branch_load)
-   end function changes_tangent
-
-   !> The share of the way from HALF to END at which this happens, if the element goes on as from BEFORE to HALF; 1: it does not.
-   pure real(wp) function share_to_change(law, before, half, end) result(share)
-      type(joint_law), intent(in)     :: law
-      type(element_state), intent(in) :: before, half, end
-      real(wp) :: c(0:2), closing
-
-      share = 1.0_wp
-      if (.not. changes_tangent(half, end)) return
-      associate (a => before%normal, b => half%normal)
-         closing = max(b%lambda - a%lambda, tiny(1.0_wp))
-         if (end%slips) then
-            call meet_limit(half%shear%tau, half%shear%tau - before%shear%tau, &
-                            [friction_limit(law, b%pressure), friction_limit(law, 2.0_wp*b%pressure - a%pressure)], share, c)
-         else if (end%normal%branch == branch_open) then
-            share = b%pressure/max(a%pressure - b%pressure, tiny(1.0_wp))
-         else
-            share = (merge(b%lambda_b, b%lambda_a, b%branch == branch_open) - b%lambda)/closing
-         end if
-      end associate
-   end function share_to_change
 
    !> The shear force above the limit: a vector in the direction of tau, zero within the limit; with Iwan's law, above what its
    !! slices bear after the movement [force].

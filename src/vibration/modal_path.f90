@@ -11,7 +11,7 @@ module modal_path
    use analysis_state, only: analysis_type, free_norm
    use equation_solver, only: equation_system, failure_type
    use equations, only: condense_load, recover_displacements
-   use joint_laws, only: changes_tangent, element_state, force_of, share_to_change
+   use joint_laws, only: element_state, force_of
    use joint_work, only: joint_energy, work_along
    use kinds, only: wp
    use load_path, only: hold_load, start_increment
@@ -30,7 +30,6 @@ module modal_path
    public :: start_modal_load, start_path, begin_path, follow_path, coordinate, reverse, remove_rigid_motion
 
    real(wp), parameter :: coarsest_step = 0.125_wp   ! likewise: a larger one is, for elements may slip and stick within it
-   real(wp), parameter :: least_part = 0.01_wp        ! of half an increment: it is not divided nearer to an end
    real(wp), parameter :: margin = 10.0_wp           ! of rounding errors
 
    !> The initial data of the paths of one mode.
@@ -211,8 +210,7 @@ contains
             call load_increment(model, modal, at, straight, work, failure)
             if (failure%raised) return
             call refine_increment(model, modal, at, &
-                                  [work, coordinate(modal, straight, at(2)) - coordinate(modal, now, at(1))], .false., now, path, &
-                                  failure)
+                                  [work, coordinate(modal, straight, at(2)) - coordinate(modal, now, at(1))], now, path, failure)
          else
             call load_increment(model, modal, at, now, work, failure)
             call add_work(now, work, path)
@@ -224,29 +222,32 @@ contains
 
    !> Go from alpha = ENDS(1) to ENDS(2). As one increment, the joints take the work and q grows by what WHOLE says. The increment
    !! is halved until halving has no effect on the work of the elements and on the growth of q: the error of q at the start of an
-   !! increment is not that of the increment. Where the tangents change in the second half, it is divided there instead, unless it
-   !! has been CUT so. Two errors do not show in this way: where an element closes, its shear deflection
+   !! increment is not that of the increment. Two errors do not show in this way: where an element closes, its shear deflection
    !! counts from the start of the increment, and where an element turns from loading to unloading, because another one opens or slips, the
    !! straight way misses its largest pressure. Such increments are halved to CLOSING_STEP; at the beginning of a path all elements
    !! turn at once. The remaining error of the work falls by four in each halving; a third of the last difference is subtracted.
-   recursive subroutine refine_increment(model, modal, ends, whole, cut, now, path, failure)
+   recursive subroutine refine_increment(model, modal, ends, whole, now, path, failure)
       type(model_type), intent(in)         :: model
       type(modal_load_type), intent(inout) :: modal
       real(wp), intent(in)                 :: ends(2)
       real(wp), intent(in)                 :: whole(:) !! (elements) [force x length], and growth of q
-      logical, intent(in)                  :: cut
       type(analysis_type), intent(inout)   :: now
       type(path_type), intent(inout)       :: path
       type(failure_type), intent(inout)    :: failure
       type(analysis_type), allocatable :: half, end
       real(wp) :: first(size(whole)), second(size(whole)), difference(size(whole)), coarsest, middle, share
-      integer  :: e, n
-      logical  :: cuts, hides
+      integer  :: n
+      logical  :: hides
 
       n = size(model%joints%element)
       middle = 0.5_wp*sum(ends)
-      call divide(middle)
+      half = now
+      call load_increment(model, modal, [ends(1), middle], half, first(:n), failure)
+      end = half
+      call load_increment(model, modal, [middle, ends(2)], end, second(:n), failure)
       if (failure%raised) return
+      first(n + 1) = coordinate(modal, half, middle) - coordinate(modal, now, ends(1))
+      second(n + 1) = coordinate(modal, end, ends(2)) - coordinate(modal, half, middle)
       difference = first + second - whole
       share = abs(ends(2) - ends(1))/modal%largest
       associate (before => now%states%normal%branch, after => end%states%normal%branch)
@@ -259,39 +260,11 @@ contains
          call add_work(half, first(:n), path)
          call add_work(end, second(:n) + difference(:n)/3.0_wp, path)
          now = end
-         return
+      else
+         deallocate (half, end) ! states are large
+         call refine_increment(model, modal, [ends(1), middle], first, now, path, failure)
+         if (.not. failure%raised) call refine_increment(model, modal, [middle, ends(2)], second, now, path, failure)
       end if
-      share = 1.0_wp
-      if (.not. (cut .or. any(changes_tangent(now%states, half%states)))) then
-         do e = 1, n
-            share = min(share, share_to_change(model%joints%list(model%joints%element(e)%joint)%law, now%states(e), &
-                                               half%states(e), end%states(e)))
-         end do
-      end if
-      cuts = share > least_part .and. share < 1.0_wp - least_part
-      if (cuts) then
-         middle = middle + share*(ends(2) - middle)
-         call divide(middle)
-      end if
-      deallocate (half, end) ! states are large
-      if (.not. failure%raised) call refine_increment(model, modal, [ends(1), middle], first, cuts, now, path, failure)
-      if (.not. failure%raised) call refine_increment(model, modal, [middle, ends(2)], second, .false., now, path, failure)
-
-   contains
-
-      !> Go from NOW to the load AT, the state HALF, and from there to END.
-      subroutine divide(at)
-         real(wp), intent(in) :: at
-
-         half = now
-         call load_increment(model, modal, [ends(1), at], half, first(:n), failure)
-         end = half
-         call load_increment(model, modal, [at, ends(2)], end, second(:n), failure)
-         if (failure%raised) return
-         first(n + 1) = coordinate(modal, half, at) - coordinate(modal, now, ends(1))
-         second(n + 1) = coordinate(modal, end, ends(2)) - coordinate(modal, half, at)
-      end subroutine divide
-
    end subroutine refine_increment
 
    !> Begin PATH at ALPHA and Q.
