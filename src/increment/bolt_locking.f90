@@ -16,8 +16,8 @@ module bolt_locking
 
 contains
 
-   !> Lock the bolts that the completed stage has tightened, if they are not yet locked. The inelastic part of the bar forces becomes a load, and the overlap
-   !! of solid bolts a prescribed displacement.
+   !> Lock the bolts that the completed stage has tightened, if they are not yet locked. The inelastic part of the bar forces becomes
+   !! a load, and the overlap of solid bolts a prescribed displacement.
    subroutine lock_bolts(model, system, analysis)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system

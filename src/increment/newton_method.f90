@@ -319,8 +319,10 @@ contains
       first = 0.0_wp
       attempt%converged = .false.
       if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states)), source=0)
-      if (is_given_up(analysis)) attempt%trouble = none
-      if (is_given_up(analysis)) return
+      if (is_given_up(analysis)) then
+         attempt%trouble = none
+         return
+      end if
       do way = merge(extrapolated, straight, attempt%growth > 0.0_wp), sticking
          if (way == from_best .and. .not. attempt%least < promising*first) cycle
          if (way /= extrapolated) attempt%growth = 0.0_wp

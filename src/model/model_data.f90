@@ -115,7 +115,7 @@ module model_data
       real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) of held unknowns [length]; allocated if any is moved
       real(wp), allocatable :: beam(:, :)    !! (12, beams) end forces of the loads along beams [force], [moment]; if there are any
       type(temperature_type) :: temperature
-      logical :: changes(3) = .false.        !! forces or support movements, pressures, temperatures differ from those of the stage before
+      logical :: changes(3) = .false.        !! forces or support movements, pressures, temperatures differ from those at its start
    end type stage_load_type
 
    integer, parameter, public :: a_point = 1, a_rotation = 2, an_overlap = 3 !! kinds of nodes

@@ -1,9 +1,9 @@
 !> The bolts at the end of an increment, bars or solids: force, load share, stress, and clamping of the joint. The terms are
 !! those of VDI 2230. Assembly is the end of the last stage that tightens a bolt. The share of an axial or transverse load and
 !! the loss of clamping force are counted from assembly on. The load of a bolt is the force that passes between the bodies that
-!! it clamps, see passing_forces. A stage that changes loads of one kind (forces, temperatures or pressures) changes the tension by this
-!! kind; what a stage does that changes several kinds is not separable, because joints are not linear. Of a bolt that planes of symmetry cut, force, load and bending are those of the part in the
-!! model; the bending stress is that of the whole shank.
+!! it clamps, see passing_forces. A stage that changes loads of one kind (forces, temperatures or pressures) changes the tension by
+!! this kind; the change by a stage of several kinds is not separable, because joints are not linear. Of a bolt that planes of
+!! symmetry cut, force, load and bending are those of the part in the model; the bending stress is that of the whole shank.
 module bolt_answers
    use analysis_state, only: analysis_type
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
