@@ -80,7 +80,7 @@ contains
             force = norm2(load)
             watched%is_loaded = force > 0.0_wp
             if (watched%is_loaded) watched%along = dot_product(change, load)/force
-            watched%moves = any(abs(answer%pairs(1)%stiffness(2:)) > 0.0_wp)
+            watched%moves = any(abs(answer%pairs(1)%stiffness(2:)) > 0.0_wp) .and. abs(watched%along) > 0.0_wp
             if (watched%moves) watched%stiffness = force/watched%along
          end associate
       end if
