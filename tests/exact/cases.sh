@@ -64,11 +64,13 @@ cases_deck() {
    } > "$work/$1.bdf"
    run "$1"
 }
+# cases_rows NAME STAGE: bolts without the columns that only decks with temperatures or pressures have
+cases_rows() { grep "^$2," "$work/$1.$ending.csv" | if [ $ending = bolt ]; then cut -d, -f1-23; else cat; fi; }
 # cases_same NAME OTHER STAGE WORDS: all rows of a stage in all CSV files, and its tables of forces in beams, agree to the last digit
 cases_same() {
    local ending
    for ending in joint stage bolt watch watch.energy modes modes.energy; do
-      if [ "$(grep -c "^$3," "$work/$1.$ending.csv")" -gt 0 ] && cmp -s <(grep "^$3," "$work/$1.$ending.csv") <(grep "^$3," "$work/$2.$ending.csv"); then
+      if [ "$(grep -c "^$3," "$work/$1.$ending.csv")" -gt 0 ] && cmp -s <(cases_rows "$1" "$3") <(cases_rows "$2" "$3"); then
          passed=$((passed + 1))
       else fail "cases: $4: .$ending.csv of $1 and of $2 differ"
       fi
