@@ -4,8 +4,8 @@
 module card_fields
    use deck_cards, only: card_type
    use deck_errors, only: deck_error_list
-   use field_rules, only: any_real, at_least_1, component_words, in_range, integer_fault, is_component_list, largest_size, &
-                          list_of, parse_integer, parse_real, real_fault, real_range, real_words, smallest_size
+   use field_rules, only: any_real, at_least_1, component_words, drop_blanks, in_range, integer_fault, is_component_list, is_zero, &
+                          largest_size, list_of, parse_integer, parse_real, real_fault, real_range, real_words, smallest_size
    use kinds, only: wp
    use text_tools, only: integer_text, one_of
    implicit none
@@ -137,7 +137,7 @@ contains
       end do
    end subroutine real_fields
 
-   !> Take a list of NASTRAN's components from the next field: different digits of 1 to 6. It is required without DEFAULT.
+   !> Take a list of NASTRAN's components from the next field, as 123 or 1 2 3. It is required without DEFAULT; with it 0 is blank.
    subroutine components(self, name, value, default)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: name
@@ -146,6 +146,8 @@ contains
       logical :: is_given, ok
 
       call go_on(self, name, is_given)
+      if (is_given) call drop_blanks(self%fields(self%k)%text, self%fields(self%k)%length)
+      if (is_given .and. present(default)) is_given = self%fields(self%k)%text /= '0'
       if (present(default) .and. .not. is_given) then
          value = default
       else
@@ -176,15 +178,12 @@ contains
    subroutine blank(self, names)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: names(:)
-      character(:), allocatable :: text
       integer :: i
       logical :: is_given
 
       do i = 1, size(names)
          call go_on(self, names(i), is_given)
-         if (.not. is_given) cycle
-         text = self%text_at(self%k)
-         if (verify(text, '0.+-') > 0 .or. index(text, '0') == 0) &
+         if (is_given .and. .not. is_zero(self%text_at(self%k))) &
             call self%wrong_entry(self%k, names(i), 'where the field must be blank')
       end do
    end subroutine blank
@@ -210,7 +209,7 @@ contains
       call self%must_be_blank(self%k + 1, self%n, '')
    end subroutine finish
 
-   !> The data fields FIRST to LAST must be blank; WHY ends the message.
+   !> The data fields FIRST to LAST must be blank or zero; WHY ends the message.
    subroutine must_be_blank(self, first, last, why)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: first, last
@@ -218,7 +217,8 @@ contains
       integer :: k
 
       do k = first, min(last, self%n)
-         if (self%fields(k)%length > 0) call self%error_at(k, ''''//self%text_at(k)//''' where the field must be blank'//why)
+         if (self%fields(k)%length == 0 .or. is_zero(self%text_at(k))) cycle
+         call self%error_at(k, ''''//self%text_at(k)//''' where the field must be blank'//why)
       end do
    end subroutine must_be_blank
 
