@@ -5,13 +5,12 @@ module card_fields
    use deck_cards, only: card_type
    use deck_errors, only: deck_error_list
    use field_rules, only: any_real, at_least_1, component_words, drop_blanks, in_range, integer_fault, is_component_list, is_zero, &
-                          largest_size, list_of, parse_integer, parse_real, real_fault, real_range, real_words, smallest_size
+                          largest_size, list_of, number_of, parse_integer, parse_real, real_fault, real_range, &
+                          real_words, smallest_size
    use kinds, only: wp
    use text_tools, only: integer_text, one_of
    implicit none
    private
-
-   public :: number_of
 
    !> Ranges of identification numbers, FIRST(k) THRU LAST(k).
    type, public :: id_ranges
@@ -36,15 +35,6 @@ module card_fields
 
 contains
 
-   !> Position of FIELD among the NAMES of fields. A name that is not there is an error of the source.
-   pure integer function number_of(names, field)
-      character(8), intent(in) :: names(:)
-      character(*), intent(in) :: field
-
-      number_of = findloc(names, field, dim=1)
-      if (number_of == 0) error stop 'no card has a field '//field
-   end function number_of
-
    !> Begin with the first field of a card that has been read.
    subroutine begin(self)
       class(card_fields_type), intent(inout) :: self
@@ -67,7 +57,8 @@ contains
       if (self%k > size(self%names)) self%names = [character(8) :: self%names, name]
    end subroutine go_on
 
-   !> Take the integer VALUE from the next field, an id of at least 1 unless LEAST and MOST are present. It is required without DEFAULT.
+   !> Take the integer VALUE from the next field, an id of at least 1 unless LEAST and MOST are present. It is required without DEFAULT;
+   !! 0 passes for blank where it is the DEFAULT.
    subroutine integer_field(self, name, value, default, least, most)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: name !! as in the card manual
@@ -80,6 +71,7 @@ contains
       bounds = at_least_1
       if (present(least)) bounds(1) = least
       if (present(most)) bounds(2) = most
+      if (present(default) .and. is_given) is_given = default /= 0 .or. self%fields(self%k)%text /= '0'
       if (present(default) .and. .not. is_given) then
          value = default
       else
@@ -100,7 +92,7 @@ contains
       end do
    end subroutine integer_fields
 
-   !> Take the real VALUE in RANGE from the next field; with WHOLE it may be an integer. It is required without DEFAULT.
+   !> Take the real VALUE in RANGE from the next field; with WHOLE it may be an integer. DEFAULT is as above.
    subroutine real_field(self, name, value, range, default, whole)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: name
@@ -113,6 +105,9 @@ contains
 
       call go_on(self, name, is_given)
       ok = .false.
+      if (is_given .and. present(default) .and. present(range)) then
+         if (range%above) is_given = abs(default) > 0.0_wp .or. .not. is_zero(self%text_at(self%k))
+      end if
       if (is_given .and. present(whole)) then
          call parse_integer(self%fields(self%k)%text, number, ok)
          value = real(number, wp)

@@ -220,6 +220,7 @@ contains
          call fill_parameters(text%files(me)%bytes, text%parameters, fault)
          if (fault /= '') call errors%add(0, text%files(me)%path//', '//fault)
       end if
+      call take_tabs(text, me, errors)
       text%files(me)%true_path = true_path(path)
       text%n_files = me
       call add_lines(text, me, depth, errors)

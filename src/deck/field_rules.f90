@@ -11,7 +11,7 @@ module field_rules
    private
 
    public :: parse_integer, parse_real, integer_fault, real_fault, real_words, in_range, is_component_list, has_component, &
-             list_of, is_zero, drop_blanks
+             list_of, is_zero, drop_blanks, number_of
 
    integer, parameter :: most_digits = 15, max_exact = 22 ! numbers of so many digits, and 10**22, are exact in real(wp)
    integer :: k
@@ -243,6 +243,15 @@ contains
 
       is_zero = verify(text, '0.+-') == 0 .and. index(text, '0') > 0
    end function is_zero
+
+   !> Position of FIELD among the NAMES of fields. A name that is not there is an error of the source.
+   pure integer function number_of(names, field)
+      character(8), intent(in) :: names(:)
+      character(*), intent(in) :: field
+
+      number_of = findloc(names, field, dim=1)
+      if (number_of == 0) error stop 'no card has a field '//field
+   end function number_of
 
    !> Take the blanks out of TEXT of this LENGTH.
    pure subroutine drop_blanks(text, length)
