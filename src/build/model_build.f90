@@ -78,7 +78,7 @@ contains
                   call make_history(checked, mesh, freedoms, expansions, history, oscillating)
                   call find_shown_nodes(checked, mesh, freedoms, plan)
                   call plan_vibrations(checked, mesh, joints%list%id, freedoms, oscillating, plan)
-                  if (.not. any(freedoms%used)) &
+                  if (.not. (any(freedoms%used) .or. errors%any())) &
                      call errors%add(0, 'nothing to solve: expected body elements or interface elements')
                   if (errors%any()) return
                   call find_start(checked, plan, mesh, history, joints, freedoms)

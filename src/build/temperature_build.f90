@@ -226,6 +226,7 @@ contains
             k = last(node)
             last(node) = i
             if (k == 0) cycle
+            if (.not. abs(deck%bulk%temperature(k)%value - card%value) > 0.0_wp) cycle
             if (deck%bulk%temperature(k)%set == card%set) call deck%field_error(card%line, card%field, 'node '// &
                integer_text(card%node)//' has a temperature in set '//integer_text(card%set)//' already, in '// &
                deck%text%place(deck%bulk%temperature(k)%line))

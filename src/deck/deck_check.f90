@@ -1,12 +1,12 @@
 !> Finds errors between cards that have been read: repeated numbers, missing laws of joints, wrong references.
 module deck_check
    use bulk_data, only: bulk_data_type, rigid_card
-   use card_fields, only: number_of
    use case_control, only: case_control_type
    use deck_cards, only: add_field_error, card_name
    use deck_errors, only: deck_error_list
    use deck_input, only: card_kind, deck_type
    use deck_text, only: deck_text_type
+   use field_rules, only: number_of
    use lists, only: id_table_type, sorted_order
    use text_tools, only: integer_text, one_of
    implicit none

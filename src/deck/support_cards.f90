@@ -228,7 +228,7 @@ contains
             call card%blank(['G2', 'C2'])
          else
             call card%field('G', mass%node)
-            call card%field('CID', mass%system, default=0, least=0)
+            call card%field('CID', mass%system, default=0, least=-1)
             call card%field('M', mass%mass, not_negative)
             call card%field(['X1', 'X2', 'X3'], mass%offset, default=0.0_wp)
             call card%blank(['-'])
