@@ -280,6 +280,9 @@ contains
             call require(card%line, card%field, card%node, called='G')
          end associate
       end do
+      do i = 1, size(deck%bulk%suport)
+         call require(deck%bulk%suport(i)%line, deck%bulk%suport(i)%field, deck%bulk%suport(i)%node, called='ID')
+      end do
       do i = 1, size(deck%bulk%mass)
          associate (card => deck%bulk%mass(i))
             call require(card%line, merge(3, 2, card%component > 0), card%node)

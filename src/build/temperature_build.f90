@@ -72,6 +72,7 @@ contains
       end do
       if (deck%errors%any()) return
       do s = 2, size(history%stages)
+         if (history%stages(s)%from == 0) cycle
          associate (a => history%stages(history%stages(s)%from)%temperature, b => history%stages(s)%temperature)
             history%stages(s)%changes(3) = abs(a%reference_share - b%reference_share) > 0.0_wp .or. differ(a%plate, b%plate)
             if (allocated(a%at) .and. allocated(b%at)) history%stages(s)%changes(3) = history%stages(s)%changes(3) .or. &

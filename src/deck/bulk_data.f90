@@ -324,13 +324,14 @@ module bulk_data
       real(wp), allocatable :: fractions(:)                ! of the stage's load change; their sum is 1
    end type jincr_card
 
-   !> EIGRL: the range of natural frequencies and the scaling of the mode shapes.
+   !> EIGRL, EIGR: the range of natural frequencies and the scaling of the mode shapes.
    type, public :: eigrl_card
       integer  :: line = 0, id = 0
       logical  :: has_lowest = .false., has_highest = .false.
       real(wp) :: lowest = 0.0_wp, highest = 0.0_wp     ! V1, V2
       integer  :: most = 0                              ! ND, 0: blank
       logical  :: unit_mass = .true.                    ! NORM = MASS
+      logical  :: by_point = .false.                    ! EIGR, NORM = POINT
    end type eigrl_card
 
    !> JAMPL: N amplitudes of MODE in geometric progression, from LARGEST to RATIO times LARGEST.
@@ -389,7 +390,7 @@ module bulk_data
       type(pressure_card), allocatable     :: pressure(:)
       type(surface_load_card), allocatable :: surface_load(:)
       type(gravity_card), allocatable      :: gravity(:)
-      type(displacement_card), allocatable :: displacement(:)
+      type(displacement_card), allocatable :: displacement(:), suport(:)
       type(temperature_card), allocatable  :: temperature(:)
       type(plate_temperature_card), allocatable :: plate_temperature(:)
       type(load_card), allocatable         :: load(:)

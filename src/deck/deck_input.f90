@@ -20,7 +20,8 @@ module deck_input
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
    use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
-   use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, read_support
+   use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, &
+                            read_suport, read_support
    use text_tools, only: plural, upper
    use unused_cards, only: count_unused
    use vibration_cards, only: read_eigrl, read_frequencies, read_jampl, read_tabdmp1
@@ -88,6 +89,7 @@ contains
       call add(['CONM2 ', 'CMASS2'], read_mass)
       call add(['SPC ', 'SPC1', 'SPCM'], read_support)
       call add(['SPCADD'], read_sum)
+      call add(['SUPORT'], read_suport)
       call add(['RBE2 ', 'RBE3 ', 'RBAR ', 'RBE2M', 'RBE3M'], read_rigid)
       call add(['SHELLTO'], read_tie)
       call add(['MPC'], read_equation)
@@ -110,7 +112,7 @@ contains
       call add(['JIWAN'], read_jiwan)
       call add(['JGAP'], read_jgap)
       call add(['JINCR'], read_jincr)
-      call add(['EIGRL'], read_eigrl)
+      call add(['EIGRL', 'EIGR '], read_eigrl)
       call add(['JAMPL'], read_jampl)
       call add(['FREQ1', 'FREQ2', 'FREQ4'], read_frequencies)
       call add(['TABDMP1'], read_tabdmp1)
@@ -147,7 +149,8 @@ contains
          bulk%mass(n('CONM2')), bulk%mat1(n('MAT1')), bulk%support(2*n('SPC')), bulk%support_sum(n('SPCADD')), &
          bulk%rigid(n('RBE2')), bulk%place(n('NODEAT')), bulk%tie(n('SHELLTO')), bulk%equation(n('MPC')), &
          bulk%equation_sum(n('MPCADD')), bulk%force(n('FORCE')), bulk%pressure(n('PLOAD')), bulk%surface_load(n('PLOADM')), &
-         bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
+         bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%suport(4*n('SUPORT')), &
+         bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
          bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
          bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
          bulk%jiwan(n('JIWAN')), bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
@@ -229,6 +232,7 @@ contains
          bulk%spring_property = bulk%spring_property(:count(bulk%spring_property%line > 0))
          bulk%support = bulk%support(:count(bulk%support%line > 0))
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
+         bulk%suport = bulk%suport(:count(bulk%suport%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
          call fill_defaults(bulk)
          call count_unused(bulk)
