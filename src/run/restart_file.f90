@@ -7,7 +7,7 @@
 module restart_file
    use analysis_record, only: record_analysis
    use analysis_state, only: analysis_type
-   use bolt_locking, only: lock_again, lock_bolts
+   use bolt_locking, only: lock_again, lock_bolts, release_bolts
    use c_library, only: c_fsync, close_file, is_regular_file, read_all_bytes, remove_file
    use control_words, only: no_restart, restart_stages
    use deck_input, only: deck_type
@@ -16,7 +16,7 @@ module restart_file
    use equations, only: form_body_stiffness, start_equations
    use incomplete_results, only: create_part, name_part, say_at_interrupts
    use kinds, only: long
-   use model_data, only: model_type
+   use model_data, only: model_type, n_bars, n_sections
    use run_of_deck, only: goes_on, is_over, is_refused, run_type, tell
    use restart_stream, only: open_restart, restart_stream_type
    use result_names, only: restart_ending
@@ -143,8 +143,8 @@ contains
    end subroutine write_restart
 
    !> FROM: keep the state at the end of the stage just completed, its bolts locked, if a later stage starts from it. Where the next
-   !! stage starts from an earlier one, return to the state that this one left; the bodies are formed anew only where other bolts are
-   !! locked in it.
+   !! stage starts from an earlier one, return to the state that this one left. Bolts that the next stage tightens again are released.
+   !! The bodies are formed anew only where other bolts are locked now.
    subroutine go_to_start(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)         :: run
       type(deck_type), intent(in)           :: deck
@@ -154,7 +154,8 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       type(restart_stream_type) :: stream
       logical, allocatable :: locked(:)
-      integer :: done, next
+      integer :: done, i, next
+      logical :: releases
 
       if (analysis%goes_on .or. analysis%stage == 0) return
       done = analysis%stage
@@ -168,21 +169,28 @@ contains
             call record_reference(stream, run%results)
             run%results%kept(done)%words = stream%bytes(:stream%used)
          end if
-         if (from(next) == done) return
+         releases = any([(model%mesh%bars(i)%tightening%is_in(next), i = 1, n_bars(model%mesh)), &
+                         (model%mesh%sections(i)%tightening%is_in(next), i = 1, n_sections(model%mesh))])
+         if (from(next) == done .and. .not. releases) return
+         if (from(next) == done) call lock_bolts(model, system, analysis)
          allocate (locked, source=[analysis%is_elastic, analysis%is_locked])
-         stream%writes = .false.
-         stream%bytes = run%results%kept(from(next))%words
-         stream%last = len(stream%bytes, long)
-         stream%used = 0
-         call record_analysis(stream, analysis)
-         call record_reference(stream, run%results)
-         analysis%next = next
+         if (from(next) /= done) then
+            stream%writes = .false.
+            stream%bytes = run%results%kept(from(next))%words
+            stream%last = len(stream%bytes, long)
+            stream%used = 0
+            call record_analysis(stream, analysis)
+            call record_reference(stream, run%results)
+            analysis%next = next
+         end if
+         if (releases) call release_bolts(model, next, analysis)
          if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
             call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
             if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
             if (run%failure%raised) return
             call lock_again(model, analysis, system)
          end if
+         if (from(next) == done) return
          call system%forget_past()
          if (all(from(next + 1:) /= from(next))) deallocate (run%results%kept(from(next))%words)
       end associate
