@@ -142,7 +142,8 @@ contains
       type(interface_element), allocatable :: elements(:)
       type(joint_tables)   :: tables
       integer, allocatable :: first(:), leader(:), members(:)
-      integer :: highest, i, j, n
+      type(joints_type)    :: none ! glued surfaces are no joints
+      integer :: highest, i, j, n, n_cards
 
       associate (cards => deck%bulk%joint, cjoints => deck%bulk%cjoint)
          call tables%joint%build(cards%id)
@@ -153,17 +154,23 @@ contains
          call tables%jshear%build(deck%bulk%jshear%id)
          call tables%jiwan%build(deck%bulk%jiwan%id)
          leader = [(tables%group%find(cjoints(i)%law), i = 1, size(cjoints))] ! the first card of the group
-         allocate (joints%list(size(cards) + count(leader == [(i, i = 1, size(cjoints))])), joints%element(0))
+         n_cards = count(.not. cards%is_glued)
+         allocate (joints%list(n_cards + count(leader == [(i, i = 1, size(cjoints))])), joints%element(0), joints%glue(0))
          highest = max(0, maxval(cjoints%id))
          n = 0
-         do j = 1, size(cards)
+         allocate (none%list(size(cards)))
+         do j = n_cards + 1, size(cards)
+            call joint_elements(deck, tables, j, mesh, none, highest, elements)
+            joints%glue = [joints%glue, elements]
+         end do
+         do j = 1, n_cards
             call joint_elements(deck, tables, j, mesh, joints, highest, elements)
             call add_elements(joints, n, j, cards(j)%id, cards(j)%line, elements)
             joints%list(j)%side_1 = side_of_joint(mesh, j, cards(j)%sides(1))
             call resolve_laws(deck, tables, cards(j)%law, mesh%dimension, joints%list(j))
          end do
          call list_owners(size(cjoints), reshape(leader, [1, size(cjoints)]), first, members)
-         j = size(cards)
+         j = n_cards
          do i = 1, size(cjoints)
             if (leader(i) /= i) cycle
             j = j + 1

@@ -167,7 +167,7 @@ contains
       call build_supports(deck, mesh, joints, freedoms)
       call hold_free_structure(deck, mesh, joints, freedoms)
       call couple_node_systems(deck, mesh, freedoms)
-      call build_dependents(deck, ties, mesh, freedoms, expansions)
+      call build_dependents(deck, ties, joints%glue, mesh, freedoms, expansions)
       call leave_out_idle(mesh, freedoms)
       call check_masses(deck, mesh, freedoms)
       if (.not. deck%errors%any()) call couple_shell_faces(mesh, freedoms)

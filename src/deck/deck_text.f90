@@ -55,6 +55,7 @@ module deck_text
       integer, private                       :: n_parts = 0
       type(parameter_type), allocatable      :: parameters(:) !! of --set
       character(:), allocatable              :: options       !! of the command, that change the problem; not allocated: none
+      character(:), allocatable, private     :: law           ! file of --law, until its lines follow BEGIN BULK
    contains
       procedure :: line => whole_line
       procedure :: card_part
@@ -68,16 +69,20 @@ contains
 
    !> Read the deck PATH and its INCLUDE files. READABLE is false where PATH itself cannot be read (TEXT is then empty). All other
    !! errors go to ERRORS.
-   subroutine read_deck_text(path, text, errors, readable, parameters)
+   subroutine read_deck_text(path, text, errors, readable, parameters, law)
       character(*), intent(in)             :: path
       type(deck_text_type), intent(out)    :: text
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
       type(parameter_type), intent(in), optional :: parameters(:) !! default: none
+      character(*), intent(in), optional   :: law !! file of cards behind BEGIN BULK; default and '': none
       integer :: k
 
       allocate (text%files(max_files), text%lines(1024), text%parts(2*max_files), text%parameters(0))
       if (present(parameters)) text%parameters = parameters
+      if (present(law)) then
+         if (law /= '') text%law = law
+      end if
       call add_file(text, path, 0, 0, errors, readable)
       do k = 1, size(text%parameters)
          associate (parameter => text%parameters(k))
@@ -278,6 +283,16 @@ contains
       here = text%n
       followed = .false.
       call text%find(here, file, first, last, comma)
+      if (allocated(text%law)) then
+         line = upper(adjustl(text%files(file)%bytes(first:last)))
+         if (index(line, 'BEGIN') == 1) then
+            path = text%law
+            deallocate (text%law)
+            call add_file(text, path, me, depth + 1, errors, followed)
+            if (.not. followed) call errors%add(0, '--law '//path//': the file cannot be read')
+            return
+         end if
+      end if
       if (.not. is_include(text%files(file)%bytes(first:last))) return
       line = adjustl(text%card_part(here))
       path = trim(adjustl(line(8:)))

@@ -49,8 +49,8 @@ module nastran_compatibility
    character(*), parameter :: which_modes = 'expected none: V1, V2 and ND of EIGRL say which modes take part'
 
    ! of executive control and case control
-   character(12), parameter :: control_words(65) = [character(12) :: &
-      'SCREEN', 'FORMAT', &
+   character(12), parameter :: control_words(68) = [character(12) :: &
+      'SCREEN', 'FORMAT', 'BCRESULTS', 'BGRESULTS', 'BOLTRESULTS', &
       'ID', 'TIME', 'NASTRAN', 'INIT', 'ASSIGN', 'DIAG', 'GEOMCHECK', 'ECHOON', 'ECHOOFF', 'SUBTITLE', 'LINE', &
       'MAXLINES', 'PAGE', 'POST', 'ELSUM', 'GROUNDCHECK', 'WEIGHTCHECK', 'AUTOSPC', 'NLPARM', 'NLSTRESS', 'DISPLACEMENT', &
       'VECTOR', 'SVECTOR', 'VELOCITY', 'ACCELERATION', 'STRESS', 'ELSTRESS', 'STRAIN', 'ELSTRAIN', 'FORCE', 'ELFORCE', &
@@ -58,7 +58,7 @@ module nastran_compatibility
       'EDE', 'STRFIELD', 'SURFACE', 'VOLUME', 'BOUTPUT', 'DATAREC', 'THERMAL', 'FLUX', 'HOUTPUT', 'ENTHALPY', 'MEFFMASS', &
       'MODALKE', 'OTIME', 'OFREQUENCY', 'OMODES', 'PLOTID', 'SETP', 'XYPLOT', 'XYPRINT', 'SEALL', 'VUGRID']
    ! of the bulk data: plots, and properties and materials of unsupported elements
-   character(8), parameter :: card_names(39) = [character(8) :: &
+   character(8), parameter :: card_names(40) = [character(8) :: 'BGPARM', &
       'MAT4', 'MAT5', 'DTI', &
       'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBCOMP', &
       'PBEND', 'PBUSH1D', 'PCOMP', 'PCOMPG', 'PCOMPS', 'PDAMP', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &

@@ -66,6 +66,7 @@ module stage_entries
       type(set_reference) :: from         !! SUBCASE from whose end it starts; none: the one before
       type(set_reference) :: temperature  !! at the end of the stage; none: TREF everywhere
       type(set_reference) :: equations    !! constraint equations, MPC
+      type(set_reference) :: contact, glue, bolts !! of NX: BCSET, BGSET, BOLTLD
       type(output_request) :: output
       type(limit_type), allocatable :: only(:) !! not allocated: tables of all nodes and elements
       type(limit_type), allocatable :: watch(:) !! nodes whose displacement the answer gives; not allocated: none
@@ -99,6 +100,12 @@ contains
             call read_number(entry, stage%supports, errors)
          case ('MPC')
             call read_number(entry, stage%equations, errors)
+         case ('BCSET')
+            call read_number(entry, stage%contact, errors)
+         case ('BGSET')
+            call read_number(entry, stage%glue, errors)
+         case ('BOLTLD')
+            call read_number(entry, stage%bolts, errors)
          case ('OUTPUT')
             call read_output(entry, stage, errors)
          case ('TEMPERATURE')

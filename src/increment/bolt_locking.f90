@@ -13,21 +13,24 @@ module bolt_locking
    implicit none
    private
 
-   public :: lock_bolts, release_bolts, lock_again, bar_tension, elongation_now, section_tension, overlap_now
+   public :: lock_bolts, tightens, release_bolts, lock_again, bar_tension, elongation_now, section_tension, overlap_now
 
 contains
 
    !> Lock the bolts that the completed stage has tightened, if they are not yet locked. The inelastic part of the bar forces becomes
-   !! a load, and the overlap of solid bolts a prescribed displacement.
-   subroutine lock_bolts(model, system, analysis)
+   !! a load, and the overlap of solid bolts a prescribed displacement. Bolts that stage NEXT tightens again have been released.
+   subroutine lock_bolts(model, system, analysis, next)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout)    :: analysis
-      integer :: i
+      integer, intent(in), optional         :: next !! default: none
+      integer :: again, i
 
+      again = 0
+      if (present(next)) again = next
       do i = 1, n_bars(model%mesh)
          associate (bar => model%mesh%bars(i))
-            if (analysis%is_elastic(i) .or. .not. bar%tightening%is_in(analysis%stage)) cycle
+            if (analysis%is_elastic(i) .or. .not. bar%tightening%is_in(analysis%stage) .or. bar%tightening%is_in(again)) cycle
             analysis%is_elastic(i) = .true.
             associate (preload => bar%tightening%preload_in(analysis%stage))
                analysis%rest_tension(i) = preload - bar%stiffness*elongation_now(model, analysis, i)
@@ -40,7 +43,8 @@ contains
       end do
       do i = 1, n_sections(model%mesh)
          associate (section => model%mesh%sections(i))
-            if (analysis%is_locked(i) .or. .not. section%tightening%is_in(analysis%stage)) cycle
+            if (analysis%is_locked(i) .or. .not. section%tightening%is_in(analysis%stage) .or. &
+                section%tightening%is_in(again)) cycle
             analysis%is_locked(i) = .true.
             analysis%held(1, analysis%retained_index(section%node)) = .true.
             analysis%now%load(1, section%node) = analysis%now%load(1, section%node) - &
@@ -50,6 +54,16 @@ contains
          end associate
       end do
    end subroutine lock_bolts
+
+   !> Whether STAGE tightens any bolt.
+   pure logical function tightens(model, stage)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: stage
+      integer :: i
+
+      tightens = any([(model%mesh%bars(i)%tightening%is_in(stage), i = 1, n_bars(model%mesh)), &
+                      (model%mesh%sections(i)%tightening%is_in(stage), i = 1, n_sections(model%mesh))])
+   end function tightens
 
    !> Release the locked bolts that stage NEXT tightens again: their tension becomes a force. They are still in the equations.
    subroutine release_bolts(model, next, analysis)

@@ -30,8 +30,8 @@ contains
          analysis%goes_on = .false.
          return
       end if
-      call lock_bolts(model, system, analysis)
       stage = analysis%next
+      call lock_bolts(model, system, analysis, stage)
       analysis%next = stage + 1
       analysis%stage = stage
       analysis%increment = 0

@@ -270,6 +270,7 @@ module model_data
    type, public :: joints_type
       type(joint_type), allocatable :: list(:)
       type(interface_element), allocatable :: element(:) !! those of joint j are first to last of it
+      type(interface_element), allocatable :: glue(:)    !! of glued surfaces: what they move relative to each other is zero
    end type joints_type
 
    !> What the unknowns of the nodes are: supported, dependent, coupled; the connected parts.

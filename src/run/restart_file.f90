@@ -7,7 +7,7 @@
 module restart_file
    use analysis_record, only: record_analysis
    use analysis_state, only: analysis_type
-   use bolt_locking, only: lock_again, lock_bolts, release_bolts
+   use bolt_locking, only: lock_again, lock_bolts, release_bolts, tightens
    use c_library, only: c_fsync, close_file, is_regular_file, read_all_bytes, remove_file
    use control_words, only: no_restart, restart_stages
    use deck_input, only: deck_type
@@ -16,7 +16,7 @@ module restart_file
    use equations, only: form_body_stiffness, start_equations
    use incomplete_results, only: create_part, name_part, say_at_interrupts
    use kinds, only: long
-   use model_data, only: model_type, n_bars, n_sections
+   use model_data, only: model_type
    use run_of_deck, only: goes_on, is_over, is_refused, run_type, tell
    use restart_stream, only: open_restart, restart_stream_type
    use result_names, only: restart_ending
@@ -154,8 +154,7 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       type(restart_stream_type) :: stream
       logical, allocatable :: locked(:)
-      integer :: done, i, next
-      logical :: releases
+      integer :: done, next
 
       if (analysis%goes_on .or. analysis%stage == 0) return
       done = analysis%stage
@@ -169,9 +168,7 @@ contains
             call record_reference(stream, run%results)
             run%results%kept(done)%words = stream%bytes(:stream%used)
          end if
-         releases = any([(model%mesh%bars(i)%tightening%is_in(next), i = 1, n_bars(model%mesh)), &
-                         (model%mesh%sections(i)%tightening%is_in(next), i = 1, n_sections(model%mesh))])
-         if (from(next) == done .and. .not. releases) return
+         if (from(next) == done .and. .not. tightens(model, next)) return
          if (from(next) == done) call lock_bolts(model, system, analysis)
          allocate (locked, source=[analysis%is_elastic, analysis%is_locked])
          if (from(next) /= done) then
@@ -183,7 +180,7 @@ contains
             call record_reference(stream, run%results)
             analysis%next = next
          end if
-         if (releases) call release_bolts(model, next, analysis)
+         call release_bolts(model, next, analysis)
          if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
             call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
             if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
