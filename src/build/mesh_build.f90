@@ -5,6 +5,7 @@
 module mesh_build
    use block_mesh, only: collect_cards, mesh_card_type
    use bulk_data, only: element_card
+   use contact_regions, only: add_regions
    use deck_check, only: checked_deck
    use displacement_systems, only: build_systems
    use elasticity, only: axisymmetric
@@ -67,6 +68,7 @@ contains
       call check_nodes(deck, mesh)
       call check_elements(deck, cards%grid, mesh)
       call collect_sides(deck, cards%side, mesh, sides)
+      call add_regions(deck, mesh, sides)
    end subroutine build_mesh
 
    !> Warn of numbers that rigid elements and masses, OTHERS, share with ELEMENTS or among themselves: nothing refers to them.

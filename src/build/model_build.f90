@@ -34,6 +34,7 @@ module model_build
    use structural_build, only: bow_edges, build_beams, build_rotations, build_shells, leave_out_idle
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
+   use surface_parts, only: divide_shared_surfaces
    use surface_sides, only: split_shared_surfaces
    use temperature_build, only: build_temperatures
    use unit_watch, only: watch_units
@@ -129,6 +130,7 @@ contains
       call bow_edges(mesh)
       call find_ties(deck, mesh, ties)
       call build_shell_faces(deck, mesh)
+      if (.not. deck%errors%any()) call divide_shared_surfaces(deck, mesh)
       call build_bars(deck, mesh)
       call build_rotations(deck, mesh)
       call build_sections(deck, mesh)
@@ -203,7 +205,7 @@ contains
       call build_supports(deck, mesh, joints, freedoms)
       call hold_free_structure(deck, mesh, joints, freedoms)
       call couple_node_systems(deck, mesh, freedoms)
-      call build_dependents(deck, ties, mesh, freedoms, expansions)
+      call build_dependents(deck, ties, joints%glue, mesh, freedoms, expansions)
       call leave_out_idle(mesh, freedoms)
       call check_masses(deck, mesh, freedoms)
       if (.not. deck%errors%any()) call couple_shell_faces(mesh, freedoms)

@@ -11,6 +11,7 @@ module bulk_data
    use normal_curve, only: normal_law
    use iwan_law, only: iwan_type
    use shear_stiffness, only: shear_law
+   use text_tools, only: text_item
    implicit none
    private
 
@@ -246,7 +247,45 @@ module bulk_data
       integer  :: line = 0, id = 0, element = 0, stage = 0, surface = 0
       real(wp) :: preload = 0.0_wp
       type(thread_type) :: thread                       ! in mm and N
+      integer  :: kind = 0                              ! ETYPE of a BOLT of NX, 0: of this program
+      type(id_ranges) :: parts                          ! of NX: elements (1, 3) or nodes of its section (2)
+      integer  :: system = 0, axis = 0, node = 0        ! of NX: CSID, IDIR, GP
    end type bolt_card
+
+   !> BSURF, BSURFS, BCPROP, BCPROPS: a region of contact or glue, which becomes the marked SURFACE.
+   type, public :: region_card
+      integer :: line = 0, id = 0, surface = 0          ! SURFACE 0: no active pair has it
+      logical :: by_property = .false., is_bottom = .false. ! RANGES are properties; the faces of shells against their normals
+      type(id_ranges) :: ranges                         ! of elements
+      integer, allocatable :: corners(:, :)             ! (3, ranges) of the face of a BSURFS; not allocated: all free faces
+   end type region_card
+
+   !> BCRPARA.
+   type, public :: region_side_card
+      integer :: line = 0, id = 0
+      logical :: is_bottom = .false.
+   end type region_side_card
+
+   !> BCTSET, BGSET: pairs of regions in contact or glued.
+   type, public :: pair_card
+      integer :: line = 0, set = 0
+      logical :: is_glue = .false.
+      integer, allocatable  :: regions(:, :)            ! (2, pairs) SID, TID
+      real(wp), allocatable :: mu(:), reach(:)          ! FRIC; MAXD or SDIST, 0: blank
+   end type pair_card
+
+   !> BOLTFOR: the preload of bolts of NX.
+   type, public :: preload_card
+      integer  :: line = 0, set = 0
+      real(wp) :: force = 0.0_wp
+      type(id_ranges) :: bolts
+   end type preload_card
+
+   !> BOLTSEQ: the order of sets of preloads.
+   type, public :: sequence_card
+      integer :: line = 0, set = 0
+      integer, allocatable :: order(:), sets(:)
+   end type sequence_card
 
    type, public :: load_card
       integer  :: line = 0, set = 0
@@ -277,6 +316,7 @@ module bulk_data
       integer  :: line = 0, id = 0, law = 0, sides(2) = 0, fit = fit_auto
       real(wp) :: tolerance = 0.0_wp                    ! 0: default
       logical  :: is_linear = .false.                   ! PRESSURE LINEAR: elements at the Gauss points of the sides
+      logical  :: is_glued = .false.                    ! of a BGSET: no joint, the sides move together; behind all joints
    end type joint_card
 
    type, public :: cjoint_card
@@ -381,7 +421,7 @@ module bulk_data
       type(mass_card), allocatable         :: mass(:)
       type(mat1_card), allocatable         :: mat1(:)
       type(support_card), allocatable      :: support(:)
-      type(set_sum_card), allocatable      :: support_sum(:), equation_sum(:)
+      type(set_sum_card), allocatable      :: support_sum(:), equation_sum(:), contact_sum(:), glue_sum(:)
       type(rigid_card), allocatable        :: rigid(:)
       type(place_card), allocatable        :: place(:)
       type(tie_card), allocatable          :: tie(:)
@@ -395,6 +435,13 @@ module bulk_data
       type(plate_temperature_card), allocatable :: plate_temperature(:)
       type(load_card), allocatable         :: load(:)
       type(bolt_card), allocatable         :: bolt(:)
+      type(region_card), allocatable       :: region(:)
+      type(region_side_card), allocatable  :: region_side(:)
+      type(pair_card), allocatable         :: pair(:)
+      integer, allocatable                 :: touching(:)  !! sets of contact whose faces touch, by BCTPARM; 0: no set
+      type(preload_card), allocatable      :: preload(:)
+      type(sequence_card), allocatable     :: sequence(:)
+      type(text_item), allocatable         :: told(:)      !! what contact and bolts of NX have become; not allocated: there are none
       type(block_card), allocatable        :: block(:)
       type(pmark_card), allocatable        :: pmark(:)
       type(joint_card), allocatable        :: joint(:)

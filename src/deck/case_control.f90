@@ -25,6 +25,7 @@ module case_control
       character(:), allocatable :: title
       character(8) :: length_unit = '', force_unit = ''  !! labels only
       integer :: method = method_step
+      logical :: method_is_given = .false.
       integer :: pressure = pressure_sumf
       logical :: carry = .false.
       logical :: average = .true.                        !! BACK: average two consecutive sets of results
@@ -255,6 +256,7 @@ contains
          call read_units(entry, control, errors)
       case ('METHOD')
          call choose(entry, method_words, control%method, errors)
+         control%method_is_given = .true.
       case ('TOL')
          call parse_real(upper(entry%value), control%tolerance, ok)
          if (.not. ok .or. control%tolerance < least_tol .or. control%tolerance > 0.01_wp) &

@@ -12,6 +12,9 @@ module deck_check
    implicit none
    private
 
+   ! cards of NX, which other cards stand for in the model
+   character(8), parameter :: of_nx(7) = [character(8) :: 'BCTSET', 'BGSET', 'BOLT', 'BSURF', 'BSURFS', 'BCPROP', 'BCPROPS']
+
    !> The parts of a deck, and the list of its errors.
    type, public :: checked_deck
       type(deck_text_type), pointer     :: text => null()
@@ -85,7 +88,13 @@ contains
       character(*), intent(in)           :: field, message
       character(*), intent(in), optional :: called !! name in the message, default: FIELD
 
-      call self%field_error(line, number_of(self%kinds(self%kind_of_line(line))%fields, field), message, called)
+      associate (kind => self%kinds(self%kind_of_line(line)))
+         if (any(kind%name == of_nx) .and. all(kind%fields /= field)) then ! of the card that it stands for
+            call self%errors%add(line, field//': '//message)
+         else
+            call self%field_error(line, number_of(kind%fields, field), message, called)
+         end if
+      end associate
    end subroutine named_field_error
 
    !> Add an error about data field K. NOUN, a word for the entry, precedes the name.

@@ -17,6 +17,7 @@ module deck_input
                          read_pmark, read_grid_defaults, read_system, system_names
    use nastran_compatibility, only: take_idle_card
    use nastran_defaults, only: find_first_card, take_initial_temperature, take_only_sets
+   use nx_cards, only: read_contact_parameter, read_pair, read_preload, read_region, read_sequence, read_side_of_region
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
    use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
@@ -46,6 +47,7 @@ module deck_input
       type(bulk_data_type)    :: bulk
       logical :: is_whole = .false. !! false: a part of the deck is missing, so that references to it cannot be checked
       type(card_kind), allocatable :: kinds(:) !! of card, with their field tables
+      integer :: default_law = 0               !! number of the JNORM and JSHEAR of contacts of NX without PJOINT, 0: none
    end type deck_type
 
    abstract interface
@@ -83,7 +85,14 @@ contains
       call add(['CONROD'], read_rod)
       call add(['NODEAT'], read_place)
       call add(['MAT1'], read_mat1)
+      call add(['BSURF  ', 'BSURFS ', 'BCPROP ', 'BCPROPS'], read_region)
       cards%of_mesh = .true.
+      call add(['BCRPARA'], read_side_of_region)
+      call add(['BCTSET', 'BGSET '], read_pair)
+      call add(['BCTADD', 'BGADD '], read_sum)
+      call add(['BCTPARM'], read_contact_parameter)
+      call add(['BOLTFOR'], read_preload)
+      call add(['BOLTSEQ'], read_sequence)
       call add(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
       call add(['PELAS', 'PBUSH'], read_spring_property)
       call add(['CONM2 ', 'CMASS2'], read_mass)
@@ -154,7 +163,9 @@ contains
          bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
          bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
          bulk%jiwan(n('JIWAN')), bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
-         bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')))
+         bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')), bulk%region(n('BSURF')), &
+         bulk%region_side(n('BCRPARA')), bulk%pair(n('BCTSET')), bulk%contact_sum(n('BCTADD')), bulk%glue_sum(n('BGADD')), &
+         bulk%touching(n('BCTPARM')), bulk%preload(n('BOLTFOR')), bulk%sequence(n('BOLTSEQ')))
 
    contains
 
@@ -171,16 +182,17 @@ contains
    end subroutine make_room
 
    !> Read the deck PATH. READABLE is false where the file cannot be read; errors in the deck go to ERRORS.
-   subroutine read_deck(path, deck, errors, readable, parameters, watched)
+   subroutine read_deck(path, deck, errors, readable, parameters, watched, law)
       character(*), intent(in)             :: path
       type(deck_type), intent(out)         :: deck
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
       type(parameter_type), intent(in), optional :: parameters(:) !! of --set; default: none
       character(*), intent(in), optional   :: watched             !! of --watch: node numbers with commas; default and '': none
+      character(*), intent(in), optional   :: law                 !! file of --law; default and '': none
       logical :: ok
 
-      call read_deck_text(path, deck%text, errors, readable, parameters)
+      call read_deck_text(path, deck%text, errors, readable, parameters, law)
       if (readable) call read_lines(deck, errors)
       if (.not. present(watched) .or. .not. readable) return
       if (watched == '') return

@@ -7,6 +7,7 @@ module load_cards
    use card_fields, only: card_fields_type, id_ranges
    use field_rules, only: at_least_1, not_negative, positive, real_range
    use kinds, only: wp
+   use nx_cards, only: is_nx_bolt, read_nx_bolt
    use text_tools, only: integer_text, one_of
    use tolerances, only: least_fraction
    implicit none
@@ -288,6 +289,10 @@ contains
       real(wp), parameter :: usual_friction = 0.12_wp ! mu_G
       logical :: ok
 
+      if (is_nx_bolt(card)) then
+         call read_nx_bolt(card, bulk%bolt(card%i))
+         return
+      end if
       associate (bolt => bulk%bolt(card%i))
          call card%field('BID', bolt%id)
          call card%field('EID', bolt%element, default=0)

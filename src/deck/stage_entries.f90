@@ -71,6 +71,7 @@ module stage_entries
       type(set_reference) :: equations    !! constraint equations, MPC
       integer :: combines = 0             !! SUBCOM: line of SUBSEQ, -1: not given; 0: no SUBCOM
       real(wp), allocatable :: factors(:) !! SUBSEQ: of the SUBCASEs before it, the last of them last
+      type(set_reference) :: contact, glue, bolts !! of NX: BCSET, BGSET, BOLTLD
       type(output_request) :: output
       type(limit_type), allocatable :: only(:) !! not allocated: tables of all nodes and elements
       type(limit_type), allocatable :: watch(:) !! nodes whose displacement the answer gives; not allocated: none
@@ -104,6 +105,12 @@ contains
             call read_number(entry, stage%supports, errors)
          case ('MPC')
             call read_number(entry, stage%equations, errors)
+         case ('BCSET')
+            call read_number(entry, stage%contact, errors)
+         case ('BGSET')
+            call read_number(entry, stage%glue, errors)
+         case ('BOLTLD')
+            call read_number(entry, stage%bolts, errors)
          case ('OUTPUT')
             call read_output(entry, stage, errors)
          case ('SUBSEQ')

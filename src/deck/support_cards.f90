@@ -70,7 +70,7 @@ contains
       integer :: k, set
       logical :: ok
 
-      a_set = one_of(card%name == 'SPCADD', 'a support set', 'a set of equations')
+      a_set = one_of(card%name == 'SPCADD', 'a support set', one_of(card%name == 'MPCADD', 'a set of equations', 'a set of pairs'))
       total%line = card%line
       call card%field('SID', total%set)
       call card%field('S1', set)
@@ -82,11 +82,16 @@ contains
          total%sets = [total%sets, set]
          total%at = [total%at, k]
       end do
-      if (card%name == 'SPCADD') then
+      select case (card%name)
+      case ('SPCADD')
          bulk%support_sum(card%i) = total
-      else
+      case ('MPCADD')
          bulk%equation_sum(card%i) = total
-      end if
+      case ('BCTADD')
+         bulk%contact_sum(card%i) = total
+      case default
+         bulk%glue_sum(card%i) = total
+      end select
    end subroutine read_sum
 
    !> SPCD: displacements of held components in a load set; as for forces, the total at the end of the stage. SPC: supports with the

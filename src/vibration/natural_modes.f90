@@ -90,8 +90,9 @@ contains
          structure%k(:, i) = oscillation_stiffness(model%joints%list(model%joints%element(i)%joint)%law, &
             model%joints%element(i)%area, analysis%states(i), on_loading)
       end do
-      structure%is_elastic = [(analysis%is_elastic(i) .or. model%mesh%bars(i)%stage == analysis%stage, i = 1, n_bars(model%mesh))]
-      structure%is_locked = [(analysis%is_locked(i) .or. model%mesh%sections(i)%stage == analysis%stage, i = 1, &
+      structure%is_elastic = [(analysis%is_elastic(i) .or. model%mesh%bars(i)%tightening%is_in(analysis%stage), &
+                               i = 1, n_bars(model%mesh))]
+      structure%is_locked = [(analysis%is_locked(i) .or. model%mesh%sections(i)%tightening%is_in(analysis%stage), i = 1, &
                               n_sections(model%mesh))]
       call form_mass(model, structure%mass)
       call start_equations(model, structure%started, failure, &
