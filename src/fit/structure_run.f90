@@ -30,6 +30,8 @@ module structure_run
    character(*), parameter :: of_laws = & ! cards on which no body depends
       ' JNORM JSHEAR JIWAN PJOINT BOLT FORCE FORCEM MOMENT PLOAD PLOAD2 PLOAD4 PLOADE PLOADM GRAV LOAD '
 
+   integer, parameter :: most_modes = 30 ! that serve the runs nearby
+
 contains
 
    !> The parameters with their VALUES as the deck is to be filled with.
@@ -178,10 +180,11 @@ contains
       if (answer%fault /= '') return
       associate (deck => structure%deck, model => structure%model, plan => structure%plan, system => structure%system, &
                  n => size(data%rows))
-         allocate (answer%value(n), answer%lambda(n), answer%k(3*size(model%joints%element), size(plan%stages)), &
-                   answer%moved(3*size(model%joints%element), n), answer%shapes(size(model%freedoms%held), n), source=0.0_wp)
+         allocate (answer%value(n), answer%k(3*size(model%joints%element), size(plan%stages)), answer%lambda(most_modes, &
+                   size(plan%stages)), answer%moved(3*size(model%joints%element), most_modes, size(plan%stages)), &
+                   answer%shapes(size(model%freedoms%held), n), source=0.0_wp)
          allocate (answer%mac(n), source=1.0_wp)
-         allocate (answer%mode(n), source=0)
+         allocate (answer%mode(n), answer%n_modes(size(plan%stages)), source=0)
          allocate (kept(size(plan%stages)), ends(0:size(plan%stages)))
          if (any(abs(values - data%parameters%start) > 0.0_wp .and. .not. structure%keeps_bodies)) &
             call form(deck, model, plan, system, failure)
