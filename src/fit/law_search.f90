@@ -19,6 +19,7 @@ module law_search
    public :: seek, differences, inner_value, outer_value, unknown_of, y_of
 
    integer, parameter  :: most_runs = 100          ! of a round, without those for derivatives
+   real(wp), parameter :: coarsely_settled = 0.03_wp ! of the sum of squares: change in the last step of a round
    integer, parameter  :: most_rounds = 12, most_backs = 4
    real(wp), parameter :: failed = 1.0e8_wp        ! times the deviation: the difference of a run that has failed
    real(wp), parameter :: first_step = 0.7_wp      ! of an unknown
@@ -208,7 +209,8 @@ contains
             best = now
             diag = 1.0_wp
             x = unknown_of(parameters, z(free))
-            call lmder(ask, size(fvec), n, x, fvec, fjac, size(fvec), search_settled, 1.0e-2_wp*search_settled, 0.0_wp, most_runs, &
+            call lmder(ask, size(fvec), n, x, fvec, fjac, size(fvec), merge(coarsely_settled, search_settled, task%is_predicted), &
+               1.0e-2_wp*search_settled, 0.0_wp, most_runs, &
                diag, 2, first_step*sqrt(real(n, wp))/merge(norm2(x), 1.0_wp, norm2(x) > 0.0_wp), 0, info, nfev, njev, ipvt, qtf, &
                wa1, wa2, wa3, wa4)
             z(free) = y_of(parameters, x)

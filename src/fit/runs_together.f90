@@ -59,6 +59,7 @@ contains
          if (interrupt_so_far() /= 0) started = size(child)
       end do
       do k = 1, size(answers)
+         answers(k)%set = values(:, k)
          if (.not. allocated(answers(k)%fault)) answers(k)%fault = 'interrupted'
       end do
    end subroutine run_all

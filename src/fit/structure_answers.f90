@@ -46,6 +46,7 @@ module structure_answers
    end type structure_type
 
    type, public :: answer_type
+      real(wp), allocatable :: set(:)                !! (parameters) their values
       character(:), allocatable :: fault             !! why the run failed, '': it did not
       real(wp), allocatable :: value(:)              !! (rows)
       real(wp), allocatable :: mac(:)                !! (rows) of modes, else 1

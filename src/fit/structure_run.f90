@@ -169,12 +169,14 @@ contains
       type(failure_type)    :: failure
       type(analysis_type)   :: analysis
       logical, allocatable  :: locked(:)
-      logical :: readable
+      logical :: is_near, readable
       integer :: from, i, s
 
       call set_parameters(structure, data, values, parameters)
       call read_deck(structure%path, structure%deck, errors, readable, parameters, structure%watched)
       if (.not. errors%any()) call build_model(structure%deck, structure%model, structure%plan, errors)
+      is_near = present(near)
+      if (is_near) is_near = all(abs(values - near%set) <= 0.0_wp .or. structure%keeps_bodies)
       answer%fault = ''
       if (errors%any()) answer%fault = errors%items(1)%message
       if (answer%fault /= '') return
@@ -209,7 +211,8 @@ contains
                if (.not. failure%raised) call go_an_increment(deck, model, plan, system, analysis, failure)
             end do
             if (failure%raised) exit
-            call take_stage(data, s, structure, analysis, ends(from), answer, failure, near)
+            if (is_near) call take_stage(data, s, structure, analysis, ends(from), answer, failure, near)
+            if (.not. is_near) call take_stage(data, s, structure, analysis, ends(from), answer, failure)
             if (failure%raised) exit
             ends(s) = state_at_end(model, analysis)
             if (any(model%history%stages(s + 1:)%from == s)) then
