@@ -5,6 +5,7 @@ module block_mesh
    use deck_check, only: checked_deck
    use element_kinds, only: kind_hexa20, kind_hexa8, kind_quad4, kind_quad8
    use kinds, only: wp
+   use node_build, only: scalar_points
    use spatial_search, only: spatial_search_type
    use text_tools, only: integer_text
    use tolerances, only: welded_nodes
@@ -54,6 +55,7 @@ contains
             cards%side = [cards%side, block%side]
          end associate
       end do
+      cards%grid = [cards%grid, scalar_points(deck)]
    end subroutine collect_cards
 
    !> Replace positions in the list ID by the numbers there.

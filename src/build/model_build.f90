@@ -1,6 +1,7 @@
 !> From a deck to the model that is solved: mesh, joints, freedoms and load history, each from those before it. An exchanged call does
 !! not compile.
 module model_build
+   use bush_build, only: bush_type, find_bushes
    use control_words, only: method_step
    use connected_bodies, only: find_parts
    use constraint_equations, only: expansion_type
@@ -13,6 +14,7 @@ module model_build
    use element_build, only: marked_side
    use element_unknowns, only: make_table
    use free_structure, only: check_balance, hold_free_structure
+   use idle_components, only: hold_idle
    use joint_build, only: build_joints
    use joint_gaps, only: build_gaps
    use joint_sides, only: find_frame
@@ -56,6 +58,7 @@ contains
       type(tie_type), allocatable :: ties(:)
       type(expansion_type), allocatable :: expansions(:)
       type(stage_load_type), allocatable :: oscillating(:)
+      character(:), allocatable :: idle
       logical :: is_whole
 
       allocate (model%warnings(0))
@@ -86,6 +89,10 @@ contains
                   call errors%warn(crack_words(mesh, joints, freedoms))
                   call watch_units(deck, joints, errors)
                   call take_parts(joints, freedoms, history, model)
+                  if (deck%bulk%parameters%holds_idle) then
+                     call hold_idle(oscillating, model, idle)
+                     call errors%warn(idle)
+                  end if
                end block
             end block
          end block
@@ -115,6 +122,7 @@ contains
       type(tie_type), allocatable, intent(out) :: ties(:)
       logical, intent(out)              :: is_whole
       type(marked_side), allocatable :: sides(:)
+      type(bush_type), allocatable :: bushes(:)
 
       call start_mesh(mesh)
       call build_mesh(deck, mesh, sides)
@@ -130,15 +138,16 @@ contains
       call split_shared_surfaces(deck, mesh)
       call bow_edges(mesh)
       call find_ties(deck, mesh, ties)
-      call build_shell_faces(deck, mesh)
+      call find_bushes(deck, mesh, bushes)
+      call build_shell_faces(deck, mesh, bushes)
       call build_bars(deck, mesh)
-      call build_rotations(deck, mesh)
+      call build_rotations(deck, bushes, mesh)
       call build_sections(deck, mesh)
       call find_node_systems(deck, mesh)
       call build_beams(deck, mesh)
-      call build_springs(deck, mesh)
+      call build_springs(deck, bushes, mesh)
       call add_torsion(mesh)
-      call build_masses(deck, mesh)
+      call build_masses(deck, bushes, mesh)
    end subroutine make_mesh
 
    !> Make the JOINTS and their interface elements, with their gaps.

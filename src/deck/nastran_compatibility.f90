@@ -32,7 +32,7 @@ module nastran_compatibility
       type(waiting_entry), allocatable, private :: waiting(:)
    contains
       procedure :: wait, settle
-      procedure :: add
+      procedure :: add, add_card
       procedure :: words
    end type ignored_entries_type
 
@@ -41,6 +41,7 @@ module nastran_compatibility
       real(wp) :: mass_factor = 1.0_wp        !! WTMASS: densities are multiplied by it
       real(wp) :: damping = 0.0_wp            !! G: overall structural damping [-]
       integer  :: mass_line = 0               !! line of COUPMASS, 0: not given
+      logical  :: holds_idle = .true.         !! AUTOSPC: components without stiffness are held
       logical  :: lumped = .false.            !! COUPMASS below 1
       logical  :: is_structural = .false.     !! KDAMP = -1: the damping of SDAMPING is structural
    end type parameters_type
@@ -58,11 +59,12 @@ module nastran_compatibility
       'EDE', 'STRFIELD', 'SURFACE', 'VOLUME', 'BOUTPUT', 'DATAREC', 'THERMAL', 'FLUX', 'HOUTPUT', 'ENTHALPY', 'MEFFMASS', &
       'MODALKE', 'OTIME', 'OFREQUENCY', 'OMODES', 'PLOTID', 'SETP', 'XYPLOT', 'XYPRINT', 'SEALL', 'VUGRID']
    ! of the bulk data: plots, and properties and materials of unsupported elements
-   character(8), parameter :: card_names(39) = [character(8) :: &
+   character(8), parameter :: card_names(43) = [character(8) :: &
+      'CDAMP1', 'CDAMP2', 'CDAMP3', 'CDAMP4', 'CVISC', &
       'MAT4', 'MAT5', 'DTI', &
       'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBCOMP', &
       'PBEND', 'PBUSH1D', 'PCOMP', 'PCOMPG', 'PCOMPS', 'PDAMP', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &
-      'PMASS', 'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PVISC', 'PWELD', 'MAT2', 'MAT3', 'MAT8', 'MAT9', &
+      'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PVISC', 'PWELD', 'MAT2', 'MAT3', 'MAT8', 'MAT9', &
       'MAT10', 'MAT11', 'TABLEM1', 'MDLPRM', 'ABSNMVS', 'ABSTRCT']
 
 contains
@@ -117,6 +119,9 @@ contains
          parameters%mass_line = line
          if (.not. is_integer) expected = 'an integer: above 0 consistent mass, else lumped mass'
          call ignored%wait('PARAM COUPMASS', line, needs_response=.false.)
+      case ('AUTOSPC')
+         parameters%holds_idle = value /= 'NO'
+         call ignored%add('PARAM '//name)
       case ('KDAMP')
          parameters%is_structural = number == -1
          if (.not. is_integer .or. abs(number) /= 1) expected = '1, SDAMPING is viscous, or -1, it is structural'
@@ -198,6 +203,20 @@ contains
       self%n = self%n + 1
       if (index(self%names//',', ', '//trim(name)//',') == 0) self%names = self%names//', '//trim(name)
    end subroutine add
+
+   !> Count the card NAME without effect on LINE; dampers have an effect in a response.
+   pure subroutine add_card(self, name, line)
+      class(ignored_entries_type), intent(inout) :: self
+      character(*), intent(in)               :: name
+      integer, intent(in)                    :: line
+
+      if (name(:5) == 'CDAMP' .or. name == 'CVISC') then
+         call self%wait(trim(name), line, needs_response=.true., &
+                        refusal='expected none: damping is given by SDAMPING, AMPLITUDE, PARAM G and GE')
+      else
+         call self%add(trim(name))
+      end if
+   end subroutine add_card
 
    !> Note the entry NAME on LINE, which has an effect in a stage with MODES or, if NEEDS_RESPONSE, with FREQUENCY. With a
    !! REFUSAL the effect is an error.
