@@ -84,6 +84,11 @@ contains
             if (turns) call turn(deck%bulk%spring(i)%nodes(k), arm)
          end do
       end do
+      do i = 1, size(deck%bulk%force)
+         node = deck%bulk%force(i)%node
+         if (deck%bulk%force(i)%is_moment .and. any(deck%bulk%spring%nodes(1) == node .or. deck%bulk%spring%nodes(2) == node)) &
+            call turn(node, 1.0_wp)
+      end do
       do i = 1, size(deck%bulk%mass)
          if (deck%bulk%mass(i)%component > 3 .or. allocated(deck%bulk%mass(i)%matrix)) call turn(deck%bulk%mass(i)%node, 1.0_wp)
          if (deck%bulk%mass(i)%component_2 > 3) call turn(deck%bulk%mass(i)%node_2, 1.0_wp)
