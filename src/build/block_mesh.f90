@@ -40,7 +40,7 @@ contains
       logical, allocatable :: is_welded(:)
       integer :: b, i
 
-      cards%grid = deck%bulk%grid
+      cards%grid = [deck%bulk%grid, scalar_points(deck)]
       cards%element = deck%bulk%element
       allocate (cards%side(0), blocks(size(deck%bulk%block)))
       do b = 1, size(blocks)
@@ -55,7 +55,6 @@ contains
             cards%side = [cards%side, block%side]
          end associate
       end do
-      cards%grid = [cards%grid, scalar_points(deck)]
    end subroutine collect_cards
 
    !> Replace positions in the list ID by the numbers there.

@@ -190,11 +190,14 @@ contains
       type(mesh_type), intent(in)     :: mesh
       type(freedoms_type), intent(in) :: freedoms
       integer :: i
+      logical :: is_used
 
       do i = 1, size(deck%bulk%mass)
          associate (card => deck%bulk%mass(i), node => mesh%node_table%find(deck%bulk%mass(i)%node))
             if (node == 0) cycle
-            if (.not. freedoms%used(node)) call deck%field_error(card%line, &
+            is_used = freedoms%used(node)
+            if (rotation_at(mesh, node) > 0) is_used = is_used .or. freedoms%used(mesh%rotations(rotation_at(mesh, node))%node)
+            if (.not. is_used) call deck%field_error(card%line, &
                one_of(card%is_directed, one_of(card%is_scalar, 'S1', 'G1'), 'G'), 'node '// &
                                                                  integer_text(card%node)//' belongs to no element')
          end associate

@@ -53,7 +53,8 @@ contains
       do i = 2, size(cards) ! scalar points have no place: that of another node
          if (cards(i)%is_scalar) cards(i)%x = cards(1)%x
       end do
-      call deck%report_repeated('node', cards%id, cards%line, n_cards=size(deck%bulk%grid))
+      call deck%report_repeated('node', cards%id, cards%line, &
+                                n_cards=size(deck%bulk%grid) + count(cards%is_scalar))
       call sorted_order(cards%id, order)
       mesh%n_nodes = size(cards)
       mesh%node_id = cards(order)%id

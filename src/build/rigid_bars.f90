@@ -87,7 +87,8 @@ contains
          else
             whole(4:) = axes(:, digit - 3)/extent
          end if
-         row = merge(whole, whole([1, 2, 6, 4, 5, 6]), mesh%dimension == 3)
+         if (mesh%dimension == 3) row = whole
+         if (mesh%dimension == 2) row = whole([1, 2, 6])
       end subroutine row_of
 
    end subroutine add_rigid_body
