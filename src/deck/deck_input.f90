@@ -10,6 +10,7 @@ module deck_input
    use, intrinsic :: iso_fortran_env, only: int8
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
+   use laminate_cards, only: read_laminate, read_plate_material
    use lists, only: id_table_type
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
                          read_temperature
@@ -66,12 +67,13 @@ contains
       call add(['GRID'], read_grid)
       call add(['GRDSET'], read_grid_defaults)
       call add(system_names, read_system)
-      call add(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
+      call add(['CTRIA3', 'CTRIA6', 'CTRIAR', 'CQUAD4', 'CQUAD8', 'CQUADR', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
       call add(['CBAR ', 'CBEAM', 'CROD '], read_edge)
       call add(['BAROR ', 'BEAMOR'], read_edge_defaults)
       call add(['BLOCK2', 'BLOCK3'], read_block)
       call add(['PMARK'], read_pmark)
       call add(['PSHELL'], read_pshell)
+      call add(['PCOMP ', 'PCOMPG'], read_laminate, joined='PSHELL')
       call add(['PAXIS'], read_body_property)
       call add(['PSOLID'], read_body_property)
       call add(['PROD'], read_rod)
@@ -79,6 +81,7 @@ contains
       call add(['CONROD'], read_rod)
       call add(['NODEAT'], read_place)
       call add(['MAT1'], read_mat1)
+      call add(['MAT2', 'MAT8'], read_plate_material, joined='MAT1')
       cards%of_mesh = .true.
       call add(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
       call add(['PELAS', 'PBUSH'], read_spring_property)
@@ -115,14 +118,16 @@ contains
 
    contains
 
-      !> Add the kinds NAMES, which READ reads.
-      subroutine add(names, read)
+      !> Add the kinds NAMES, which READ reads, into the array of the kind JOINED where it is present.
+      subroutine add(names, read, joined)
          character(*), intent(in) :: names(:)
          procedure(read_one)      :: read
+         character(*), intent(in), optional :: joined
          type(card_kind) :: kind
          integer :: k
 
          kind%routine = size(cards) + 1
+         if (present(joined)) kind%routine = cards(findloc(cards%name, joined, dim=1))%routine
          kind%read => read
          do k = 1, size(names)
             kind%name = names(k)
@@ -223,6 +228,7 @@ contains
          bulk%support = bulk%support(:count(bulk%support%line > 0))
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
+         bulk%plate = bulk%plate(:bulk%n_plates)
          call fill_defaults(bulk)
          call count_unused(bulk)
          call bulk%ignored%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), errors)
@@ -371,7 +377,7 @@ contains
       associate (properties => [bulk%block%property, bulk%element%property, bulk%edge%property], &
                  springs => bulk%spring_property, is_bush => bulk%spring%is_bush, system => bulk%system)
          call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%beam_property%id], properties, &
-            [spread('PSHELL', 1, size(bulk%pshell)), spread('PAXIS ', 1, size(bulk%paxis)), &
+            [bulk%pshell%name, spread('PAXIS ', 1, size(bulk%paxis)), &
              spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod)), bulk%beam_property%name])
          call count_unnamed(pack(springs%id, .not. springs%is_bush), pack(bulk%spring%property, .not. is_bush), &
                             spread('PELAS ', 1, count(.not. springs%is_bush)))
