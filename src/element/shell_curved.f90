@@ -21,12 +21,12 @@ module shell_curved
    integer, parameter, public :: most_columns = 54              !! of strains: 6 of each node, 6 of the bubble
    real(wp), parameter :: h = sqrt(0.6_wp)                      ! three Gauss points: -h, 0, h
    real(wp), parameter :: r1 = 0.5_wp - 0.5_wp*gauss, r2 = 0.5_wp + 0.5_wp*gauss
-   ! points of the strains along r, then along s, then of the third strain: rs, of triangles that along their third side
+   ! points of the strains along r, then along s, then of the third strain: rs, of triangles that along their third side; their centre
    real(wp), parameter :: tied_quad(2, 16) = reshape([-gauss, -h, gauss, -h, -gauss, 0.0_wp, gauss, 0.0_wp, -gauss, h, gauss, h, &
       -h, -gauss, -h, gauss, 0.0_wp, -gauss, 0.0_wp, gauss, h, -gauss, h, gauss, &
       -gauss, -gauss, gauss, -gauss, -gauss, gauss, gauss, gauss], [2, 16])
-   real(wp), parameter :: tied_tria(2, 9) = reshape([r1, 0.0_wp, r2, 0.0_wp, r1, gauss, 0.0_wp, r1, 0.0_wp, r2, gauss, r1, &
-      r1, r2, r2, r1, r1, r1], [2, 9])
+   real(wp), parameter :: tied_tria(2, 10) = reshape([r1, 0.0_wp, r2, 0.0_wp, r1, gauss, 0.0_wp, r1, 0.0_wp, r2, gauss, r1, &
+      r1, r2, r2, r1, r1, r1, 1.0_wp/3.0_wp, 1.0_wp/3.0_wp], [2, 10])
 
    !> A curved element and its covariant strains at the tied points: rows rr, ss, rs of the mean surface, of their change over the
    !! height, then rz, sz; shear strains are engineering strains.
@@ -90,7 +90,7 @@ contains
       do i = 1, map%n
          map%director(:, 9) = map%director(:, 9) + n(i)*map%director(:, i)
       end do
-      do i = 1, merge(16, 9, map%n == 8)
+      do i = 1, merge(16, 10, map%n == 8)
          if (map%n == 8) call covariant(map, [tied_quad(:, i), 0.0_wp], map%tied(:, :, i), twist, a)
          if (map%n == 6) call covariant(map, [tied_tria(:, i), 0.0_wp], map%tied(:, :, i), twist, a)
       end do
@@ -244,13 +244,14 @@ contains
       end do
    end subroutine interpolate_quad
 
-   !> B at a POINT from the tied points: strains along each side are linear, each from three points; shear strains are linear, those
-   !! along the sides from two points on each.
+   !> B at a POINT from the tied points: strains along each side are linear, each from three points; shear strains are linear along
+   !! the sides, from two points on each, and have those of the centre: the field a + b r + c s + (s, -r) (d r + e s).
    pure subroutine interpolate_tria(map, point, b)
       type(curved_map), intent(in) :: map
       real(wp), intent(in)         :: point(3)
       real(wp), intent(inout)      :: b(8, most_columns)
-      real(wp) :: ends(most_columns, 2, 3), side(most_columns, 9), third(2, most_columns)
+      real(wp) :: corner(most_columns, 2, 3), ends(most_columns, 2, 3), side(most_columns, 9), third(2, most_columns)
+      real(wp) :: miss(most_columns, 2)
       integer  :: k
 
       associate (r => point(1), s => point(2), t => 1.0_wp - point(1) - point(2), tied => map%tied)
@@ -266,8 +267,18 @@ contains
             ends(:, 2, k) = (r2*side(:, 3*k - 1) - r1*side(:, 3*k - 2))/gauss
          end do
          ! corner 3 begins with the point nearer to it, point 7: the side from corner 3 to corner 2
-         b(7, :) = t*ends(:, 1, 1) + r*ends(:, 2, 1) + s*(ends(:, 2, 2) - ends(:, 1, 3))
-         b(8, :) = t*ends(:, 1, 2) + r*(ends(:, 2, 1) + ends(:, 2, 3)) + s*ends(:, 2, 2)
+         corner(:, :, 1) = ends(:, 1, 1:2)
+         corner(:, 1, 2) = ends(:, 2, 1)
+         corner(:, 2, 2) = ends(:, 2, 1) + ends(:, 2, 3)
+         corner(:, 1, 3) = ends(:, 2, 2) - ends(:, 1, 3)
+         corner(:, 2, 3) = ends(:, 2, 2)
+         miss = transpose(tied(7:, :, 10)) - sum(corner, dim=3)/3.0_wp
+         miss = 6.0_wp*miss(:, [2, 1]) - 3.0_wp*miss ! of r (s, 1 - r), s (1 - s, r), which have no component along a side
+         do k = 1, 2
+            b(6 + k, :) = t*corner(:, k, 1) + r*corner(:, k, 2) + s*corner(:, k, 3)
+         end do
+         b(7, :) = b(7, :) + s*(r*miss(:, 1) + (1.0_wp - s)*miss(:, 2))
+         b(8, :) = b(8, :) + r*((1.0_wp - r)*miss(:, 1) + s*miss(:, 2))
       end associate
 
    contains
