@@ -28,12 +28,13 @@ module model_build
    use pretension_section, only: build_sections
    use rigid_elements, only: build_dependents, name_surface_nodes
    use rod_torsion, only: add_torsion
+   use shell_build, only: bow_edges, build_shells
    use shell_faces, only: build_shell_faces, couple_shell_faces
    use shell_ties, only: find_ties, tie_type
    use spring_build, only: build_bars, build_springs
    use stage_build, only: find_shown_nodes, plan_stages
    use stage_plan, only: stage_plan_type
-   use structural_build, only: bow_edges, build_beams, build_rotations, build_shells, leave_out_idle
+   use structural_build, only: build_beams, build_rotations, leave_out_idle
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use surface_parts, only: divide_shared_surfaces

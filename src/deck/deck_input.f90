@@ -11,6 +11,7 @@ module deck_input
    use, intrinsic :: iso_fortran_env, only: int8
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
+   use laminate_cards, only: read_laminate, read_plate_material
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
                          read_temperature
    use mesh_cards, only: complete_remedy, fill_defaults, read_block, read_edge, read_edge_defaults, read_element, read_grid, &
@@ -72,12 +73,13 @@ contains
       call add(['GRID'], read_grid)
       call add(['GRDSET'], read_grid_defaults)
       call add(system_names, read_system)
-      call add(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
+      call add(['CTRIA3', 'CTRIA6', 'CTRIAR', 'CQUAD4', 'CQUAD8', 'CQUADR', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
       call add(['CBAR ', 'CBEAM', 'CROD '], read_edge)
       call add(['BAROR ', 'BEAMOR'], read_edge_defaults)
       call add(['BLOCK2', 'BLOCK3'], read_block)
       call add(['PMARK'], read_pmark)
       call add(['PSHELL'], read_pshell)
+      call add(['PCOMP ', 'PCOMPG'], read_laminate, joined='PSHELL')
       call add(['PAXIS'], read_body_property)
       call add(['PSOLID'], read_body_property)
       call add(['PROD'], read_rod)
@@ -86,6 +88,7 @@ contains
       call add(['NODEAT'], read_place)
       call add(['MAT1'], read_mat1)
       call add(['BSURF  ', 'BSURFS ', 'BCPROP ', 'BCPROPS'], read_region)
+      call add(['MAT2', 'MAT8'], read_plate_material, joined='MAT1')
       cards%of_mesh = .true.
       call add(['BCRPARA'], read_side_of_region)
       call add(['BCTSET', 'BGSET '], read_pair)
@@ -131,14 +134,16 @@ contains
 
    contains
 
-      !> Add the kinds NAMES, which READ reads.
-      subroutine add(names, read)
+      !> Add the kinds NAMES, which READ reads, into the array of the kind JOINED where it is present.
+      subroutine add(names, read, joined)
          character(*), intent(in) :: names(:)
          procedure(read_one)      :: read
+         character(*), intent(in), optional :: joined
          type(card_kind) :: kind
          integer :: k
 
          kind%routine = size(cards) + 1
+         if (present(joined)) kind%routine = cards(findloc(cards%name, joined, dim=1))%routine
          kind%read => read
          do k = 1, size(names)
             kind%name = names(k)
@@ -252,6 +257,7 @@ contains
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
          bulk%suport = bulk%suport(:count(bulk%suport%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
+         bulk%plate = bulk%plate(:bulk%n_plates)
          call fill_defaults(bulk)
          call count_unused(bulk)
          call count_idle_rotations(bulk)
