@@ -21,7 +21,7 @@ module model_build
    use mesh_build, only: build_mesh, check_named_nodes
    use mesh_queries, only: start_freedoms, start_mesh
    use mesh_watch, only: crack_words, repeated_words
-   use model_data, only: freedoms_type, history_type, joints_type, mesh_type, model_type, n_sections, stage_load_type
+   use model_data, only: freedoms_type, history_type, joints_type, mesh_type, model_type, n_sections
    use pretension_section, only: build_sections
    use rigid_elements, only: build_dependents, name_surface_nodes
    use rod_torsion, only: add_torsion
@@ -37,6 +37,7 @@ module model_build
    use temperature_build, only: build_temperatures
    use unit_watch, only: watch_units
    use vibration_build, only: plan_vibrations
+   use wave_build, only: planned_wave
    implicit none
    private
 
@@ -55,7 +56,7 @@ contains
       type(checked_deck) :: checked
       type(tie_type), allocatable :: ties(:)
       type(expansion_type), allocatable :: expansions(:)
-      type(stage_load_type), allocatable :: oscillating(:)
+      type(planned_wave), allocatable :: waves(:)
       logical :: is_whole
 
       allocate (model%warnings(0))
@@ -75,9 +76,9 @@ contains
                call make_freedoms(checked, mesh, joints, ties, freedoms, expansions)
                block
                   type(history_type) :: history
-                  call make_history(checked, mesh, freedoms, expansions, history, oscillating)
+                  call make_history(checked, mesh, freedoms, expansions, history, waves)
                   call find_shown_nodes(checked, mesh, freedoms, plan)
-                  call plan_vibrations(checked, mesh, joints%list%id, freedoms, oscillating, plan)
+                  call plan_vibrations(checked, mesh, joints%list%id, freedoms, waves, plan)
                   if (.not. any(freedoms%used)) &
                      call errors%add(0, 'nothing to solve: expected body elements or interface elements')
                   if (errors%any()) return
@@ -173,15 +174,15 @@ contains
    end subroutine make_freedoms
 
    !> Make the load HISTORY, and the loads that oscillate.
-   subroutine make_history(deck, mesh, freedoms, expansions, history, oscillating)
+   subroutine make_history(deck, mesh, freedoms, expansions, history, waves)
       type(checked_deck), intent(in)     :: deck
       type(mesh_type), intent(in)        :: mesh
       type(freedoms_type), intent(in)    :: freedoms
       type(expansion_type), intent(in)   :: expansions(:)
       type(history_type), intent(out)    :: history
-      type(stage_load_type), allocatable, intent(out) :: oscillating(:)
+      type(planned_wave), allocatable, intent(out) :: waves(:)
 
-      call build_loads(deck, mesh, freedoms, history, oscillating)
+      call build_loads(deck, mesh, freedoms, history, waves)
       if (.not. deck%errors%any()) call check_balance(deck, mesh, freedoms, history)
       call build_temperatures(deck, expansions, mesh, freedoms, history)
    end subroutine make_history

@@ -8,8 +8,8 @@ module case_control
    use deck_text, only: deck_text_type
    use field_rules, only: parse_integer, parse_real
    use kinds, only: wp
-   use nastran_compatibility, only: ignored_entries_type, parameters_type, read_echo, read_habit
-   use stage_entries, only: check_vibration, pair_reference, read_pair, read_stage_entry, stage_type
+   use nastran_compatibility, only: control_habit, ignored_entries_type, other_solution, parameters_type, read_echo, read_habit
+   use stage_entries, only: check_vibration, complete_response, pair_reference, read_pair, read_stage_entry, show_nodes, stage_type
    use text_tools, only: integer_text, upper
    use tolerances, only: back_tol, least_tol, newton_tol, path_tol
    implicit none
@@ -18,6 +18,8 @@ module case_control
    public :: read_case_control, watch_also, offer_petsc
 
    integer, parameter  :: own_set = -1 ! number of the set of --watch
+   character(12), parameter :: motions(5) = [character(12) :: 'DISPLACEMENT', 'VECTOR', 'SVECTOR', 'VELOCITY', 'ACCELERATION']
+   integer, parameter  :: all_nodes = -2 ! and of that of DISPLACEMENT = ALL
 
    type, public :: case_control_type
       character(:), allocatable :: title
@@ -33,6 +35,9 @@ module case_control
       logical :: echo  = .true.
       logical :: echo_asked = .false.                    !! by ECHO: for any number of cards
       logical :: of_nastran = .false.                    !! SOL or CEND: the deck was written for NASTRAN
+      logical :: is_direct = .false.                     !! SOL 108: its response needs no MODES
+      character(8) :: matrices(2) = ''                   !! K2GG, M2GG: names of DMIG
+      integer :: matrix_lines(2) = 0
       logical :: lumped = .false.                        !! MASS = LUMPED: the mass of elements is lumped at their nodes
       logical :: mass_is_given = .false.                 !! MASS is given
       integer :: model = 0, model_line = 0               !! MODEL, 0: not given
@@ -63,8 +68,11 @@ contains
       type(entry_type) :: entry
       character(:), allocatable :: keys_seen ! in this place: above the stages, or in one stage
       character(:), allocatable :: line
+      type(number_set) :: whole
       logical :: goes_on, in_plots
+      integer :: n_shown
 
+      n_shown = 0
       goes_on = .false.
       in_plots = .false.
       control%title = ''
@@ -111,12 +119,22 @@ contains
             call read_entry(entry, control, common, errors)
          else
             call read_habit(entry, control%parameters, control%ignored, errors)
+            if (any(control_habit(entry%key) == motions)) then
+               n_shown = n_shown + 1
+               associate (n => size(control%stages))
+                  if (n == 0) call show_nodes(entry, 0, all_nodes, common%vibration)
+                  if (n > 0) call show_nodes(entry, control%stages(n)%line, all_nodes, control%stages(n)%vibration)
+               end associate
+            end if
             goes_on = line(len(line):) == ','
          end if
       end do
       if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tol, newton_tol, control%method == method_back)
-      call check_stages(control, common, errors)
+      call check_stages(control, common, n_shown, errors)
       call note_idle_sets(control)
+      whole%id = all_nodes
+      whole%text = 'ALL'
+      control%sets = [control%sets, whole]
    end subroutine read_case_control
 
    !> Watch the nodes and pairs of LIST, numbers and N-M with commas, in all stages; not OK: a word is neither. The nodes form a set
@@ -182,6 +200,7 @@ contains
       type(case_control_type), intent(inout) :: control
       type(stage_type), intent(inout)        :: common
       type(deck_error_list), intent(inout)   :: errors
+      character(:), allocatable :: number
       integer :: choice, n
       logical :: ok
 
@@ -208,11 +227,20 @@ contains
          call start_stage(entry, control, common, errors)
       case ('SOL') ! numbers and names of statics and modes; old decks write 1,0
          choice = scan(entry%value//',', ', ')
-         if (index('|1|3|24|101|103|106|SESTATIC|SESTATICS|STATIC|STATICS|NLSTATIC|SEMODES|MODES|', &
-                   '|'//upper(entry%value(:choice - 1))//'|') == 0 .or. choice == 1) &
-            call value_error(entry, '101 (or 1, 24, 106, SESTATIC, NLSTATIC), statics, or 103 (3, SEMODES), modes', errors)
+         number = upper(entry%value(:choice - 1))
+         control%is_direct = index('|8|108|SEDFREQ|DFREQ|', '|'//number//'|') > 0
+         if (index('|1|3|24|101|103|106|SESTATIC|SESTATICS|STATIC|STATICS|NLSTATIC|SEMODES|MODES|8|11|108|111|SEDFREQ|DFREQ|'// &
+                   'SEMFREQ|MFREQ|', '|'//number//'|') == 0 .or. choice == 1) &
+            call value_error(entry, '101 (or 1, 24, 106, SESTATIC, NLSTATIC), statics, 103 (3, SEMODES), modes, or 108 or '// &
+                             '111 (SEDFREQ, SEMFREQ), response to a load that oscillates'//other_solution(number), errors)
       case ('TITLE')
          control%title = entry%value
+      case ('K2GG', 'M2GG')
+         n = merge(1, 2, entry%key == 'K2GG')
+         control%matrices(n) = upper(entry%value)
+         control%matrix_lines(n) = entry%line
+         if (entry%value == '' .or. len(entry%value) > 8 .or. scan(entry%value, ' *,') > 0) &
+            call value_error(entry, 'the name of one matrix of DMIG cards', errors)
       case ('UNITS')
          call read_units(entry, control, errors)
       case ('METHOD')
@@ -296,11 +324,13 @@ contains
    end subroutine start_stage
 
    !> Without SUBCASE there is one stage. All stages have the same supports: [k_b] is formed once.
-   subroutine check_stages(control, common, errors)
+   subroutine check_stages(control, common, n_shown, errors)
       type(case_control_type), intent(inout) :: control
       type(stage_type), intent(in)           :: common !! the only stage of a deck without SUBCASE
+      integer, intent(in)                    :: n_shown !! number of entries such as DISPLACEMENT
       type(deck_error_list), intent(inout)   :: errors
       integer :: i
+      logical :: shown
 
       if (size(control%stages) == 0) then
          control%stages = [common]
@@ -318,6 +348,11 @@ contains
                'MPC: all stages must have the same equations; give MPC above the first SUBCASE')
          end associate
       end do
+      shown = .false.
+      do i = 1, size(control%stages)
+         call complete_response(control%stages(i)%vibration, control%is_direct, control%of_nastran, shown)
+      end do
+      if (shown) call control%ignored%drop(motions, n_shown)
       call check_vibration(control%stages%vibration, control%stages%line, errors)
    end subroutine check_stages
 

@@ -11,13 +11,15 @@ module deck_input
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
    use lists, only: id_table_type
+   use matrix_cards, only: read_dmig, read_retained
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
                          read_temperature
    use mesh_cards, only: complete_remedy, fill_defaults, read_block, read_edge, read_edge_defaults, read_element, read_grid, &
                          read_pmark, read_grid_defaults, read_system, system_names
-   use nastran_compatibility, only: is_idle_card
+   use nastran_compatibility, only: is_idle_card, other_solution
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
+   use response_cards, only: read_darea, read_dload, read_lseq, read_rload, read_tabled
    use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
    use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, read_support
    use vibration_cards, only: read_eigrl, read_frequencies, read_jampl, read_tabdmp1
@@ -109,8 +111,15 @@ contains
       call add(['JINCR'], read_jincr)
       call add(['EIGRL'], read_eigrl)
       call add(['JAMPL'], read_jampl)
-      call add(['FREQ1', 'FREQ2', 'FREQ4'], read_frequencies)
+      call add(['FREQ1', 'FREQ2', 'FREQ4', 'FREQ ', 'FREQ3', 'FREQ5'], read_frequencies)
       call add(['TABDMP1'], read_tabdmp1)
+      call add(['RLOAD1', 'RLOAD2'], read_rload)
+      call add(['DLOAD'], read_dload)
+      call add(['DAREA'], read_darea)
+      call add(['LSEQ'], read_lseq)
+      call add(['TABLED1', 'TABLED2', 'TABLED3', 'TABLED4'], read_tabled)
+      call add(['DMIG'], read_dmig)
+      call add(['ASET ', 'ASET1', 'BSET ', 'BSET1', 'QSET ', 'QSET1'], read_retained)
       call add(['PARAM'], read_parameter)
 
    contains
@@ -148,7 +157,9 @@ contains
          bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
          bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
          bulk%jiwan(n('JIWAN')), bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
-         bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')))
+         bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')), bulk%dynamic%rload(n('RLOAD1')), bulk%dload(n('DLOAD')), &
+         bulk%dynamic%darea(2*n('DAREA')), bulk%dynamic%lseq(n('LSEQ')), bulk%dynamic%tabled(n('TABLED1')), &
+         bulk%matrices%dmig(n('DMIG')), bulk%matrices%retained(4*n('ASET')))
 
    contains
 
@@ -223,9 +234,17 @@ contains
          bulk%support = bulk%support(:count(bulk%support%line > 0))
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
+         bulk%dynamic%darea = bulk%dynamic%darea(:count(bulk%dynamic%darea%line > 0))
+         bulk%matrices%retained = bulk%matrices%retained(:count(bulk%matrices%retained%line > 0))
+         do cursor = 1, merge(0, size(bulk%matrices%retained), any(deck%control%stages%output%dmig))
+            call bulk%ignored%add('ASET')
+         end do
+         do cursor = 1, merge(size(bulk%matrices%dmig), 0, all(deck%control%matrices == ''))
+            call bulk%ignored%add('DMIG')
+         end do
          call fill_defaults(bulk)
          call count_unused(bulk)
-         call bulk%ignored%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), errors)
+         call bulk%ignored%settle(any(asked%modes%id /= 0), any(asked%modes%id /= 0 .and. asked%frequency%id > 0), errors)
       end associate
       deck%is_whole = is_whole
    end subroutine read_lines
@@ -304,7 +323,8 @@ contains
                call errors%add(card%line, 'CQUAD9 is a complete element of nine nodes; expected a CQUAD8, no node inside'// &
                                complete_remedy, 1, 8)
             else if (card%name /= '') then
-               call errors%add(card%line, ''''//trim(card%name)//''' is not a card of jointfem; see input/cards.md', 1, 8)
+               call errors%add(card%line, ''''//trim(card%name)//''' is not a card of jointfem; see input/cards.md'// &
+                               other_solution(trim(card%name)), 1, 8)
             end if
          end if
       end subroutine find_card

@@ -12,7 +12,7 @@ module nastran_compatibility
    implicit none
    private
 
-   public :: control_habit, is_idle_card, take_parameter, read_habit, read_echo
+   public :: control_habit, is_idle_card, take_parameter, read_habit, read_echo, other_solution
 
    integer, parameter :: name_length = 40
 
@@ -32,7 +32,7 @@ module nastran_compatibility
       type(waiting_entry), allocatable, private :: waiting(:)
    contains
       procedure :: wait, settle
-      procedure :: add
+      procedure :: add, drop
       procedure :: words
    end type ignored_entries_type
 
@@ -167,10 +167,11 @@ contains
          if (control_habit(entry%key) /= '') then
             call ignored%add(control_habit(entry%key))
          else
-            call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is not a key of case control; expected '// &
+            call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is not a key of case control'// &
+               other_solution(entry%key)//'; expected '// &
                'TITLE, UNITS, METHOD, TOL, PATHTOL, PRESSURE, CARRY, AVERAGE, SOLVER, MASS, RESTART, ECHO, SPC, '// &
                             'MPC, SUBCASE, LABEL, LOAD, TEMPERATURE(LOAD), INCR, OUTPUT, WATCH, MODES, STIFFNESS, AMPLITUDE, '// &
-                            'FREQUENCY, DLOAD, SDAMPING, RESPONSE or BEGIN BULK')
+                            'FREQUENCY, DLOAD, LOADSET, SDAMPING, RESPONSE, K2GG, M2GG or BEGIN BULK')
          end if
       end select
    end subroutine read_habit
@@ -188,6 +189,44 @@ contains
                                                                         'PUNCH or NONE', errors)
       is_on = index(off, word) == 0
    end subroutine read_echo
+
+   !> Words for a solution of NASTRAN that is not among those of this program, by a WORD that belongs to it: a number of SOL, a key of
+   !! case control or a card; empty: none.
+   pure function other_solution(word) result(words)
+      character(*), intent(in)  :: word !! in capitals
+      character(:), allocatable :: words
+
+      select case (word)
+      case ('9', '12', '109', '112', '129', '159', 'SEDTRAN', 'SEMTRAN', 'NLTRAN', 'TLOAD1', 'TLOAD2', 'TSTEP', 'TSTEPNL', &
+            'TIC', 'IC')
+         words = 'transient response (SOL 109, 112, 129), which jointfem does not have'
+      case ('RANDOM', 'RANDPS', 'RANDT1', 'TABRND1', 'TABRNDG')
+         words = 'random response, which jointfem does not have; without RANDOM, RANDPS, TABRND1 it computes the '// &
+                 'response to DLOAD'
+      case ('7', '10', '107', '110', 'SEDCEIG', 'SEMCEIG', 'CMETHOD', 'EIGC')
+         words = 'complex modes (SOL 107, 110), which jointfem does not have; MODES gives real modes with their loss factors'
+      case ('5', '105', 'SEBUCKL', 'BUCKLING')
+         words = 'buckling (SOL 105), which jointfem does not have'
+      case default
+         words = ''
+      end select
+      if (words /= '') words = '; '//word//' belongs to '//words
+   end function other_solution
+
+   !> Take the N entries NAMES out.
+   pure subroutine drop(self, names, n)
+      class(ignored_entries_type), intent(inout) :: self
+      character(*), intent(in)                   :: names(:)
+      integer, intent(in)                        :: n
+      integer :: at, k
+
+      if (.not. allocated(self%names)) return
+      do k = 1, size(names)
+         at = index(self%names//',', ', '//trim(names(k))//',')
+         if (at > 0) self%names = self%names(:at - 1)//self%names(at + 2 + len_trim(names(k)):)
+      end do
+      self%n = self%n - n
+   end subroutine drop
 
    !> Count one more entry NAME.
    pure subroutine add(self, name)
