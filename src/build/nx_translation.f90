@@ -254,7 +254,8 @@ contains
             if (s > 1 .or. any(control%stages%bolts%id > 0 .and. control%stages%bolts%id /= asked%id)) call errors%add(asked%line, &
                'BOLTLD: expected one set for all SUBCASEs, above the first or in the first')
             if (n > 1 .or. control%stages(1)%load%id > 0 .or. count(control%stages%bolts%id > 0) > 1) then
-               allocate (before(n), source=control%stages(1))
+               allocate (before(n))
+               before = control%stages(1)
                k = control%stages(1)%id - n - 1
                if (control%stages(1)%line == 0) then
                   k = 0

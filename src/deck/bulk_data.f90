@@ -6,8 +6,10 @@ module bulk_data
    use card_fields, only: id_ranges
    use elasticity, only: plane_stress
    use element_kinds, only: max_nodes
+   use frequency_loads, only: response_cards_type
    use kinds, only: wp
    use nastran_compatibility, only: ignored_entries_type, parameters_type
+   use nodal_matrices, only: matrix_cards_type
    use normal_curve, only: normal_law
    use iwan_law, only: iwan_type
    use shear_stiffness, only: shear_law
@@ -423,11 +425,15 @@ module bulk_data
    end type jampl_card
 
    !> FREQ1: frequencies FIRST + k STEP, k = 0 to N; FREQ2: FIRST (LAST/FIRST)**(k/N). FREQ4: N frequencies from 1 - SPREAD to
-   !! 1 + SPREAD times the frequency of every mode from FIRST to LAST.
+   !! 1 + SPREAD times the frequency of every mode from FIRST to LAST. FREQ: LIST; FREQ5: LIST times every such mode. FREQ3: N
+   !! frequencies between neighbours among FIRST, such modes and LAST.
    type, public :: frequency_card
       integer  :: line = 0, set = 0, n = 0
-      real(wp) :: first = 0.0_wp, last = 0.0_wp         ! LAST is 0: a FREQ1
-      real(wp) :: step = 0.0_wp, spread = 0.0_wp        ! of a FREQ1; of a FREQ4, 0: a FREQ1 or FREQ2
+      real(wp) :: first = 0.0_wp, last = 0.0_wp         ! LAST is 0: a FREQ or FREQ1
+      real(wp) :: step = 0.0_wp, spread = 0.0_wp        ! of a FREQ1; of a FREQ4, else 0
+      real(wp) :: cluster = 0.0_wp                      ! of a FREQ3, else 0
+      logical  :: is_log = .false.                      ! of a FREQ3
+      real(wp), allocatable :: list(:)                  ! of a FREQ or FREQ5, ascending
    end type frequency_card
 
    !> TABDMP1: damping as a function of frequency, in ascending order.
@@ -474,7 +480,7 @@ module bulk_data
       type(displacement_card), allocatable :: displacement(:), suport(:)
       type(temperature_card), allocatable  :: temperature(:)
       type(plate_temperature_card), allocatable :: plate_temperature(:)
-      type(load_card), allocatable         :: load(:)
+      type(load_card), allocatable         :: load(:), dload(:)
       type(bolt_card), allocatable         :: bolt(:)
       type(region_card), allocatable       :: region(:)
       type(region_side_card), allocatable  :: region_side(:)
@@ -497,6 +503,8 @@ module bulk_data
       type(jampl_card), allocatable        :: jampl(:)
       type(frequency_card), allocatable    :: frequency(:)
       type(tabdmp1_card), allocatable      :: tabdmp1(:)
+      type(response_cards_type)            :: dynamic      !! RLOAD1 and others
+      type(matrix_cards_type)              :: matrices     !! DMIG, ASET and others
    end type bulk_data_type
 
 end module bulk_data

@@ -12,15 +12,17 @@ module deck_input
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
    use laminate_cards, only: read_laminate, read_plate_material
+   use matrix_cards, only: read_dmig, read_retained
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
                          read_temperature
    use mesh_cards, only: complete_remedy, fill_defaults, read_block, read_edge, read_edge_defaults, read_element, read_grid, &
                          read_pmark, read_grid_defaults, read_system, system_names
-   use nastran_compatibility, only: take_idle_card
+   use nastran_compatibility, only: not_reduced, take_idle_card
    use nastran_defaults, only: find_first_card, take_initial_temperature, take_only_sets
    use nx_cards, only: read_contact_parameter, read_pair, read_preload, read_region, read_sequence, read_side_of_region
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
+   use response_cards, only: read_darea, read_dload, read_lseq, read_rload, read_tabled
    use rigid_cards, only: count_idle_rotations, read_equation, read_place, read_rigid, read_tie
    use support_cards, only: read_displacement, read_mass, read_pmass, read_scalar, read_spring, read_spring_property, &
                             read_sum, read_suport, read_support
@@ -128,8 +130,15 @@ contains
       call add(['JINCR'], read_jincr)
       call add(['EIGRL', 'EIGR '], read_eigrl)
       call add(['JAMPL'], read_jampl)
-      call add(['FREQ1', 'FREQ2', 'FREQ4'], read_frequencies)
+      call add(['FREQ1', 'FREQ2', 'FREQ4', 'FREQ ', 'FREQ3', 'FREQ5'], read_frequencies)
       call add(['TABDMP1'], read_tabdmp1)
+      call add(['RLOAD1', 'RLOAD2'], read_rload)
+      call add(['DLOAD'], read_dload)
+      call add(['DAREA'], read_darea)
+      call add(['LSEQ'], read_lseq)
+      call add(['TABLED1', 'TABLED2', 'TABLED3', 'TABLED4'], read_tabled)
+      call add(['DMIG'], read_dmig)
+      call add(['ASET ', 'ASET1', 'BSET ', 'BSET1', 'QSET ', 'QSET1'], read_retained)
       call add(['PARAM'], read_parameter)
 
    contains
@@ -174,7 +183,10 @@ contains
          bulk%jiwan(n('JIWAN')), bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
          bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')), bulk%region(n('BSURF')), &
          bulk%region_side(n('BCRPARA')), bulk%pair(n('BCTSET')), bulk%contact_sum(n('BCTADD')), bulk%glue_sum(n('BGADD')), &
-         bulk%touching(n('BCTPARM')), bulk%preload(n('BOLTFOR')), bulk%sequence(n('BOLTSEQ')))
+         bulk%touching(n('BCTPARM')), bulk%preload(n('BOLTFOR')), bulk%sequence(n('BOLTSEQ')), &
+         bulk%dynamic%rload(n('RLOAD1')), bulk%dload(n('DLOAD')), &
+         bulk%dynamic%darea(2*n('DAREA')), bulk%dynamic%lseq(n('LSEQ')), bulk%dynamic%tabled(n('TABLED1')), &
+         bulk%matrices%dmig(n('DMIG')), bulk%matrices%retained(4*n('ASET')))
 
    contains
 
@@ -258,10 +270,18 @@ contains
          bulk%suport = bulk%suport(:count(bulk%suport%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
          bulk%plate = bulk%plate(:bulk%n_plates)
+         bulk%dynamic%darea = bulk%dynamic%darea(:count(bulk%dynamic%darea%line > 0))
+         bulk%matrices%retained = bulk%matrices%retained(:count(bulk%matrices%retained%line > 0))
+         do cursor = 1, merge(0, size(bulk%matrices%retained), any(deck%control%stages%output%dmig))
+            call bulk%ignored%wait('ASET', bulk%matrices%retained(cursor)%line, .false., warning=not_reduced)
+         end do
+         do cursor = 1, merge(size(bulk%matrices%dmig), 0, all(deck%control%matrices == ''))
+            call bulk%ignored%add('DMIG')
+         end do
          call fill_defaults(bulk)
          call count_unused(bulk)
          call count_idle_rotations(bulk)
-         call bulk%ignored%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), &
+         call bulk%ignored%settle(any(asked%modes%id /= 0), any(asked%modes%id /= 0 .and. asked%frequency%id > 0), &
                                   any(deck%control%stages%warms_materials), errors)
          if (is_alone) call take_only_sets(bulk, deck%control%stages(1), errors)
          call take_initial_temperature(deck%control%stages%initial, bulk, errors)

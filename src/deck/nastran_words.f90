@@ -44,12 +44,10 @@ module nastran_words
       'TLOAD1', 'TLOAD2', 'TSTEP', 'TSTEP1', 'TSTEPNL', 'TIC', 'EIGB', 'EIGC', 'EIGP', 'TF', 'NLPCI', 'NLSTEP', 'RANDT1', &
       'RANDPS', 'TABRND1', 'TABRNDG', 'DEFORM']
 
-   ! with an effect on a response: dashpots, springs that depend on the frequency, loads by LOADSET
-   character(6), parameter, public :: of_response(7) = [character(6) :: 'CDAMP1', 'CDAMP2', 'CDAMP3', 'CDAMP4', 'CVISC', 'PELAST', &
-                                                        'LSEQ']
+   ! with an effect on a response: dashpots, springs that depend on the frequency
+   character(6), parameter, public :: of_response(6) = [character(6) :: 'CDAMP1', 'CDAMP2', 'CDAMP3', 'CDAMP4', 'CVISC', 'PELAST']
    ! with an effect on modes: reduction to some of the unknowns
-   character(6), parameter, public :: of_reduction(10) = [character(6) :: 'ASET', 'ASET1', 'BSET', 'BSET1', 'CSET', 'CSET1', &
-                                                          'QSET', 'QSET1', 'OMIT', 'OMIT1']
+   character(6), parameter, public :: of_reduction(4) = [character(6) :: 'CSET', 'CSET1', 'OMIT', 'OMIT1']
 
 contains
 
