@@ -8,7 +8,7 @@ module nx_translation
    use deck_input, only: deck_type
    use kinds, only: wp
    use lists, only: sorted_order
-   use stage_entries, only: stage_type, vibration_entries_type
+   use stage_entries, only: vibration_entries_type
    use support_build, only: summed_sets
    use text_tools, only: integer_text, one_of, real_text, text_item, upper
    use unit_watch, only: find_units
@@ -235,7 +235,6 @@ contains
    subroutine tighten_bolts(deck, errors)
       type(deck_type), intent(inout)       :: deck
       type(deck_error_list), intent(inout) :: errors
-      type(stage_type), allocatable :: before(:)
       type(set_reference)  :: asked
       integer, allocatable :: order(:), sets(:)
       integer :: k, n, s
@@ -254,26 +253,26 @@ contains
             if (s > 1 .or. any(control%stages%bolts%id > 0 .and. control%stages%bolts%id /= asked%id)) call errors%add(asked%line, &
                'BOLTLD: expected one set for all SUBCASEs, above the first or in the first')
             if (n > 1 .or. control%stages(1)%load%id > 0 .or. count(control%stages%bolts%id > 0) > 1) then
-               allocate (before(n))
-               before = control%stages(1)
                k = control%stages(1)%id - n - 1
                if (control%stages(1)%line == 0) then
                   k = 0
                   control%stages(1)%id = n + 1
                end if
                if (k < 0) k = maxval(control%stages%id)
-               do s = 1, n
-                  before(s)%id = k + s
-                  before(s)%label = 'BOLT PRELOAD'
-                  before(s)%load = set_reference()
-                  before(s)%temperature = set_reference()
-                  before(s)%increments = set_reference()
-                  before(s)%vibration = vibration_entries_type()
-               end do
                do s = 2, size(control%stages)
                   if (control%stages(s)%from%id == 0) control%stages(s)%from = set_reference(k + n, control%stages(s)%line)
                end do
-               control%stages = [before, control%stages]
+               do s = 1, n
+                  control%stages = [control%stages(1), control%stages]
+               end do
+               do s = 1, n
+                  control%stages(s)%id = k + s
+                  control%stages(s)%label = 'BOLT PRELOAD'
+                  control%stages(s)%load = set_reference()
+                  control%stages(s)%temperature = set_reference()
+                  control%stages(s)%increments = set_reference()
+                  control%stages(s)%vibration = vibration_entries_type()
+               end do
             end if
             do s = 1, n
                call take_preloads(sets(s), control%stages(s)%id)
