@@ -42,9 +42,9 @@ contains
 
       allocate (expansions(0))
       set = 0
-      if (size(deck%control%stages) > 0) set = deck%control%stages(1)%equations%id
+      if (size(deck%control%stages) > 0) set = deck%control%stages(deck%stage)%equations%id
       if (set > 0 .and. all(deck%bulk%equation%set /= set) .and. all(deck%bulk%equation_sum%set /= set)) call deck%errors%add( &
-         deck%control%stages(1)%equations%line, 'MPC: there is no MPC or MPCADD with set '//integer_text(set))
+         deck%control%stages(deck%stage)%equations%line, 'MPC: there is no MPC or MPCADD with set '//integer_text(set))
       call check_sums(deck, 'MPCADD', deck%bulk%equation_sum, deck%bulk%equation%set, 'MPC')
       allocate (active, source=summed_sets(deck%bulk%equation_sum, set))
       if (size(deck%rigid) + size(deck%bulk%equation) + size(ties) + size(glue) == 0) return
@@ -75,6 +75,7 @@ contains
       end do
       if (deck%errors%any()) return
       call add_glue(deck, glue, mesh, freedoms, list)
+      if (deck%keeps_distances) list%item(:list%n)%expands = .true.
       call eliminate(list, mesh, freedoms)
    end subroutine build_dependents
 

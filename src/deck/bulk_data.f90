@@ -46,6 +46,7 @@ module bulk_data
       real(wp) :: orientation(3) = 0.0_wp, offset(3, 2) = 0.0_wp ! X1, X2, X3 where there is no G0; WA, WB
       integer  :: pins(2) = 0                           ! PA, PB
       logical  :: blank(4) = .false.                    ! X1, X2, X3, PID
+      logical  :: in_basic = .false.                    ! OFFT B: X1, X2, X3 are in basic axes
    end type edge_card
 
    !> Additional data of a shell card: the position of its element_card, ZOFFS and T1 to T4.
@@ -126,6 +127,7 @@ module bulk_data
       integer  :: line = 0, id = 0
       logical  :: bars_only = .false., reference_given = .false. ! only E is given; TREF is given
       real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
+      real(wp) :: shear = 0.0_wp                        ! G of torsion and transverse shear
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF
       real(wp) :: damping = 0.0_wp                      ! GE
       real(wp) :: strength = 0.0_wp                     ! ST, 0: blank
@@ -172,7 +174,7 @@ module bulk_data
       integer, allocatable :: sets(:), at(:)            ! AT(k): data field of SETS(k)
    end type set_sum_card
 
-   !> FORCE (a vector), FORCE1 (a force from node ENDS(1) to ENDS(2)), FORCE2 (normal to two such lines) and MOMENT.
+   !> FORCE (a vector), FORCE1 (a force from node ENDS(1) to ENDS(2)), FORCE2 (normal to two such lines), and MOMENT likewise.
    type, public :: force_card
       integer  :: line = 0, set = 0, node = 0
       integer  :: system = 0                            ! CID of the vector, 0: global axes
@@ -352,13 +354,14 @@ module bulk_data
       real(wp), allocatable :: fractions(:)                ! of the stage's load change; their sum is 1
    end type jincr_card
 
-   !> EIGRL: the range of natural frequencies and the scaling of the mode shapes.
+   !> EIGRL, EIGR: the range of natural frequencies and the scaling of the mode shapes.
    type, public :: eigrl_card
       integer  :: line = 0, id = 0
       logical  :: has_lowest = .false., has_highest = .false.
       real(wp) :: lowest = 0.0_wp, highest = 0.0_wp     ! V1, V2
       integer  :: most = 0                              ! ND, 0: blank
       logical  :: unit_mass = .true.                    ! NORM = MASS
+      logical  :: by_point = .false.                    ! EIGR, NORM = POINT
    end type eigrl_card
 
    !> JAMPL: N amplitudes of MODE in geometric progression, from LARGEST to RATIO times LARGEST.
@@ -417,7 +420,7 @@ module bulk_data
       type(pressure_card), allocatable     :: pressure(:)
       type(surface_load_card), allocatable :: surface_load(:)
       type(gravity_card), allocatable      :: gravity(:)
-      type(displacement_card), allocatable :: displacement(:)
+      type(displacement_card), allocatable :: displacement(:), suport(:)
       type(temperature_card), allocatable  :: temperature(:)
       type(plate_temperature_card), allocatable :: plate_temperature(:)
       type(load_card), allocatable         :: load(:)

@@ -94,16 +94,16 @@ contains
       real(wp) :: f, direction(3)
 
       associate (force => bulk%force(card%i))
-         force%is_moment = card%name == 'MOMENT'
+         force%is_moment = card%name(:1) == 'M'
          call card%field('SID', force%set)
          call card%field('G', force%node)
          select case (card%name)
-         case ('FORCE1')
-            call card%field('F', force%force(1))
+         case ('FORCE1', 'MOMENT1')
+            call card%field(merge('M', 'F', force%is_moment), force%force(1))
             call card%field(['G1', 'G2'], force%ends(:2))
             call card%finish(force%line)
-         case ('FORCE2')
-            call card%field('F', force%force(1))
+         case ('FORCE2', 'MOMENT2')
+            call card%field(merge('M', 'F', force%is_moment), force%force(1))
             call card%field(['G1', 'G2', 'G3', 'G4'], force%ends)
             call card%finish(force%line)
          case default

@@ -1,5 +1,5 @@
 !> Reads the cards of supports, prescribed displacements, springs and nodal masses.
-!! Supports: SPC, SPC1, SPCM and their sum SPCADD; MPCADD combines constraint equations likewise. Prescribed displacements: SPCD.
+!! Supports: SPC, SPC1, SPCM and their sum SPCADD, SUPORT; MPCADD combines constraint equations likewise. Prescribed displacements: SPCD.
 !! Springs: CELAS1, CELAS2, CBUSH, PELAS, PBUSH. Masses: CONM2.
 module support_cards
    use bulk_data, only: bulk_data_type, displacement_card, set_sum_card, spring_property_card, support_card
@@ -10,7 +10,7 @@ module support_cards
    implicit none
    private
 
-   public :: read_support, read_sum, read_displacement, read_spring, read_spring_property, read_mass
+   public :: read_support, read_suport, read_sum, read_displacement, read_spring, read_spring_property, read_mass
 
 contains
 
@@ -37,6 +37,29 @@ contains
          end if
       end associate
    end subroutine read_support
+
+   !> SUPORT: up to four nodes with components that are held at rest and free in the modes.
+   subroutine read_suport(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      integer :: k
+
+      card%i = card%i - 1
+      do k = 1, max(2, min(card%n, 8)), 2
+         if (k > 1 .and. card%text_at(k) == '' .and. card%text_at(k + 1) == '') then
+            call card%skip(['ID', 'C '])
+            cycle
+         end if
+         card%i = card%i + 1
+         associate (held => bulk%suport(card%i))
+            held%line = card%line
+            held%field = k
+            call card%field('ID'//integer_text((k + 1)/2), held%node)
+            call card%components('C'//integer_text((k + 1)/2), held%components)
+         end associate
+      end do
+      call card%must_be_blank(9, card%n, '')
+   end subroutine read_suport
 
    !> SPCADD: the supports of all sets S1, S2, ...; MPCADD: their constraint equations.
    subroutine read_sum(card, bulk)
@@ -233,7 +256,7 @@ contains
             call card%blank(['G2', 'C2'])
          else
             call card%field('G', mass%node)
-            call card%field('CID', mass%system, default=0, least=0)
+            call card%field('CID', mass%system, default=0, least=-1)
             call card%field('M', mass%mass, not_negative)
             call card%field(['X1', 'X2', 'X3'], mass%offset, default=0.0_wp)
             call card%blank(['-'])

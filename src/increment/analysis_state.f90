@@ -111,6 +111,8 @@ module analysis_state
       ! over all nodes, from the last recover_bodies
       real(wp), allocatable :: all_u(:, :)          !! displacements [length]
       real(wp), allocatable :: all_unbalanced(:, :) !! applied - internal forces; on held components minus the reaction
+      real(wp), allocatable :: stands(:, :)         !! where held components stood when they were held; not allocated: at rest [length]
+      integer :: supports = 1                       !! which of the freedoms of the model are in force
       integer, allocatable  :: retained_index(:)    !! (n_nodes) of a node among the retained ones, 0: nowhere
       ! over retained nodes
       logical, allocatable  :: held(:, :)           !! supported or locked
@@ -149,6 +151,7 @@ contains
       type(case_control_type), intent(in) :: control
       type(analysis_type), intent(out)    :: analysis
 
+      analysis%supports = model%supports
       analysis%carry = control%carry
       analysis%eq10 = control%pressure == pressure_eq10
       analysis%average = control%average

@@ -43,6 +43,7 @@ contains
       analysis%after%temperature = model%history%stages(stage)%temperature
       associate (loads => model%history%stages(stage))
          if (allocated(loads%moved)) analysis%after%moved = loads%moved
+         if (allocated(analysis%stands)) analysis%after%moved = analysis%after%moved + analysis%stands
          do i = 1, loads%n
             analysis%after%load(:, loads%node(i)) = analysis%after%load(:, loads%node(i)) + loads%force(:model%mesh%dimension, i)
          end do

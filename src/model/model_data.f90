@@ -298,6 +298,8 @@ module model_data
       type(mesh_type)     :: mesh
       type(joints_type)   :: joints
       type(freedoms_type) :: freedoms
+      type(freedoms_type), allocatable :: sets(:) !! of the stages, where SPC or MPC differ; FREEDOMS is the one in force
+      integer :: supports = 1                !! its position
       type(history_type)  :: history
       type(text_item), allocatable :: warnings(:) !! about the model, found while it was built
    end type model_type

@@ -48,6 +48,7 @@ contains
       call stream%item('loose_force', a%loose_force)
       call stream%item('all_u', a%all_u)
       call stream%item('all_unbalanced', a%all_unbalanced)
+      call record_plane(stream, 'stands', a%stands)
       call stream%item('retained_index', a%retained_index)
       call stream%item('held', a%held)
       call stream%item('change', a%change)

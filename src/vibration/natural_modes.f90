@@ -55,17 +55,23 @@ module natural_modes
 
 contains
 
-   !> MODEL without its supports; the condition on the axis of a ring remains.
+   !> MODEL without its supports, or those of SUPORT where it has any; the condition on the axis of a ring remains.
    pure subroutine release_supports(model)
       type(model_type), intent(inout) :: model
-      logical :: free(model%mesh%dimension)
-      integer :: i
+      logical :: free(model%mesh%dimension), some
+      integer :: d, i
 
-      do i = 1, model%mesh%n_nodes - n_sections(model%mesh)
-         free = supported(model%mesh, model%freedoms, i)
-         if (model%mesh%axisymmetric) free(1) = free(1) .and. abs(model%mesh%x(1, i)) > 0.0_wp
-         model%freedoms%held(:, i) = model%freedoms%held(:, i) .and. .not. free
-      end do
+      associate (groups => model%freedoms%support_groups, of => model%freedoms%support_of)
+         some = any(groups%kind == 'FREE')
+         do i = 1, model%mesh%n_nodes - n_sections(model%mesh)
+            free = supported(model%mesh, model%freedoms, i)
+            do d = 1, merge(size(free), 0, some)
+               if (free(d)) free(d) = groups(of(d, i))%kind == 'FREE'
+            end do
+            if (model%mesh%axisymmetric) free(1) = free(1) .and. abs(model%mesh%x(1, i)) > 0.0_wp
+            model%freedoms%held(:, i) = model%freedoms%held(:, i) .and. .not. free
+         end do
+      end associate
    end subroutine release_supports
 
    !> Stiffness and mass about the state of ANALYSIS, and the order of the equations. The solver is SKYLINE if SYSTEM is

@@ -114,3 +114,6 @@ INP
 else
    echo 'skipped: the script for .inp: there is no python3'
 fi
+"$program" -q -o "$work" --law "$work/no_such.inc" "$work/default.bdf" > "$work/said" 2>&1
+same 'a law that is not there: status' $? 2
+says 'and its name' "$work/said" "--law $work/no_such.inc: the file cannot be read"
