@@ -1,6 +1,7 @@
 !> From a deck to the model that is solved: mesh, joints, freedoms and load history, each from those before it. An exchanged call does
 !! not compile.
 module model_build
+   use bush_build, only: bush_type, find_bushes
    use control_words, only: method_step
    use case_sums, only: sum_cases
    use connected_bodies, only: find_parts
@@ -14,6 +15,7 @@ module model_build
    use element_build, only: marked_side
    use element_unknowns, only: make_table
    use free_structure, only: check_balance, hold_free_structure
+   use idle_components, only: hold_idle
    use joint_build, only: build_joints
    use joint_gaps, only: build_gaps
    use joint_sides, only: find_frame
@@ -85,6 +87,7 @@ contains
                call errors%warn(crack_words(mesh, joints, sets(1)))
                call watch_units(deck, joints, errors)
                call take_parts(joints, sets, history, model)
+               if (deck%bulk%parameters%holds_idle) call hold_idle_of_sets(oscillating, model, errors)
             end block
          end block
       end associate
@@ -105,6 +108,27 @@ contains
       if (size(sets) > 1) call move_alloc(sets, model%sets)
    end subroutine take_parts
 
+   !> Hold the idle components of MODEL under the supports of each stage, and warn of them.
+   subroutine hold_idle_of_sets(oscillating, model, errors)
+      type(stage_load_type), intent(in)    :: oscillating(:)
+      type(model_type), intent(inout)      :: model
+      type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: words, first
+      integer :: k
+
+      call hold_idle(oscillating, model, first)
+      call errors%warn(first)
+      if (.not. allocated(model%sets)) return
+      model%sets(1) = model%freedoms
+      do k = 2, size(model%sets)
+         model%freedoms = model%sets(k)
+         call hold_idle(oscillating, model, words)
+         if (words /= first) call errors%warn(words)
+         model%sets(k) = model%freedoms
+      end do
+      model%freedoms = model%sets(1)
+   end subroutine hold_idle_of_sets
+
    !> Make the MESH: points with duplicates at split surfaces, mid-side and face nodes, elements and their laws, surfaces, bars and springs,
    !! masses, and the nodes of rotations and of pretension sections. TIES belong to the constraint equations. IS_WHOLE is false where an
    !! error of the mesh makes the rest pointless.
@@ -114,6 +138,7 @@ contains
       type(tie_type), allocatable, intent(out) :: ties(:)
       logical, intent(out)              :: is_whole
       type(marked_side), allocatable :: sides(:)
+      type(bush_type), allocatable :: bushes(:)
 
       call start_mesh(mesh)
       call build_mesh(deck, mesh, sides)
@@ -129,16 +154,17 @@ contains
       call split_shared_surfaces(deck, mesh)
       call bow_edges(mesh)
       call find_ties(deck, mesh, ties)
-      call build_shell_faces(deck, mesh)
+      call find_bushes(deck, mesh, bushes)
+      call build_shell_faces(deck, mesh, bushes)
       if (.not. deck%errors%any()) call divide_shared_surfaces(deck, mesh)
       call build_bars(deck, mesh)
-      call build_rotations(deck, mesh)
+      call build_rotations(deck, bushes, mesh)
       call build_sections(deck, mesh)
       call find_node_systems(deck, mesh)
       call build_beams(deck, mesh)
-      call build_springs(deck, mesh)
+      call build_springs(deck, bushes, mesh)
       call add_torsion(mesh)
-      call build_masses(deck, mesh)
+      call build_masses(deck, bushes, mesh)
    end subroutine make_mesh
 
    !> Make the JOINTS and their interface elements, with their gaps.

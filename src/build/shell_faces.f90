@@ -2,9 +2,10 @@
 !! A marked surface of shells lies half a thickness off their mean plane, on the side to which the normals of the marking elements
 !! point. A marked edge of shells is as wide as the thickness and is cut into strips. The nodes of such sides have rigid levers r
 !! from the nodes of the shells and no unknowns of their own: u + theta x r. Joints, gaps and pressure use them as they use other
-!! nodes. Masses with an offset have such nodes too.
+!! nodes. Masses with an offset and bushes between nodes apart have such nodes too.
 module shell_faces
    use bulk_data, only: mass_card
+   use bush_build, only: add_ends, bush_type
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use kinds, only: wp
@@ -36,9 +37,10 @@ contains
    end function mass_offset
 
    !> Give the sides of shells in marked surfaces nodes of their own, and masses with an offset.
-   subroutine build_shell_faces(deck, mesh)
+   subroutine build_shell_faces(deck, mesh, bushes)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(inout) :: mesh
+      type(bush_type), intent(inout) :: bushes(:) !! the ends of their arms are faces too
       type(face_node_type), allocatable :: faces(:)
       real(wp) :: axes(3, 3)
       integer  :: i, k, n
@@ -54,6 +56,7 @@ contains
             faces = [faces, face_node_type(point=n, lever=matmul(axes, mass_offset(card, mesh%x(:, n))))]
          end associate
       end do
+      call add_ends(bushes, faces)
       do k = 1, size(mesh%surfaces)
          associate (surface => mesh%surfaces(k))
             if (.not. any([(is_shell(mesh, surface%element(n)), n = 1, surface%n)])) cycle

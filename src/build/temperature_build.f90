@@ -168,7 +168,9 @@ contains
       if (.not. allocated(loads%moved)) allocate (loads%moved(mesh%dimension, mesh%n_nodes), source=0.0_wp)
       do k = 1, size(expansions)
          associate (part => expansions(k))
-            loads%moved(part%d, part%node) = part%growth*(0.5_wp*sum(loads%temperature%at(part%points)) - part%reference)
+            associate (moved => loads%moved(part%d, part%node)) ! a mean grows in several arms
+               moved = moved + part%growth*(0.5_wp*sum(loads%temperature%at(part%points)) - part%reference)
+            end associate
          end associate
       end do
    end subroutine expand

@@ -20,6 +20,7 @@ module bulk_data
       integer  :: cp = 0, cd = 0                        ! systems of the coordinates X and of displacements, 0: global axes
       real(wp) :: x(3) = 0.0_wp
       logical  :: doubtful = .false.                    ! a field could not be read
+      logical  :: is_scalar = .false.                   ! a scalar point
    end type grid_card
 
    !> A coordinate system, by three points in system REFERENCE (CORD2) or by three NODES (CORD1): the origin, a point on z, one in x-z.
@@ -94,13 +95,17 @@ module bulk_data
       integer :: nodes(2) = 0
    end type conrod_card
 
-   !> CELAS1, CELAS2 (between component COMPONENTS(1) of node 1 and COMPONENTS(2) of node 2) and CBUSH (along three axes).
+   !> CELAS1 to 4 (between component COMPONENTS(1) of node 1 and COMPONENTS(2) of node 2) and CBUSH (along three axes).
    type, public :: spring_card
       integer  :: line = 0, id = 0, nodes(2) = 0        ! 0: the ground
-      integer  :: property = 0                          ! PELAS or PBUSH; 0: a CELAS2
+      integer  :: property = 0                          ! PELAS or PBUSH; 0: a CELAS2 or CELAS4
       integer  :: components(2) = 0
-      logical  :: is_bush = .false.
+      logical  :: is_bush = .false., is_scalar = .false. ! CBUSH; CELAS3 and CELAS4
       integer  :: system = -1                           ! CID of a CBUSH, 0: global axes, -1: blank
+      integer  :: other = 0                             ! GO of a CBUSH, 0: blank
+      real(wp) :: orientation(3) = 0.0_wp               ! X1, X2, X3
+      integer  :: point_system = -1                     ! OCID, -1: the point divides the line between the nodes at SHARE
+      real(wp) :: share = 0.5_wp, point(3) = 0.0_wp     ! S; S1, S2, S3
       real(wp) :: stiffness = 0.0_wp, damping = 0.0_wp  ! of a CELAS2: K and GE
    end type spring_card
 
@@ -110,14 +115,29 @@ module bulk_data
       logical  :: is_bush = .false.
       integer  :: field = 1                             ! data field of the id
       real(wp) :: stiffness(6) = 0.0_wp
-      real(wp) :: damping = 0.0_wp                      ! GE of a PELAS
+      real(wp) :: damping(6) = 0.0_wp                   ! GE, of a PELAS the first
+      real(wp) :: mass = 0.0_wp                         ! M of a PBUSH
    end type spring_property_card
 
-   !> CONM2: a mass at a node; CMASS2: a mass that resists along one component of it.
-   type, public :: mass_card
-      integer  :: line = 0, id = 0, node = 0
-      integer  :: component = 0                         ! of a CMASS2, 0: CONM2
+   !> SPOINT: scalar points, which have one component.
+   type, extends(id_ranges), public :: scalar_card
+      integer :: line = 0
+   end type scalar_card
+
+   !> PMASS: one of its masses.
+   type, public :: pmass_card
+      integer  :: line = 0, id = 0
       real(wp) :: mass = 0.0_wp
+   end type pmass_card
+
+   !> CONM1, CONM2: a mass at a node; CMASS1 to 4: a mass that resists along one component of it, less COMPONENT_2 of NODE_2.
+   type, public :: mass_card
+      integer  :: line = 0, id = 0, node = 0, node_2 = 0
+      integer  :: component = 0, component_2 = 0
+      logical  :: is_directed = .false., is_scalar = .false. ! CMASS1 to 4; of these CMASS3 and CMASS4
+      integer  :: property = 0                          ! PMASS, 0: MASS is given
+      real(wp) :: mass = 0.0_wp
+      real(wp), allocatable :: matrix(:)                ! of a CONM1: M11, M21, M22, ..., M66
       integer  :: system = 0                            ! CID of offset and inertia, 0: global axes
       real(wp) :: offset(3) = 0.0_wp                    ! X1 to X3: from the node to the centre of mass
       real(wp) :: inertia(6) = 0.0_wp                   ! I11, I21, I22, I31, I32, I33, about the centre of mass
@@ -150,7 +170,9 @@ module bulk_data
       integer :: surface = 0                            ! RBE2M, RBE3M: PMARK of the nodes; 0: listed
       integer, allocatable  :: nodes(:), directions(:), at(:) ! AT(k): data field of NODES(k)
       real(wp), allocatable :: weight(:)
-      integer, allocatable  :: um_nodes(:), um_components(:), um_at(:) ! RBE3 with UM: dependent in place of COMPONENTS
+      integer, allocatable  :: um_nodes(:), um_components(:), um_at(:) ! RBE3 with UM: dependent in place of COMPONENTS. RBE1, and
+                                                        ! RBAR with both ends independent: six independent components
+      logical :: is_rod = .false.                       ! RROD: the distance of two nodes is constant
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! coefficient of thermal expansion, TREF
       integer  :: alpha_at = 0                          ! its data field
    end type rigid_card
@@ -409,6 +431,8 @@ module bulk_data
       type(spring_card), allocatable       :: spring(:)
       type(spring_property_card), allocatable :: spring_property(:)
       type(mass_card), allocatable         :: mass(:)
+      type(pmass_card), allocatable        :: pmass(:)
+      type(scalar_card), allocatable       :: scalar(:)
       type(mat1_card), allocatable         :: mat1(:)
       type(support_card), allocatable      :: support(:)
       type(set_sum_card), allocatable      :: support_sum(:), equation_sum(:), contact_sum(:), glue_sum(:)

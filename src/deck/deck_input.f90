@@ -20,9 +20,9 @@ module deck_input
    use nx_cards, only: read_pair, read_preload, read_region
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
-   use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
-   use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, &
-                            read_suport, read_support
+   use rigid_cards, only: count_idle_rotations, read_equation, read_place, read_rigid, read_tie
+   use support_cards, only: read_displacement, read_mass, read_pmass, read_scalar, read_spring, read_spring_property, &
+                            read_sum, read_suport, read_support
    use text_tools, only: plural, upper
    use unused_cards, only: count_unused
    use vibration_cards, only: read_eigrl, read_frequencies, read_jampl, read_tabdmp1
@@ -90,17 +90,19 @@ contains
       call add(['BCTADD'], read_sum)
       call add(['BGADD'], read_sum)
       call add(['BOLTFOR', 'BOLTSEQ'], read_preload)
-      call add(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
+      call add(['CELAS1', 'CELAS2', 'CELAS3', 'CELAS4', 'CBUSH '], read_spring)
       call add(['PELAS', 'PBUSH'], read_spring_property)
-      call add(['CONM2 ', 'CMASS2'], read_mass)
+      call add(['CONM2 ', 'CONM1 ', 'CMASS1', 'CMASS2', 'CMASS3', 'CMASS4'], read_mass)
+      call add(['PMASS'], read_pmass)
+      call add(['SPOINT'], read_scalar)
       call add(['SPC ', 'SPC1', 'SPCM'], read_support)
       call add(['SPCADD'], read_sum)
       call add(['SUPORT'], read_suport)
-      call add(['RBE2 ', 'RBE3 ', 'RBAR ', 'RBE2M', 'RBE3M'], read_rigid)
+      call add(['RBE2 ', 'RBE1 ', 'RBE3 ', 'RBAR ', 'RROD ', 'RBE2M', 'RBE3M'], read_rigid)
       call add(['SHELLTO'], read_tie)
       call add(['MPC'], read_equation)
       call add(['MPCADD'], read_sum)
-      call add(['FORCE  ', 'FORCE1 ', 'FORCE2 ', 'MOMENT ', 'MOMENT1', 'MOMENT2'], read_force)
+      call add(['FORCE  ', 'FORCE1 ', 'FORCE2 ', 'MOMENT ', 'MOMENT1', 'MOMENT2', 'SLOAD  '], read_force)
       call add(['PLOAD4', 'PLOADE', 'PLOAD ', 'PLOAD2'], read_pressure)
       call add(['PLOADM', 'FORCEM'], read_surface_load)
       call add(['GRAV  ', 'RFORCE', 'ACCEL1'], read_gravity)
@@ -152,9 +154,11 @@ contains
          bulk%plate(0), bulk%beam_property(n('PBAR')), bulk%beam_load(n('PLOAD1')), bulk%block(n('BLOCK2')), &
          bulk%pmark(n('PMARK')), bulk%pshell(n('PSHELL')), bulk%paxis(n('PAXIS')), bulk%psolid(n('PSOLID')), &
          bulk%prod(n('PROD')), bulk%conrod(n('CONROD')), bulk%spring(n('CBUSH')), bulk%spring_property(2*n('PBUSH')), &
-         bulk%mass(n('CONM2')), bulk%mat1(n('MAT1')), bulk%support(2*n('SPC')), bulk%support_sum(n('SPCADD')), &
+         bulk%mass(n('CONM2')), bulk%pmass(4*n('PMASS')), bulk%scalar(n('SPOINT')), &
+         bulk%mat1(n('MAT1')), bulk%support(2*n('SPC')), bulk%support_sum(n('SPCADD')), &
          bulk%rigid(n('RBE2')), bulk%place(n('NODEAT')), bulk%tie(n('SHELLTO')), bulk%equation(n('MPC')), &
-         bulk%equation_sum(n('MPCADD')), bulk%force(n('FORCE')), bulk%pressure(n('PLOAD')), bulk%surface_load(n('PLOADM')), &
+         bulk%equation_sum(n('MPCADD')), bulk%force(n('FORCE') + 2*sum(cards%n, mask=cards%name == 'SLOAD')), &
+         bulk%pressure(n('PLOAD')), bulk%surface_load(n('PLOADM')), &
          bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%suport(4*n('SUPORT')), &
          bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
          bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
@@ -238,12 +242,15 @@ contains
          ! the arrays whose cards may fill one entry or several are cut to the filled entries
          bulk%system = bulk%system(:count(bulk%system%line > 0))
          bulk%spring_property = bulk%spring_property(:count(bulk%spring_property%line > 0))
+         bulk%pmass = bulk%pmass(:count(bulk%pmass%line > 0))
+         bulk%force = bulk%force(:count(bulk%force%line > 0))
          bulk%support = bulk%support(:count(bulk%support%line > 0))
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
          bulk%suport = bulk%suport(:count(bulk%suport%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
          call fill_defaults(bulk)
          call count_unused(bulk)
+         call count_idle_rotations(bulk)
          call bulk%ignored%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), &
                                   any(deck%control%stages%warms_materials), errors)
          if (is_alone) call take_only_sets(bulk, deck%control%stages(1), errors)

@@ -10,7 +10,7 @@ module deck_text
    use kinds, only: long
    use lists, only: first_not_below
    use tab_columns, only: expand_tabs
-   use text_tools, only: integer_text, one_of
+   use text_tools, only: integer_text, one_of, upper
    implicit none
    private
 

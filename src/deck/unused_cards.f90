@@ -25,7 +25,7 @@ contains
                             spread('PBUSH ', 1, count(springs%is_bush)))
          if (size(system) == 0) return
          call count_unnamed(system%id, [system%reference, bulk%force%system, bulk%pressure%system, bulk%gravity%system, &
-            bulk%spring%system, bulk%mass%system, bulk%grid%cp, bulk%grid%cd], &
+            bulk%spring%system, bulk%spring%point_system, bulk%mass%system, bulk%grid%cp, bulk%grid%cd], &
             system_names(system%kind + merge(0, 3, system%nodes(1) > 0)))
       end associate
 

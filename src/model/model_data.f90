@@ -153,12 +153,14 @@ module model_data
       real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
    end type bar_type
 
-   !> CONM2: a mass at a node. CMASS2: a mass that resists along one direction.
+   !> CONM2: a mass at a node. CMASS2: a mass that resists along one direction. CONM1, and a CMASS between two components: a MATRIX.
    type, public :: point_mass_type
       integer  :: node = 0
       real(wp) :: mass = 0.0_wp              !! [force x time^2/length]
       real(wp) :: directed(3, 3) = 0.0_wp    !! resists along some directions only [force x time^2/length]
       real(wp) :: inertia(3, 3) = 0.0_wp     !! about the node, in global axes; acts on rotations [force x time^2 x length]
+      integer, allocatable  :: nodes(:)      !! with a MATRIX between their components, components of node 1 first; not
+      real(wp), allocatable :: matrix(:, :)  !! allocated: the terms above [force x time^2/length]
    end type point_mass_type
 
    !> A pretension section, at which a solid bolt is cut. The nodes of the section move with the marked side. Elements behind the
@@ -187,7 +189,7 @@ module model_data
       logical  :: of_rods = .false.          !! to rods alone
    end type rotation_type
 
-   !> A node on the face of shells, at a rigid LEVER from POINT, a node of the shells.
+   !> A node on the face of shells, at a rigid LEVER from POINT, a node of the shells; or the end of a CBUSH at its point.
    type, public :: face_node_type
       integer  :: point = 0
       integer  :: node = 0
@@ -260,6 +262,7 @@ module model_data
       type(section_type), allocatable      :: sections(:)
       type(rotation_type), allocatable     :: rotations(:)
       type(face_node_type), allocatable    :: faces(:)
+      logical, allocatable  :: is_scalar(:)          !! (points of the deck) SPOINT, which has one component; empty: there are none
       integer, allocatable  :: face_of(:)            !! (points) position of a node in faces, 0: none; empty: there are none
       integer, allocatable  :: rotation_of(:)        !! (points) position of a node in rotations, 0: none; empty: there are none
       integer, allocatable  :: node_section(:)       !! (n_nodes) the section that contains a node, 0: none; empty: there are none
