@@ -64,8 +64,11 @@ contains
          if (.not. is_glue) asked = stages%contact
          if (is_glue) sets = summed_sets(bulk%glue_sum, asked(1)%id)
          if (.not. is_glue) sets = summed_sets(bulk%contact_sum, asked(1)%id)
-         active = [(asked(1)%id > 0 .and. any(sets == bulk%pair(i)%set) .and. (bulk%pair(i)%is_glue .eqv. is_glue), &
-                    i = 1, size(bulk%pair))]
+         words = ''
+         allocate (active(size(bulk%pair)))
+         do i = 1, size(active)
+            active(i) = asked(1)%id > 0 .and. any(sets == bulk%pair(i)%set) .and. (bulk%pair(i)%is_glue .eqv. is_glue)
+         end do
          if (any(asked%id /= asked(1)%id)) call errors%add(maxval(asked%line), &
             'all stages must have the same '//key//'s; give the set above the first SUBCASE')
          if (asked(1)%id > 0 .and. .not. any(active)) call errors%add(asked(1)%line, &
@@ -106,7 +109,7 @@ contains
          mark = 0
          associate (bulk => deck%bulk, is_region => deck%bulk%region%id == id .and. .not. deck%bulk%region%is_parameter)
             s = findloc(is_region, .true., dim=1)
-            if (s == 0 .and. any(bulk%pmark%id == id)) mark = id ! a marked surface is a region too
+            if (s == 0 .and. any(bulk%pmark%id == id) .and. all(bulk%region%surface /= id)) mark = id ! a PMARK is a region too
             if (id > 0 .and. s + mark == 0) call errors%add(line, 'there is no BSURF, BSURFS, BCPROP or BCPROPS '// &
                                                             integer_text(id))
             if (count(is_region) > 1) call errors%add(line, 'region '//integer_text(id)//' is given more than once')
@@ -203,7 +206,6 @@ contains
    subroutine tighten_bolts(deck, errors)
       type(deck_type), intent(inout)       :: deck
       type(deck_error_list), intent(inout) :: errors
-      type(stage_type), allocatable :: before(:)
       type(set_reference)  :: asked
       integer, allocatable :: order(:), sets(:)
       integer :: i, k, n, s
@@ -220,27 +222,8 @@ contains
                sets = bulk%preload(i)%sets(order)
             end do
             n = size(sets)
-            if (n > 1 .or. control%stages(1)%load%id > 0 .or. count(control%stages%bolts%id > 0) > 1) then
-               allocate (before(n), source=control%stages(1))
-               k = control%stages(1)%id - n - 1
-               if (control%stages(1)%line == 0) then ! no SUBCASE
-                  control%stages(1)%id = n + 1
-                  k = 0
-               end if
-               if (k < 0) k = maxval(control%stages%id)
-               before%id = [(k + s, s = 1, n)]
-               before%load = set_reference()
-               before%temperature = set_reference()
-               before%increments = set_reference()
-               do s = 1, n
-                  before(s)%label = 'BOLT PRELOAD'
-                  before(s)%vibration = vibration_entries_type()
-               end do
-               do s = 2, size(control%stages)
-                  if (control%stages(s)%from%id == 0) control%stages(s)%from = set_reference(k + n, control%stages(s)%line)
-               end do
-               control%stages = [before, control%stages]
-            end if
+            if (n > 1 .or. control%stages(1)%load%id > 0 .or. count(control%stages%bolts%id > 0) > 1) &
+               call insert_stages(n, control%stages)
             do s = 1, n
                if (all(bulk%preload%set /= sets(s))) call errors%add(asked%line, 'BOLTLD: there is no BOLTFOR with set '// &
                                                                      integer_text(sets(s)))
@@ -256,6 +239,34 @@ contains
          bulk%bolt = pack(bulk%bolt, bulk%bolt%kind <= 0 .or. bulk%bolt%stage > 0)
       end associate
    end subroutine tighten_bolts
+
+   !> Insert N stages without loads before the first of STAGES; the others start from the end of the last of them.
+   subroutine insert_stages(n, stages)
+      integer, intent(in) :: n
+      type(stage_type), allocatable, intent(inout) :: stages(:)
+      type(stage_type) :: before(n)
+      integer :: highest, s
+
+      highest = stages(1)%id - 1
+      if (stages(1)%line == 0) then ! no SUBCASE
+         stages(1)%id = n + 1
+         highest = n
+      end if
+      if (highest < n) highest = maxval(stages%id) + n
+      do s = 1, n
+         before(s) = stages(1)
+         before(s)%id = highest - n + s
+         before(s)%label = 'BOLT PRELOAD'
+         before(s)%load = set_reference()
+         before(s)%temperature = set_reference()
+         before(s)%increments = set_reference()
+         before(s)%vibration = vibration_entries_type()
+      end do
+      do s = 2, size(stages)
+         if (stages(s)%from%id == 0) stages(s)%from = set_reference(highest, stages(s)%line)
+      end do
+      stages = [before, stages]
+   end subroutine insert_stages
 
    !> STAGE tightens the bolts of BOLTFOR card I, perhaps again.
    subroutine take_preload(deck, i, stage, errors)

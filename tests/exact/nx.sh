@@ -46,7 +46,7 @@ nx_blocks glued 'METHOD = NEWTON;BGSET = 3;OUTPUT = ALL' 'BCPROPS,1,1;BCPROPS,2,
 # a chain of three blocks whose faces match, glued, is one block: a cantilever under its end load
 nx_chain() {
    cards "$1" <<DECK
-SOL 101;CEND;BGSET = 1;SPC = 1;LOAD = 1;OUTPUT = ALL;BEGIN BULK;BLOCK3,1,1,4,2,2,0.,0.,0.;+,10.,5.,5.,,,,1,1;+,9
+SOL 101;CEND;${4:+BGSET = 1};SPC = 1;LOAD = 1;OUTPUT = ALL;BEGIN BULK;BLOCK3,1,1,4,2,2,0.,0.,0.;+,10.,5.,5.,,,,1,1;+,9
 BLOCK3,2,2,4,2,2,10.,0.,0.;+,20.,5.,5.,,,,101,101$2;BLOCK3,3,3,4,2,2,20.,0.,0.;+,30.,5.,5.,,,,201,201;+,,8,,,,,$3
 PSOLID,1,1;PSOLID,2,1;PSOLID,3,1;MAT1,1,210000.,,.3;PMARK,9;PMARK,8;SPCM,1,123,9;FORCEM,1,100.,0.,0.,1.,8;$4;ENDDATA
 DECK
@@ -59,7 +59,7 @@ nx_chain chain '' '' 'BCPROPS,1,1;BCPROPS,2,2;BCPROPS,3,3;BGSET,1,1,2;+,,2,3' &&
 # solid bolts: the section by its nodes or by the elements on both sides of a node is that of a marked surface
 nx_solid_bolt() {
    awk -v cards="$2" -v before="$3" '/^BOLT/ { gsub(/;/, "\n", cards); print cards; next }
-      /^SUBCASE 1/ { print before == "" ? $0 "\nBOLTLD = 9" : "BOLTLD = 9\n" before; next } /^  LABEL = TIGHTEN/ && before != "" { next }
+      /^SUBCASE 1/ { print before == "" ? $0 "\nBOLTLD = 9" : "BOLTLD = 9\n" before; next } before != "" && /^SUBCASE 2/ { print "SUBCASE 30"; next }
       { print }' input/solid_bolt.bdf > "$work/$1.bdf"
    run "$1"
 }
