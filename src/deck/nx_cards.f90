@@ -34,10 +34,10 @@ contains
       bolt%line = card%line
       call card%field('BID', bolt%id)
       call card%integer_at(2, 'ETYPE', bolt%kind, ok, bounds=at_least_1)
-      if (bolt%kind == 3) then
+      if (bolt%kind > 1) then
          if (card%text_at(3) /= '') call card%integer_at(3, 'CSID', bolt%system, ok, bounds=[0, huge(1)])
-         call card%integer_at(4, 'IDIR', bolt%axis, ok, bounds=[1, 3])
-         call card%integer_at(5, 'GP', bolt%node, ok, bounds=at_least_1)
+         if (card%text_at(4) /= '' .or. bolt%kind == 3) call card%integer_at(4, 'IDIR', bolt%axis, ok, bounds=[1, 3])
+         if (bolt%kind == 3) call card%integer_at(5, 'GP', bolt%node, ok, bounds=at_least_1)
       end if
       call card%list_ranges(3*bolt%kind - merge(1, 0, bolt%kind == 2), one_of(bolt%kind == 2, 'G', 'EID'), &
                             one_of(bolt%kind == 2, 'a node number', 'an element number'), bolt%parts)

@@ -68,6 +68,18 @@ for section in '2,0,3,603,606,609,612' '3,0,3,603,,,;,601,602,651,652'; do
    nx_solid_bolt section "BOLT,1,$section;BOLTFOR,9,6000.,1" '' && \
       same "bolt of ETYPE ${section%%,*}: the same bytes" "$(cmp "$work/solid_bolt.joint.csv" "$work/section.joint.csv" && echo same)" same
 done
+# the preload acts along the axis IDIR, also at a section that is inclined to it: a column held at both ends
+cards inclined <<'DECK'
+SOL 101;CEND;SPC = 1;SUBCASE 1;BOLTLD = 9;BEGIN BULK;GRID,1,,0.,0.,0.;GRID,2,,4.,0.,0.;GRID,3,,4.,4.,0.;GRID,4,,0.,4.,0.;GRID,5,,0.,0.,4.
+GRID,6,,4.,0.,6.;GRID,7,,4.,4.,6.;GRID,8,,0.,4.,4.;GRID,9,,0.,0.,9.;GRID,10,,4.,0.,9.;GRID,11,,4.,4.,9.;GRID,12,,0.,4.,9.
+CHEXA,1,1,1,2,3,4,5,6;,7,8;CHEXA,2,1,5,6,7,8,9,10;,11,12;PSOLID,1,1;MAT1,1,1000.,,.0;SPC1,1,123,1,2,3,4;SPC1,1,123,9,10,11,12
+BOLT,1,2,0,3,5,6,7,8;BOLTFOR,9,70.,1;ENDDATA
+DECK
+run inclined && {
+   near 'inclined section: the reaction is the preload' \
+      "$("$query" "$work/inclined.reaction.csv" rows 'kind = "SPC1" and z = 9 within 1e-6' print force_z)" 70 1e-9
+   near 'and the stress that of the cross-section' "$("$query" "$work/inclined.bolt.csv" print stress)" 70/16 1e-9
+}
 # BOLTSEQ: a bolt tightened in two steps, in stages before the first SUBCASE; the monotonic path has one end
 nx_solid_bolt sequence 'BOLT,1,2,0,3,603,606,609,612;BOLTFOR,3,2500.,1;BOLTFOR,4,6000.,1;BOLTSEQ,9;+,2,4;+,1,3' 'SUBCASE 20' && {
    near 'first step' "$("$query" "$work/sequence.bolt.csv" rows 'stage = 18' print force)" 2500 1e-9
