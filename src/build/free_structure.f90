@@ -36,7 +36,7 @@ contains
          are_free = asked%free .or. asked%by_method
          if (.not. any(are_free .and. deck%shares([(i, i = 1, size(asked))])) .or. &
              any(freedoms%held(:, :mesh%n_nodes - n_sections(mesh)))) return
-         if (any(asked%modes%id > 0 .and. .not. are_free .and. deck%shares([(i, i = 1, size(asked))]))) return
+         if (any(asked%modes%id /= 0 .and. .not. are_free .and. deck%shares([(i, i = 1, size(asked))]))) return
       end associate
       if (any(deck%bulk%spring%nodes(1) == 0 .or. deck%bulk%spring%nodes(2) == 0)) return ! a grounded spring
       do i = 1, size(joints%element)

@@ -2,7 +2,7 @@
 !! FORCE, FORCE1 and FORCE2 are vectors in global axes; MOMENT acts on rotations.
 module load_build
    use body_loads, only: acceleration_field, add_gravity, add_to_beam, check_plane, find_beam_loads, find_fields
-   use bulk_data, only: bulk_data_type, force_card
+   use bulk_data, only: force_card
    use case_entries, only: set_reference
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
@@ -20,6 +20,7 @@ module load_build
    use text_tools, only: integer_text, one_of
    use tolerances, only: zero_component, zero_component_along
    use unknowns, only: node_axes, place_of_component, rotation_at, rotation_component
+   use wave_build, only: add_force, check_waves, has_set, list_waves, planned_wave
    implicit none
    private
 
@@ -253,26 +254,17 @@ contains
 
    end subroutine check_cards
 
-   !> Whether any load card belongs to SET.
-   pure logical function has_set(bulk, set)
-      type(bulk_data_type), intent(in) :: bulk
-      integer, intent(in)              :: set
-
-      has_set = any(bulk%force%set == set) .or. any(bulk%pressure%set == set) .or. any(bulk%surface_load%set == set) .or. &
-                any(bulk%gravity%set == set) .or. any(bulk%displacement%set == set) .or. any(bulk%beam_load%set == set)
-   end function has_set
-
-   !> The total load at the end of each stage, and the amplitude of its oscillating load.
-   subroutine build_loads(deck, from, mesh, freedoms, history, oscillating)
+   !> The total load at the end of each stage, and the patterns of its oscillating loads.
+   subroutine build_loads(deck, from, mesh, freedoms, history, waves)
       type(checked_deck), intent(in)  :: deck
       integer, intent(in)             :: from(:) !! (stages) position of the stage from whose end each starts, 0: from rest
       type(mesh_type), intent(in) :: mesh
       type(freedoms_type), intent(in) :: freedoms
       type(history_type), intent(inout) :: history
-      type(stage_load_type), allocatable, intent(out) :: oscillating(:) !! (stages) DLOAD; empty where none is given
+      type(planned_wave), allocatable, intent(out) :: waves(:) !! of DLOAD
       type(card_loads) :: cards
       type(nodal_loads), allocatable :: at_end(:) ! (0:stages)
-      integer :: s
+      integer :: i, s
 
       call find_nodal_forces(deck, mesh, freedoms, cards%node, cards%force)
       call check_cards(deck, mesh, freedoms)
@@ -280,7 +272,7 @@ contains
       call find_beam_loads(deck, mesh, cards%beam, cards%end_force)
       call check_kept(deck, mesh)
       call find_pressed_sides(deck, mesh, cards%pressed)
-      allocate (history%stages(size(deck%control%stages)), oscillating(size(deck%control%stages)))
+      allocate (history%stages(size(deck%control%stages)))
       history%stages%from = from
       allocate (at_end(0:size(history%stages)))
       if (size(deck%bulk%bolt) > 0 .and. .not. deck%errors%any()) then
@@ -298,10 +290,15 @@ contains
                call forget_others(history%stages(s + 1:)%from, at_end)
             end if
             if (loads%from > 0) loads%changes(1) = loads%changes(1) .or. differ(history%stages(loads%from)%moved, loads%moved)
-            allocate (oscillating(s)%node(0), oscillating(s)%force(3, 0))
-            call add_case(stage%vibration%load, 'DLOAD', oscillating(s))
          end associate
       end do
+      call list_waves(deck, mesh, freedoms, waves)
+      do i = 1, size(waves)
+         do s = 1, size(waves(i)%sets)
+            call add_case(waves(i)%sets(s), trim(waves(i)%keys(s)), waves(i)%load)
+         end do
+      end do
+      call check_waves(deck, waves)
 
    contains
 
@@ -387,20 +384,5 @@ contains
       end subroutine add_faces
 
    end subroutine add_set
-
-   !> Append a FORCE at NODE.
-   pure subroutine add_force(node, force, loads)
-      integer, intent(in)                  :: node
-      real(wp), intent(in)                 :: force(3)
-      type(stage_load_type), intent(inout) :: loads
-
-      if (loads%n == size(loads%node)) then
-         loads%node = [loads%node, loads%node, spread(0, 1, 8)]
-         loads%force = reshape([loads%force, loads%force, spread(force, 2, 8)], [3, size(loads%node)])
-      end if
-      loads%n = loads%n + 1
-      loads%node(loads%n) = node
-      loads%force(:, loads%n) = force
-   end subroutine add_force
 
 end module load_build

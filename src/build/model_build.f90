@@ -24,16 +24,17 @@ module model_build
    use mesh_build, only: build_mesh, check_named_nodes
    use mesh_queries, only: start_freedoms, start_mesh
    use mesh_watch, only: crack_words, repeated_words
-   use model_data, only: freedoms_type, history_type, joints_type, mesh_type, model_type, n_sections, stage_load_type
+   use model_data, only: freedoms_type, history_type, joints_type, mesh_type, model_type, n_sections
    use pretension_section, only: build_sections
    use rigid_elements, only: build_dependents, name_surface_nodes
    use rod_torsion, only: add_torsion
+   use shell_build, only: bow_edges, build_shells
    use shell_faces, only: build_shell_faces, couple_shell_faces
    use shell_ties, only: find_ties, tie_type
    use spring_build, only: build_bars, build_springs
    use stage_build, only: find_shown_nodes, plan_stages
    use stage_plan, only: stage_plan_type
-   use structural_build, only: bow_edges, build_beams, build_rotations, build_shells, leave_out_idle
+   use structural_build, only: build_beams, build_rotations, leave_out_idle
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use surface_parts, only: divide_shared_surfaces
@@ -41,6 +42,7 @@ module model_build
    use temperature_build, only: build_temperatures
    use unit_watch, only: watch_units
    use vibration_build, only: plan_vibrations
+   use wave_build, only: planned_wave
    implicit none
    private
 
@@ -58,7 +60,7 @@ contains
       type(deck_error_list), intent(inout), target :: errors
       type(checked_deck) :: checked
       type(tie_type), allocatable :: ties(:)
-      type(stage_load_type), allocatable :: oscillating(:)
+      type(planned_wave), allocatable :: waves(:)
       logical :: is_whole
 
       allocate (model%warnings(0))
@@ -76,9 +78,9 @@ contains
             block
                type(freedoms_type), allocatable :: sets(:)
                type(history_type) :: history
-               call make_stages(checked, plan, mesh, joints, ties, sets, history, oscillating)
+               call make_stages(checked, plan, mesh, joints, ties, sets, history, waves)
                call find_shown_nodes(checked, mesh, sets(1), plan)
-               call plan_vibrations(checked, mesh, joints%list%id, sets, oscillating, plan)
+               call plan_vibrations(checked, mesh, joints%list%id, sets, waves, plan)
                if (.not. (any(sets(1)%used) .or. errors%any())) &
                   call errors%add(0, 'nothing to solve: expected body elements or interface elements')
                if (errors%any()) return
@@ -87,7 +89,7 @@ contains
                call errors%warn(crack_words(mesh, joints, sets(1)))
                call watch_units(deck, joints, errors)
                call take_parts(joints, sets, history, model)
-               if (deck%bulk%parameters%holds_idle) call hold_idle_of_sets(oscillating, model, errors)
+               if (deck%bulk%parameters%holds_idle) call hold_idle_of_sets(waves, model, errors)
             end block
          end block
       end associate
@@ -109,20 +111,20 @@ contains
    end subroutine take_parts
 
    !> Hold the idle components of MODEL under the supports of each stage, and warn of them.
-   subroutine hold_idle_of_sets(oscillating, model, errors)
-      type(stage_load_type), intent(in)    :: oscillating(:)
+   subroutine hold_idle_of_sets(waves, model, errors)
+      type(planned_wave), intent(in)       :: waves(:)
       type(model_type), intent(inout)      :: model
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: words, first
       integer :: k
 
-      call hold_idle(oscillating, model, first)
+      call hold_idle([(waves(k)%load, k = 1, size(waves))], model, first)
       call errors%warn(first)
       if (.not. allocated(model%sets)) return
       model%sets(1) = model%freedoms
       do k = 2, size(model%sets)
          model%freedoms = model%sets(k)
-         call hold_idle(oscillating, model, words)
+         call hold_idle([(waves(k)%load, k = 1, size(waves))], model, words)
          if (words /= first) call errors%warn(words)
          model%sets(k) = model%freedoms
       end do
@@ -179,7 +181,7 @@ contains
 
    !> Make the SETS of freedoms, one for the stages with the same SPC and MPC, and with them the HISTORY. After an error in the first
    !! the others are not made.
-   subroutine make_stages(deck, plan, mesh, joints, ties, sets, history, oscillating)
+   subroutine make_stages(deck, plan, mesh, joints, ties, sets, history, waves)
       type(checked_deck), intent(inout) :: deck
       type(stage_plan_type), intent(in) :: plan
       type(mesh_type), intent(in)       :: mesh
@@ -187,10 +189,10 @@ contains
       type(tie_type), intent(in)        :: ties(:)
       type(freedoms_type), allocatable, intent(out)   :: sets(:)
       type(history_type), intent(out)                 :: history
-      type(stage_load_type), allocatable, intent(out) :: oscillating(:)
+      type(planned_wave), allocatable, intent(out)    :: waves(:)
       type(expansion_type), allocatable  :: expansions(:)
       type(history_type) :: other
-      type(stage_load_type), allocatable :: other_oscillating(:)
+      type(planned_wave), allocatable :: other_waves(:)
       integer :: k, s
 
       allocate (sets(size(plan%first_with)))
@@ -204,14 +206,16 @@ contains
          end if
          call make_freedoms(deck, mesh, joints, ties, sets(k), expansions)
          if (k == 1) then
-            call make_history(deck, plan, mesh, sets(k), expansions, history, oscillating)
+            call make_history(deck, plan, mesh, sets(k), expansions, history, waves)
             cycle
          end if
-         call make_history(deck, plan, mesh, sets(k), expansions, other, other_oscillating)
+         call make_history(deck, plan, mesh, sets(k), expansions, other, other_waves)
          do s = 1, size(plan%stages)
             if (plan%stages(s)%supports /= k) cycle
             history%stages(s) = other%stages(s)
-            oscillating(s) = other_oscillating(s)
+         end do
+         do s = 1, size(waves)
+            if (plan%stages(waves(s)%stage)%supports == k) waves(s) = other_waves(s)
          end do
       end do
       if (.not. deck%errors%any()) call sum_cases(plan, history)
@@ -239,16 +243,16 @@ contains
    end subroutine make_freedoms
 
    !> Make the load HISTORY, and the loads that oscillate.
-   subroutine make_history(deck, plan, mesh, freedoms, expansions, history, oscillating)
+   subroutine make_history(deck, plan, mesh, freedoms, expansions, history, waves)
       type(checked_deck), intent(in)     :: deck
       type(stage_plan_type), intent(in)  :: plan
       type(mesh_type), intent(in)        :: mesh
       type(freedoms_type), intent(in)    :: freedoms
       type(expansion_type), intent(in)   :: expansions(:)
       type(history_type), intent(out)    :: history
-      type(stage_load_type), allocatable, intent(out) :: oscillating(:)
+      type(planned_wave), allocatable, intent(out) :: waves(:)
 
-      call build_loads(deck, plan%stages%begins_at, mesh, freedoms, history, oscillating)
+      call build_loads(deck, plan%stages%begins_at, mesh, freedoms, history, waves)
       if (.not. deck%errors%any()) call check_balance(deck, mesh, freedoms, history)
       call build_temperatures(deck, expansions, mesh, freedoms, history)
    end subroutine make_history

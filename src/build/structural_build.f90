@@ -1,27 +1,24 @@
-!> Shells and beams from their cards: sections and geometry, and the rotation nodes of the model.
+!> Beams from their cards: sections and geometry, and the rotation nodes of the model.
 !! Nodes of shells and beams and reference nodes have rotations.
 module structural_build
    use beam_element, only: beam_axes, beam_length
-   use bulk_data, only: edge_card, edge_crod, property_card, rigid_card
+   use bulk_data, only: edge_card, edge_crod, rigid_card
    use bush_build, only: bush_type, stiffness_turns
    use deck_check, only: checked_deck
-   use elasticity, only: beam, elasticity_matrix, max_stresses, plane_stress, shell
+   use elasticity, only: beam, shell
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: id_table_type
-   use mesh_queries, only: element_points, is_beam, is_scalar_point, is_shell, n_rotations, open_left_out
+   use mesh_queries, only: element_points, is_beam, is_scalar_point, n_rotations, open_left_out
    use model_data, only: freedoms_type, mesh_type, rotation_type
    use node_build, only: append_unknowns
    use rod_torsion, only: add_twisted, leave_out_untwisted
-   use shell_membrane, only: shell_law
    use text_tools, only: integer_text
    use unknowns, only: node_axes
    implicit none
    private
 
-   real(wp), parameter :: one_side = 0.5_wp   ! cosine: triangles at an edge less than 60 degrees apart lie on one side of it
-
-   public :: bow_edges, build_beams, build_rotations, build_shells, is_beam_edge, leave_out_idle
+   public :: build_beams, build_rotations, has_rotations, is_beam_edge, leave_out_idle
 
 contains
 
@@ -201,93 +198,6 @@ contains
       if (arm <= 0.0_wp) arm = 1.0_wp
    end function arm_of
 
-   !> Build the shells of the model, and set the positions of its beams.
-   subroutine build_shells(deck, mesh)
-      type(checked_deck), intent(in)  :: deck
-      type(mesh_type), intent(inout) :: mesh
-      type(shell_law), allocatable :: of_property(:)
-      type(id_table_type) :: plates
-      integer :: e, i, n(2)
-
-      do i = 1, size(deck%bulk%plate)
-         associate (card => deck%bulk%element(deck%bulk%plate(i)%element))
-            if (all(mesh%properties%id /= card%property .or. mesh%properties%state /= shell)) call deck%field_error(card%line, &
-               'ZOFFS', 'this and thicknesses at corners are for shells in a model of space; expected blanks')
-         end associate
-      end do
-      if (.not. any([(has_rotations(mesh, e), e = 1, mesh%n_elements)])) return
-      mesh%structural%place = spread(0, 1, mesh%n_elements)
-      allocate (of_property(size(mesh%properties)))
-      do i = 1, size(deck%bulk%pshell)
-         if (mesh%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! they come first
-      end do
-      call plates%build([(deck%bulk%element(deck%bulk%plate(i)%element)%id, i = 1, size(deck%bulk%plate))])
-      n = 0
-      do e = 1, mesh%n_elements
-         if (.not. has_rotations(mesh, e)) cycle
-         i = merge(2, 1, is_beam(mesh, e))
-         n(i) = n(i) + 1
-         mesh%structural%place(e) = n(i)
-      end do
-      deallocate (mesh%structural%shells, mesh%structural%beams)
-      allocate (mesh%structural%shells(n(1)), mesh%structural%beams(n(2)))
-      do e = 1, mesh%n_elements
-         if (.not. is_shell(mesh, e)) cycle
-         associate (law => mesh%structural%shells(mesh%structural%place(e)))
-            law = of_property(mesh%element_property(e))
-            i = 0
-            if (size(deck%bulk%plate) > 0) i = plates%find(mesh%element_id(e))
-            if (i == 0) cycle
-            law%offset = deck%bulk%plate(i)%offset
-            where (deck%bulk%plate(i)%thickness > 0.0_wp) law%thickness = deck%bulk%plate(i)%thickness
-         end associate
-      end do
-   end subroutine build_shells
-
-   !> Find the edges between triangular shells, which their drilling rotations bow (shell_membrane), once shared surfaces are split:
-   !! triangles lie on different sides of the edge, and no quadrilateral has it. Triangles on the same nodes lie on one side.
-   pure subroutine bow_edges(mesh)
-      type(mesh_type), intent(inout) :: mesh
-      integer :: b, e, i, k
-
-      do e = 1, mesh%n_elements
-         if (.not. is_shell(mesh, e)) cycle
-         if (size(element_points(mesh, e)) /= 3) cycle
-         associate (nodes => mesh%element_nodes(:3, e), law => mesh%structural%shells(mesh%structural%place(e)))
-            do i = 1, 3
-               b = nodes(modulo(i, 3) + 1)
-               law%bowed(i) = .false.
-               do k = mesh%first_at(nodes(i)), mesh%first_at(nodes(i) + 1) - 1
-                  associate (other => mesh%elements_at(k))
-                     if (.not. is_shell(mesh, other)) cycle
-                     if (all(element_points(mesh, other) /= b)) cycle
-                     if (size(element_points(mesh, other)) == 4) then
-                        law%bowed(i) = .false.
-                        exit
-                     end if
-                     if (dot_product(across(e, nodes(i), b), across(other, nodes(i), b)) < one_side) law%bowed(i) = .true.
-                  end associate
-               end do
-            end do
-         end associate
-      end do
-
-   contains
-
-      !> The direction from the edge between nodes A and B into triangle E.
-      pure function across(e, a, b) result(inward)
-         integer, intent(in) :: e, a, b
-         real(wp) :: inward(3)
-
-         associate (along => mesh%x(:, b) - mesh%x(:, a), centre => sum(mesh%x(:, mesh%element_nodes(:3, e)), dim=2)/3.0_wp)
-            inward = centre - mesh%x(:, a)
-            inward = inward - dot_product(inward, along)/max(dot_product(along, along), tiny(1.0_wp))*along
-            inward = inward/max(norm2(inward), tiny(1.0_wp))
-         end associate
-      end function across
-
-   end subroutine bow_edges
-
    !> Build the beams of the model; displacement systems must be known. Errors: a beam without length, or without plane 1.
    subroutine build_beams(deck, mesh)
       type(checked_deck), intent(in)  :: deck
@@ -347,42 +257,5 @@ contains
          end associate
       end do
    end subroutine build_beams
-
-   !> The LAW of shells of a PSHELL.
-   subroutine find_shell(deck, card, law)
-      type(checked_deck), intent(in)  :: deck
-      type(property_card), intent(in) :: card
-      type(shell_law), intent(out)    :: law
-      real(wp) :: d(max_stresses, max_stresses)
-      integer  :: bending, membrane, shear
-
-      membrane = material_of(card%material)
-      bending = material_of(card%bending, 'MID2')
-      shear = material_of(card%shear, 'MID3')
-      if (any([membrane, bending] == 0)) return
-      associate (mat1 => deck%bulk%mat1)
-         call elasticity_matrix(plane_stress, mat1(membrane)%e, mat1(membrane)%nu, d)
-         law%d = d(:3, :3)
-         law%expansion = mat1(membrane)%alpha
-         call elasticity_matrix(plane_stress, mat1(bending)%e, mat1(bending)%nu, d)
-         law%bending = card%inertia_ratio*d(:3, :3)
-         if (shear > 0) law%shear = mat1(shear)%shear*card%shear_ratio
-      end associate
-      law%thickness = card%thickness
-
-   contains
-
-      !> The MAT1 with this ID; 0: blank, or missing. A missing MID1 is reported elsewhere.
-      integer function material_of(id, field) result(k)
-         integer, intent(in) :: id
-         character(*), intent(in), optional :: field
-
-         k = 0
-         if (id <= 0) return
-         k = findloc(deck%bulk%mat1%id, id, dim=1)
-         if (k == 0 .and. present(field)) call deck%field_error(card%line, field, 'there is no MAT1 '//integer_text(id))
-      end function material_of
-
-   end subroutine find_shell
 
 end module structural_build

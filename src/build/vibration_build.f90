@@ -5,11 +5,12 @@ module vibration_build
    use deck_check, only: checked_deck
    use kinds, only: wp
    use mesh_queries, only: is_shell
-   use model_data, only: freedoms_type, mesh_type, n_sections, stage_load_type, supported
-   use stage_plan, only: stage_plan_type, backbone_plan, merged, node_pair, response_plan, vibration_plan_type
+   use model_data, only: freedoms_type, mesh_type, n_sections, supported
+   use stage_plan, only: stage_plan_type, backbone_plan, merged, node_pair, response_plan, vibration_plan_type, wave_type
    use stage_build, only: find_limited_nodes
    use text_tools, only: integer_text, one_of
-   use stage_entries, only: vibration_entries_type
+   use stage_entries, only: any_modes, vibration_entries_type
+   use wave_build, only: planned_wave
    implicit none
    private
 
@@ -24,12 +25,12 @@ contains
    !> Plan the vibration of the stages with MODES. A blank ND means the lowest mode, or with V2 all modes up to it, as in NASTRAN;
    !! where both are blank and a response is asked for, the modes that cover its frequencies. Frequencies are not negative, so that
    !! V1 <= 0 is no limit.
-   subroutine plan_vibrations(deck, mesh, joint_ids, sets, oscillating, plan)
+   subroutine plan_vibrations(deck, mesh, joint_ids, sets, waves, plan)
       type(checked_deck), intent(in)       :: deck
       type(mesh_type), intent(in) :: mesh
       integer, intent(in)                  :: joint_ids(:)
       type(freedoms_type), intent(in) :: sets(:) !! of the plan
-      type(stage_load_type), intent(in)    :: oscillating(:) !! (stages) the loads of DLOAD
+      type(planned_wave), intent(in)       :: waves(:) !! the loads of DLOAD
       type(stage_plan_type), intent(inout) :: plan
       integer :: k, s, undamped
       logical :: covers
@@ -51,7 +52,10 @@ contains
                                    any(mesh%properties%damping > 0.0_wp) .or. any(mesh%bars%damping > 0.0_wp)
             covers = .false.
             k = findloc(deck%bulk%eigrl%id, asked%modes%id, dim=1)
-            if (k == 0) then
+            if (asked%modes%id == any_modes) then
+               covers = .true.
+               vibration%most = 1
+            else if (k == 0) then
                call deck%errors%add(asked%modes%line, 'MODES: there is no EIGRL '//integer_text(asked%modes%id))
             else
                vibration%eigrl_card = deck%bulk%eigrl(k)
@@ -66,14 +70,16 @@ contains
             if (asked%frequency%id > 0) then
                plan%has_responses = .true.
                allocate (vibration%response)
-               call plan_response(deck, mesh, freedoms, asked, oscillating(s), vibration%response)
+               call plan_response(deck, mesh, freedoms, asked, waves, s, vibration%response)
+               vibration%response%is_direct = asked%modes%id == any_modes
                vibration%response%pairs = [node_pair ::]
                if (allocated(plan%stages(s)%pairs)) vibration%response%pairs = plan%stages(s)%pairs
                if (covers) call cover(vibration)
             end if
             if (asked%backbone%id > 0) call plan_backbone(deck, mesh, freedoms, asked, vibration)
             if (asked%frequency%id == 0) cycle
-            if (asked%damping%id == 0 .and. .not. vibration%has_losses .and. asked%frequency%line /= undamped) then
+            if (asked%damping%id == 0 .and. .not. vibration%has_losses .and. asked%frequency%line /= undamped .and. &
+                .not. deck%control%of_nastran) then
                undamped = asked%frequency%line ! one warning for an entry above all stages
                call deck%errors%add(undamped, 'FREQUENCY: expected damping: SDAMPING, AMPLITUDE for the loss factors of the '// &
                   'joints, PARAM G, or GE on a MAT1; without it peaks are unbounded')
@@ -94,7 +100,7 @@ contains
       if (highest <= max(0.0_wp, vibration%lowest)) return
       vibration%has_highest = .true.
       vibration%highest = highest
-      vibration%most = most_covering
+      vibration%most = merge(0, most_covering, vibration%response%is_direct)
    end subroutine cover
 
    !> Check that there is what OUTPUT limits the tables of modes to: once for an entry above all stages.
@@ -162,21 +168,29 @@ contains
    end subroutine plan_backbone
 
    !> FREQUENCY of one stage.
-   subroutine plan_response(deck, mesh, freedoms, asked, load, response)
+   subroutine plan_response(deck, mesh, freedoms, asked, waves, stage, response)
       type(checked_deck), intent(in)           :: deck
       type(mesh_type), intent(in) :: mesh
       type(freedoms_type), intent(in) :: freedoms
       type(vibration_entries_type), intent(in) :: asked
-      type(stage_load_type), intent(in)        :: load
+      type(planned_wave), intent(in)           :: waves(:)
+      integer, intent(in)                      :: stage
       type(response_plan), intent(out)         :: response
-      logical, allocatable :: are_named(:)
+      logical, allocatable :: about_modes(:), are_named(:)
+      integer, allocatable :: ours(:)
       integer :: i, k
 
       allocate (response%frequencies(0))
+      associate (cards => deck%bulk%frequency)
+         about_modes = [(cards(i)%spread > 0.0_wp .or. cards(i)%cluster > 0.0_wp .or. &
+                         (allocated(cards(i)%list) .and. cards(i)%last > 0.0_wp), i = 1, size(cards))]
+      end associate
       do i = 1, size(deck%bulk%frequency)
          associate (card => deck%bulk%frequency(i))
-            if (card%set /= asked%frequency%id .or. card%spread > 0.0_wp) cycle
-            if (card%last > 0.0_wp) then
+            if (card%set /= asked%frequency%id .or. about_modes(i)) cycle
+            if (allocated(card%list)) then
+               response%frequencies = merged(response%frequencies, card%list)
+            else if (card%last > 0.0_wp) then
                response%frequencies = merged(response%frequencies, &
                                              [(card%first*(card%last/card%first)**(real(k, wp)/card%n), k = 0, card%n)])
             else
@@ -184,27 +198,49 @@ contains
             end if
          end associate
       end do
-      response%spreads = pack(deck%bulk%frequency, deck%bulk%frequency%set == asked%frequency%id .and. &
-                                                   deck%bulk%frequency%spread > 0.0_wp) ! FREQ4
+      ours = pack([(i, i = 1, size(about_modes))], deck%bulk%frequency%set == asked%frequency%id .and. about_modes)
+      response%spreads = deck%bulk%frequency(ours)
       if (size(response%frequencies) + size(response%spreads) == 0) call deck%errors%add(asked%frequency%line, &
-         'FREQUENCY: there is no FREQ1, FREQ2 or FREQ4 with set '//integer_text(asked%frequency%id))
+         'FREQUENCY: there is no FREQ, FREQ1 to FREQ5 with set '//integer_text(asked%frequency%id))
       response%is_structural = deck%bulk%parameters%is_structural
-      allocate (response%force(3, mesh%n_nodes), source=0.0_wp)
-      do k = 1, load%n
-         response%force(:, load%node(k)) = response%force(:, load%node(k)) + load%force(:, k)
+      ours = pack([(i, i = 1, size(waves))], waves%stage == stage)
+      allocate (response%waves(size(ours)))
+      do i = 1, size(ours)
+         associate (load => waves(ours(i))%load, wave => response%waves(i))
+            wave%law = waves(ours(i))%law
+            allocate (wave%force(3, mesh%n_nodes), source=0.0_wp)
+            do k = 1, load%n
+               wave%force(:, load%node(k)) = wave%force(:, load%node(k)) + load%force(:, k)
+            end do
+            if (allocated(load%moved) .and. wave%law%card%motion > 0) wave%moved = load%moved
+            if (allocated(load%moved) .and. .not. allocated(wave%law%tables)) call deck%errors%add(asked%load%line, &
+               'DLOAD: set '//integer_text(asked%load%id)//' has prescribed displacements (SPCD); expected forces only')
+         end associate
       end do
-      if (allocated(load%moved)) call deck%errors%add(asked%load%line, 'DLOAD: set '//integer_text(asked%load%id)// &
-         ' has prescribed displacements (SPCD); expected forces only')
       if (asked%damping%id > 0) then
          k = findloc(deck%bulk%tabdmp1%id, asked%damping%id, dim=1)
          if (k > 0) response%damping = deck%bulk%tabdmp1(k)
          if (k == 0) call deck%errors%add(asked%damping%line, 'SDAMPING: there is no TABDMP1 '//integer_text(asked%damping%id))
       end if
-      if (.not. allocated(asked%response)) return
-      call find_limited_nodes(deck, mesh, 'RESPONSE', asked%response, are_named)
+      if (allocated(asked%response)) then
+         call find_limited_nodes(deck, mesh, 'RESPONSE', asked%response, are_named)
+      else
+         are_named = spread(.false., 1, mesh%n_nodes)
+         do i = 1, size(response%waves)
+            are_named = are_named .or. any(abs(response%waves(i)%force) > 0.0_wp, dim=1)
+            do k = 1, merge(mesh%n_nodes, 0, allocated(response%waves(i)%moved))
+               are_named(k) = are_named(k) .or. any(abs(response%waves(i)%moved(:, k)) > 0.0_wp)
+            end do
+         end do
+         do k = 1, size(mesh%rotations) ! a moment is on the node of rotations
+            associate (rotation => mesh%rotations(k))
+               are_named(rotation%point) = are_named(rotation%point) .or. are_named(rotation%node)
+            end associate
+         end do
+      end if
       are_named = are_named .and. freedoms%used .and. mesh%node_id > 0
       response%nodes = pack([(k, k = 1, mesh%n_nodes)], are_named)
-      if (size(response%nodes) == 0 .and. .not. deck%errors%any()) call deck%errors%add(asked%response(1)%line, &
+      if (size(response%nodes) == 0 .and. .not. deck%errors%any()) call deck%errors%add(asked%line(size(asked%line)), &
          'RESPONSE: names no node of an element')
    end subroutine plan_response
 

@@ -6,8 +6,10 @@ module bulk_data
    use card_fields, only: id_ranges
    use elasticity, only: plane_stress
    use element_kinds, only: max_nodes
+   use frequency_loads, only: response_cards_type
    use kinds, only: wp
    use nastran_compatibility, only: ignored_entries_type, parameters_type
+   use nodal_matrices, only: matrix_cards_type
    use normal_curve, only: normal_law
    use iwan_law, only: iwan_type
    use shear_stiffness, only: shear_law
@@ -50,10 +52,13 @@ module bulk_data
       logical  :: in_basic = .false.                    ! OFFT B: X1, X2, X3 are in basic axes
    end type edge_card
 
-   !> Additional data of a shell card: the position of its element_card, ZOFFS and T1 to T4.
+   !> Additional data of a shell card: the position of its element_card, ZOFFS, T1 to T4, THETA and MCID.
    type, public :: plate_card
       integer  :: element = 0
       real(wp) :: offset = 0.0_wp, thickness(4) = 0.0_wp ! 0: that of the PSHELL
+      logical  :: is_relative = .false.                 ! TFLAG: T1 to T4 are shares of T
+      real(wp) :: angle = 0.0_wp                        ! THETA, in degrees
+      integer  :: system = -1                           ! MCID; -1: THETA
    end type plate_card
 
    !> PBAR, PBARL, PBEAM, PBEAML.
@@ -72,9 +77,16 @@ module bulk_data
       real(wp) :: x(2) = 0.0_wp, p(2) = 0.0_wp
    end type beam_load_card
 
-   !> PSHELL, PAXIS and PSOLID.
+   type, public :: ply_card
+      integer  :: id = 0, material = 0, at = 0          ! AT is the data field of MID
+      real(wp) :: thickness = 0.0_wp, angle = 0.0_wp    ! in degrees
+      logical  :: shown = .false.                       ! SOUT
+   end type ply_card
+
+   !> PSHELL, PCOMP, PAXIS and PSOLID.
    type, public :: property_card
       integer  :: line = 0, id = 0, material = 0
+      character(6) :: name = 'PSHELL'                   ! or PCOMP
       integer  :: state = plane_stress                  ! of elasticity
       real(wp) :: thickness = 0.0_wp                    ! of a PSHELL
       logical  :: incompatible = .false.                ! modes of Wilson and Taylor
@@ -83,6 +95,10 @@ module bulk_data
       real(wp) :: extra_mass = 0.0_wp                   ! NSM, per area
       real(wp) :: fibre(2) = 0.0_wp                     ! Z1, Z2
       logical  :: fibre_given(2) = .false.
+      integer  :: material_at = 2                       ! data field of MATERIAL
+      type(ply_card), allocatable :: plies(:)           ! of a PCOMP
+      real(wp) :: lowest = 0.0_wp                       ! Z0
+      real(wp) :: reference = 0.0_wp, damping = 0.0_wp  ! TREF and GE of a PCOMP
    end type property_card
 
    type, public :: prod_card
@@ -151,6 +167,8 @@ module bulk_data
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF
       real(wp) :: damping = 0.0_wp                      ! GE
       real(wp) :: strength = 0.0_wp                     ! ST, 0: blank
+      character(4) :: name = 'MAT1'                     ! MAT2 or MAT8: of shells alone, with the values below
+      real(wp) :: stress(3, 3) = 0.0_wp, expansions(3) = 0.0_wp, shear_moduli(2) = 0.0_wp
    end type mat1_card
 
    !> SPC, SPC1 and SPCM: the nodes FIRST(k) to LAST(k), or all nodes of a marked surface.
@@ -397,11 +415,15 @@ module bulk_data
    end type jampl_card
 
    !> FREQ1: frequencies FIRST + k STEP, k = 0 to N; FREQ2: FIRST (LAST/FIRST)**(k/N). FREQ4: N frequencies from 1 - SPREAD to
-   !! 1 + SPREAD times the frequency of every mode from FIRST to LAST.
+   !! 1 + SPREAD times the frequency of every mode from FIRST to LAST. FREQ: LIST; FREQ5: LIST times every such mode. FREQ3: N
+   !! frequencies between neighbours among FIRST, such modes and LAST.
    type, public :: frequency_card
       integer  :: line = 0, set = 0, n = 0
-      real(wp) :: first = 0.0_wp, last = 0.0_wp         ! LAST is 0: a FREQ1
-      real(wp) :: step = 0.0_wp, spread = 0.0_wp        ! of a FREQ1; of a FREQ4, 0: a FREQ1 or FREQ2
+      real(wp) :: first = 0.0_wp, last = 0.0_wp         ! LAST is 0: a FREQ or FREQ1
+      real(wp) :: step = 0.0_wp, spread = 0.0_wp        ! of a FREQ1; of a FREQ4, else 0
+      real(wp) :: cluster = 0.0_wp                      ! of a FREQ3, else 0
+      logical  :: is_log = .false.                      ! of a FREQ3
+      real(wp), allocatable :: list(:)                  ! of a FREQ or FREQ5, ascending
    end type frequency_card
 
    !> TABDMP1: damping as a function of frequency, in ascending order.
@@ -422,7 +444,8 @@ module bulk_data
       type(element_card), allocatable      :: element(:)   !! of bodies; faces of marked surfaces too
       type(edge_card), allocatable         :: edge(:)      !! CBAR, CBEAM and CROD
       type(edge_card)                      :: edge_defaults(2) !! of BAROR and BEAMOR
-      type(plate_card), allocatable        :: plate(:)     !! of CQUAD4 and CTRIA3 with ZOFFS or T1 to T4
+      type(plate_card), allocatable        :: plate(:)     !! of elements with ZOFFS, T1 to T4, THETA
+      integer                              :: n_plates = 0 !! of PLATE that are filled
       type(beam_property_card), allocatable :: beam_property(:)
       type(beam_load_card), allocatable    :: beam_load(:)
       type(property_card), allocatable     :: pshell(:), paxis(:), psolid(:)
@@ -447,7 +470,7 @@ module bulk_data
       type(displacement_card), allocatable :: displacement(:), suport(:)
       type(temperature_card), allocatable  :: temperature(:)
       type(plate_temperature_card), allocatable :: plate_temperature(:)
-      type(load_card), allocatable         :: load(:)
+      type(load_card), allocatable         :: load(:), dload(:)
       type(bolt_card), allocatable         :: bolt(:)
       type(region_card), allocatable       :: region(:)
       type(pair_card), allocatable         :: pair(:)
@@ -467,6 +490,8 @@ module bulk_data
       type(jampl_card), allocatable        :: jampl(:)
       type(frequency_card), allocatable    :: frequency(:)
       type(tabdmp1_card), allocatable      :: tabdmp1(:)
+      type(response_cards_type)            :: dynamic      !! RLOAD1 and others
+      type(matrix_cards_type)              :: matrices     !! DMIG, ASET and others
    end type bulk_data_type
 
 end module bulk_data

@@ -9,9 +9,10 @@ module case_control
    use field_rules, only: parse_integer, parse_real
    use kinds, only: wp
    use nastran_compatibility, only: ignored_entries_type, parameters_type, read_echo, read_habit
-   use nastran_solutions, only: is_statics, judge_solution, starts_dmap, warn_of_dmap
-   use stage_entries, only: check_vibration, pair_reference, read_pair, read_stage_entry, stage_type, &
-                            vibration_entries_type
+   use nastran_solutions, only: is_direct, is_statics, judge_solution, starts_dmap, warn_of_dmap
+   use nastran_words, only: control_habit
+   use stage_entries, only: check_vibration, complete_response, pair_reference, read_pair, read_stage_entry, show_nodes, &
+                            stage_type, vibration_entries_type
    use text_tools, only: integer_text, upper
    use tolerances, only: back_tol, least_tol, newton_tol, path_tol
    implicit none
@@ -20,6 +21,8 @@ module case_control
    public :: read_case_control, watch_also, offer_petsc
 
    integer, parameter  :: own_set = -1 ! number of the set of --watch
+   character(12), parameter :: motions(5) = [character(12) :: 'DISPLACEMENT', 'VECTOR', 'SVECTOR', 'VELOCITY', 'ACCELERATION']
+   integer, parameter  :: all_nodes = -2 ! and of that of DISPLACEMENT = ALL
 
    type, public :: case_control_type
       character(:), allocatable :: title
@@ -38,6 +41,9 @@ module case_control
       logical :: of_nastran = .false.                    !! SOL or CEND: the deck was written for NASTRAN
       logical :: refused = .false.                       !! a kind of analysis that is not available: the only error
       logical :: is_static = .false.                     !! SOL of statics: METHOD = set has no effect
+      logical :: is_direct = .false.                     !! SOL 108: its response needs no MODES
+      character(8) :: matrices(2) = ''                   !! K2GG, M2GG: names of DMIG
+      integer :: matrix_lines(2) = 0
       logical :: lumped = .false.                        !! MASS = LUMPED: the mass of elements is lumped at their nodes
       logical :: mass_is_given = .false.                 !! MASS is given
       integer :: model = 0, model_line = 0               !! MODEL, 0: not given
@@ -70,8 +76,11 @@ contains
       character(:), allocatable :: keys_seen ! in this place: above the stages, or in one stage
       character(:), allocatable :: line
       character(:), allocatable :: refusal, warning
+      type(number_set) :: whole
       logical :: goes_on, in_dmap, in_plots, past_cend
+      integer :: n_shown
 
+      n_shown = 0
       goes_on = .false.
       in_dmap = .false.
       in_plots = .false.
@@ -118,6 +127,7 @@ contains
             if (refusal /= '') call refuse(refusal)
             if (control%refused) return
             if (entry%key == 'SOL') control%is_static = is_statics(entry)
+            if (entry%key == 'SOL') control%is_direct = is_direct(entry)
          end if
          if (entry%key == 'METHOD' .and. entry%value /= '' .and. verify(entry%value, '0123456789') == 0) then
             if (control%is_static) call control%ignored%add('METHOD')
@@ -143,12 +153,22 @@ contains
             call read_entry(entry, control, common, errors)
          else
             call read_habit(entry, control%parameters, control%ignored, errors)
+            if (any(control_habit(entry%key) == motions)) then
+               n_shown = n_shown + 1
+               associate (n => size(control%stages))
+                  if (n == 0) call show_nodes(entry, 0, all_nodes, common%vibration)
+                  if (n > 0) call show_nodes(entry, control%stages(n)%line, all_nodes, control%stages(n)%vibration)
+               end associate
+            end if
             goes_on = line(len(line):) == ','
          end if
       end do
       if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tol, newton_tol, control%method == method_back)
-      call check_stages(control, common, errors)
+      call check_stages(control, common, n_shown, errors)
       call note_idle_sets(control)
+      whole%id = all_nodes
+      whole%text = 'ALL'
+      control%sets = [control%sets, whole]
 
    contains
 
@@ -252,6 +272,12 @@ contains
          call start_stage(entry, control, common, errors)
       case ('TITLE')
          control%title = entry%value
+      case ('K2GG', 'M2GG')
+         n = merge(1, 2, entry%key == 'K2GG')
+         control%matrices(n) = upper(entry%value)
+         control%matrix_lines(n) = entry%line
+         if (entry%value == '' .or. len(entry%value) > 8 .or. scan(entry%value, ' *,') > 0) &
+            call value_error(entry, 'the name of one matrix of DMIG cards', errors)
       case ('UNITS')
          call read_units(entry, control, errors)
       case ('METHOD')
@@ -343,11 +369,13 @@ contains
    end subroutine start_stage
 
    !> Without SUBCASE there is one stage. A SUBCOM has the supports of the SUBCASE before it, and no loads of its own.
-   subroutine check_stages(control, common, errors)
+   subroutine check_stages(control, common, n_shown, errors)
       type(case_control_type), intent(inout) :: control
       type(stage_type), intent(in)           :: common !! the only stage of a deck without SUBCASE
+      integer, intent(in)                    :: n_shown !! number of entries such as DISPLACEMENT
       type(deck_error_list), intent(inout)   :: errors
       integer :: before, i
+      logical :: shown
 
       before = 0 ! number of SUBCASEs
       if (size(control%stages) == 0) then
@@ -373,6 +401,11 @@ contains
             stage%equations = control%stages(i - 1)%equations
          end associate
       end do
+      shown = .false.
+      do i = 1, size(control%stages)
+         call complete_response(control%stages(i)%vibration, control%is_direct, control%of_nastran, shown)
+      end do
+      if (shown) call control%ignored%drop(motions, n_shown)
       call check_vibration(control%stages%vibration, control%stages%line, errors)
    end subroutine check_stages
 

@@ -11,15 +11,18 @@ module deck_input
    use, intrinsic :: iso_fortran_env, only: int8
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
+   use laminate_cards, only: read_laminate, read_plate_material
+   use matrix_cards, only: read_dmig, read_retained
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
                          read_temperature
    use mesh_cards, only: complete_remedy, fill_defaults, read_block, read_edge, read_edge_defaults, read_element, read_grid, &
                          read_pmark, read_grid_defaults, read_system, system_names
-   use nastran_compatibility, only: take_idle_card
+   use nastran_compatibility, only: not_reduced, take_idle_card
    use nastran_defaults, only: find_first_card, take_initial_temperature, take_only_sets
    use nx_cards, only: read_pair, read_preload, read_region
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
+   use response_cards, only: read_darea, read_dload, read_lseq, read_rload, read_tabled
    use rigid_cards, only: count_idle_rotations, read_equation, read_place, read_rigid, read_tie
    use support_cards, only: read_displacement, read_mass, read_pmass, read_scalar, read_spring, read_spring_property, &
                             read_sum, read_suport, read_support
@@ -71,12 +74,13 @@ contains
       call add(['GRID'], read_grid)
       call add(['GRDSET'], read_grid_defaults)
       call add(system_names, read_system)
-      call add(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
+      call add(['CTRIA3', 'CTRIA6', 'CTRIAR', 'CQUAD4', 'CQUAD8', 'CQUADR', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
       call add(['CBAR ', 'CBEAM', 'CROD '], read_edge)
       call add(['BAROR ', 'BEAMOR'], read_edge_defaults)
       call add(['BLOCK2', 'BLOCK3'], read_block)
       call add(['PMARK'], read_pmark)
       call add(['PSHELL'], read_pshell)
+      call add(['PCOMP ', 'PCOMPG'], read_laminate, joined='PSHELL')
       call add(['PAXIS'], read_body_property)
       call add(['PSOLID'], read_body_property)
       call add(['PROD'], read_rod)
@@ -85,6 +89,7 @@ contains
       call add(['NODEAT'], read_place)
       call add(['MAT1'], read_mat1)
       call add(['BSURF  ', 'BSURFS ', 'BCPROP ', 'BCPROPS', 'BCRPARA'], read_region)
+      call add(['MAT2', 'MAT8'], read_plate_material, joined='MAT1')
       cards%of_mesh = .true.
       call add(['BCTSET', 'BGSET '], read_pair)
       call add(['BCTADD'], read_sum)
@@ -122,20 +127,29 @@ contains
       call add(['JINCR'], read_jincr)
       call add(['EIGRL', 'EIGR '], read_eigrl)
       call add(['JAMPL'], read_jampl)
-      call add(['FREQ1', 'FREQ2', 'FREQ4'], read_frequencies)
+      call add(['FREQ1', 'FREQ2', 'FREQ4', 'FREQ ', 'FREQ3', 'FREQ5'], read_frequencies)
       call add(['TABDMP1'], read_tabdmp1)
+      call add(['RLOAD1', 'RLOAD2'], read_rload)
+      call add(['DLOAD'], read_dload)
+      call add(['DAREA'], read_darea)
+      call add(['LSEQ'], read_lseq)
+      call add(['TABLED1', 'TABLED2', 'TABLED3', 'TABLED4'], read_tabled)
+      call add(['DMIG'], read_dmig)
+      call add(['ASET ', 'ASET1', 'BSET ', 'BSET1', 'QSET ', 'QSET1'], read_retained)
       call add(['PARAM'], read_parameter)
 
    contains
 
-      !> Add the kinds NAMES, which READ reads.
-      subroutine add(names, read)
+      !> Add the kinds NAMES, which READ reads, into the array of the kind JOINED where it is present.
+      subroutine add(names, read, joined)
          character(*), intent(in) :: names(:)
          procedure(read_one)      :: read
+         character(*), intent(in), optional :: joined
          type(card_kind) :: kind
          integer :: k
 
          kind%routine = size(cards) + 1
+         if (present(joined)) kind%routine = cards(findloc(cards%name, joined, dim=1))%routine
          kind%read => read
          do k = 1, size(names)
             kind%name = names(k)
@@ -165,7 +179,10 @@ contains
          bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
          bulk%jiwan(n('JIWAN')), bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
          bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')), bulk%region(n('BSURF')), &
-         bulk%pair(n('BCTSET')), bulk%contact_sum(n('BCTADD')), bulk%glue_sum(n('BGADD')), bulk%preload(n('BOLTFOR')))
+         bulk%pair(n('BCTSET')), bulk%contact_sum(n('BCTADD')), bulk%glue_sum(n('BGADD')), bulk%preload(n('BOLTFOR')), &
+         bulk%dynamic%rload(n('RLOAD1')), bulk%dload(n('DLOAD')), &
+         bulk%dynamic%darea(2*n('DAREA')), bulk%dynamic%lseq(n('LSEQ')), bulk%dynamic%tabled(n('TABLED1')), &
+         bulk%matrices%dmig(n('DMIG')), bulk%matrices%retained(4*n('ASET')))
 
    contains
 
@@ -248,10 +265,19 @@ contains
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
          bulk%suport = bulk%suport(:count(bulk%suport%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
+         bulk%plate = bulk%plate(:bulk%n_plates)
+         bulk%dynamic%darea = bulk%dynamic%darea(:count(bulk%dynamic%darea%line > 0))
+         bulk%matrices%retained = bulk%matrices%retained(:count(bulk%matrices%retained%line > 0))
+         do cursor = 1, merge(0, size(bulk%matrices%retained), any(deck%control%stages%output%dmig))
+            call bulk%ignored%wait('ASET', bulk%matrices%retained(cursor)%line, .false., warning=not_reduced)
+         end do
+         do cursor = 1, merge(size(bulk%matrices%dmig), 0, all(deck%control%matrices == ''))
+            call bulk%ignored%add('DMIG')
+         end do
          call fill_defaults(bulk)
          call count_unused(bulk)
          call count_idle_rotations(bulk)
-         call bulk%ignored%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), &
+         call bulk%ignored%settle(any(asked%modes%id /= 0), any(asked%modes%id /= 0 .and. asked%frequency%id > 0), &
                                   any(deck%control%stages%warms_materials), errors)
          if (is_alone) call take_only_sets(bulk, deck%control%stages(1), errors)
          call take_initial_temperature(deck%control%stages%initial, bulk, errors)

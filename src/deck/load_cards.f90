@@ -3,7 +3,7 @@
 !! (section 5: arithmetic or geometric progression) are here too.
 module load_cards
    use bolt_threads, only: complete_thread, strength_classes, thread_sizes, thread_type
-   use bulk_data, only: bulk_data_type, of_edge, of_face, of_marks, of_nodes, temperature_card
+   use bulk_data, only: bulk_data_type, load_card, of_edge, of_face, of_marks, of_nodes, temperature_card
    use card_fields, only: card_fields_type, id_ranges
    use field_rules, only: at_least_1, not_negative, positive, real_range
    use kinds, only: wp
@@ -14,7 +14,7 @@ module load_cards
    private
 
    public :: arithmetic_fractions, geometric_fractions, read_force, read_pressure, read_surface_load, read_gravity, read_load, &
-             read_bolt, read_temperature, read_plate_temperature
+             read_combination, read_bolt, read_temperature, read_plate_temperature
 
 contains
 
@@ -273,36 +273,42 @@ contains
    subroutine read_load(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
+
+      call read_combination(card, bulk%load(card%i))
+   end subroutine read_load
+
+   !> LOAD and DLOAD: a sum of load sets, each times a factor.
+   subroutine read_combination(card, load)
+      type(card_fields_type), intent(inout) :: card
+      type(load_card), intent(inout)        :: load
       real(wp) :: factor
       integer  :: k, set
       logical  :: factor_ok, set_ok
 
-      associate (load => bulk%load(card%i))
-         load%line = card%line
-         call card%field('SID', load%set)
-         call card%field('S', load%scale)
-         call card%field('S1', factor)
-         call card%field('L1', set)
-         load%factors = [factor]
-         load%sets = [set]
-         load%at = [4]
-         do k = 5, card%n, 2
-            if (card%text_at(k)//card%text_at(k + 1) == '') cycle
-            if (k + 1 > card%n) then
-               call card%error_at(k, 'S: a factor without its load set')
-            else if (card%text_at(k) == '' .or. card%text_at(k + 1) == '') then
-               call card%error_at(k, 'S: a factor S and its load set L go together, one of them is blank')
-            else
-               call card%real_at(k, 'S', factor, factor_ok)
-               call card%integer_at(k + 1, 'L', set, set_ok, bounds=at_least_1, expected='a load set number of 1 or more')
-               if (.not. (factor_ok .and. set_ok)) cycle
-               load%factors = [load%factors, factor]
-               load%sets = [load%sets, set]
-               load%at = [load%at, k + 1]
-            end if
-         end do
-      end associate
-   end subroutine read_load
+      load%line = card%line
+      call card%field('SID', load%set)
+      call card%field('S', load%scale)
+      call card%field('S1', factor)
+      call card%field('L1', set)
+      load%factors = [factor]
+      load%sets = [set]
+      load%at = [4]
+      do k = 5, card%n, 2
+         if (card%text_at(k)//card%text_at(k + 1) == '') cycle
+         if (k + 1 > card%n) then
+            call card%error_at(k, 'S: a factor without its load set')
+         else if (card%text_at(k) == '' .or. card%text_at(k + 1) == '') then
+            call card%error_at(k, 'S: a factor S and its load set L go together, one of them is blank')
+         else
+            call card%real_at(k, 'S', factor, factor_ok)
+            call card%integer_at(k + 1, 'L', set, set_ok, bounds=at_least_1, expected='a load set number of 1 or more')
+            if (.not. (factor_ok .and. set_ok)) cycle
+            load%factors = [load%factors, factor]
+            load%sets = [load%sets, set]
+            load%at = [load%at, k + 1]
+         end if
+      end do
+   end subroutine read_combination
 
    !> BOLT: the CROD EID, or the solid cut at the surface PMARK, tightened to PRELOAD in SUBCASE STAGE and locked in later stages;
    !! its thread.

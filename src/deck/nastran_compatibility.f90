@@ -11,9 +11,10 @@ module nastran_compatibility
    implicit none
    private
 
-   public :: take_idle_card, take_parameter, read_habit, read_echo
+   public :: take_idle_card, take_parameter, read_habit, read_echo, not_reduced
 
    integer, parameter :: name_length = 40
+   character(*), parameter :: not_reduced = 'the modes are those of the whole model, which is not reduced'
    integer, parameter :: with_modes = 1, with_response = 2, with_materials = 3, always = 4 ! temperatures of materials
 
    !> An entry whose effect depends on the stages.
@@ -33,7 +34,7 @@ module nastran_compatibility
       type(waiting_entry), allocatable, private :: waiting(:)
    contains
       procedure :: wait, settle
-      procedure :: add
+      procedure :: add, drop
       procedure :: words
    end type ignored_entries_type
 
@@ -66,7 +67,7 @@ contains
          call ignored%wait(name, line, .true., refusal='expected none: damping is that of GE, PARAM G and SDAMPING, and DLOAD '// &
                                                        'names the load')
       else if (any(of_reduction == name)) then
-         call ignored%wait(name, line, .false., warning='the modes are those of the whole model, which is not reduced')
+         call ignored%wait(name, line, .false., warning=not_reduced)
       else if (index(name, 'MATT') == 1) then
          call ignored%wait(name, line, .false., need=with_materials, refusal='expected MAT1 at the temperature of the set, '// &
                            'and TEMPERATURE(LOAD)')
@@ -194,6 +195,21 @@ contains
                                                                         'PUNCH or NONE', errors)
       is_on = index(off, word) == 0
    end subroutine read_echo
+
+   !> Take the N entries NAMES out.
+   pure subroutine drop(self, names, n)
+      class(ignored_entries_type), intent(inout) :: self
+      character(*), intent(in)                   :: names(:)
+      integer, intent(in)                        :: n
+      integer :: at, k
+
+      if (.not. allocated(self%names)) return
+      do k = 1, size(names)
+         at = index(self%names//',', ', '//trim(names(k))//',')
+         if (at > 0) self%names = self%names(:at - 1)//self%names(at + 2 + len_trim(names(k)):)
+      end do
+      self%n = self%n - n
+   end subroutine drop
 
    !> Count one more entry NAME.
    pure subroutine add(self, name)

@@ -9,7 +9,9 @@ module stage_entries
    implicit none
    private
 
-   public :: read_stage_entry, check_vibration, read_pair
+   public :: read_stage_entry, check_vibration, read_pair, complete_response, show_nodes
+
+   integer, parameter, public :: any_modes = -1 !! number of MODES: those that a response needs, as in a direct solution
 
    integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
 
@@ -27,8 +29,10 @@ module stage_entries
       type(set_reference) :: backbone         !! JAMPL
       type(set_reference) :: frequency        !! FREQ1, FREQ4
       type(set_reference) :: load             !! set of the oscillating load
+      type(set_reference) :: sequence         !! LOADSET: set of LSEQ cards; none: all of them
       type(set_reference) :: damping          !! TABDMP1
-      type(limit_type), allocatable :: response(:) !! nodes of the response; not allocated: none
+      type(limit_type), allocatable :: response(:) !! nodes of the response; not allocated: the loaded ones, in NASTRAN's decks
+      type(limit_type), allocatable :: shown(:)    !! nodes of DISPLACEMENT and others, which stand for RESPONSE
    end type vibration_entries_type
 
    !> Which modes the listing shows; none given: all of them.
@@ -50,6 +54,7 @@ module stage_entries
       logical :: forces = .false.         !! forces and moments per length of shells
       logical :: state = .false.          !! state variables of the interface elements
       logical :: condensed = .false.      !! [k_b] condensed on the interface
+      logical :: dmig = .false.           !! stiffness and mass condensed on the nodes of ASET
       logical :: along_cd = .false.       !! nodal vectors in their systems CD
    end type output_request
 
@@ -99,6 +104,8 @@ contains
             call read_number(entry, stage%load, errors)
          case ('INCR')
             call read_number(entry, stage%increments, errors)
+         case ('LOADSET')
+            call read_number(entry, asked%sequence, errors)
          case ('FROM')
             call read_number(entry, stage%from, errors)
          case ('SPC')
@@ -202,10 +209,10 @@ contains
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
-      character(*), parameter :: beside = 'PLOT, STRESS, FORCES, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N, '// &
+      character(*), parameter :: beside = 'PLOT, STRESS, FORCES, VTU, STEPS, STATE, CONDENSED, DMIG, CD, SET N, PMARK N, '// &
                                           'of modes MASS P, and BODY N or SHELLS N or JOINT N'
-      character(9), parameter :: switches(8) = [character(9) :: 'PLOT', 'STRESS', 'FORCES', 'VTU', 'STEPS', 'STATE', &
-                                                'CONDENSED', 'CD']
+      character(9), parameter :: switches(9) = [character(9) :: 'PLOT', 'STRESS', 'FORCES', 'VTU', 'STEPS', 'STATE', &
+                                                'CONDENSED', 'CD', 'DMIG']
       character(5), parameter :: levels(0:3) = [character(5) :: 'NONE', 'LAST', 'JOINT', 'ALL'] ! by their numbers
       character(:), allocatable :: rest, word
       logical :: is_on(size(switches)), ok, twice
@@ -250,6 +257,7 @@ contains
          output%state = is_on(6)
          output%condensed = is_on(7)
          output%along_cd = is_on(8)
+         output%dmig = is_on(9)
       end associate
       if (n_levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas '//beside, errors)
    end subroutine read_output
@@ -323,6 +331,38 @@ contains
       if (ok) call parse_integer(trim(adjustl(word(dash + 1:))), pair%nodes(2), ok)
       ok = ok .and. all(pair%nodes > 0) .and. pair%nodes(1) /= pair%nodes(2)
    end subroutine read_pair
+
+   !> Note the nodes that ENTRY, DISPLACEMENT(...) = ALL or a set, asks for; the number of the set ALL is ALL_NODES. An entry of a stage,
+   !! on or behind line FIRST, replaces those above it.
+   subroutine show_nodes(entry, first, all_nodes, asked)
+      type(entry_type), intent(in) :: entry
+      integer, intent(in)          :: first, all_nodes
+      type(vibration_entries_type), intent(inout) :: asked
+      integer :: set
+      logical :: ok
+
+      call parse_integer(entry%value, set, ok)
+      if (upper(entry%value) == 'ALL') set = all_nodes
+      if (.not. ok .and. set /= all_nodes) return
+      if (.not. allocated(asked%shown)) allocate (asked%shown(0))
+      asked%shown = [pack(asked%shown, asked%shown%line > first), limit_type(.false., set, entry%line)]
+   end subroutine show_nodes
+
+   !> Complete the response of a stage as in NASTRAN: without RESPONSE at the nodes of DISPLACEMENT; in a DIRECT solution with the modes
+   !! that it needs. SHOWN: whether DISPLACEMENT has an effect.
+   subroutine complete_response(asked, direct, of_nastran, shown)
+      type(vibration_entries_type), intent(inout) :: asked
+      logical, intent(in)    :: direct, of_nastran
+      logical, intent(inout) :: shown
+
+      if (asked%frequency%id == 0) return
+      if (direct) asked%modes = set_reference(any_modes, asked%frequency%line)
+      if (direct) asked%line(modes) = asked%frequency%line
+      if (allocated(asked%response)) return
+      if (allocated(asked%shown)) asked%response = asked%shown
+      if (of_nastran .or. allocated(asked%shown)) asked%line(response) = asked%frequency%line
+      shown = shown .or. allocated(asked%shown)
+   end subroutine complete_response
 
    !> Check that each vibration entry has the key it needs. An entry above the first SUBCASE has been copied into each stage. It has no
    !! effect in a stage without MODES, or without FREQUENCY, but one stage must have the key.

@@ -17,7 +17,7 @@ contains
       associate (properties => [bulk%block%property, bulk%element%property, bulk%edge%property], &
                  springs => bulk%spring_property, is_bush => bulk%spring%is_bush, system => bulk%system)
          call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%beam_property%id], properties, &
-            [spread('PSHELL', 1, size(bulk%pshell)), spread('PAXIS ', 1, size(bulk%paxis)), &
+            [bulk%pshell%name, spread('PAXIS ', 1, size(bulk%paxis)), &
              spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod)), bulk%beam_property%name])
          call count_unnamed(pack(springs%id, .not. springs%is_bush), pack(bulk%spring%property, .not. is_bush), &
                             spread('PELAS ', 1, count(.not. springs%is_bush)))

@@ -1,4 +1,4 @@
-!> Reads the cards of vibration analysis: EIGRL, EIGR, JAMPL, FREQ1, FREQ2, FREQ4 and TABDMP1.
+!> Reads the cards of vibration analysis: EIGRL, EIGR, JAMPL, FREQ, FREQ1 to FREQ5 and TABDMP1.
 module vibration_cards
    use bulk_data, only: bulk_data_type
    use card_fields, only: card_fields_type
@@ -9,7 +9,7 @@ module vibration_cards
    implicit none
    private
 
-   public :: read_eigrl, read_jampl, read_frequencies, read_tabdmp1
+   public :: read_eigrl, read_jampl, read_frequencies, read_tabdmp1, find_endt, check_order
 
    integer, parameter :: most_frequencies = 100000 ! of one FREQ1, and of one mode of a FREQ4
    integer, parameter :: most_amplitudes = 1000    ! of one JAMPL, and increments to one amplitude
@@ -97,15 +97,20 @@ contains
          name//'1, '//real_text(lowest)//'; expected the end of the range')
    end subroutine check_range
 
-   !> FREQ1: the frequencies F1 + k DF, k = 0 to NDF. FREQ2: NF logarithmic intervals from F1 to F2. FREQ4: NFM frequencies, an odd
-   !! number so that the natural frequency is one of them, within FSPD of every mode from F1 to F2. A set may have several cards.
+   !> FREQ: a list. FREQ1: the frequencies F1 + k DF, k = 0 to NDF. FREQ2: NF logarithmic intervals from F1 to F2. FREQ3: NEF
+   !! frequencies between neighbours among F1, F2 and the modes between them. FREQ4: NFM frequencies, an odd number so that the natural
+   !! frequency is one of them, within FSPD of every mode from F1 to F2. FREQ5: multiples of every mode from F1 to F2. A set may have
+   !! several cards.
    subroutine read_frequencies(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
+      character(8) :: kind
 
       associate (range => bulk%frequency(card%i))
          call card%field('SID', range%set)
          select case (card%name)
+         case ('FREQ')
+            call read_list(2, 'F', not_negative)
          case ('FREQ1')
             call card%field('F1', range%first, not_negative)
             call card%field('DF', range%step, positive)
@@ -114,27 +119,62 @@ contains
             call card%field('F1', range%first, positive)
             call card%field('F2', range%last, positive)
             call card%field('NF', range%n, default=1, most=most_frequencies)
-         case default
+         case ('FREQ3')
+            call card%field('F1', range%first, positive)
+            call card%field('F2', range%last, positive, default=range%first)
+            call card%word('TYPE', '|LINEAR|LOG|', kind)
+            range%is_log = kind == 'LOG'
+            call card%field('NEF', range%n, default=10, least=2, most=most_frequencies)
+            call card%field('CLUSTER', range%cluster, positive, default=1.0_wp)
+         case ('FREQ4')
             call card%field('F1', range%first, not_negative, default=0.0_wp)
             call card%field('F2', range%last, positive, default=1.0e20_wp)
             call card%field('FSPD', range%spread, real_range(0.0_wp, 1.0_wp, above=.true., below=.true.), default=0.1_wp)
             call card%field('NFM', range%n, default=3, most=most_frequencies)
             range%n = range%n + modulo(range%n + 1, 2)
+         case default
+            call card%field('F1', range%first, not_negative, default=0.0_wp)
+            call card%field('F2', range%last, positive, default=1.0e20_wp)
+            call read_list(4, 'FR', positive)
          end select
-         call card%finish(range%line)
-         if (card%name /= 'FREQ1') call check_range(card, range%first, range%last, 'F')
+         if (.not. allocated(range%list)) call card%finish(range%line)
+         range%line = card%line
+         if (any(card%name == ['FREQ2', 'FREQ4', 'FREQ5'])) call check_range(card, range%first, range%last, 'F')
+         if (card%name == 'FREQ3' .and. range%first > range%last) call check_range(card, range%first, range%last, 'F')
       end associate
+
+   contains
+
+      !> The list of the card: the real numbers NAME in the data fields from FIRST on, in any order, each once.
+      subroutine read_list(first, name, within)
+         integer, intent(in)          :: first
+         character(*), intent(in)     :: name
+         type(real_range), intent(in) :: within
+         real(wp), allocatable :: list(:)
+         real(wp) :: value
+         integer  :: k
+         logical  :: ok
+
+         allocate (list(0))
+         do k = first, card%n
+            if (card%text_at(k) == '') cycle
+            call card%real_at(k, name, value, ok, within)
+            if (ok) list = [pack(list, list < value), value, pack(list, list > value)]
+         end do
+         if (size(list) == 0 .and. .not. card%is_faulty()) call card%error_at(first, name//': no number')
+         call move_alloc(list, bulk%frequency(card%i)%list)
+      end subroutine read_list
+
    end subroutine read_frequencies
 
    !> TABDMP1: pairs of frequency and damping, ended by ENDT. TYPE is the kind of damping. A pair with SKIP or with two blank
-   !! fields does not count. There must be at least two points, in ascending or descending order; descending points are reversed.
-   !! At a jump a frequency may appear twice, but not at the ends.
+   !! fields does not count.
    subroutine read_tabdmp1(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       character(:), allocatable :: first, second
       real(wp) :: frequency, value
-      integer  :: k, last, n
+      integer  :: k, last
       logical  :: ok
 
       associate (table => bulk%tabdmp1(card%i))
@@ -144,17 +184,8 @@ contains
          call card%blank(['blank', 'blank', 'blank', 'blank', 'blank', 'blank'])
          allocate (table%frequency(0), table%value(0))
          if (card%is_faulty()) return
-         last = list_from ! becomes the field of ENDT
-         do while (last <= card%n .and. card%text_at(last) /= 'ENDT')
-            last = last + 1
-         end do
-         if (last > card%n) then
-            call card%error_at(card%n, 'ENDT: expected after the last pair of a frequency and its damping')
-            return
-         end if
-         do k = last + 1, card%n
-            if (card%text_at(k) /= '') call card%error_at(k, ''''//card%text_at(k)//''' after ENDT, where the card must be blank')
-         end do
+         call find_endt(card, list_from, last, 'pair of a frequency and its damping')
+         if (last > card%n) return
          do k = list_from, last - 1, 2
             first = card%text_at(k)
             second = card%text_at(k + 1)
@@ -169,21 +200,56 @@ contains
             table%frequency = [table%frequency, frequency]
             table%value = [table%value, value]
          end do
-         n = size(table%frequency)
-         if (n < 2 .and. .not. card%is_faulty()) call card%error_at(card%n, integer_text(n)//' points, expected two or more')
-         if (card%is_faulty()) return
-         if (table%frequency(1) > table%frequency(n)) then
-            table%frequency = table%frequency(n:1:-1)
-            table%value = table%value(n:1:-1)
-         end if
-         associate (f => table%frequency)
-            if (any(f(2:) < f(:n - 1))) then
-               call card%error_at(list_from, 'F: the frequencies are not in order, expected them ascending, or descending')
-            else if (f(1) >= f(2) .or. f(n - 1) >= f(n) .or. any(f(3:) <= f(:n - 2))) then
-               call card%error_at(list_from, 'F: a frequency occurs twice at an end of the table, or three times')
-            end if
-         end associate
+         call check_order(card, list_from, 'F', table%frequency, table%value)
       end associate
    end subroutine read_tabdmp1
+
+   !> The data field of ENDT, which ends the list of a table that begins in field FIRST; beyond the card: there is none, an error.
+   subroutine find_endt(card, first, last, entries)
+      type(card_fields_type), intent(inout) :: card
+      integer, intent(in)                   :: first
+      integer, intent(out)                  :: last
+      character(*), intent(in)              :: entries !! of the list, in words
+      integer :: k
+
+      last = first
+      do while (last <= card%n .and. card%text_at(last) /= 'ENDT')
+         last = last + 1
+      end do
+      if (last > card%n) then
+         call card%error_at(card%n, 'ENDT: expected after the last '//entries)
+         return
+      end if
+      do k = last + 1, card%n
+         if (card%text_at(k) /= '') call card%error_at(k, ''''//card%text_at(k)//''' after ENDT, where the card must be blank')
+      end do
+   end subroutine find_endt
+
+   !> Check that the points (X, Y) of a table, whose list begins in data field FIRST, are two or more in ascending or descending order;
+   !! descending ones are reversed. At a jump an X, called NAME, may appear twice, but not at the ends.
+   subroutine check_order(card, first, name, x, y)
+      type(card_fields_type), intent(inout) :: card
+      integer, intent(in)                   :: first
+      character(1), intent(in)              :: name
+      real(wp), allocatable, intent(inout)  :: x(:), y(:)
+      character(:), allocatable :: what
+      integer :: n
+
+      n = size(x)
+      what = one_of(name == 'F', 'frequenc', 'value')
+      if (n < 2 .and. .not. card%is_faulty()) call card%error_at(card%n, integer_text(n)//' points, expected two or more')
+      if (card%is_faulty()) return
+      if (x(1) > x(n)) then
+         x = x(n:1:-1)
+         y = y(n:1:-1)
+      end if
+      if (any(x(2:) < x(:n - 1))) then
+         call card%error_at(first, name//': the '//what//one_of(name == 'F', 'ies', 's')// &
+                            ' are not in order, expected them ascending, or descending')
+      else if (x(1) >= x(2) .or. x(n - 1) >= x(n) .or. any(x(3:) <= x(:n - 2))) then
+         call card%error_at(first, name//': a '//what//one_of(name == 'F', 'y', '')// &
+                            ' occurs twice at an end of the table, or three times')
+      end if
+   end subroutine check_order
 
 end module vibration_cards

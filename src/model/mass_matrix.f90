@@ -13,7 +13,7 @@ module mass_matrix
    use model_data, only: bar_nodes, mesh_type, model_type, n_bars, point_mass_type
    use node_coupling, only: between_unknowns, extend_stiffness, onto_unknowns, section_node
    use numbers, only: identity
-   use shell_element, only: shell_products
+   use shell_element, only: node_thickness, shell_products
    use structural_elements, only: between_own
    use unknowns, only: rotation_at
    implicit none
@@ -54,10 +54,10 @@ contains
       n = element_table(mesh%element_kind(e))%n_nodes
       associate (corners => element_points(mesh, e), property => mesh%properties(mesh%element_property(e)))
          if (is_shell(mesh, e)) then
-            associate (x => mesh%x(:, corners), t => mesh%structural%shells(mesh%structural%place(e))%thickness)
+            associate (x => mesh%x(:, corners), t => node_thickness(mesh%structural%shells(mesh%structural%place(e)), n))
                m(:2*n, :2*n) = 0.0_wp
-               call shell_products(x, property%rho*t(:n) + property%extra_mass, m(:n, :n))
-               if (.not. mesh%lumped) call shell_products(x, property%rho*t(:n)**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
+               call shell_products(x, property%rho*t + property%extra_mass, m(:n, :n))
+               if (.not. mesh%lumped) call shell_products(x, property%rho*t**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
             end associate
             do i = n + 1, 2*n
                associate (arm => mesh%rotations(mesh%rotation_of(corners(i - n)))%arm)

@@ -9,6 +9,7 @@ module model_data
    use joint_laws, only: joint_law
    use kinds, only: wp
    use lists, only: id_table_type
+   use shell_element, only: most_shell_nodes
    use shell_membrane, only: shell_law
    use text_tools, only: text_item
    implicit none
@@ -110,10 +111,12 @@ module model_data
 
    !> Temperatures of the model. T - TREF of a material is AT - REFERENCE_SHARE TREF. The share is 1 where the deck gives
    !! temperatures and 0 where it gives none (the structure is at TREF then); it varies linearly over a stage between the two.
+   integer, parameter, public :: slope_row = most_shell_nodes + 1 !! of the temperatures of shells
+
    type, public :: temperature_type
       real(wp), allocatable :: at(:)         !! (n_nodes) [temperature]; not allocated: none are given
       real(wp) :: reference_share = 0.0_wp   !! [-]
-      real(wp), allocatable :: plate(:, :)   !! (5, shells) corner temperatures relative to AT [temperature], and gradient over the
+      real(wp), allocatable :: plate(:, :)   !! (slope_row, shells) temperatures of nodes relative to AT [temperature], and gradient over the
                                              !! thickness [temperature/length]; not allocated: no shell has temperatures of its own
    end type temperature_type
 

@@ -3,6 +3,7 @@
 module stage_plan
    use bulk_data, only: eigrl_card, frequency_card, jampl_card, tabdmp1_card
    use control_words, only: method_back, method_newton
+   use frequency_loads, only: interpolated, load_law
    use kinds, only: wp
    use stage_entries, only: output_all, output_last, output_request
    use text_tools, only: integer_text
@@ -24,13 +25,21 @@ module stage_plan
       real(wp) :: along(3, 4) = 0.0_wp        !! unit vectors; 0: a line between nodes at one place, z of a plane model
    end type node_pair
 
+   !> A load that oscillates: the pattern FORCE, or with LAW%CARD%MOTION the movements MOVED of supports, times the factor of LAW.
+   type, public :: wave_type
+      type(load_law) :: law
+      real(wp), allocatable :: force(:, :)    !! (3, n_nodes) [force]
+      real(wp), allocatable :: moved(:, :)    !! (dimension, n_nodes) of held unknowns; not allocated: none is moved
+   end type wave_type
+
    !> The response to an oscillating load by modal superposition.
    type, public :: response_plan
       real(wp), allocatable :: frequencies(:) !! ascending, those of FREQ1 [1/time]
-      type(frequency_card), allocatable :: spreads(:) !! FREQ4: n is odd
+      type(frequency_card), allocatable :: spreads(:) !! FREQ3, FREQ4 (n is odd), FREQ5
       integer, allocatable  :: nodes(:)       !! positions of the nodes whose amplitude and phase are requested
       type(node_pair), allocatable :: pairs(:) !! and of one node against another
-      real(wp), allocatable :: force(:, :)    !! (3, n_nodes) amplitude of the load [force]
+      type(wave_type), allocatable :: waves(:) !! the load is their sum
+      logical :: is_direct = .false.          !! SOL 108
       type(tabdmp1_card), allocatable :: damping !! not allocated: the loss factors of the joints
       logical :: is_structural = .false.      !! KDAMP = -1: as structural damping
    end type response_plan
@@ -130,26 +139,16 @@ contains
       type(tabdmp1_card), intent(in) :: table !! two points or more; the value jumps at a repeated frequency
       real(wp), intent(in)           :: frequency !! [1/time]
       real(wp) :: value
-      integer  :: k, n
 
-      n = size(table%frequency)
-      associate (f => table%frequency, v => table%value)
-         k = min(max(count(f <= frequency), 1), n - 1) ! the point before, but not the last
-         if (k > 1 .and. abs(f(k) - frequency) <= 0.0_wp) then
-            value = v(k)
-            if (abs(f(k - 1) - frequency) <= 0.0_wp) value = 0.5_wp*(v(k - 1) + v(k))
-         else
-            value = v(k) + (frequency - f(k))*(v(k + 1) - v(k))/(f(k + 1) - f(k))
-         end if
-         select case (table%kind)
-         case ('CRIT')
-            g = 2.0_wp*max(value, 0.0_wp)
-         case ('Q')
-            g = 1.0_wp/max(value, min(critical_quality, minval(v)))
-         case default
-            g = max(value, 0.0_wp)
-         end select
-      end associate
+      value = interpolated(table%frequency, table%value, frequency)
+      select case (table%kind)
+      case ('CRIT')
+         g = 2.0_wp*max(value, 0.0_wp)
+      case ('Q')
+         g = 1.0_wp/max(value, min(critical_quality, minval(table%value)))
+      case default
+         g = max(value, 0.0_wp)
+      end select
    end function loss_at
 
    !> The frequencies of PLAN, with those spread about the MODES (ascending frequencies): ascending, each once [1/time]. A
@@ -163,15 +162,47 @@ contains
       f = plan%frequencies
       do i = 1, size(plan%spreads)
          associate (spread => plan%spreads(i))
+            if (spread%cluster > 0.0_wp) then
+               f = merged(f, between_modes(spread, pack(modes, modes > spread%first .and. modes < spread%last)))
+               cycle
+            end if
             do m = 1, size(modes)
                if (modes(m) <= 0.0_wp .or. modes(m) < spread%first .or. modes(m) > spread%last) cycle
-               if (spread%n == 1) f = merged(f, [modes(m)])
-               if (spread%n > 1) f = merged(f, [(modes(m)*(1.0_wp + spread%spread*real(2*k - spread%n + 1, wp)/ &
-                                                           real(spread%n - 1, wp)), k = 0, spread%n - 1)])
+               if (allocated(spread%list)) then
+                  f = merged(f, modes(m)*spread%list)
+               else if (spread%n == 1) then
+                  f = merged(f, [modes(m)])
+               else
+                  f = merged(f, [(modes(m)*(1.0_wp + spread%spread*real(2*k - spread%n + 1, wp)/ &
+                                            real(spread%n - 1, wp)), k = 0, spread%n - 1)])
+               end if
             end do
          end associate
       end do
    end function asked_frequencies
+
+   !> The frequencies of a FREQ3: N of them from each of FIRST, MODES and LAST to the next one, denser at these ends where CLUSTER > 1.
+   !! Source: MSC Nastran Quick Reference Guide, FREQ3, remark 6.
+   pure function between_modes(spread, modes) result(f)
+      type(frequency_card), intent(in) :: spread
+      real(wp), intent(in)             :: modes(:) !! ascending
+      real(wp), allocatable :: f(:)
+      real(wp) :: ends(size(modes) + 2), xi
+      integer  :: i, k
+
+      ends = [spread%first, modes, spread%last]
+      if (spread%is_log) ends = log(ends)
+      f = [real(wp) ::]
+      do i = 2, size(ends)
+         do k = 1, spread%n
+            xi = -1.0_wp + 2.0_wp*real(k - 1, wp)/real(spread%n - 1, wp)
+            xi = sign(abs(xi)**(1.0_wp/spread%cluster), xi)
+            f = [f, 0.5_wp*((1.0_wp - xi)*ends(i - 1) + (1.0_wp + xi)*ends(i))]
+         end do
+      end do
+      if (spread%is_log) f = exp(f)
+      f = merged([real(wp) ::], f)
+   end function between_modes
 
    !> Merge two ascending lists, each frequency once.
    pure function merged(a, b) result(f)

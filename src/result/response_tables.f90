@@ -11,7 +11,7 @@ module response_tables
    use stage_plan, only: node_pair, pair_names
    use table_column, only: column
    use table_writer, only: table_type
-   use text_tools, only: integer_text, real_text
+   use text_tools, only: integer_text, one_of, real_text
    implicit none
    private
 
@@ -19,7 +19,8 @@ module response_tables
 
 contains
 
-   !> Warn of frequencies of RESPONSE above the MODES: no peak of a higher mode can be there.
+   !> Say by which MODES a response of SOL 108 is computed. Warn of frequencies of RESPONSE above the MODES: no peak of a higher mode can
+   !! be there.
    subroutine list_uncovered(page, model, modes, response, n_warnings)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -29,6 +30,12 @@ contains
       character(:), allocatable :: reached
       integer :: c
 
+      if (response%is_direct) then
+         call page%file%put('')
+         call page%file%put('  SOL 108 BY ITS MODES: '//integer_text(size(modes%modes))//' MODES UP TO '// &
+            real_text(maxval([0.0_wp, modes%modes%frequency]))//one_of(response%is_complete, &
+            ', ALL UP TO TWICE THE HIGHEST FREQUENCY, AND THE STATIC RESPONSE OF THE OTHERS', ''))
+      end if
       if (response%n_beyond == 0) return
       n_warnings = n_warnings + 1
       reached = ''
@@ -123,8 +130,8 @@ contains
       do k = 1, size(pairs)
          do i = 1, size(pair_names)
             if (.not. any(abs(pairs(k)%along(:, i)) > 0.0_wp)) cycle
-            is_forced = abs(response%force(i, k)) > 0.0_wp
-            g = response%between(i, k, :)/merge(response%force(i, k), 1.0_wp, is_forced)
+            is_forced = all(abs(response%force(i, k, :)) > 0.0_wp)
+            g = response%between(i, k, :)/merge(response%force(i, k, :), (1.0_wp, 0.0_wp), is_forced)
             at = first_largest(abs(g))
             least = first_largest(-real(g))
             call put_pair(at)

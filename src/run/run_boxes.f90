@@ -12,6 +12,7 @@ module run_boxes
    use deck_input, only: deck_type, read_deck
    use distribution, only: join_processes, leave_processes
    use equation_solver, only: equation_system, failure_type
+   use enforced_motion, only: carry_along
    use equations, only: form_body_stiffness, start_equations
    use facing_bodies, only: loose_words
    use finite_state, only: check_state
@@ -83,12 +84,12 @@ contains
 
    !> Compute modes, backbone and response. With RESTART they are printed together, so that a restart file written meanwhile
    !! contains none of them; without it the modes stay where the backbone is interrupted.
-   subroutine oscillate(run, deck, model, plan, wanted, system, analysis)
+   subroutine oscillate(run, deck, model, plan, asked, system, analysis)
       type(run_type), intent(inout)         :: run
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
-      type(vibration_plan_type), intent(in) :: wanted
+      type(vibration_plan_type), intent(in) :: asked
       class(equation_system), allocatable, intent(inout) :: system
       type(analysis_type), intent(inout)    :: analysis
       type(oscillating_type) :: structure
@@ -96,10 +97,13 @@ contains
       type(modes_type), allocatable :: modes ! on the heap: the compiler warns of its bounds where it is a local variable
       type(response_type)    :: response
       type(backbone_type)    :: found
+      type(vibration_plan_type) :: wanted ! with the motions of supports carried on to all nodes
       class(equation_system), allocatable :: shifted
       logical :: more
 
+      wanted = asked
       call start_oscillation(model, analysis, system, wanted%on_loading, structure, run%failure)
+      if (allocated(wanted%response)) call carry_along(model, structure, wanted%response%waves, run%failure)
       call find_natural_modes(model, structure, wanted, spectrum, shifted, run%failure)
       if (run%failure%raised) then
          run%failure%message = where_in_plan(plan, analysis%stage, analysis%increment)//': '//run%failure%message

@@ -6,6 +6,7 @@ module backbone
    use analysis_state, only: analysis_type
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system, failure_type
+   use frequency_loads, only: load_at
    use kinds, only: wp
    use modal_loops, only: choose_sense, loop_type, run_loops
    use modal_path, only: modal_load_type, reverse, start_modal_load
@@ -272,7 +273,12 @@ contains
       integer  :: i, k, n
 
       if (.not. allocated(found%modal)) return
-      if (allocated(vibration%response)) force = abs(sum(found%modal%phi*vibration%response%force(:model%mesh%dimension, :)))
+      if (allocated(vibration%response)) then
+         associate (waves => vibration%response%waves, mode => modes%modes(found%mode - modes%n_before))
+            force = abs(sum([(load_at(waves(i)%law, mode%frequency)* &
+                              sum(found%modal%phi*waves(i)%force(:model%mesh%dimension, :)), i = 1, size(waves))]))
+         end associate
+      end if
       deallocate (found%modal)
       if (.not. allocated(vibration%response)) return
       associate (mode => modes%modes(found%mode - modes%n_before))

@@ -16,13 +16,14 @@
 module modal_response
    use eigenpairs, only: all_displacements, residual_displacements
    use equation_solver, only: equation_system, failure_type
+   use frequency_loads, only: load_at
    use kinds, only: wp
    use mode_parts, only: main_part, mode_part
    use mode_values, only: modes_type
    use model_data, only: model_type
    use natural_modes, only: factorise_at, oscillating_type, spectrum_type
    use numbers, only: first_largest
-   use stage_plan, only: asked_frequencies, between, force_between, loss_at, response_plan
+   use stage_plan, only: asked_frequencies, between, force_between, loss_at, response_plan, wave_type
    use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: at_resonance, least_load, no_motion, same_frequency, unexcited
    implicit none
@@ -37,10 +38,12 @@ module modal_response
       real(wp), allocatable :: lambda(:)  !! (modes) omega_r**2, 0 of a rigid mode [1/time^2]
       real(wp), allocatable :: mass(:)    !! (modes) modal mass, > 0 [force x time^2/length, by the scale of the shapes]
       real(wp), allocatable :: shape(:, :) !! (components, modes) of the wanted components
-      real(wp), allocatable :: force(:)   !! (modes) phi_r . F
+      complex(wp), allocatable :: force(:) !! (modes) phi_r . F
       real(wp), allocatable :: loss(:)    !! (modes) eta_r, structural damping [-]
       real(wp), allocatable :: viscous(:) !! (modes) g_r, viscous damping [-]
-      real(wp), allocatable :: rest(:)    !! (components) u_rest, zero where there is none [length]
+      complex(wp), allocatable :: rest(:) !! (components) u_rest, zero where there is none [length]
+      ! of each wave by itself, with the factor 1: its FORCE and REST, and u_s where it moves supports
+      real(wp), allocatable :: forces(:, :), rests(:, :), carried(:, :)
    end type modal_system
 
    real(wp), parameter :: missed_share = 0.05_wp  ! excess over the response at the adjacent frequencies of a missed peak
@@ -62,9 +65,10 @@ module modal_response
       real(wp), allocatable :: amplitude(:, :, :) !! (2 or 3 components, nodes, frequencies), >= 0 [length]
       real(wp), allocatable :: phase(:, :, :)     !! likewise, of the displacement against the force [degrees]
       complex(wp), allocatable :: between(:, :, :) !! (directions, pairs, frequencies) movement of one node against another [length]
-      real(wp), allocatable :: force(:, :)        !! (directions, pairs) of the load between the nodes of a pair; 0: none [force]
+      complex(wp), allocatable :: force(:, :, :)  !! (directions, pairs, frequencies) of the load between them; 0: none [force]
       type(missed_peak), allocatable :: missed(:)
       logical :: is_complete = .false.            !! includes the static contribution of the other modes
+      logical :: is_direct = .false.              !! SOL 108
       integer :: n_beyond = 0                     !! requested frequencies above the modes, where peaks are missing
    end type response_type
 
@@ -96,6 +100,32 @@ contains
       end do
    end subroutine response_at
 
+   !> Set the FORCE and REST of SYSTEM to those of its WAVES at FREQUENCY; not OK: a support moves without bound.
+   pure subroutine excite(waves, frequency, system, ok)
+      type(wave_type), intent(in)       :: waves(:)
+      real(wp), intent(in)              :: frequency !! [1/time]
+      type(modal_system), intent(inout) :: system
+      logical, intent(out)              :: ok
+      complex(wp) :: factor(size(waves)), moved(size(waves))
+      real(wp) :: omega
+      integer  :: i
+
+      omega = 2.0_wp*pi*frequency
+      moved = 0.0_wp
+      ok = .true.
+      do i = 1, size(waves)
+         factor(i) = load_at(waves(i)%law, frequency)
+         if (.not. allocated(waves(i)%moved)) cycle
+         associate (order => waves(i)%law%card%motion - 1) ! of the derivative that is given: u = a/(i omega)**order
+            ok = ok .and. (order == 0 .or. omega > 0.0_wp .or. abs(factor(i)) <= 0.0_wp)
+            if (abs(factor(i)) > 0.0_wp .and. ok) moved(i) = factor(i)/cmplx(0.0_wp, omega, wp)**order
+         end associate
+         factor(i) = omega**2*moved(i)
+      end do
+      system%force = matmul(system%forces, factor)
+      system%rest = matmul(system%rests, factor) + matmul(system%carried, moved)
+   end subroutine excite
+
    !> The frequency at which mode R alone has its largest amplitude: with structural damping its natural frequency, with viscous
    !! damping below it. 0 for a mode without a peak: a rigid-body mode, or one damped too much [1/time].
    pure real(wp) function peak_frequency(system, r) result(frequency)
@@ -107,13 +137,13 @@ contains
 
    !> The static response of the elastic modes, which is subtracted for u_rest [length].
    pure function static_share(system) result(u)
-      type(modal_system), intent(in) :: system
+      type(modal_system), intent(in) :: system !! its FORCE is real
       real(wp) :: u(size(system%shape, 1))
       integer  :: r
 
       u = 0.0_wp
       do r = 1, size(system%lambda)
-         if (system%lambda(r) > 0.0_wp) u = u + system%shape(:, r)*system%force(r)/(system%mass(r)*system%lambda(r))
+         if (system%lambda(r) > 0.0_wp) u = u + system%shape(:, r)*real(system%force(r))/(system%mass(r)*system%lambda(r))
       end do
    end function static_share
 
@@ -141,26 +171,29 @@ contains
       class(equation_system), allocatable :: unshifted
       type(modal_system) :: superposed
       type(failure_type) :: loose
-      real(wp), allocatable :: x(:), u_rest(:, :)
+      real(wp), allocatable :: x(:, :), u_rest(:, :)
       complex(wp) :: u(model%mesh%dimension*size(plan%nodes) + 4*size(plan%pairs)) ! of the nodes, then of the pairs
       real(wp) :: large(size(u))
-      integer  :: d, f, k, m, n
+      integer  :: d, f, k, m, n, w
       logical  :: ok
 
       d = model%mesh%dimension
       n = size(plan%nodes)
-      allocate (superposed%shape(size(u), size(modes%modes)), superposed%force(size(modes%modes)), &
-                superposed%viscous(size(modes%modes)), source=0.0_wp)
+      allocate (superposed%shape(size(u), size(modes%modes)), superposed%forces(size(modes%modes), size(plan%waves)), &
+                superposed%viscous(size(modes%modes)), superposed%rests(size(u), size(plan%waves)), &
+                superposed%carried(size(u), size(plan%waves)), source=0.0_wp)
       superposed%lambda = modes%modes%lambda
       superposed%mass = modes%modes%mass
       superposed%loss = modes%modes%loss
-      superposed%rest = spread(0.0_wp, 1, size(u))
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))
-            superposed%shape(:, m) = [pack(mode%u(:, plan%nodes), .true.), &
-                                      (between(plan%pairs(k), mode%u), k = 1, size(plan%pairs))]
-            superposed%force(m) = sum(mode%u*plan%force(:d, :))
-            if (abs(superposed%force(m)) <= unexcited*norm2(plan%force(:d, :))*maxval(abs(mode%u))) superposed%force(m) = 0.0_wp
+            superposed%shape(:, m) = wanted(mode%u)
+            do w = 1, size(plan%waves)
+               associate (force => plan%waves(w)%force(:d, :), excited => superposed%forces(m, w))
+                  excited = sum(mode%u*force)
+                  if (abs(excited) <= unexcited*norm2(force)*maxval(abs(mode%u))) excited = 0.0_wp
+               end associate
+            end do
             if (.not. allocated(plan%damping)) cycle
             superposed%loss(m) = mode%material_loss
             if (plan%is_structural) then
@@ -179,31 +212,52 @@ contains
          call factorise_at(model, structure, min(0.0_wp, system%shift), unshifted, loose)
          if (.not. loose%raised) then
             x = spectrum%load
-            if (system%shift >= 0.0_wp) then
-               call unshifted%solve_by_factor(x)
-            else
-               call residual_displacements(model, structure%mass, unshifted, spectrum%x(:, :size(modes%modes)), spectrum%load, x)
-            end if
+            do w = 1, size(x, 2)
+               if (system%shift >= 0.0_wp) then
+                  call unshifted%solve_by_factor(x(:, w))
+               else
+                  call residual_displacements(model, structure%mass, unshifted, spectrum%x(:, :size(modes%modes)), &
+                                              spectrum%load(:, w), x(:, w))
+               end if
+            end do
             deallocate (unshifted)
          end if
       end if
       response%is_complete = allocated(x)
       if (response%is_complete) then
-         x(system%locked) = 0.0_wp
-         allocate (u_rest, source=all_displacements(model, system, x))
-         superposed%rest = [pack(u_rest(:, plan%nodes), .true.), (between(plan%pairs(k), u_rest), k = 1, size(plan%pairs))]
-         if (system%shift >= 0.0_wp) superposed%rest = superposed%rest - static_share(superposed)
+         x(system%locked, :) = 0.0_wp
+         do w = 1, size(x, 2)
+            u_rest = all_displacements(model, system, x(:, w))
+            superposed%rests(:, w) = wanted(u_rest)
+            superposed%force = superposed%forces(:, w)
+            if (system%shift >= 0.0_wp) superposed%rests(:, w) = superposed%rests(:, w) - static_share(superposed)
+         end do
       end if
+      do w = 1, size(plan%waves)
+         if (allocated(plan%waves(w)%moved)) superposed%carried(:, w) = wanted(plan%waves(w)%moved)
+      end do
       response%node = model%mesh%node_id(plan%nodes)
+      response%is_direct = plan%is_direct
       response%frequency = asked_frequencies(plan, modes%modes%frequency)
       response%n_beyond = count(plan%frequencies > (1.0_wp + same_frequency)*modes%reach)
       allocate (response%amplitude(d, n, size(response%frequency)), response%phase(d, n, size(response%frequency)), &
                 response%between(4, size(plan%pairs), size(response%frequency)))
-      response%force = reshape([(force_between(plan%pairs(k), plan%force(:d, :), least_load*norm2(plan%force)), &
-                                 k = 1, size(plan%pairs))], [4, size(plan%pairs)])
+      allocate (response%force(4, size(plan%pairs), size(response%frequency)), source=(0.0_wp, 0.0_wp))
       do f = 1, size(response%frequency)
-         call response_at(superposed, response%frequency(f), u, ok)
-         if (.not. ok) then
+         do w = 1, size(plan%waves)
+            if (allocated(plan%waves(w)%moved)) cycle
+            do k = 1, size(plan%pairs)
+               response%force(:, k, f) = response%force(:, k, f) + load_at(plan%waves(w)%law, response%frequency(f))* &
+                  force_between(plan%pairs(k), plan%waves(w)%force(:d, :), least_load*norm2(plan%waves(w)%force))
+            end do
+         end do
+         call excite(plan%waves, response%frequency(f), superposed, ok)
+         if (ok) call response_at(superposed, response%frequency(f), u, ok)
+         if (.not. ok .and. .not. any(abs(superposed%force) > 0.0_wp)) then
+            call failure%raise('FREQUENCY: at '//real_text(response%frequency(f))//' a support that has a velocity or an '// &
+                               'acceleration moves without bound; expected frequencies above 0')
+            return
+         else if (.not. ok) then
             m = minloc(abs(superposed%lambda - (2.0_wp*pi*response%frequency(f))**2), dim=1, mask=abs(superposed%force) > 0.0_wp)
             call failure%raise('FREQUENCY: at '//real_text(response%frequency(f))//' the response is unbounded: '// &
                                why_unbounded(model, modes, m))
@@ -216,8 +270,21 @@ contains
          response%between(:, :, f) = reshape(u(d*n + 1:), [4, size(plan%pairs)])
       end do
       superposed%shape = superposed%shape(:d*n, :)
-      superposed%rest = superposed%rest(:d*n)
+      superposed%rests = superposed%rests(:d*n, :)
+      superposed%carried = superposed%carried(:d*n, :)
       call find_missed_peaks(plan, modes, superposed, response)
+
+   contains
+
+      !> The movements of the wanted nodes, then of the pairs, from those of all nodes.
+      pure function wanted(u)
+         real(wp), intent(in) :: u(:, :)
+         real(wp) :: wanted(d*n + 4*size(plan%pairs))
+         integer  :: k
+
+         wanted = [pack(u(:, plan%nodes), .true.), (between(plan%pairs(k), u), k = 1, size(plan%pairs))]
+      end function wanted
+
    end subroutine find_response
 
    !> Why the response at the frequency of mode M of MODES has no bound, and what gives it one.
@@ -244,11 +311,11 @@ contains
    subroutine find_missed_peaks(plan, modes, superposed, response)
       type(response_plan), intent(in)    :: plan
       type(modes_type), intent(in)       :: modes
-      type(modal_system), intent(in)     :: superposed
+      type(modal_system), intent(inout)  :: superposed
       type(response_type), intent(inout) :: response
       type(missed_peak) :: peak
       complex(wp) :: u(size(superposed%shape, 1))
-      real(wp)    :: at_peak(size(u)), beside(size(u)), most(size(u)), of_load
+      real(wp)    :: at_peak(size(u)), beside(size(u)), most(size(u))
       integer     :: at, d, k, m
       logical     :: is_damped, ok
 
@@ -256,13 +323,13 @@ contains
       if (size(response%frequency) < 2) return
       d = size(response%amplitude, 1)
       most = reshape(maxval(response%amplitude, dim=3), [size(u)])
-      of_load = sqrt(sum(plan%force**2))
       do m = 1, size(modes%modes)
          peak = missed_peak(mode=modes%n_before + m, frequency=peak_frequency(superposed, m))
          k = count(response%frequency <= peak%frequency) ! the one below
          if (k == 0 .or. k == size(response%frequency) .or. peak%frequency <= 0.0_wp) cycle
          associate (largest => maxval(abs(modes%modes(m)%u)))
-            if (abs(superposed%force(m)) <= unexcited*of_load*largest) cycle
+            call excite(plan%waves, peak%frequency, superposed, ok)
+            if (abs(superposed%force(m)) <= 0.0_wp) cycle
             is_damped = superposed%loss(m) + superposed%viscous(m) > unexcited
             beside = reshape(maxval(response%amplitude(:, :, k:k + 1), dim=3), [size(u)])
             if (is_damped) then

@@ -50,8 +50,8 @@ module natural_modes
       integer  :: n_counted = 0                   !! eigenvalues below COUNTED_AT, all found
       real(wp) :: counted_at = 0.0_wp             !! [1/time^2]
       real(wp) :: reach = 0.0_wp                  !! up to here no mode is missing among the wanted ones; huge: they are all [1/time^2]
-      real(wp), allocatable :: load(:)            !! (equations) of the response, where one is wanted [force]
-      real(wp), allocatable :: at_rest(:)         !! (equations) under this load at rest, where a factor without shift was made
+      real(wp), allocatable :: load(:, :)         !! (equations, waves) of the response, where one is wanted [force]
+      real(wp), allocatable :: at_rest(:, :)      !! likewise, under this load at rest, where a factor without shift was made
    end type spectrum_type
 
 contains
@@ -143,11 +143,16 @@ contains
       type(spectrum_type), intent(out)      :: spectrum
       class(equation_system), allocatable, intent(out) :: system
       type(failure_type), intent(inout)     :: failure
+      integer :: i
 
       if (failure%raised) return
       spectrum%n_wanted = merge(plan%most, huge(1), plan%most > 0)
-      if (allocated(plan%response)) &
-         spectrum%load = on_equations(model, structure%started, plan%response%force(:model%mesh%dimension, :))
+      if (allocated(plan%response)) then
+         allocate (spectrum%load(structure%started%n, size(plan%response%waves)))
+         do i = 1, size(plan%response%waves)
+            spectrum%load(:, i) = on_equations(model, structure%started, plan%response%waves(i)%force(:model%mesh%dimension, :))
+         end do
+      end if
       if (needs_all(structure%started, plan%most)) then
          call find_all(model, structure, plan, spectrum, failure)
       else
@@ -337,7 +342,9 @@ contains
       if (.not. loose%raised) then
          if (allocated(spectrum%load)) then
             spectrum%at_rest = spectrum%load
-            call system%solve_by_factor(spectrum%at_rest)
+            do i = 1, size(spectrum%at_rest, 2)
+               call system%solve_by_factor(spectrum%at_rest(:, i))
+            end do
          end if
          call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
          return
