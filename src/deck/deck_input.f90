@@ -19,7 +19,7 @@ module deck_input
                          read_pmark, read_grid_defaults, read_system, system_names
    use nastran_compatibility, only: not_reduced, take_idle_card
    use nastran_defaults, only: find_first_card, take_initial_temperature, take_only_sets
-   use nx_cards, only: read_contact_parameter, read_pair, read_preload, read_region, read_sequence, read_side_of_region
+   use nx_cards, only: read_pair, read_preload, read_region
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
    use response_cards, only: read_darea, read_dload, read_lseq, read_rload, read_tabled
@@ -50,7 +50,6 @@ module deck_input
       type(bulk_data_type)    :: bulk
       logical :: is_whole = .false. !! false: a part of the deck is missing, so that references to it cannot be checked
       type(card_kind), allocatable :: kinds(:) !! of card, with their field tables
-      integer :: default_law = 0               !! number of the JNORM and JSHEAR of contacts of NX without PJOINT, 0: none
    end type deck_type
 
    abstract interface
@@ -89,15 +88,13 @@ contains
       call add(['CONROD'], read_rod)
       call add(['NODEAT'], read_place)
       call add(['MAT1'], read_mat1)
-      call add(['BSURF  ', 'BSURFS ', 'BCPROP ', 'BCPROPS'], read_region)
+      call add(['BSURF  ', 'BSURFS ', 'BCPROP ', 'BCPROPS', 'BCRPARA'], read_region)
       call add(['MAT2', 'MAT8'], read_plate_material, joined='MAT1')
       cards%of_mesh = .true.
-      call add(['BCRPARA'], read_side_of_region)
       call add(['BCTSET', 'BGSET '], read_pair)
-      call add(['BCTADD', 'BGADD '], read_sum)
-      call add(['BCTPARM'], read_contact_parameter)
-      call add(['BOLTFOR'], read_preload)
-      call add(['BOLTSEQ'], read_sequence)
+      call add(['BCTADD'], read_sum)
+      call add(['BGADD'], read_sum)
+      call add(['BOLTFOR', 'BOLTSEQ'], read_preload)
       call add(['CELAS1', 'CELAS2', 'CELAS3', 'CELAS4', 'CBUSH '], read_spring)
       call add(['PELAS', 'PBUSH'], read_spring_property)
       call add(['CONM2 ', 'CONM1 ', 'CMASS1', 'CMASS2', 'CMASS3', 'CMASS4'], read_mass)
@@ -182,8 +179,7 @@ contains
          bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
          bulk%jiwan(n('JIWAN')), bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
          bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')), bulk%region(n('BSURF')), &
-         bulk%region_side(n('BCRPARA')), bulk%pair(n('BCTSET')), bulk%contact_sum(n('BCTADD')), bulk%glue_sum(n('BGADD')), &
-         bulk%touching(n('BCTPARM')), bulk%preload(n('BOLTFOR')), bulk%sequence(n('BOLTSEQ')), &
+         bulk%pair(n('BCTSET')), bulk%contact_sum(n('BCTADD')), bulk%glue_sum(n('BGADD')), bulk%preload(n('BOLTFOR')), &
          bulk%dynamic%rload(n('RLOAD1')), bulk%dload(n('DLOAD')), &
          bulk%dynamic%darea(2*n('DAREA')), bulk%dynamic%lseq(n('LSEQ')), bulk%dynamic%tabled(n('TABLED1')), &
          bulk%matrices%dmig(n('DMIG')), bulk%matrices%retained(4*n('ASET')))

@@ -23,8 +23,8 @@ module nastran_words
       'TRIM', 'FMETHOD', 'AESYMXZ', 'AESYMXY', 'AECONFIG', 'AEROF', 'APRESSURE', 'MONITOR', 'DIVERG', & ! air
       'CMETHOD', 'TSTEP', 'TSTEPNL', 'IC', 'RIGID', 'NLOPRM', 'BC', 'SEQDEP'] ! of other kinds of analysis
    ! of the bulk data: plots, and properties and materials of unsupported elements
-   character(8), parameter :: card_names(138) = [character(8) :: &
-      'MAT4', 'MAT5', 'DTI', 'BGPARM', &
+   character(8), parameter :: card_names(139) = [character(8) :: &
+      'MAT4', 'MAT5', 'DTI', 'BCTPARM', 'BGPARM', &
       'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBCOMP', &
       'PBEND', 'PBUSH1D', 'PCOMPS', 'PDAMP', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &
       'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PVISC', 'PWELD', 'MAT3', 'MAT9', &
