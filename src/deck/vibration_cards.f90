@@ -34,7 +34,7 @@ contains
          eigrl%line = card%line
          call read_options(card, norm)
          eigrl%has_lowest = card%given('V1')
-         eigrl%has_highest = card%given('V2')
+         eigrl%has_highest = card%given('V2') .and. abs(eigrl%highest) > 0.0_wp
          eigrl%unit_mass = norm == 'MASS'
          if (eigrl%has_lowest .and. eigrl%has_highest) call check_range(card, eigrl%lowest, eigrl%highest, 'V')
       end associate
