@@ -5,6 +5,7 @@
 module mesh_build
    use block_mesh, only: collect_cards, mesh_card_type
    use bulk_data, only: element_card
+   use contact_regions, only: add_regions
    use deck_check, only: checked_deck
    use displacement_systems, only: build_systems
    use elasticity, only: axisymmetric
@@ -67,6 +68,7 @@ contains
       call check_nodes(deck, mesh)
       call check_elements(deck, cards%grid, mesh)
       call collect_sides(deck, cards%side, mesh, sides)
+      call add_regions(deck, mesh, sides)
    end subroutine build_mesh
 
    !> Warn of numbers that rigid elements and masses, OTHERS, share with ELEMENTS or among themselves: nothing refers to them.
@@ -279,6 +281,9 @@ contains
          associate (card => deck%bulk%displacement(i))
             call require(card%line, card%field, card%node, called='G')
          end associate
+      end do
+      do i = 1, size(deck%bulk%suport)
+         call require(deck%bulk%suport(i)%line, deck%bulk%suport(i)%field, deck%bulk%suport(i)%node, called='ID')
       end do
       do i = 1, size(deck%bulk%mass)
          associate (card => deck%bulk%mass(i))

@@ -11,16 +11,19 @@ module deck_input
    use, intrinsic :: iso_fortran_env, only: int8
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
+   use laminate_cards, only: read_laminate, read_plate_material
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
                          read_temperature
    use mesh_cards, only: complete_remedy, fill_defaults, read_block, read_edge, read_edge_defaults, read_element, read_grid, &
                          read_pmark, read_grid_defaults, read_system, system_names
    use nastran_compatibility, only: take_idle_card
    use nastran_defaults, only: find_first_card, take_initial_temperature, take_only_sets
+   use nx_cards, only: read_contact_parameter, read_pair, read_preload, read_region, read_sequence, read_side_of_region
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
-   use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
-   use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, read_support
+   use rigid_cards, only: count_idle_rotations, read_equation, read_place, read_rigid, read_tie
+   use support_cards, only: read_displacement, read_mass, read_pmass, read_scalar, read_spring, read_spring_property, &
+                            read_sum, read_suport, read_support
    use text_tools, only: plural, upper
    use unused_cards, only: count_unused
    use vibration_cards, only: read_eigrl, read_frequencies, read_jampl, read_tabdmp1
@@ -45,6 +48,7 @@ module deck_input
       type(bulk_data_type)    :: bulk
       logical :: is_whole = .false. !! false: a part of the deck is missing, so that references to it cannot be checked
       type(card_kind), allocatable :: kinds(:) !! of card, with their field tables
+      integer :: default_law = 0               !! number of the JNORM and JSHEAR of contacts of NX without PJOINT, 0: none
    end type deck_type
 
    abstract interface
@@ -69,12 +73,13 @@ contains
       call add(['GRID'], read_grid)
       call add(['GRDSET'], read_grid_defaults)
       call add(system_names, read_system)
-      call add(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
+      call add(['CTRIA3', 'CTRIA6', 'CTRIAR', 'CQUAD4', 'CQUAD8', 'CQUADR', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
       call add(['CBAR ', 'CBEAM', 'CROD '], read_edge)
       call add(['BAROR ', 'BEAMOR'], read_edge_defaults)
       call add(['BLOCK2', 'BLOCK3'], read_block)
       call add(['PMARK'], read_pmark)
       call add(['PSHELL'], read_pshell)
+      call add(['PCOMP ', 'PCOMPG'], read_laminate, joined='PSHELL')
       call add(['PAXIS'], read_body_property)
       call add(['PSOLID'], read_body_property)
       call add(['PROD'], read_rod)
@@ -82,17 +87,28 @@ contains
       call add(['CONROD'], read_rod)
       call add(['NODEAT'], read_place)
       call add(['MAT1'], read_mat1)
+      call add(['BSURF  ', 'BSURFS ', 'BCPROP ', 'BCPROPS'], read_region)
+      call add(['MAT2', 'MAT8'], read_plate_material, joined='MAT1')
       cards%of_mesh = .true.
-      call add(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
+      call add(['BCRPARA'], read_side_of_region)
+      call add(['BCTSET', 'BGSET '], read_pair)
+      call add(['BCTADD', 'BGADD '], read_sum)
+      call add(['BCTPARM'], read_contact_parameter)
+      call add(['BOLTFOR'], read_preload)
+      call add(['BOLTSEQ'], read_sequence)
+      call add(['CELAS1', 'CELAS2', 'CELAS3', 'CELAS4', 'CBUSH '], read_spring)
       call add(['PELAS', 'PBUSH'], read_spring_property)
-      call add(['CONM2 ', 'CMASS2'], read_mass)
+      call add(['CONM2 ', 'CONM1 ', 'CMASS1', 'CMASS2', 'CMASS3', 'CMASS4'], read_mass)
+      call add(['PMASS'], read_pmass)
+      call add(['SPOINT'], read_scalar)
       call add(['SPC ', 'SPC1', 'SPCM'], read_support)
       call add(['SPCADD'], read_sum)
-      call add(['RBE2 ', 'RBE3 ', 'RBAR ', 'RBE2M', 'RBE3M'], read_rigid)
+      call add(['SUPORT'], read_suport)
+      call add(['RBE2 ', 'RBE1 ', 'RBE3 ', 'RBAR ', 'RROD ', 'RBE2M', 'RBE3M'], read_rigid)
       call add(['SHELLTO'], read_tie)
       call add(['MPC'], read_equation)
       call add(['MPCADD'], read_sum)
-      call add(['FORCE  ', 'FORCE1 ', 'FORCE2 ', 'MOMENT ', 'MOMENT1', 'MOMENT2'], read_force)
+      call add(['FORCE  ', 'FORCE1 ', 'FORCE2 ', 'MOMENT ', 'MOMENT1', 'MOMENT2', 'SLOAD  '], read_force)
       call add(['PLOAD4', 'PLOADE', 'PLOAD ', 'PLOAD2'], read_pressure)
       call add(['PLOADM', 'FORCEM'], read_surface_load)
       call add(['GRAV  ', 'RFORCE', 'ACCEL1'], read_gravity)
@@ -110,7 +126,7 @@ contains
       call add(['JIWAN'], read_jiwan)
       call add(['JGAP'], read_jgap)
       call add(['JINCR'], read_jincr)
-      call add(['EIGRL'], read_eigrl)
+      call add(['EIGRL', 'EIGR '], read_eigrl)
       call add(['JAMPL'], read_jampl)
       call add(['FREQ1', 'FREQ2', 'FREQ4'], read_frequencies)
       call add(['TABDMP1'], read_tabdmp1)
@@ -118,14 +134,16 @@ contains
 
    contains
 
-      !> Add the kinds NAMES, which READ reads.
-      subroutine add(names, read)
+      !> Add the kinds NAMES, which READ reads, into the array of the kind JOINED where it is present.
+      subroutine add(names, read, joined)
          character(*), intent(in) :: names(:)
          procedure(read_one)      :: read
+         character(*), intent(in), optional :: joined
          type(card_kind) :: kind
          integer :: k
 
          kind%routine = size(cards) + 1
+         if (present(joined)) kind%routine = cards(findloc(cards%name, joined, dim=1))%routine
          kind%read => read
          do k = 1, size(names)
             kind%name = names(k)
@@ -144,14 +162,19 @@ contains
          bulk%plate(0), bulk%beam_property(n('PBAR')), bulk%beam_load(n('PLOAD1')), bulk%block(n('BLOCK2')), &
          bulk%pmark(n('PMARK')), bulk%pshell(n('PSHELL')), bulk%paxis(n('PAXIS')), bulk%psolid(n('PSOLID')), &
          bulk%prod(n('PROD')), bulk%conrod(n('CONROD')), bulk%spring(n('CBUSH')), bulk%spring_property(2*n('PBUSH')), &
-         bulk%mass(n('CONM2')), bulk%mat1(n('MAT1')), bulk%support(2*n('SPC')), bulk%support_sum(n('SPCADD')), &
+         bulk%mass(n('CONM2')), bulk%pmass(4*n('PMASS')), bulk%scalar(n('SPOINT')), &
+         bulk%mat1(n('MAT1')), bulk%support(2*n('SPC')), bulk%support_sum(n('SPCADD')), &
          bulk%rigid(n('RBE2')), bulk%place(n('NODEAT')), bulk%tie(n('SHELLTO')), bulk%equation(n('MPC')), &
-         bulk%equation_sum(n('MPCADD')), bulk%force(n('FORCE')), bulk%pressure(n('PLOAD')), bulk%surface_load(n('PLOADM')), &
-         bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
+         bulk%equation_sum(n('MPCADD')), bulk%force(n('FORCE') + 2*sum(cards%n, mask=cards%name == 'SLOAD')), &
+         bulk%pressure(n('PLOAD')), bulk%surface_load(n('PLOADM')), &
+         bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%suport(4*n('SUPORT')), &
+         bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
          bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
          bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
          bulk%jiwan(n('JIWAN')), bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
-         bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')))
+         bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')), bulk%region(n('BSURF')), &
+         bulk%region_side(n('BCRPARA')), bulk%pair(n('BCTSET')), bulk%contact_sum(n('BCTADD')), bulk%glue_sum(n('BGADD')), &
+         bulk%touching(n('BCTPARM')), bulk%preload(n('BOLTFOR')), bulk%sequence(n('BOLTSEQ')))
 
    contains
 
@@ -168,16 +191,17 @@ contains
    end subroutine make_room
 
    !> Read the deck PATH. READABLE is false where the file cannot be read; errors in the deck go to ERRORS.
-   subroutine read_deck(path, deck, errors, readable, parameters, watched)
+   subroutine read_deck(path, deck, errors, readable, parameters, watched, law)
       character(*), intent(in)             :: path
       type(deck_type), intent(out)         :: deck
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
       type(parameter_type), intent(in), optional :: parameters(:) !! of --set; default: none
       character(*), intent(in), optional   :: watched             !! of --watch: node numbers with commas; default and '': none
+      character(*), intent(in), optional   :: law                 !! file of --law; default and '': none
       logical :: ok
 
-      call read_deck_text(path, deck%text, errors, readable, parameters)
+      call read_deck_text(path, deck%text, errors, readable, parameters, law)
       if (readable) call read_lines(deck, errors)
       if (.not. present(watched) .or. .not. readable) return
       if (watched == '') return
@@ -228,11 +252,16 @@ contains
          ! the arrays whose cards may fill one entry or several are cut to the filled entries
          bulk%system = bulk%system(:count(bulk%system%line > 0))
          bulk%spring_property = bulk%spring_property(:count(bulk%spring_property%line > 0))
+         bulk%pmass = bulk%pmass(:count(bulk%pmass%line > 0))
+         bulk%force = bulk%force(:count(bulk%force%line > 0))
          bulk%support = bulk%support(:count(bulk%support%line > 0))
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
+         bulk%suport = bulk%suport(:count(bulk%suport%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
+         bulk%plate = bulk%plate(:bulk%n_plates)
          call fill_defaults(bulk)
          call count_unused(bulk)
+         call count_idle_rotations(bulk)
          call bulk%ignored%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), &
                                   any(deck%control%stages%warms_materials), errors)
          if (is_alone) call take_only_sets(bulk, deck%control%stages(1), errors)

@@ -10,7 +10,7 @@ module deck_text
    use kinds, only: long
    use lists, only: first_not_below
    use tab_columns, only: expand_tabs
-   use text_tools, only: integer_text, one_of
+   use text_tools, only: integer_text, one_of, upper
    implicit none
    private
 
@@ -59,6 +59,7 @@ module deck_text
       integer, private                       :: n_parts = 0
       type(parameter_type), allocatable      :: parameters(:) !! of --set
       character(:), allocatable              :: options       !! of the command, that change the problem; not allocated: none
+      character(:), allocatable, private     :: law           ! file of --law, until its lines follow BEGIN BULK
    contains
       procedure :: line => whole_line
       procedure :: card_part
@@ -72,16 +73,20 @@ contains
 
    !> Read the deck PATH and its INCLUDE files. READABLE is false where PATH itself cannot be read (TEXT is then empty). All other
    !! errors go to ERRORS.
-   subroutine read_deck_text(path, text, errors, readable, parameters)
+   subroutine read_deck_text(path, text, errors, readable, parameters, law)
       character(*), intent(in)             :: path
       type(deck_text_type), intent(out)    :: text
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
       type(parameter_type), intent(in), optional :: parameters(:) !! default: none
+      character(*), intent(in), optional   :: law !! file of cards behind BEGIN BULK; default and '': none
       integer :: k
 
       allocate (text%files(max_files), text%lines(1024), text%parts(2*max_files), text%parameters(0))
       if (present(parameters)) text%parameters = parameters
+      if (present(law)) then
+         if (law /= '') text%law = law
+      end if
       call add_file(text, path, 0, 0, errors, readable)
       do k = 1, size(text%parameters)
          associate (parameter => text%parameters(k))
@@ -295,19 +300,37 @@ contains
          logical, intent(in) :: is_last !! line of the file
          integer(long) :: first, last
          integer :: comma, file
+         logical :: is_begin
 
          starts_part = .false.
          call text%find(text%n, file, first, last, comma)
          associate (line => text%files(file)%bytes(first:last))
-            if (statement == '' .and. .not. is_include(line)) return
+            is_begin = .false.
+            if (allocated(text%law) .and. statement == '') is_begin = index(upper(adjustl(line)), 'BEGIN') == 1
+            if (statement == '' .and. .not. (is_include(line) .or. is_begin)) return
             if (statement == '') opened = text%n
             statement = statement//trim(adjustl(line))
          end associate
+         if (is_begin) then
+            call add_law(starts_part)
+            statement = ''
+            return
+         end if
          if (opened < text%n) text%lines(text%n)%length = 0
          if (is_open(statement) .and. .not. is_last .and. text%n < opened + most_include) return
          call follow_include(text, me, opened, statement, depth, starts_part, errors)
          statement = ''
       end subroutine take_include
+
+      !> The lines of the file of --law.
+      subroutine add_law(followed)
+         logical, intent(out) :: followed
+         character(:), allocatable :: path
+
+         call move_alloc(text%law, path)
+         call add_file(text, path, me, depth + 1, errors, followed)
+         if (.not. followed) call errors%add(0, '--law '//path//': the file cannot be read')
+      end subroutine add_law
 
    end subroutine add_lines
 

@@ -7,14 +7,14 @@ module nastran_solutions
    implicit none
    private
 
-   public :: judge_solution, starts_dmap, warn_of_dmap
+   public :: is_statics, judge_solution, starts_dmap, warn_of_dmap
 
    character(*), parameter :: offer = 'jointfem has statics (101, SESTATIC; 1, 24, 66, 106, NLSTATIC), modes (103, SEMODES; 3) '// &
                                       'and the response to an oscillating load (108, 111)'
 
    ! SOL in numbers and names: those of statics, modes and response
-   character(*), parameter :: solved = '|1|24|66|101|106|STATIC|STATICS|SESTATIC|SESTATICS|NLSTATIC|NLSTATICS|LINEAR|NONLINEAR|'// &
-                                       '3|103|MODES|MODE|SEMODES|NORMAL|26|30|108|111|SEDFREQ|SEMFREQ|'
+   character(*), parameter :: static = '|1|24|66|101|106|STATIC|STATICS|SESTATIC|SESTATICS|NLSTATIC|NLSTATICS|LINEAR|NONLINEAR|'
+   character(*), parameter :: solved = static//'3|103|MODES|MODE|SEMODES|NORMAL|26|30|108|111|SEDFREQ|SEMFREQ|'
    character(*), parameter :: optimised = '|200|DESOPT|'
    ! APP and ANALYSIS
    character(*), parameter :: analysed = '|STATICS|STATIC|DISP|DISPLACEMENT|MODES|NLSTAT|NLSTATIC|NLSTATICS|MFREQ|DFREQ|'
@@ -48,7 +48,7 @@ contains
 
       refusal = ''
       warning = ''
-      word = '|'//upper(entry%value(:scan(entry%value//',', ' ,(') - 1))//'|'
+      word = word_of(entry)
       if (word /= '||') then
          if (entry%key == 'SOL' .and. index(solved, word) > 0) return
          if (entry%key == 'SOL' .and. index(optimised, word) > 0) then
@@ -66,6 +66,21 @@ contains
       refusal = entry%key//': '//one_of(word == '||', 'no value', ''''//entry%value(:min(40, len(entry%value)))//'''')// &
                 ', expected a kind of analysis; '//offer
    end subroutine judge_solution
+
+   !> Whether ENTRY, a SOL, asks for statics: a METHOD = set has no effect.
+   pure logical function is_statics(entry)
+      type(entry_type), intent(in) :: entry
+
+      is_statics = word_of(entry) /= '||' .and. index(static, word_of(entry)) > 0
+   end function is_statics
+
+   !> The first word of the value of ENTRY between bars.
+   pure function word_of(entry) result(word)
+      type(entry_type), intent(in) :: entry
+      character(:), allocatable :: word
+
+      word = '|'//upper(entry%value(:scan(entry%value//',', ' ,(') - 1))//'|'
+   end function word_of
 
    !> Whether the line with KEY starts instructions in DMAP, NASTRAN's own language, in executive control: they end at CEND.
    pure logical function starts_dmap(key)
