@@ -170,7 +170,8 @@ contains
             r(:, 2) = [d(3), 0.5_wp*d(2), 0.0_wp, 0.5_wp*d(1) + 0.25_wp*d(2)]
          end if
          r(:, 3) = [r(1:3, 2), -r(4, 2)]
-         section%shear = 5.0_wp/6.0_wp*[d(2)*d(3), d(4)*(d(1) + d(2))]
+         section%shear = [5.0_wp/6.0_wp*d(2)*d(3), d(4)*(d(1) + d(2))]
+         if (name == 'CROSS') section%shear(2) = 5.0_wp/6.0_wp*section%shear(2)
       case ('HAT') ! height, thickness, width of the top, of a brim beside it
          n = 5
          if (2.0_wp*d(2) >= min(d(1), d(3))) expected = 'walls, 2 DIM2, thinner than the height DIM1 and the top DIM3'
