@@ -48,7 +48,7 @@ module bulk_data
    type, extends(element_card), public :: edge_card
       real(wp) :: orientation(3) = 0.0_wp, offset(3, 2) = 0.0_wp ! X1, X2, X3 where there is no G0; WA, WB
       integer  :: pins(2) = 0                           ! PA, PB
-      logical  :: blank(4) = .false.                    ! X1, X2, X3, PID
+      logical  :: blank(5) = .false.                    ! X1, X2, X3, PID, OFFT
       logical  :: in_basic = .false.                    ! OFFT B: X1, X2, X3 are in basic axes
    end type edge_card
 

@@ -253,6 +253,7 @@ contains
       deck%bulk%ignored = deck%control%ignored
       deck%bulk%parameters = deck%control%parameters
       call find_cards(deck%text, cursor, deck%kinds, kind_at, deck%bulk, errors)
+      if (deck%bulk%n_cards < 0) return
       call make_room(deck%kinds, deck%bulk)
       call read_all(deck%text, kind_at, deck%kinds, deck%bulk, errors)
       associate (bulk => deck%bulk, asked => deck%control%stages%vibration)
@@ -286,7 +287,7 @@ contains
    end subroutine read_lines
 
    !> Note where the cards from line CURSOR to ENDDATA begin. BULK counts all cards, also unknown ones and those without effect. Text
-   !! behind ENDDATA has no effect.
+   !! behind ENDDATA has no effect. A second BEGIN makes their number -1.
    subroutine find_cards(text, cursor, cards, kind_at, bulk, errors)
       type(deck_text_type), intent(in)     :: text
       integer, intent(inout)               :: cursor
@@ -328,7 +329,9 @@ contains
             if (card_name(line, comma) == 'ENDDATA') then
                ended_file = file
             else if (upper(line(:min(6, len(line)))) == 'BEGIN') then
-               call errors%add(at, 'a second BEGIN: there is one structure, without superelements; the rest is not read')
+               errors%n = 0
+               call errors%add(at, 'a second BEGIN: there is one structure, without superelements; nothing of this deck is read')
+               bulk%n_cards = -1
                return
             else
                is_open = .true.

@@ -4,7 +4,7 @@ module nastran_words
    implicit none
    private
 
-   public :: control_habit, is_idle_card
+   public :: control_habit, is_idle_card, is_own_card
 
    ! of executive control and case control
    character(12), parameter :: control_words(124) = [character(12) :: &
@@ -49,6 +49,10 @@ module nastran_words
    ! with an effect on modes: reduction to some of the unknowns
    character(6), parameter, public :: of_reduction(4) = [character(6) :: 'CSET', 'CSET1', 'OMIT', 'OMIT1']
 
+   character(7), parameter :: own_cards(22) = [character(7) :: 'JOINT', 'CJOINT', 'PJOINT', 'JNORM', 'JSHEAR', 'JIWAN', 'JGAP', &
+      'JINCR', 'JAMPL', 'BOLT', 'BLOCK2', 'BLOCK3', 'PMARK', 'NODEAT', 'SHELLTO', 'PAXIS', 'PLOADE', 'PLOADM', 'FORCEM', 'SPCM', &
+      'RBE2M', 'RBE3M']
+
 contains
 
    !> The word of case control without effect that KEY stands for, in at least four letters or in the plural; empty: none.
@@ -72,5 +76,12 @@ contains
 
       is_idle_card = any(card_names == name)
    end function is_idle_card
+
+   !> Whether a card with this NAME is one of the program's own, in which 0 is a number.
+   pure logical function is_own_card(name)
+      character(*), intent(in) :: name
+
+      is_own_card = any(own_cards == name)
+   end function is_own_card
 
 end module nastran_words
