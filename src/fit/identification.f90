@@ -77,7 +77,6 @@ contains
          if (command%plot /= '') call plot_rows(command, data, search, plot)
          if (interrupt_so_far() /= 0) write (error_unit, '(2a)') command%structure%name, ': interrupted, the best values so far'
       end if
-      call hold_interrupts(.false.)
    end subroutine identify
 
    !> Put the starts of the command into DATA.
@@ -196,7 +195,8 @@ contains
       real(wp), intent(in) :: value
       character(13) :: text
 
-      text = adjusted(real_text(value), 13)
+      if (abs(value) >= 0.1_wp .and. abs(value) < 1.0e6_wp) write (text, '(f13.4)') value
+      if (abs(value) < 0.1_wp .or. abs(value) >= 1.0e6_wp) write (text, '(es13.5)') value
    end function cell
 
    !> Write the cards of the deck that have parameters, with the values in.

@@ -146,7 +146,7 @@ contains
       do k = 1, n_starts
          y = inner_value(data%parameters, data%parameters%start)
          do i = 1, merge(size(y), 0, k > 1)
-            associate (part => modulo(0.5_wp*(k - 1)*sqrt(real(4*i + 1, wp)), 1.0_wp))
+            associate (part => 0.05_wp + 0.9_wp*modulo((k - 1)*sqrt(i**2 + 1.0_wp), 1.0_wp))
                if (.not. data%parameters(i)%is_bounded) y(i) = y(i) + 2.0_wp*part - 1.0_wp
                if (data%parameters(i)%is_bounded) y(i) = y_of(data%parameters(i), asin(2.0_wp*part - 1.0_wp))
             end associate
