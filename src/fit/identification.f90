@@ -158,8 +158,7 @@ contains
       do i = 1, size(data%rows)
          associate (row => data%rows(i))
             call out%put('$ '//adjusted(integer_text(i), 4)//cell(row%value)//cell(row%deviation)//cell(search%first%value(i))// &
-               cell(search%best%value(i))//cell(0.01_wp*nint(100.0_wp*min(1.0e6_wp, max(-1.0e6_wp, before(i)))))// &
-               adjusted(real_text(0.01_wp*nint(100.0_wp*min(1.0e6_wp, max(-1.0e6_wp, after(i))))), 10)// &
+               cell(search%best%value(i))//adjusted(hundredths(before(i)), 12)//adjusted(hundredths(after(i)), 10)// &
                adjusted(real_text(0.001_wp*nint(1000.0_wp*search%best%mac(i))), 9)//'  '//row%words)
          end associate
       end do
@@ -190,6 +189,13 @@ contains
 
       text = adjustr(repeat(' ', len(text) - len(words))//words)
    end function adjusted
+
+   pure function hundredths(value) result(text)
+      real(wp), intent(in)      :: value
+      character(:), allocatable :: text
+
+      text = real_text(0.01_wp*nint(100.0_wp*min(1.0e6_wp, max(-1.0e6_wp, value))))
+   end function hundredths
 
    pure function cell(value) result(text)
       real(wp), intent(in) :: value
@@ -231,7 +237,8 @@ contains
       first = 1
       do i = 1, texts(1)%n
          if (scan(texts(1)%line(i)//' ', '+*, $') /= 1) first = i
-         if (index(texts(1)%line(i), '${') == 0) cycle
+         words = texts(1)%line(i)
+         if (index(words, '${') == 0 .or. index(words, '${') > index(words, '$')) cycle ! none, or in a comment
          do j = first, texts(1)%n ! the whole card
             words = texts(1)%line(j)//' '
             if (j > i .and. scan(words, '+*, ') /= 1) exit

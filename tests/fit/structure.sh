@@ -144,6 +144,16 @@ printf 'parameter,MU,0.15\ndisplacement,%s,1%%,stage=2,node=1,direction=x\n' "$u
 seek slide.bdf --measured slide.csv
 near 'friction: MU' MU 0.1 1e-3
 
+# ---- the column of the manual: known laws within two deviations, modes that change places ----
+seek "$input/measured/column.bdf" --measured "$input/measured/column.csv"
+holds 'the column: laws within two deviations' awk 'BEGIN { truth["C"] = 4.5e-3; truth["M"] = 0.5; truth["K0"] = 50; truth["K1"] = 100 }
+   $1 == "$" && $2 in truth && $5 > 0 { n++; off = ($4 - truth[$2]) / $5; if (off > 2 || off < -2) bad = 1 } END { exit bad || n != 4 }' found
+says 'the column: modes' found 'have changed places'
+awk '/^\*A column\.\*/ { on = 1 } on && /^```/ { n++ } on && n == 1 && /^\$/ { print } n == 2 { exit }' "$input/README.md" > manual
+holds 'the column: the table of the manual' awk '$1 != "$" || $3 + 0 == 0 { next } NR == FNR { value[$2] = $4; deviation[$2] = $5; n++; next }
+   $2 in value { m++; if ($4 / value[$2] > 1.002 || $4 / value[$2] < 0.998 || $5 / deviation[$2] > 1.01 || $5 / deviation[$2] < 0.99) bad = 1 }
+   END { exit bad || n != 4 || m != 4 }' manual found
+
 # ---- an interrupt leaves the best values so far ----
 cat > slow.csv << 'END'
 parameter,C,8.0E-3,1.0E-3,5.0E-2
