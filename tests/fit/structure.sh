@@ -164,7 +164,7 @@ frequency,280.0,0.01%,stage=1,mode=1
 frequency,1320.0,0.01%,stage=1,mode=2
 frequency,308.0,0.01%,stage=2,mode=1
 frequency,332.0,0.01%,stage=3,mode=1
-displacement,1.0E-3,0.01%,stage=3,node=401,direction=y
+displacement,1.0E-3,0.01%,stage=3,node=413,direction=y
 END
 "$jointfit" --structure "$input/measured/column.bdf" --measured slow.csv --starts 100000 > found 2> stderr &
 search=$!
