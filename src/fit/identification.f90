@@ -148,7 +148,7 @@ contains
             words = '$ correlation of '//data%parameters(search%free(j))%name//':'
             do k = 1, j - 1
                words = words//'  '//data%parameters(search%free(k))%name//' '// &
-                       real_text(0.001_wp*nint(1000.0_wp*search%statistics%correlation(j, k)))
+                       real_text(nint(1000.0_wp*search%statistics%correlation(j, k))/1000.0_wp)
             end do
             call out%put(words)
          end do
@@ -159,7 +159,7 @@ contains
          associate (row => data%rows(i))
             call out%put('$ '//adjusted(integer_text(i), 4)//cell(row%value)//cell(row%deviation)//cell(search%first%value(i))// &
                cell(search%best%value(i))//adjusted(hundredths(before(i)), 12)//adjusted(hundredths(after(i)), 10)// &
-               adjusted(real_text(0.001_wp*nint(1000.0_wp*search%best%mac(i))), 9)//'  '//row%words)
+               adjusted(real_text(nint(1000.0_wp*search%best%mac(i))/1000.0_wp), 9)//'  '//row%words)
          end associate
       end do
    end subroutine write_search
@@ -194,7 +194,7 @@ contains
       real(wp), intent(in)      :: value
       character(:), allocatable :: text
 
-      text = real_text(0.01_wp*nint(100.0_wp*min(1.0e6_wp, max(-1.0e6_wp, value))))
+      text = real_text(nint(100.0_wp*min(1.0e6_wp, max(-1.0e6_wp, value)))/100.0_wp)
    end function hundredths
 
    pure function cell(value) result(text)

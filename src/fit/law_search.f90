@@ -44,6 +44,7 @@ module law_search
       type(search_type)     :: search
       integer :: cores = 1
       real(wp), allocatable :: from(:)             ! the unknowns of all parameters at the start of this round
+      real(wp), allocatable :: x_from(:)           ! those of lmder there
       type(answer_type)     :: near, last          ! the answer there in full; of the last run that has not failed
       real(wp) :: square = huge(1.0_wp)            ! least sum of squares from this start
       logical  :: is_predicted = .false.           ! there are frequencies that the modes of a run nearby predict
@@ -209,6 +210,7 @@ contains
             best = now
             diag = 1.0_wp
             x = unknown_of(parameters, z(free))
+            task%x_from = x
             call lmder(ask, size(fvec), n, x, fvec, fjac, size(fvec), merge(coarsely_settled, search_settled, task%is_predicted), &
                1.0e-2_wp*search_settled, 0.0_wp, most_runs, &
                diag, 2, first_step*sqrt(real(n, wp))/merge(norm2(x), 1.0_wp, norm2(x) > 0.0_wp), 0, info, nfev, njev, ipvt, qtf, &
@@ -265,7 +267,7 @@ contains
             fjac = fjac*spread((y_of(parameters(free), x + small) - y_of(parameters(free), x - small))/(2.0_wp*small), 1, m)
          else
             square = 0.0_wp
-            if (norm2(y - task%from) <= 16.0_wp*epsilon(y)*norm2(y)) then
+            if (all(abs(x - task%x_from) <= 0.0_wp)) then
                task%last = task%near
             else if (task%is_predicted) then
                call run_all(task%data, task%structure, reshape(outer_value(parameters, y), [size(y), 1]), task%cores, answers, &
