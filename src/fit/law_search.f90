@@ -20,7 +20,8 @@ module law_search
 
    integer, parameter  :: most_runs = 100          ! of a round, without those for derivatives
    real(wp), parameter :: coarsely_settled = 0.03_wp ! of the sum of squares: change in the last step of a round
-   integer, parameter  :: most_rounds = 12, most_backs = 4
+   integer, parameter  :: few_runs = 3             ! ... of one with predicted frequencies
+   integer, parameter  :: most_rounds = 30, most_backs = 4
    real(wp), parameter :: failed = 1.0e8_wp        ! times the deviation: the difference of a run that has failed
    real(wp), parameter :: first_step = 0.7_wp      ! of an unknown
    real(wp), parameter :: small = 0.01_wp          ! step of z for dy/dz
@@ -206,13 +207,13 @@ contains
             end if
             task%from = z
             task%near = task%last
-            if (n == 0 .or. best - now <= search_settled*best) exit
+            if (n == 0 .or. best - now <= search_settled*max(1.0_wp, best)) exit ! far below one deviation
             best = now
             diag = 1.0_wp
             x = unknown_of(parameters, z(free))
             task%x_from = x
             call lmder(ask, size(fvec), n, x, fvec, fjac, size(fvec), merge(coarsely_settled, search_settled, task%is_predicted), &
-               1.0e-2_wp*search_settled, 0.0_wp, most_runs, &
+               1.0e-2_wp*search_settled, 0.0_wp, merge(few_runs, most_runs, task%is_predicted), &
                diag, 2, first_step*sqrt(real(n, wp))/merge(norm2(x), 1.0_wp, norm2(x) > 0.0_wp), 0, info, nfev, njev, ipvt, qtf, &
                wa1, wa2, wa3, wa4)
             z(free) = y_of(parameters, x)

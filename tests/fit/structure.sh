@@ -154,6 +154,32 @@ holds 'the column: the table of the manual' awk '$1 != "$" || $3 + 0 == 0 { next
    $2 in value { m++; if ($4 / value[$2] > 1.002 || $4 / value[$2] < 0.998 || $5 / deviation[$2] > 1.01 || $5 / deviation[$2] < 0.99) bad = 1 }
    END { exit bad || n != 4 || m != 4 }' manual found
 
+# ---- every kind of row, against the tables of jointfem: bolts, pairs, loss factors, responses, shapes, a backbone ----
+sed 's/ 8000\.0 / ${P}   /' "$input/column_modes_08.bdf" > kinds.bdf
+cp -R "$input/vibration" .
+"$jointfem" -q --set P=8000.0 --watch 2315,2315-2300 kinds.bdf > log 2>&1
+value() { # TABLE COLUMN KEY=ENTRY...: the number in the column of the row with these entries
+   awk -F, -v column="$2" -v keys="${*:3}" '
+      NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; n = split(keys, key, " "); next }
+      { for (i = 1; i <= n; i++) { split(key[i], part, "="); entry = $at[part[1]]
+           if (entry != part[2] && !(entry ~ /E/ && entry + 0 == part[2] + 0)) next } print $at[column]; exit }' "kinds.$1.csv"
+}
+{ echo 'parameter,P,8000.0'
+  row() { echo "$1,$2,0.1%,$3"; }
+  row bolt "$(value bolt force stage=2 bolt=3)" stage=2,bolt=3
+  row displacement "$(value watch u_z stage=1 node=2315)" stage=1,node=2315,direction=z
+  row displacement "$(value between movement stage=1 along=LINE)" stage=1,node=2315-2300,direction=line
+  row frequency "$(value modes frequency stage=2 mode=2)" stage=2,mode=2
+  row loss "$(value modes loss_factor stage=1 mode=3)" stage=1,mode=3
+  row amplitude "$(value response amplitude stage=1 node=2315 component=y frequency=280)" stage=1,node=2315,direction=y,frequency=280.0
+  row phase "$(value response phase stage=2 node=2315 component=x frequency=300)" stage=2,node=2315,direction=x,frequency=300.0
+} > kinds.csv
+holds 'every kind of row: the tables have it' [ "$(grep -c ',,' kinds.csv)" -eq 0 ]
+seek kinds.bdf --measured kinds.csv
+holds 'every kind of row: status 0' [ $status -eq 0 ]
+holds 'every kind of row: as in the tables' awk '/^\$ +[0-9]+ / { n++; if ($7 > 0.01 || $7 < -0.01) bad = 1 } END { exit bad || n != 7 }' found
+says 'every kind of row: the cards' found 'BOLT    1       901     8000.0' 'BOLT    4       904     8000.0'
+
 # ---- an interrupt leaves the best values so far ----
 cat > slow.csv << 'END'
 parameter,C,8.0E-3,1.0E-3,5.0E-2
@@ -169,7 +195,7 @@ END
 "$jointfit" --structure "$input/measured/column.bdf" --measured slow.csv --starts 100000 > found 2> stderr &
 search=$!
 sleep 12
-kill -INT $search
+kill -TERM $search
 wait $search
 holds 'an interrupt: status 3' [ $? -eq 3 ]
 says 'an interrupt' found 'INTERRUPTED: THE BEST VALUES SO FAR' 'JNORM   1       '
