@@ -23,7 +23,7 @@ module deck_input
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
    use response_cards, only: read_darea, read_dload, read_lseq, read_rload, read_tabled
-   use rigid_cards, only: count_idle_rotations, read_equation, read_place, read_rigid, read_tie
+   use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
    use support_cards, only: read_displacement, read_mass, read_pmass, read_scalar, read_spring, read_spring_property, &
                             read_sum, read_suport, read_support
    use text_tools, only: plural, upper
@@ -75,7 +75,7 @@ contains
       call add(['GRDSET'], read_grid_defaults)
       call add(system_names, read_system)
       call add(['CTRIA3', 'CTRIA6', 'CTRIAR', 'CQUAD4', 'CQUAD8', 'CQUADR', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
-      call add(['CBAR ', 'CBEAM', 'CROD '], read_edge)
+      call add(['CBAR ', 'CBEAM', 'CROD ', 'CTUBE'], read_edge)
       call add(['BAROR ', 'BEAMOR'], read_edge_defaults)
       call add(['BLOCK2', 'BLOCK3'], read_block)
       call add(['PMARK'], read_pmark)
@@ -83,7 +83,7 @@ contains
       call add(['PCOMP ', 'PCOMPG'], read_laminate, joined='PSHELL')
       call add(['PAXIS'], read_body_property)
       call add(['PSOLID'], read_body_property)
-      call add(['PROD'], read_rod)
+      call add(['PROD ', 'PTUBE'], read_rod)
       call add(['PBAR  ', 'PBARL ', 'PBEAM ', 'PBEAML'], read_beam_property)
       call add(['CONROD'], read_rod)
       call add(['NODEAT'], read_place)
@@ -277,7 +277,6 @@ contains
          end do
          call fill_defaults(bulk)
          call count_unused(bulk)
-         call count_idle_rotations(bulk)
          call bulk%ignored%settle(any(asked%modes%id /= 0), any(asked%modes%id /= 0 .and. asked%frequency%id > 0), &
                                   any(deck%control%stages%warms_materials), errors)
          if (is_alone) call take_only_sets(bulk, deck%control%stages(1), errors)

@@ -3,7 +3,7 @@
 !! along the beam, and the line load PLOAD1. The module mesh_cards reads CBAR and CBEAM.
 module property_cards
    use beam_sections, only: section_dimensions, section_names, section_of
-   use bulk_data, only: beam_property_card, bulk_data_type, conrod_card, property_card
+   use bulk_data, only: beam_property_card, bulk_data_type, conrod_card, prod_card, property_card
    use card_fields, only: card_fields_type
    use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
    use field_rules, only: not_negative, parse_real, positive, real_range
@@ -90,14 +90,17 @@ contains
       end if
    end subroutine read_body_property
 
-   !> PROD: a bar of cross-section A. J and C are for torsion, which this bar does not have. CONROD: a CROD and its PROD on one
-   !! card.
+   !> PROD: a bar of cross-section A with the torsion constant J; C has no effect. CONROD: a CROD and its PROD on one card. PTUBE: the
+   !! section of a tube.
    subroutine read_rod(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       type(conrod_card) :: rod
 
-      if (card%name == 'PROD') then
+      if (card%name == 'PTUBE') then
+         call read_tube(card, bulk%prod(card%i))
+         return
+      else if (card%name == 'PROD') then
          call card%field('PID', rod%id)
       else
          call card%field('EID', rod%id)
@@ -115,6 +118,33 @@ contains
          bulk%conrod(card%i) = rod
       end if
    end subroutine read_rod
+
+   !> PTUBE: outer diameter OD and wall T, 0 a solid rod. With another diameter OD2 at the second end a tube with the same wall and the
+   !! same axial stiffness, of the mean wall diameter (OD - OD2)/ln((OD - T)/(OD2 - T)).
+   subroutine read_tube(card, tube)
+      type(card_fields_type), intent(inout) :: card
+      type(prod_card), intent(inout)        :: tube
+      real(wp), parameter :: pi = acos(-1.0_wp)
+      real(wp) :: ends(2), mean, wall
+
+      call card%field('PID', tube%id)
+      call card%field('MID', tube%material)
+      call card%field('OD', ends(1), positive)
+      call card%field('T', wall, not_negative, default=0.0_wp)
+      call card%field('NSM', tube%extra_mass, not_negative, default=0.0_wp)
+      call card%field('OD2', ends(2), not_negative, default=ends(1))
+      call card%finish(tube%line)
+      if (card%is_faulty()) return
+      if (.not. ends(2) > 0.0_wp) ends(2) = ends(1)
+      if (2.0_wp*wall > minval(ends)) call card%error('T', 'more than half the diameter; expected the wall, or 0 for a solid rod')
+      if (.not. wall > 0.0_wp .and. abs(ends(1) - ends(2)) > 0.0_wp) call card%error('OD2', 'differs from OD; expected a wall T')
+      if (.not. wall > 0.0_wp) wall = 0.5_wp*minval(ends)
+      if (card%is_faulty()) return
+      mean = ends(1) - wall
+      if (abs(ends(1) - ends(2)) > equal_ends*ends(1)) mean = (ends(1) - ends(2))/log((ends(1) - wall)/(ends(2) - wall))
+      tube%area = pi*wall*mean
+      tube%torsion = 0.25_wp*tube%area*(mean**2 + wall**2)
+   end subroutine read_tube
 
    !> MAT1: two of E, G and NU suffice, with G = E/(2 (1 + NU)); E suffices for bars. Of all three, G
    !! holds for torsion and transverse shear, with a warning where they differ by more than one per cent. Of the
