@@ -190,12 +190,12 @@ contains
          is_isotropic = material%name == 'MAT1'
          stress = material%stress
          expansions = material%expansions
-         shear = material%shear
+         shear = material%shear_moduli
          if (.not. is_isotropic) return
          call elasticity_matrix(plane_stress, material%e, material%nu, d)
          stress = d(:3, :3)
          expansions(:2) = material%alpha
-         shear = 0.5_wp*material%e/(1.0_wp + material%nu)
+         shear = material%shear
       end associate
    end subroutine find_plane_stress
 

@@ -2,8 +2,10 @@
 !! A marked surface of shells lies half a thickness off their mean plane, on the side to which the normals of the marking elements
 !! point. A marked edge of shells is as wide as the thickness and is cut into strips. The nodes of such sides have rigid levers r
 !! from the nodes of the shells and no unknowns of their own: u + theta x r. Joints, gaps and pressure use them as they use other
-!! nodes. Masses with an offset have such nodes too.
+!! nodes. Masses with an offset and bushes between nodes apart have such nodes too.
 module shell_faces
+   use bulk_data, only: mass_card
+   use bush_build, only: add_ends, bush_type
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use element_kinds, only: max_side_nodes
@@ -19,16 +21,27 @@ module shell_faces
    implicit none
    private
 
-   public :: build_shell_faces, couple_shell_faces
+   public :: build_shell_faces, couple_shell_faces, mass_offset
 
    integer, parameter :: strips = 8 ! over the thickness at an edge: equal strips overestimate the inertia by 2/strips^2
 
 contains
 
+   !> The offset of the centre of the mass CARD from its node at X; with CID -1 the card has the centre itself, in basic axes.
+   pure function mass_offset(card, x) result(offset)
+      type(mass_card), intent(in) :: card
+      real(wp), intent(in)        :: x(3)
+      real(wp) :: offset(3)
+
+      offset = card%offset
+      if (card%system < 0) offset = card%offset - x
+   end function mass_offset
+
    !> Give the sides of shells in marked surfaces nodes of their own, and masses with an offset.
-   subroutine build_shell_faces(deck, mesh)
+   subroutine build_shell_faces(deck, mesh, bushes)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(inout) :: mesh
+      type(bush_type), intent(inout) :: bushes(:) !! the ends of their arms are faces too
       type(face_node_type), allocatable :: faces(:)
       real(wp) :: axes(3, 3)
       integer  :: i, k, n
@@ -38,11 +51,13 @@ contains
       do k = 1, size(deck%bulk%mass) ! the centre of mass of a CONM2 with an offset has a rigid lever from its node, as faces have
          associate (card => deck%bulk%mass(k))
             n = mesh%node_table%find(card%node)
-            if (n == 0 .or. all(abs(card%offset) <= 0.0_wp)) cycle
-            call find_directions(deck, mesh%systems, card%line, card%system, mesh%x(:, n), axes, ok)
-            faces = [faces, face_node_type(point=n, lever=matmul(axes, card%offset))]
+            if (n == 0) cycle
+            if (all(abs(mass_offset(card, mesh%x(:, n))) <= 0.0_wp)) cycle
+            call find_directions(deck, mesh%systems, card%line, max(card%system, 0), mesh%x(:, n), axes, ok)
+            faces = [faces, face_node_type(point=n, lever=matmul(axes, mass_offset(card, mesh%x(:, n))))]
          end associate
       end do
+      call add_ends(bushes, faces)
       do k = 1, size(mesh%surfaces)
          associate (surface => mesh%surfaces(k))
             if (.not. any([(is_shell(mesh, surface%element(n)), n = 1, surface%n)])) cycle

@@ -3,12 +3,13 @@
 module structural_build
    use beam_element, only: beam_axes, beam_length
    use bulk_data, only: edge_card, edge_crod, rigid_card
+   use bush_build, only: bush_type, stiffness_turns
    use deck_check, only: checked_deck
    use elasticity, only: beam, shell
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: id_table_type
-   use mesh_queries, only: element_points, is_beam, n_rotations, open_left_out
+   use mesh_queries, only: element_points, is_beam, is_scalar_point, n_rotations, open_left_out
    use model_data, only: freedoms_type, mesh_type, rotation_type
    use node_build, only: append_unknowns
    use rod_torsion, only: add_twisted, leave_out_untwisted
@@ -32,17 +33,19 @@ contains
 
    !> Give a node of rotations, behind the nodes of the deck, to each node of shells and beams and each reference node of rigid
    !! elements. An axisymmetric model has none. Missing nodes are reported elsewhere.
-   subroutine build_rotations(deck, mesh)
+   subroutine build_rotations(deck, bushes, mesh)
       type(checked_deck), intent(in)  :: deck
+      type(bush_type), intent(in)     :: bushes(:)
       type(mesh_type), intent(inout) :: mesh
       type(rotation_type), allocatable :: rotations(:)
       integer, allocatable :: elements(:), n_elements(:), points(:)
-      real(wp) :: square(mesh%n_nodes)
+      real(wp) :: arm, square(mesh%n_nodes)
       integer  :: count_of(mesh%n_nodes), e, i, k, n, node
       logical  :: turns
 
       if (mesh%axisymmetric) return
-      if (size(deck%rigid) == 0 .and. all(mesh%properties%state < shell) .and. all(mesh%bars%torsion <= 0.0_wp)) return
+      if (size(deck%rigid) + size(bushes) + size(deck%bulk%mass) == 0 .and. all(mesh%properties%state < shell) .and. &
+          all(mesh%bars%torsion <= 0.0_wp)) return
       allocate (rotations(size(deck%rigid) + mesh%n_nodes))
       mesh%rotation_of = spread(0, 1, mesh%n_nodes)
       n = 0
@@ -57,17 +60,35 @@ contains
             mesh%rotation_of(node) = n
          end associate
       end do
-      do i = 1, size(deck%rigid) ! an end of an RBAR without elements
+      do i = 1, size(deck%rigid) ! an end of an RBAR without elements, and nodes of RBE1
          associate (card => deck%rigid(i))
-            if (card%is_mean .or. card%surface > 0 .or. size(card%nodes) /= 1) cycle
-            if (.not. any([(has_component(card%components, k), k = 4, 6)])) cycle
-            node = mesh%node_table%find(card%nodes(1))
-            if (node == 0 .or. mesh%node_table%find(card%node) == 0) cycle
-            if (mesh%rotation_of(node) > 0 .or. mesh%first_at(node + 1) > mesh%first_at(node)) cycle
-            n = n + 1
-            rotations(n) = rotation_type(point=node, arm=arm_of(mesh, mesh%node_table%find(card%node), card))
-            mesh%rotation_of(node) = n
+            if (card%is_mean .or. card%surface > 0 .or. mesh%node_table%find(card%node) == 0) cycle
+            do e = 1, size(card%nodes)
+               if (size(card%nodes) > 1 .and. .not. allocated(card%um_nodes)) exit
+               if (any([(has_component(card%directions(e), k), k = 4, 6)])) &
+                  call turn(card%nodes(e), arm_of(mesh, mesh%node_table%find(card%node), card))
+            end do
+            if (.not. allocated(card%um_nodes)) cycle
+            do e = 1, size(card%um_nodes)
+               if (any([(has_component(card%um_components(e), k), k = 4, 6)])) &
+                  call turn(card%um_nodes(e), arm_of(mesh, mesh%node_table%find(card%node), card))
+            end do
          end associate
+      end do
+      do i = 1, size(bushes) ! nodes that springs turn
+         do k = 1, 2
+            call stiffness_turns(deck, bushes, i, k, turns, arm)
+            if (turns) call turn(deck%bulk%spring(i)%nodes(k), arm)
+         end do
+      end do
+      do i = 1, size(deck%bulk%force)
+         node = deck%bulk%force(i)%node
+         if (deck%bulk%force(i)%is_moment .and. any(deck%bulk%spring%nodes(1) == node .or. deck%bulk%spring%nodes(2) == node)) &
+            call turn(node, 1.0_wp)
+      end do
+      do i = 1, size(deck%bulk%mass)
+         if (deck%bulk%mass(i)%component > 3 .or. allocated(deck%bulk%mass(i)%matrix)) call turn(deck%bulk%mass(i)%node, 1.0_wp)
+         if (deck%bulk%mass(i)%component_2 > 3) call turn(deck%bulk%mass(i)%node_2, 1.0_wp)
       end do
       ! nodes of shells and beams; their arm is the root mean square of the distances to the other nodes of their elements
       square = 0.0_wp
@@ -106,6 +127,24 @@ contains
          elements = [(mesh%elements_at(first(points(k)):first(points(k)) + n_elements(k) - 1), k = 1, n)]
       end associate
       call append_unknowns(mesh, points, n_elements, elements)
+
+   contains
+
+      !> Give node ID rotations, unless it has rotations or belongs to a body.
+      subroutine turn(id, arm)
+         integer, intent(in)  :: id
+         real(wp), intent(in) :: arm !! [length]
+         integer :: node
+
+         node = 0
+         if (id > 0) node = mesh%node_table%find(id)
+         if (node == 0) return
+         if (mesh%rotation_of(node) > 0 .or. mesh%first_at(node + 1) > mesh%first_at(node) .or. is_scalar_point(mesh, node)) return
+         n = n + 1
+         rotations(n) = rotation_type(point=node, arm=arm)
+         mesh%rotation_of(node) = n
+      end subroutine turn
+
    end subroutine build_rotations
 
    !> Whether element E is a shell or a beam, by its property.
@@ -118,16 +157,22 @@ contains
          has_rotations = any(mesh%properties(mesh%element_property(e))%state == [shell, beam])
    end function has_rotations
 
-   !> In the plane the node of rotations has one component, about z; at a node of rods alone, those that a rod twists.
+   !> A scalar point has one component. In the plane the node of rotations has one component, about z; at a node of rods alone, those
+   !! that a rod twists.
    subroutine leave_out_idle(mesh, freedoms)
       type(mesh_type), intent(in) :: mesh
       type(freedoms_type), intent(inout) :: freedoms
       integer :: k
 
+      do k = 1, size(mesh%is_scalar)
+         if (.not. mesh%is_scalar(k)) cycle
+         call open_left_out(mesh, freedoms)
+         freedoms%left_out(2:, k) = .true.
+         freedoms%held(2:, k) = .true.
+      end do
       if (mesh%dimension == 3) call leave_out_untwisted(mesh, freedoms)
       if (mesh%dimension == 3) return
       do k = 1, n_rotations(mesh)
-         if (.not. mesh%rotations(k)%of_element) cycle
          call open_left_out(mesh, freedoms)
          freedoms%left_out(2, mesh%rotations(k)%node) = .true.
          freedoms%held(2, mesh%rotations(k)%node) = .true.
@@ -177,7 +222,7 @@ contains
                law%stations%extra_mass = deck%bulk%parameters%mass_factor*law%stations%extra_mass
             end if
             law%e = property%e
-            law%g = 0.5_wp*property%e/(1.0_wp + property%nu)
+            law%g = deck%bulk%mat1(findloc(deck%bulk%mat1%id, deck%bulk%beam_property(k)%material, dim=1))%shear
             law%rho = property%rho
             law%expansion = property%alpha
             law%is_cut = any(deck%bulk%bolt%element == card%id)
@@ -186,7 +231,8 @@ contains
             do end = 1, 2
                law%offset(:, end) = matmul(node_axes(mesh, mesh%element_nodes(end, e)), card%offset(:, end))
             end do
-            law%orientation = matmul(node_axes(mesh, mesh%element_nodes(1, e)), card%orientation)
+            law%orientation = card%orientation
+            if (.not. card%in_basic) law%orientation = matmul(node_axes(mesh, mesh%element_nodes(1, e)), card%orientation)
             if (card%nodes(3) > 0) then
                other = mesh%node_table%find(card%nodes(3))
                if (other == 0) then

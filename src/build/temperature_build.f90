@@ -72,6 +72,7 @@ contains
       end do
       if (deck%errors%any()) return
       do s = 2, size(history%stages)
+         if (history%stages(s)%from == 0) cycle
          associate (a => history%stages(history%stages(s)%from)%temperature, b => history%stages(s)%temperature)
             history%stages(s)%changes(3) = abs(a%reference_share - b%reference_share) > 0.0_wp .or. differ(a%plate, b%plate)
             if (allocated(a%at) .and. allocated(b%at)) history%stages(s)%changes(3) = history%stages(s)%changes(3) .or. &
@@ -167,7 +168,9 @@ contains
       if (.not. allocated(loads%moved)) allocate (loads%moved(mesh%dimension, mesh%n_nodes), source=0.0_wp)
       do k = 1, size(expansions)
          associate (part => expansions(k))
-            loads%moved(part%d, part%node) = part%growth*(0.5_wp*sum(loads%temperature%at(part%points)) - part%reference)
+            associate (moved => loads%moved(part%d, part%node)) ! a mean grows in several arms
+               moved = moved + part%growth*(0.5_wp*sum(loads%temperature%at(part%points)) - part%reference)
+            end associate
          end associate
       end do
    end subroutine expand
@@ -226,6 +229,7 @@ contains
             k = last(node)
             last(node) = i
             if (k == 0) cycle
+            if (.not. abs(deck%bulk%temperature(k)%value - card%value) > 0.0_wp) cycle
             if (deck%bulk%temperature(k)%set == card%set) call deck%field_error(card%line, card%field, 'node '// &
                integer_text(card%node)//' has a temperature in set '//integer_text(card%set)//' already, in '// &
                deck%text%place(deck%bulk%temperature(k)%line))

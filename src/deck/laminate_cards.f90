@@ -26,7 +26,7 @@ contains
             call card%field(['E1', 'E2'], modulus, positive)
             call card%field('NU12', nu)
             call card%field('G12', g(6), positive)
-            call card%field(['G1Z', 'G2Z'], material%shear, not_negative, default=0.0_wp)
+            call card%field(['G1Z', 'G2Z'], material%shear_moduli, not_negative, default=0.0_wp)
             call card%field('RHO', material%rho, not_negative, default=0.0_wp)
             call card%field(['A1', 'A2'], material%expansions(:2), default=0.0_wp)
             call card%field('TREF', material%reference, default=0.0_wp)
@@ -48,7 +48,7 @@ contains
             call card%skip(['ST   ', 'SC   ', 'SS   ', 'MCSID'])
             call card%finish(material%line)
             if (card%is_faulty()) return
-            material%shear = [g(1), g(4)]
+            material%shear_moduli = [g(1), g(4)]
             modulus = [g(1), g(4)]
             nu = g(2)/max(g(4), tiny(1.0_wp))
             if (min(g(1), g(4)) <= 0.0_wp .or. g(2)**2 >= g(1)*g(4) .or. g(6) < 0.0_wp) call card%error('G11', &

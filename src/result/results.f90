@@ -46,7 +46,7 @@ module results
    private
 
    public :: start_results, print_increment, print_stage, print_modes, end_stage, keep_finished_stages, finish_results, &
-             discard_results, record_results, record_reference, show_answers
+             discard_results, record_results, record_reference, return_to_rest, show_answers
 
    type, public :: results_type
       type(count_type)       :: counts
@@ -234,7 +234,7 @@ contains
          if (analysis%record%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label
          before = page%screen%used
-         call print_answer(page, title, model, analysis%stage == 1, bodies, joints)
+         call print_answer(page, title, model, model%history%stages(analysis%stage)%from == 0, bodies, joints)
          call print_bolts(page, model, analysis, results%bolts_now)
          call find_reactions(model, analysis, page%largest_force, reactions)
          call print_reactions(page, model, reactions)
@@ -399,5 +399,14 @@ contains
       call record_bolts(stream, results%bolts)
       if (allocated(results%watched_before%u)) call record_watched(stream, results%watched_before)
    end subroutine record_reference
+
+   !> Refer the results of the next stage, an independent case, to the structure at rest.
+   subroutine return_to_rest(model, results)
+      type(model_type), intent(in)      :: model
+      type(results_type), intent(inout) :: results
+
+      results%page%largest_force = 0.0_wp
+      call start_watched(model, results%watched_before)
+   end subroutine return_to_rest
 
 end module results

@@ -8,7 +8,7 @@ module run_of_deck
    use deck_input, only: deck_type
    use distance_watch, only: distance_words
    use distribution, only: memory_of_all
-   use equation_solver, only: failure_type, solver_description
+   use equation_solver, only: equation_system, failure_type, solver_description
    use error_report, only: print_errors
    use incomplete_results, only: say_at_interrupts, what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
@@ -42,6 +42,11 @@ module run_of_deck
                                  is_unsolved = 5, is_unwritten = 6, is_refused = 7, was_searched = 8
    integer, parameter :: status_of(0:8) = [0, 1, 1, 2, 0, status_unsolved, status_unwritten, 1, 0]
 
+   !> Equations of independent cases whose supports come again.
+   type, public :: kept_equations
+      class(equation_system), allocatable :: system
+   end type kept_equations
+
    !> The run of one deck.
    type, public :: run_type
       type(failure_type) :: failure            !! why the structure cannot be solved
@@ -57,6 +62,7 @@ module run_of_deck
       type(restart_stream_type) :: restart     !! the restart file to continue from, while it is read
       logical :: resumes = .false.             !! there is such a file
       character(:), allocatable :: problem     !! why the restart file cannot be used
+      type(kept_equations), allocatable :: kept(:) !! of each of the freedoms of the model
       logical :: misses_output = .false.       !! a restart file, the answer or a VTU file could not be written
       integer(long), private :: began = 0      ! clock at the start
       type(solver_description) :: solver       !! for the operations in the table at the end
@@ -199,7 +205,7 @@ contains
             call tell(run, distance_words(watch%farthest))
          end associate
          call tell(run, tetra_words(model))
-         call say_of_deck(run, deck, model)
+         call say_of_deck(run, deck, model, plan)
          if (ok) then
             call show_answers(run%results, shown)
             if (.not. shown) call miss_output(run)
@@ -230,15 +236,23 @@ contains
 
    !> Report the kind of the model where the deck leaves a choice, the entries without effect, and how NASTRAN would read the deck
    !! differently.
-   subroutine say_of_deck(run, deck, model)
+   subroutine say_of_deck(run, deck, model, plan)
       type(run_type), intent(in)   :: run
       type(deck_type), intent(in)  :: deck
       type(model_type), intent(in) :: model
+      type(stage_plan_type), intent(in) :: plan
+      integer :: i
 
       if (allocated(model%mesh%kind_words)) call tell(run, model%mesh%kind_words)
       if (deck%bulk%ignored%n > 0) call tell(run, deck%bulk%ignored%words())
-      if (deck%control%of_nastran .and. size(deck%control%stages) > 1) call tell(run, plural(size(deck%control%stages), &
-         'SUBCASE')//' are stages of one history: each starts from the end of the previous one, or of the one that FROM names')
+      if (allocated(deck%bulk%told)) then
+         do i = 1, size(deck%bulk%told)
+            call tell(run, deck%bulk%told(i)%words)
+         end do
+      end if
+      if (deck%control%of_nastran .and. size(plan%stages) > 1 .and. .not. plan%is_independent) call tell(run, &
+         plural(size(plan%stages), 'SUBCASE')//' are stages of one history: each starts from the end of the previous one, '// &
+         'or of the one that FROM names')
    end subroutine say_of_deck
 
    !> Report the error, or that a deck is in order. A run that did not finish leaves no result.
@@ -266,14 +280,14 @@ contains
             if (allocated(model%mesh%kind_words)) call tell(run, model%mesh%kind_words)
             call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, run%errors)
          case (was_checked)
-            call say_of_deck(run, deck, model)
+            call say_of_deck(run, deck, model, plan)
             call write_bytes(1, name//': no errors; '//plural(n_points(model%mesh), 'node')//', '// &
                              plural(model%mesh%n_elements, 'body element')//', '// &
                              plural(size(model%joints%element), 'interface element')//', '//plural(size(plan%stages), 'stage')// &
                              new_line('a'), ok)
             if (.not. ok) call miss_output(run)
          case (was_searched)
-            call say_of_deck(run, deck, model)
+            call say_of_deck(run, deck, model, plan)
             call run%suggestions%finish(ok)
             if (.not. ok) call miss_output(run)
          case (is_unsolved)

@@ -37,6 +37,7 @@ module natural_modes
       logical, allocatable  :: is_locked(:)  !! tightened pretension sections of solid bolts
       type(mass_matrix_type) :: mass
       class(equation_system), allocatable :: started !! ordered, without a matrix
+      logical :: is_counted = .true.         !! prove by a count that no mode is missing
    end type oscillating_type
 
    type, public :: spectrum_type
@@ -55,17 +56,23 @@ module natural_modes
 
 contains
 
-   !> MODEL without its supports; the condition on the axis of a ring remains.
+   !> MODEL without its supports, or those of SUPORT where it has any; the condition on the axis of a ring remains.
    pure subroutine release_supports(model)
       type(model_type), intent(inout) :: model
-      logical :: free(model%mesh%dimension)
-      integer :: i
+      logical :: free(model%mesh%dimension), some
+      integer :: d, i
 
-      do i = 1, model%mesh%n_nodes - n_sections(model%mesh)
-         free = supported(model%mesh, model%freedoms, i)
-         if (model%mesh%axisymmetric) free(1) = free(1) .and. abs(model%mesh%x(1, i)) > 0.0_wp
-         model%freedoms%held(:, i) = model%freedoms%held(:, i) .and. .not. free
-      end do
+      associate (groups => model%freedoms%support_groups, of => model%freedoms%support_of)
+         some = any(groups%kind == 'FREE')
+         do i = 1, model%mesh%n_nodes - n_sections(model%mesh)
+            free = supported(model%mesh, model%freedoms, i)
+            do d = 1, merge(size(free), 0, some)
+               if (free(d)) free(d) = groups(of(d, i))%kind == 'FREE'
+            end do
+            if (model%mesh%axisymmetric) free(1) = free(1) .and. abs(model%mesh%x(1, i)) > 0.0_wp
+            model%freedoms%held(:, i) = model%freedoms%held(:, i) .and. .not. free
+         end do
+      end associate
    end subroutine release_supports
 
    !> Stiffness and mass about the state of ANALYSIS, and the order of the equations. The solver is SKYLINE if SYSTEM is
@@ -84,8 +91,9 @@ contains
          structure%k(:, i) = oscillation_stiffness(model%joints%list(model%joints%element(i)%joint)%law, &
             model%joints%element(i)%area, analysis%states(i), on_loading)
       end do
-      structure%is_elastic = [(analysis%is_elastic(i) .or. model%mesh%bars(i)%stage == analysis%stage, i = 1, n_bars(model%mesh))]
-      structure%is_locked = [(analysis%is_locked(i) .or. model%mesh%sections(i)%stage == analysis%stage, i = 1, &
+      structure%is_elastic = [(analysis%is_elastic(i) .or. model%mesh%bars(i)%tightening%is_in(analysis%stage), &
+                               i = 1, n_bars(model%mesh))]
+      structure%is_locked = [(analysis%is_locked(i) .or. model%mesh%sections(i)%tightening%is_in(analysis%stage), i = 1, &
                               n_sections(model%mesh))]
       call form_mass(model, structure%mass)
       call start_equations(model, structure%started, failure, &
@@ -227,6 +235,10 @@ contains
             else
                n = 2*n
                cycle
+            end if
+            if (.not. structure%is_counted) then
+               wanted = min(wanted, last)
+               return
             end if
             deallocate (system)
             call count_below(model, structure, spectrum%counted_at, under, failure)
