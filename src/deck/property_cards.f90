@@ -224,8 +224,8 @@ contains
    end subroutine read_beam_property
 
    !> The rest of a PBEAM: its stations, in any order, and K1, K2. A blank at a station is the value between those of both ends, at end B
-   !! that of end A. The shear centre is the centroid: warping (CW), shear relief (S1, S2), NSI and the offsets M and N of mass and
-   !! neutral axis must be blank.
+   !! that of end A. The shear centre is the centroid: shear relief (S1, S2), NSI and the offsets M and N of mass and neutral axis
+   !! must be blank.
    subroutine read_stations(card, property)
       type(card_fields_type), intent(inout)   :: card
       type(beam_property_card), intent(inout) :: property
@@ -267,9 +267,10 @@ contains
             call card%real_at(first + k - 1, 'K'//integer_text(k), section%shear(k), ok, expected='a real number, 0 or more')
          end do
          do k = first + 2, card%n
+            if (k == first + 6 .or. k == first + 7) cycle ! CW, without effect where no SA or SB names a point that warps
             call parse_real(card%text_at(k), value, ok)
             if (card%text_at(k) == '' .or. (ok .and. .not. abs(value) > 0.0_wp)) cycle
-            call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank or zero: beams have no warping, no '// &
+            call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank or zero: beams have no '// &
                'shear relief and no offset of their axes')
          end do
          if (card%is_faulty()) return
