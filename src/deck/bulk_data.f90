@@ -13,6 +13,7 @@ module bulk_data
    use normal_curve, only: normal_law
    use iwan_law, only: iwan_type
    use shear_stiffness, only: shear_law
+   use tapered_beam, only: beam_station
    use text_tools, only: text_item
    implicit none
    private
@@ -67,6 +68,7 @@ module bulk_data
       character(6) :: name = ''
       type(beam_section) :: section
       real(wp) :: extra_mass = 0.0_wp                   ! NSM, per length
+      type(beam_station), allocatable :: stations(:)    ! where the section changes
    end type beam_property_card
 
    !> PLOAD1: the load P at the positions X(1) and X(2).

@@ -80,7 +80,7 @@ contains
       call add(['BLOCK2', 'BLOCK3'], read_block)
       call add(['PMARK'], read_pmark)
       call add(['PSHELL'], read_pshell)
-      call add(['PCOMP ', 'PCOMPG'], read_laminate, joined='PSHELL')
+      call add(['PCOMP ', 'PCOMPG'], read_laminate, joins=.true.)
       call add(['PAXIS'], read_body_property)
       call add(['PSOLID'], read_body_property)
       call add(['PROD ', 'PTUBE'], read_rod)
@@ -88,8 +88,8 @@ contains
       call add(['CONROD'], read_rod)
       call add(['NODEAT'], read_place)
       call add(['MAT1'], read_mat1)
+      call add(['MAT2', 'MAT8'], read_plate_material, joins=.true.)
       call add(['BSURF  ', 'BSURFS ', 'BCPROP ', 'BCPROPS', 'BCRPARA'], read_region)
-      call add(['MAT2', 'MAT8'], read_plate_material, joined='MAT1')
       cards%of_mesh = .true.
       call add(['BCTSET', 'BGSET '], read_pair)
       call add(['BCTADD'], read_sum)
@@ -140,16 +140,16 @@ contains
 
    contains
 
-      !> Add the kinds NAMES, which READ reads, into the array of the kind JOINED where it is present.
-      subroutine add(names, read, joined)
+      !> Add the kinds NAMES, which READ reads; where JOINS is present, into the array of the kind before.
+      subroutine add(names, read, joins)
          character(*), intent(in) :: names(:)
          procedure(read_one)      :: read
-         character(*), intent(in), optional :: joined
+         logical, intent(in), optional :: joins
          type(card_kind) :: kind
          integer :: k
 
          kind%routine = size(cards) + 1
-         if (present(joined)) kind%routine = cards(findloc(cards%name, joined, dim=1))%routine
+         if (present(joins)) kind%routine = cards(size(cards))%routine
          kind%read => read
          do k = 1, size(names)
             kind%name = names(k)
