@@ -22,6 +22,7 @@ module tolerances
    real(wp), parameter :: determined_motion = 1.0e-8_wp !! of a unit motion: what the fit of an RBE3 leaves, the root of 1E-16
    real(wp), parameter :: released_pivot = 1.0e-12_wp !! of the stiffness before releases: an earlier release has left none
    real(wp), parameter :: zero_rotation_stiffness = 1.0e-9_wp !! of the largest at the node: rods that are parallel but for rounding
+   real(wp), parameter :: idle_stiffness = 1.0e-8_wp !! of the largest at the node, as NASTRAN's EPZERO; of the load on it
    real(wp), parameter :: dependent_columns = 1.0e-12_wp !! reciprocal condition number of scaled columns: a least-squares fit fails
    real(wp), parameter :: indefinite_inertia = 1.0e-12_wp !! of a scaled tensor: a principal minor that is negative by rounding
    real(wp), parameter :: symmetric_tie = 1.0e-6_wp  !! of a value: equal ones of a symmetric structure, above its solution error
@@ -185,6 +186,10 @@ module tolerances
    real(wp), parameter :: settled_iwan = 1.0e-9_wp   !! of the unknowns of Iwan's law: change in the last step
    real(wp), parameter :: iwan_difference = 1.0e-5_wp !! of these unknowns: differences in place of derivatives
    real(wp), parameter :: not_fixed = 1.0e-3_wp      !! of a derivative: no less fixes an unknown; of beta, of the largest d: counts as none
+   real(wp), parameter :: search_difference = 1.0e-2_wp !! of an unknown of --structure: differences in place of derivatives; a run has three digits
+   real(wp), parameter :: search_settled = 1.0e-4_wp !! of its sum of squares: change in the last step, far below one deviation
+   real(wp), parameter :: undetermined = 1.0e-3_wp   !! of the largest singular value: smaller ones are errors of these differences
+   real(wp), parameter :: at_bound = 5.0e-2_wp       !! cosine of z: an unknown within a thousandth of its range from a bound
    real(wp), parameter :: m_at_one = 1.0e-9_wp       !! of m: the fit of a straight line gives 1 but for rounding
 
 end module tolerances

@@ -9,6 +9,7 @@ module case_control
    use field_rules, only: parse_integer, parse_real
    use kinds, only: wp
    use nastran_compatibility, only: ignored_entries_type, parameters_type, read_echo, read_habit
+   use nastran_solutions, only: is_statics, judge_solution, starts_dmap, warn_of_dmap
    use stage_entries, only: check_vibration, pair_reference, read_pair, read_stage_entry, stage_type, &
                             vibration_entries_type
    use text_tools, only: integer_text, upper
@@ -24,6 +25,7 @@ module case_control
       character(:), allocatable :: title
       character(8) :: length_unit = '', force_unit = ''  !! labels only
       integer :: method = method_step
+      logical :: method_is_given = .false.
       integer :: pressure = pressure_sumf
       logical :: carry = .false.
       logical :: average = .true.                        !! BACK: average two consecutive sets of results
@@ -34,6 +36,7 @@ module case_control
       logical :: echo  = .true.
       logical :: echo_asked = .false.                    !! by ECHO: for any number of cards
       logical :: of_nastran = .false.                    !! SOL or CEND: the deck was written for NASTRAN
+      logical :: refused = .false.                       !! a kind of analysis that is not available: the only error
       logical :: is_static = .false.                     !! SOL of statics: METHOD = set has no effect
       logical :: lumped = .false.                        !! MASS = LUMPED: the mass of elements is lumped at their nodes
       logical :: mass_is_given = .false.                 !! MASS is given
@@ -53,11 +56,12 @@ contains
       has_petsc = .true.
    end subroutine offer_petsc
 
-   !> Read from line CURSOR of TEXT up to BEGIN BULK. CURSOR then is the line after BEGIN BULK; FOUND_BULK tells whether there is
-   !! one.
-   subroutine read_case_control(text, cursor, control, found_bulk, errors)
+   !> Read from line CURSOR of TEXT up to BEGIN BULK or, where there is none, up to the first card, on line FIRST_CARD. CURSOR then is
+   !! the line after BEGIN BULK, or FIRST_CARD; FOUND_BULK tells whether there is either.
+   subroutine read_case_control(text, cursor, first_card, control, found_bulk, errors)
       type(deck_text_type), intent(in)     :: text
       integer, intent(inout)               :: cursor
+      integer, intent(in)                  :: first_card !! 0: there is a BEGIN BULK, or no card
       type(case_control_type), intent(out) :: control
       logical, intent(out)                 :: found_bulk
       type(deck_error_list), intent(inout) :: errors
@@ -65,10 +69,13 @@ contains
       type(entry_type) :: entry
       character(:), allocatable :: keys_seen ! in this place: above the stages, or in one stage
       character(:), allocatable :: line
-      logical :: goes_on, in_plots
+      character(:), allocatable :: refusal, warning
+      logical :: goes_on, in_dmap, in_plots, past_cend
 
       goes_on = .false.
+      in_dmap = .false.
       in_plots = .false.
+      past_cend = .false.
       control%title = ''
       control%tolerance = 0.0_wp
       allocate (control%stages(0), control%sets(0))
@@ -76,29 +83,42 @@ contains
       keys_seen = '|'
       found_bulk = .false.
       do while (cursor <= text%n)
+         found_bulk = cursor == first_card
+         if (found_bulk) exit
          line = text%card_part(cursor)
          cursor = cursor + 1
          if (line == '') cycle
-         if (index(line, achar(9)) > 0) then
-            call errors%add(cursor - 1, 'a tab in column '//integer_text(index(line, achar(9)))//': expected blanks', &
-                            index(line, achar(9)), index(line, achar(9)))
-            cycle
-         end if
          if (goes_on) then ! the continued list of an entry without effect
             goes_on = line(len(line):) == ','
             cycle
          end if
          call cut_entry(line, cursor - 1, entry)
          if (in_plots .and. entry%key /= 'BEGIN' .and. entry%key /= 'ENDDATA') cycle
+         if (in_dmap .and. all(entry%key /= ['CEND ', 'BEGIN', 'SOL  '])) cycle
          if (entry%key == 'BEGIN') then
             found_bulk = .true.
-            if (upper(entry%value) /= 'BULK') call value_error(entry, 'BULK', errors)
+            if (upper(entry%value) /= 'BULK') call refuse('BEGIN: '''//entry%value//''', expected BULK: there is '// &
+                                                          'one structure, without superelements')
+            if (control%refused) return
             exit
          else if (entry%key == 'ENDDATA') then
             cursor = cursor - 1
             exit
          end if
          control%of_nastran = control%of_nastran .or. entry%key == 'SOL' .or. entry%key == 'CEND'
+         past_cend = past_cend .or. entry%key == 'CEND'
+         in_dmap = in_dmap .and. .not. past_cend
+         if (starts_dmap(entry%key) .and. .not. past_cend) then
+            in_dmap = .true.
+            call warn_of_dmap(entry%key, text%place(entry%line), errors)
+            cycle
+         else if (any(entry%key == ['SOL     ', 'APP     ', 'ANALYSIS'])) then
+            call judge_solution(entry, refusal, warning)
+            call errors%warn(warning)
+            if (refusal /= '') call refuse(refusal)
+            if (control%refused) return
+            if (entry%key == 'SOL') control%is_static = is_statics(entry)
+         end if
          if (entry%key == 'METHOD' .and. entry%value /= '' .and. verify(entry%value, '0123456789') == 0) then
             if (control%is_static) call control%ignored%add('METHOD')
             if (control%is_static) cycle
@@ -118,7 +138,7 @@ contains
                   any(stage_keys == entry%key)) then
             if (any(entry%key == ['SUBCASE', 'SUBCOM '])) keys_seen = '|'
             if (index(keys_seen, '|'//entry%key//'('//entry%describers//')|') > 0) &
-               call errors%add(entry%line, entry%key//': given twice in the same place')
+               call errors%warn(entry%key//': given twice in the same place; the last one counts, in '//text%place(entry%line))
             keys_seen = keys_seen//entry%key//'('//entry%describers//')|'
             call read_entry(entry, control, common, errors)
          else
@@ -129,6 +149,18 @@ contains
       if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tol, newton_tol, control%method == method_back)
       call check_stages(control, common, errors)
       call note_idle_sets(control)
+
+   contains
+
+      !> Make WORDS about ENTRY the only error: nothing else of the deck is read.
+      subroutine refuse(words)
+         character(*), intent(in) :: words
+
+         control%refused = .true.
+         errors%n = 0
+         call errors%add(entry%line, words, entry%first, entry%last)
+      end subroutine refuse
+
    end subroutine read_case_control
 
    !> Watch the nodes and pairs of LIST, numbers and N-M with commas, in all stages; not OK: a word is neither. The nodes form a set
@@ -218,19 +250,13 @@ contains
       select case (entry%key)
       case ('SUBCASE', 'SUBCOM')
          call start_stage(entry, control, common, errors)
-      case ('SOL') ! numbers and names of statics and modes; old decks write 1,0
-         choice = scan(entry%value//',', ', ')
-         control%is_static = index('|1|24|101|106|SESTATIC|SESTATICS|STATIC|STATICS|NLSTATIC|', &
-                                   '|'//upper(entry%value(:choice - 1))//'|') > 0
-         if (index('|1|3|24|101|103|106|SESTATIC|SESTATICS|STATIC|STATICS|NLSTATIC|SEMODES|MODES|', &
-                   '|'//upper(entry%value(:choice - 1))//'|') == 0 .or. choice == 1) &
-            call value_error(entry, '101 (or 1, 24, 106, SESTATIC, NLSTATIC), statics, or 103 (3, SEMODES), modes', errors)
       case ('TITLE')
          control%title = entry%value
       case ('UNITS')
          call read_units(entry, control, errors)
       case ('METHOD')
          call choose(entry, method_words, control%method, errors)
+         control%method_is_given = .true.
       case ('TOL')
          call parse_real(upper(entry%value), control%tolerance, ok)
          if (.not. ok .or. control%tolerance < least_tol .or. control%tolerance > 0.01_wp) &

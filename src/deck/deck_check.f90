@@ -1,16 +1,19 @@
 !> Finds errors between cards that have been read: repeated numbers, missing laws of joints, wrong references.
 module deck_check
    use bulk_data, only: bulk_data_type, rigid_card
-   use card_fields, only: number_of
    use case_control, only: case_control_type
    use deck_cards, only: add_field_error, card_name
    use deck_errors, only: deck_error_list
    use deck_input, only: card_kind, deck_type
    use deck_text, only: deck_text_type
+   use field_rules, only: number_of
    use lists, only: id_table_type, sorted_order
    use text_tools, only: integer_text, one_of
    implicit none
    private
+
+   ! cards of NX, which other cards stand for in the model
+   character(8), parameter :: of_nx(7) = [character(8) :: 'BCTSET', 'BGSET', 'BOLT', 'BSURF', 'BSURFS', 'BCPROP', 'BCPROPS']
 
    !> The parts of a deck, and the list of its errors.
    type, public :: checked_deck
@@ -85,7 +88,13 @@ contains
       character(*), intent(in)           :: field, message
       character(*), intent(in), optional :: called !! name in the message, default: FIELD
 
-      call self%field_error(line, number_of(self%kinds(self%kind_of_line(line))%fields, field), message, called)
+      associate (kind => self%kinds(self%kind_of_line(line)))
+         if (any(kind%name == of_nx) .and. all(kind%fields /= field)) then ! of the card that it stands for
+            call self%errors%add(line, field//': '//message)
+         else
+            call self%field_error(line, number_of(kind%fields, field), message, called)
+         end if
+      end associate
    end subroutine named_field_error
 
    !> Add an error about data field K. NOUN, a word for the entry, precedes the name.

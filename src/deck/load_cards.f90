@@ -7,6 +7,7 @@ module load_cards
    use card_fields, only: card_fields_type, id_ranges
    use field_rules, only: at_least_1, not_negative, positive, real_range
    use kinds, only: wp
+   use nx_cards, only: is_nx_bolt, read_nx_bolt
    use text_tools, only: integer_text, one_of
    use tolerances, only: least_fraction
    implicit none
@@ -85,6 +86,25 @@ contains
       end do
    end function geometric_sum
 
+   !> SLOAD: up to three forces F on scalar points S.
+   subroutine read_scalar_load(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      integer :: k, set
+
+      call card%field('SID', set)
+      do k = 1, max(1, min(3, card%n/2))
+         if (k > 1) card%i = card%i + 1
+         associate (force => bulk%force(card%i))
+            force%line = card%line
+            force%set = set
+            call card%field('S'//integer_text(k), force%node)
+            call card%field('F'//integer_text(k), force%force(1))
+         end associate
+      end do
+      call card%finish(set)
+   end subroutine read_scalar_load
+
    !> FORCE: the vector F (N1, N2, N3) at one node in system CID; as in NASTRAN, the direction is not normalised. MOMENT likewise.
    !! FORCE1: F along the line from G1 to G2. FORCE2: F along the vector product of the lines G1-G2 and G3-G4.
    subroutine read_force(card, bulk)
@@ -92,17 +112,21 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       real(wp) :: f, direction(3)
 
+      if (card%name == 'SLOAD') then
+         call read_scalar_load(card, bulk)
+         return
+      end if
       associate (force => bulk%force(card%i))
-         force%is_moment = card%name == 'MOMENT'
+         force%is_moment = card%name(:1) == 'M'
          call card%field('SID', force%set)
          call card%field('G', force%node)
          select case (card%name)
-         case ('FORCE1')
-            call card%field('F', force%force(1))
+         case ('FORCE1', 'MOMENT1')
+            call card%field(merge('M', 'F', force%is_moment), force%force(1))
             call card%field(['G1', 'G2'], force%ends(:2))
             call card%finish(force%line)
-         case ('FORCE2')
-            call card%field('F', force%force(1))
+         case ('FORCE2', 'MOMENT2')
+            call card%field(merge('M', 'F', force%is_moment), force%force(1))
             call card%field(['G1', 'G2', 'G3', 'G4'], force%ends)
             call card%finish(force%line)
          case default
@@ -288,6 +312,10 @@ contains
       real(wp), parameter :: usual_friction = 0.12_wp ! mu_G
       logical :: ok
 
+      if (is_nx_bolt(card)) then
+         call read_nx_bolt(card, bulk%bolt(card%i))
+         return
+      end if
       associate (bolt => bulk%bolt(card%i))
          call card%field('BID', bolt%id)
          call card%field('EID', bolt%element, default=0)

@@ -66,9 +66,12 @@ module stage_entries
       type(set_reference) :: increments, supports
       type(set_reference) :: from         !! SUBCASE from whose end it starts; none: the one before
       type(set_reference) :: temperature  !! at the end of the stage; none: TREF everywhere
+      type(set_reference) :: initial      !! before any load, in place of TREF
+      logical :: warms_materials = .false. !! a set of temperatures holds for the materials
       type(set_reference) :: equations    !! constraint equations, MPC
       integer :: combines = 0             !! SUBCOM: line of SUBSEQ, -1: not given; 0: no SUBCOM
       real(wp), allocatable :: factors(:) !! SUBSEQ: of the SUBCASEs before it, the last of them last
+      type(set_reference) :: contact, glue, bolts !! of NX: BCSET, BGSET, BOLTLD
       type(output_request) :: output
       type(limit_type), allocatable :: only(:) !! not allocated: tables of all nodes and elements
       type(limit_type), allocatable :: watch(:) !! nodes whose displacement the answer gives; not allocated: none
@@ -102,14 +105,18 @@ contains
             call read_number(entry, stage%supports, errors)
          case ('MPC')
             call read_number(entry, stage%equations, errors)
+         case ('BCSET')
+            call read_number(entry, stage%contact, errors)
+         case ('BGSET')
+            call read_number(entry, stage%glue, errors)
+         case ('BOLTLD')
+            call read_number(entry, stage%bolts, errors)
          case ('OUTPUT')
             call read_output(entry, stage, errors)
          case ('SUBSEQ')
             call read_factors(entry, stage, errors)
          case ('TEMPERATURE')
-            call read_number(entry, stage%temperature, errors)
-            if (entry%describers /= 'LOAD') call errors%add(entry%line, 'TEMPERATURE: expected TEMPERATURE(LOAD) = set, the '// &
-               'temperatures at the end of the stage; without thermal strain the temperature is TREF of MAT1')
+            call read_temperature(entry, stage, errors)
          case ('MODES')
             call read_number(entry, asked%modes, errors)
             asked%free = entry%describers == 'FREE'
@@ -141,6 +148,28 @@ contains
          end select
       end associate
    end subroutine read_stage_entry
+
+   !> TEMPERATURE(LOAD) = set: at the end of the stage; of (BOTH), which may be left out, for the materials too, of (MATERIAL) for these
+   !! alone; TEMPERATURE(INITIAL): the temperatures before any load.
+   subroutine read_temperature(entry, stage, errors)
+      type(entry_type), intent(in)         :: entry
+      type(stage_type), intent(inout)      :: stage
+      type(deck_error_list), intent(inout) :: errors
+      type(set_reference) :: set
+
+      call read_number(entry, set, errors)
+      stage%warms_materials = stage%warms_materials .or. index(entry%describers, 'LOAD') /= 1
+      select case (entry%describers)
+      case ('LOAD', 'BOTH', '')
+         stage%temperature = set
+      case ('INIT', 'INITIAL')
+         stage%initial = set
+      case ('MATE', 'MATERIAL')
+      case default
+         call errors%add(entry%line, 'TEMPERATURE('//entry%describers//'): expected TEMPERATURE(LOAD) = set, the temperatures '// &
+                         'at the end of the stage, or TEMPERATURE(INITIAL), (MATERIAL) or (BOTH)')
+      end select
+   end subroutine read_temperature
 
    !> SUBSEQ = 1.0, -0.5 of a SUBCOM.
    subroutine read_factors(entry, stage, errors)

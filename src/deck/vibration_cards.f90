@@ -38,7 +38,8 @@ contains
          if (of == 'V') call card%skip(['MSGLVL', 'MAXSET', 'SHFSCL'])
          if (of == 'F') call card%skip(['blank', 'blank'])
          call card%word('NORM', one_of(of == 'V', '|MASS|MAX|', '|MASS|MAX|POINT|'), norm)
-         eigrl%line = card%line ! no effect behind: ALPH, NUMS and their list; G, C
+         eigrl%line = card%line
+         if (of == 'V') call read_options(card, norm)
          eigrl%has_lowest = card%given(of//'1')
          eigrl%has_highest = card%given(of//'2')
          eigrl%unit_mass = norm == 'MASS'
@@ -47,6 +48,25 @@ contains
          if (eigrl%has_lowest .and. eigrl%has_highest) call check_range(card, eigrl%lowest, eigrl%highest, of)
       end associate
    end subroutine read_eigrl
+
+   !> The continuations of an EIGRL: controls of the method, KEY=VALUE or a word or number alone, have no effect; NORM=MASS and NORM=MAX
+   !! are the NORM of the first line.
+   subroutine read_options(card, norm)
+      type(card_fields_type), intent(inout) :: card
+      character(8), intent(inout)           :: norm
+      character(:), allocatable :: option
+      integer :: k
+
+      do k = 9, card%n
+         option = card%text_at(k)
+         if (index(option, 'NORM=') == 1) then
+            norm = option(6:)
+            if (all(norm /= ['MASS', 'MAX '])) call card%error_at(k, 'NORM: '''//option(6:)//''', expected MASS or MAX')
+         else if (index(option, 'V1=') + index(option, 'V2=') + index(option, 'ND=') > 0) then
+            call card%error_at(k, ''''//option//''' on a continuation; expected V1, V2 and ND in their fields')
+         end if
+      end do
+   end subroutine read_options
 
    !> JAMPL: the amplitudes at which BACKBONE follows a mode through its hysteresis loops.
    subroutine read_jampl(card, bulk)

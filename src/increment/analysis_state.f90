@@ -125,6 +125,8 @@ module analysis_state
       logical, allocatable  :: is_elastic(:)        !! of bars: no bolt, or locked
       real(wp), allocatable :: rest_tension(:)      !! of locked bolts: tension at the lengths at rest and at TREF [force]
       logical, allocatable  :: is_locked(:)         !! of sections
+      real(wp), allocatable :: start_tension(:)     !! of bars, then of sections: of a bolt that is tightened again, at the start of the
+                                                    !! stage; else 0 [force]
       ! of interface elements and joints
       type(element_state), allocatable :: states(:)
       real(wp), allocatable :: movement(:, :)       !! (3, n) total, of end 1 relative to end 2, in element axes [length]
@@ -166,6 +168,7 @@ contains
       analysis%after = analysis%now
       allocate (analysis%rest_tension(n_bars(model%mesh)), source=0.0_wp)
       allocate (analysis%is_locked(n_sections(model%mesh)), source=.false.)
+      allocate (analysis%start_tension(n_bars(model%mesh) + n_sections(model%mesh)), source=0.0_wp)
       allocate (analysis%is_elastic(n_bars(model%mesh)), source=.true.)
       if (n_bars(model%mesh) > 0) analysis%is_elastic = model%mesh%bars%bolt == 0
       allocate (analysis%states(size(model%joints%element)), analysis%energy(size(model%joints%list)))

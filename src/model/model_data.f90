@@ -9,6 +9,7 @@ module model_data
    use joint_laws, only: joint_law
    use kinds, only: wp
    use lists, only: id_table_type
+   use shell_element, only: most_shell_nodes
    use shell_membrane, only: shell_law
    use text_tools, only: text_item
    implicit none
@@ -40,6 +41,16 @@ module model_data
       type(beam_law), allocatable  :: beams(:)
    end type structural_type
 
+   !> The stages that tighten a bolt, positions in ascending order, and its preload at the end of each. It is locked after each of them.
+   type, public :: tightening_type
+      integer, allocatable  :: stage(:)
+      real(wp), allocatable :: preload(:)    !! [force]
+   contains
+      procedure :: is_in
+      procedure :: preload_in
+      procedure :: last_until
+   end type tightening_type
+
    !> A marked surface: sides of elements, edges in the plane and faces of solids. Each side has the node order of its element: a
    !! plane body lies on the left of an edge, the right-hand normal of a face points out of the solid.
    type, public :: surface_type
@@ -53,6 +64,7 @@ module model_data
       integer, allocatable :: strip(:)       !! (n) which strip over the thickness, on an edge of shells, see shell_faces; 0: none
       logical :: was_split = .false.         !! a joint split the surface: the other body has duplicates of its nodes
       integer, allocatable :: line(:)        !! (n) of its card in the deck text
+      integer :: joint = 0                   !! the JOINT card that has these sides of a surface of several joints, 0: the whole surface
    end type surface_type
 
    real(wp), parameter, public :: whole_share = 0.999_wp !! share of a face or side above which the whole of it counts as covered
@@ -99,10 +111,12 @@ module model_data
 
    !> Temperatures of the model. T - TREF of a material is AT - REFERENCE_SHARE TREF. The share is 1 where the deck gives
    !! temperatures and 0 where it gives none (the structure is at TREF then); it varies linearly over a stage between the two.
+   integer, parameter, public :: slope_row = most_shell_nodes + 1 !! of the temperatures of shells
+
    type, public :: temperature_type
       real(wp), allocatable :: at(:)         !! (n_nodes) [temperature]; not allocated: none are given
       real(wp) :: reference_share = 0.0_wp   !! [-]
-      real(wp), allocatable :: plate(:, :)   !! (5, shells) corner temperatures relative to AT [temperature], and gradient over the
+      real(wp), allocatable :: plate(:, :)   !! (slope_row, shells) temperatures of nodes relative to AT [temperature], and gradient over the
                                              !! thickness [temperature/length]; not allocated: no shell has temperatures of its own
    end type temperature_type
 
@@ -131,10 +145,9 @@ module model_data
       integer  :: kind = a_bar
       character(2) :: axis = ''              !! of a spring: T1, T2 or T3, as the card numbers its components
       integer  :: bolt = 0                   !! BOLT id, 0: none
-      real(wp) :: preload = 0.0_wp           !! of a bolt [force]
       real(wp) :: area = 0.0_wp              !! of a bar [length^2]
       real(wp) :: strength = 0.0_wp          !! ST of its material, 0: not given [pressure]
-      integer  :: stage = 0                  !! position of the stage that tightens the bolt; elastic from its end on
+      type(tightening_type) :: tightening    !! of a bolt; it is elastic between its stages and after them
       type(thread_type) :: thread            !! of a bolt, in the units of the deck
       real(wp) :: torsion = 0.0_wp           !! G J/L of a bar [force x length]
       real(wp) :: mass = 0.0_wp              !! (rho A + NSM) L of a bar [force x time^2/length]
@@ -143,12 +156,14 @@ module model_data
       real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
    end type bar_type
 
-   !> CONM2: a mass at a node. CMASS2: a mass that resists along one direction.
+   !> CONM2: a mass at a node. CMASS2: a mass that resists along one direction. CONM1, and a CMASS between two components: a MATRIX.
    type, public :: point_mass_type
       integer  :: node = 0
       real(wp) :: mass = 0.0_wp              !! [force x time^2/length]
       real(wp) :: directed(3, 3) = 0.0_wp    !! resists along some directions only [force x time^2/length]
       real(wp) :: inertia(3, 3) = 0.0_wp     !! about the node, in global axes; acts on rotations [force x time^2 x length]
+      integer, allocatable  :: nodes(:)      !! with a MATRIX between their components, components of node 1 first; not
+      real(wp), allocatable :: matrix(:, :)  !! allocated: the terms above [force x time^2/length]
    end type point_mass_type
 
    !> A pretension section, at which a solid bolt is cut. The nodes of the section move with the marked side. Elements behind the
@@ -161,8 +176,7 @@ module model_data
       real(wp) :: direction(3) = 0.0_wp      !! unit, from the side behind to the marked side: g > 0 shortens the bolt
       real(wp) :: area = 0.0_wp              !! [length^2]
       real(wp) :: strength = 0.0_wp          !! ST of its material, 0: not given [pressure]
-      real(wp) :: preload = 0.0_wp           !! tension [force]
-      integer  :: stage = 0                  !! position of the stage that tightens it; from the end of this stage on g is held
+      type(tightening_type) :: tightening    !! g is held between its stages and after them
       type(thread_type) :: thread            !! in the units of the deck
    end type section_type
 
@@ -178,7 +192,7 @@ module model_data
       logical  :: of_rods = .false.          !! to rods alone
    end type rotation_type
 
-   !> A node on the face of shells, at a rigid LEVER from POINT, a node of the shells.
+   !> A node on the face of shells, at a rigid LEVER from POINT, a node of the shells; or the end of a CBUSH at its point.
    type, public :: face_node_type
       integer  :: point = 0
       integer  :: node = 0
@@ -251,6 +265,7 @@ module model_data
       type(section_type), allocatable      :: sections(:)
       type(rotation_type), allocatable     :: rotations(:)
       type(face_node_type), allocatable    :: faces(:)
+      logical, allocatable  :: is_scalar(:)          !! (points of the deck) SPOINT, which has one component; empty: there are none
       integer, allocatable  :: face_of(:)            !! (points) position of a node in faces, 0: none; empty: there are none
       integer, allocatable  :: rotation_of(:)        !! (points) position of a node in rotations, 0: none; empty: there are none
       integer, allocatable  :: node_section(:)       !! (n_nodes) the section that contains a node, 0: none; empty: there are none
@@ -261,6 +276,7 @@ module model_data
    type, public :: joints_type
       type(joint_type), allocatable :: list(:)
       type(interface_element), allocatable :: element(:) !! those of joint j are first to last of it
+      type(interface_element), allocatable :: glue(:)    !! of glued surfaces: what they move relative to each other is zero
    end type joints_type
 
    !> What the unknowns of the nodes are: supported, dependent, coupled; the connected parts.
@@ -295,6 +311,33 @@ module model_data
    end type model_type
 
 contains
+
+   !> Whether STAGE tightens the bolt.
+   pure logical function is_in(self, stage)
+      class(tightening_type), intent(in) :: self
+      integer, intent(in)                :: stage
+
+      is_in = allocated(self%stage)
+      if (is_in) is_in = any(self%stage == stage)
+   end function is_in
+
+   !> The preload at the end of STAGE; 0 where this stage does not tighten the bolt.
+   pure real(wp) function preload_in(self, stage) result(preload)
+      class(tightening_type), intent(in) :: self
+      integer, intent(in)                :: stage
+
+      preload = 0.0_wp
+      if (self%is_in(stage)) preload = self%preload(findloc(self%stage, stage, dim=1))
+   end function preload_in
+
+   !> The last stage until STAGE that tightens the bolt, 0: none.
+   pure integer function last_until(self, stage) result(last)
+      class(tightening_type), intent(in) :: self
+      integer, intent(in)                :: stage
+
+      last = 0
+      if (allocated(self%stage)) last = max(0, maxval(self%stage, mask=self%stage <= stage))
+   end function last_until
 
    !> The number of bars.
    pure integer function n_bars(mesh)

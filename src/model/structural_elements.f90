@@ -6,7 +6,7 @@ module structural_elements
    use kinds, only: wp
    use mesh_queries, only: element_points
    use model_data, only: a_spring, bar_nodes, bar_type, mesh_type, model_type, temperature_type
-   use shell_element, only: shell_stresses
+   use shell_recovery, only: shell_stresses
    use temperatures, only: element_rise, element_slope
    implicit none
    private
@@ -14,7 +14,7 @@ module structural_elements
    public :: structural_stress, nodal_values, between_own, onto_own
    public :: bar_elongation, thermal_tension, add_axial_force, add_bar_forces, bar_stiffness
 
-   integer, parameter, public :: most_own = 8 !! own nodes of an element: corners and their rotations
+   integer, parameter, public :: most_own = 16 !! own nodes of an element: its nodes and their rotations
 
 contains
 

@@ -59,6 +59,7 @@ contains
       call stream%item('unbalanced', a%unbalanced)
       call stream%item('is_elastic', a%is_elastic)
       call stream%item('rest_tension', a%rest_tension)
+      call stream%item('start_tension', a%start_tension)
       call stream%item('is_locked', a%is_locked)
       call stream%item('movement', a%movement)
       call stream%item('k', a%k)

@@ -7,7 +7,7 @@
 module restart_file
    use analysis_record, only: record_analysis
    use analysis_state, only: analysis_type, interface_stiffness, start_analysis
-   use bolt_locking, only: lock_again, lock_bolts
+   use bolt_locking, only: lock_again, lock_bolts, release_bolts, tightens
    use c_library, only: c_fsync, close_file, is_regular_file, read_all_bytes, remove_file
    use control_words, only: no_restart, restart_stages
    use deck_input, only: deck_type
@@ -152,8 +152,9 @@ contains
    end subroutine write_restart
 
    !> FROM: keep the state at the end of the stage just completed, its bolts locked, if a later stage starts from it. Where the next
-   !! stage starts from an earlier one, return to the state that this one left; the bodies are formed anew only where other bolts are
-   !! locked in it. An independent case starts from rest. A stage with other supports or equations changes them.
+   !! stage starts from an earlier one, return to the state that this one left. Bolts that the next stage tightens again are released.
+   !! The bodies are formed anew only where other bolts are locked now. An independent case starts from rest. A stage with other
+   !! supports or equations changes them.
    subroutine go_to_start(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)         :: run
       type(deck_type), intent(in)           :: deck
@@ -188,28 +189,33 @@ contains
          end if
          if (from(next) == done) then
             call change_supports(run, deck, plan, next, model, system, analysis)
-            return
+            if (run%failure%raised .or. .not. tightens(model, next)) return
+            call lock_bolts(model, system, analysis)
          end if
          allocate (locked, source=[analysis%is_elastic, analysis%is_locked])
-         if (model%supports /= plan%stages(from(next))%supports) then
-            call take_supports(run, deck, plan, plan%stages(from(next))%supports, next, model, system)
-            if (run%failure%raised) return
-            call start_analysis(model, system, deck%control, analysis)
-            locked = .not. [analysis%is_elastic, analysis%is_locked]
+         if (from(next) /= done) then
+            if (model%supports /= plan%stages(from(next))%supports) then
+               call take_supports(run, deck, plan, plan%stages(from(next))%supports, next, model, system)
+               if (run%failure%raised) return
+               call start_analysis(model, system, deck%control, analysis)
+               locked = .not. [analysis%is_elastic, analysis%is_locked]
+            end if
+            stream%writes = .false.
+            stream%bytes = run%results%kept(from(next))%words
+            stream%last = len(stream%bytes, long)
+            stream%used = 0
+            call record_analysis(stream, analysis)
+            call record_reference(stream, run%results)
+            analysis%next = next
          end if
-         stream%writes = .false.
-         stream%bytes = run%results%kept(from(next))%words
-         stream%last = len(stream%bytes, long)
-         stream%used = 0
-         call record_analysis(stream, analysis)
-         call record_reference(stream, run%results)
-         analysis%next = next
+         call release_bolts(model, next, analysis)
          if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
             call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
             if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
             if (run%failure%raised) return
             call lock_again(model, analysis, system)
          end if
+         if (from(next) == done) return
          call system%forget_past()
          if (all(from(next + 1:) /= from(next))) deallocate (run%results%kept(from(next))%words)
          call change_supports(run, deck, plan, next, model, system, analysis)

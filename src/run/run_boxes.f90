@@ -31,6 +31,7 @@ module run_boxes
    use newton_method, only: seat_joints
    use normal_stiffness, only: branch_open
    use openblas, only: prepare_openblas, tell_kernel
+   use nx_translation, only: translate_contacts
    use range_watch, only: warn
    use restart_file, only: open_restart_file, take_up, write_restart
    use result_names, only: remove_old_results
@@ -176,7 +177,9 @@ contains
 
       call say_at_interrupts(argument%name//': interrupted; nothing of this run is kept (RESTART would keep its stages)')
       call start_run(command, argument, run)
-      call read_deck(argument%path, deck, run%errors, readable, argument%parameters, command%watched)
+      call read_deck(argument%path, deck, run%errors, readable, argument%parameters, command%watched, &
+                     command%law)
+      call translate_contacts(deck, run%errors)
       if (.not. readable) then
          run%ending = is_unreadable
          return

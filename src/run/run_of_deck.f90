@@ -241,9 +241,15 @@ contains
       type(deck_type), intent(in)  :: deck
       type(model_type), intent(in) :: model
       type(stage_plan_type), intent(in) :: plan
+      integer :: i
 
       if (allocated(model%mesh%kind_words)) call tell(run, model%mesh%kind_words)
       if (deck%bulk%ignored%n > 0) call tell(run, deck%bulk%ignored%words())
+      if (allocated(deck%bulk%told)) then
+         do i = 1, size(deck%bulk%told)
+            call tell(run, deck%bulk%told(i)%words)
+         end do
+      end if
       if (deck%control%of_nastran .and. size(plan%stages) > 1 .and. .not. plan%is_independent) call tell(run, &
          plural(size(plan%stages), 'SUBCASE')//' are stages of one history: each starts from the end of the previous one, '// &
          'or of the one that FROM names')

@@ -179,6 +179,7 @@ contains
       do d = 1, model%mesh%dimension                                       ! g(d, m) = u^T [m] e_d
          e = 0.0_wp
          e(d, :n_points(model%mesh)) = 1.0_wp
+         where (model%mesh%is_scalar) e(d, :size(model%mesh%is_scalar)) = 0.0_wp
          call mass_times(model, structure%mass, e, of_mass)
          do m = 1, n
             g(d, m) = sum(u(:, :, m)*of_mass)

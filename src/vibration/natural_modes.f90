@@ -37,6 +37,7 @@ module natural_modes
       logical, allocatable  :: is_locked(:)  !! tightened pretension sections of solid bolts
       type(mass_matrix_type) :: mass
       class(equation_system), allocatable :: started !! ordered, without a matrix
+      logical :: is_counted = .true.         !! prove by a count that no mode is missing
    end type oscillating_type
 
    type, public :: spectrum_type
@@ -90,8 +91,9 @@ contains
          structure%k(:, i) = oscillation_stiffness(model%joints%list(model%joints%element(i)%joint)%law, &
             model%joints%element(i)%area, analysis%states(i), on_loading)
       end do
-      structure%is_elastic = [(analysis%is_elastic(i) .or. model%mesh%bars(i)%stage == analysis%stage, i = 1, n_bars(model%mesh))]
-      structure%is_locked = [(analysis%is_locked(i) .or. model%mesh%sections(i)%stage == analysis%stage, i = 1, &
+      structure%is_elastic = [(analysis%is_elastic(i) .or. model%mesh%bars(i)%tightening%is_in(analysis%stage), &
+                               i = 1, n_bars(model%mesh))]
+      structure%is_locked = [(analysis%is_locked(i) .or. model%mesh%sections(i)%tightening%is_in(analysis%stage), i = 1, &
                               n_sections(model%mesh))]
       call form_mass(model, structure%mass)
       call start_equations(model, structure%started, failure, &
@@ -233,6 +235,10 @@ contains
             else
                n = 2*n
                cycle
+            end if
+            if (.not. structure%is_counted) then
+               wanted = min(wanted, last)
+               return
             end if
             deallocate (system)
             call count_below(model, structure, spectrum%counted_at, under, failure)

@@ -1,0 +1,351 @@
+!> Seeks the parameters of a structure for which its answers are nearest to what was measured: the least sum of squares of the
+!! differences over the standard deviations, by MINPACK's lmder. An unknown y is the logarithm of a parameter, or of a LINEAR one
+!! its value over a scale; between bounds MINPACK sees z of y = (b + c)/2 + (c - b)/2 sin z. Derivatives are differences of runs.
+!! A run that fails is a rejected step. A parameter that the rows do not determine is held at its start, and the search goes on.
+!! Source: J. J. More, The Levenberg-Marquardt algorithm, Lecture Notes in Mathematics 630 (1978) 105-116.
+module law_search
+   use fit_statistics, only: statistics_type, weigh
+   use incomplete_results, only: interrupt_so_far
+   use kinds, only: wp
+   use measured_data, only: a_phase, measured_type, sought_parameter
+   use runs_together, only: run_all
+   use structure_answers, only: answer_type, is_of_modes, is_predicted, structure_type
+   use terminal, only: show_line
+   use text_tools, only: integer_text, real_text
+   use tolerances, only: at_bound, search_difference, search_settled, undetermined
+   implicit none
+   private
+
+   public :: seek, differences, inner_value, outer_value, unknown_of, y_of
+
+   integer, parameter  :: most_runs = 100          ! of a round, without those for derivatives
+   real(wp), parameter :: coarsely_settled = 0.03_wp ! of the sum of squares: change in the last step of a round
+   integer, parameter  :: most_rounds = 12, most_backs = 4
+   real(wp), parameter :: failed = 1.0e8_wp        ! times the deviation: the difference of a run that has failed
+   real(wp), parameter :: first_step = 0.7_wp      ! of an unknown
+   real(wp), parameter :: small = 0.01_wp          ! step of z for dy/dz
+   real(wp), parameter :: same_minimum = 0.01_wp   ! of a sum of squares
+
+   type, public :: search_type
+      real(wp), allocatable :: y(:)                !! (parameters) the best unknowns found
+      logical, allocatable  :: is_held(:), is_at_bound(:) !! (parameters) not determined; at a bound
+      integer, allocatable  :: free(:)             !! the others
+      type(answer_type)     :: first, best         !! answers at the start, and there
+      type(statistics_type) :: statistics          !! of the unknowns that are free
+      real(wp) :: square = huge(1.0_wp)            !! sum of squares
+      integer  :: n_runs = 0, n_starts = 0, n_same = 0 !! N_SAME: starts that have led to the least sum
+      logical  :: by_number = .false.              !! numbers of modes are those at the values found, not at the start
+      character(:), allocatable :: fault           !! why there is no answer; '': there is
+   end type search_type
+
+   type :: task_type
+      type(measured_type)   :: data
+      type(structure_type)  :: structure
+      type(search_type)     :: search
+      integer :: cores = 1
+      real(wp), allocatable :: from(:)             ! the unknowns of all parameters at the start of this round
+      type(answer_type)     :: near, last          ! the answer there in full; of the last run that has not failed
+      real(wp) :: square = huge(1.0_wp)            ! least sum of squares from this start
+      logical  :: is_predicted = .false.           ! there are frequencies that the modes of a run nearby predict
+   end type task_type
+   type(task_type), pointer :: task => null()      ! for MINPACK, whose routines have no place for data
+
+   interface
+      subroutine lmder(fcn, m, n, x, fvec, fjac, ldfjac, ftol, xtol, gtol, maxfev, diag, mode, factor, nprint, info, nfev, njev, &
+                       ipvt, qtf, wa1, wa2, wa3, wa4)
+         import :: wp
+         external :: fcn
+         integer, intent(in)     :: m, n, ldfjac, maxfev, mode, nprint
+         integer, intent(out)    :: info, nfev, njev, ipvt(n)
+         real(wp), intent(inout) :: x(n), diag(n)
+         real(wp), intent(in)    :: ftol, xtol, gtol, factor
+         real(wp), intent(out)   :: fvec(m), fjac(ldfjac, n), qtf(n), wa1(n), wa2(n), wa3(n), wa4(m)
+      end subroutine lmder
+   end interface
+
+contains
+
+   !> The unknown y of PARAMETER at VALUE, and the value at the unknown Y.
+   elemental real(wp) function inner_value(parameter, value) result(y)
+      type(sought_parameter), intent(in) :: parameter
+      real(wp), intent(in)               :: value
+
+      if (parameter%is_linear) y = value/scale_of(parameter)
+      if (.not. parameter%is_linear) y = log(value)
+   end function inner_value
+
+   elemental real(wp) function outer_value(parameter, y) result(value)
+      type(sought_parameter), intent(in) :: parameter
+      real(wp), intent(in)               :: y
+
+      if (parameter%is_linear) value = y*scale_of(parameter)
+      if (.not. parameter%is_linear) value = exp(y)
+   end function outer_value
+
+   !> The scale of a linear parameter: between its bounds, or its start.
+   elemental real(wp) function scale_of(parameter) result(scale)
+      type(sought_parameter), intent(in) :: parameter
+
+      scale = abs(parameter%start)
+      if (parameter%is_bounded) scale = parameter%high - parameter%low
+      if (.not. scale > 0.0_wp) scale = 1.0_wp
+   end function scale_of
+
+   !> z of PARAMETER at the unknown Y, and y at Z.
+   elemental real(wp) function unknown_of(parameter, y) result(z)
+      type(sought_parameter), intent(in) :: parameter
+      real(wp), intent(in)               :: y
+
+      z = y
+      if (.not. parameter%is_bounded) return
+      associate (b => inner_value(parameter, parameter%low), c => inner_value(parameter, parameter%high))
+         z = asin(max(-1.0_wp, min(1.0_wp, (2.0_wp*y - b - c)/(c - b))))
+      end associate
+   end function unknown_of
+
+   elemental real(wp) function y_of(parameter, z) result(y)
+      type(sought_parameter), intent(in) :: parameter
+      real(wp), intent(in)               :: z
+
+      y = z
+      if (.not. parameter%is_bounded) return
+      associate (b => inner_value(parameter, parameter%low), c => inner_value(parameter, parameter%high))
+         y = 0.5_wp*(b + c) + 0.5_wp*(c - b)*sin(z)
+      end associate
+   end function y_of
+
+   !> The differences of the VALUE of each row from that of DATA, over its deviation.
+   pure function differences(data, value) result(d)
+      type(measured_type), intent(in) :: data
+      real(wp), intent(in)            :: value(:)
+      real(wp) :: d(size(data%rows))
+
+      d = value - data%rows%value
+      where (data%rows%kind == a_phase) d = d - 360.0_wp*anint(d/360.0_wp)
+      d = d/data%rows%deviation
+   end function differences
+
+   !> Seek the parameters of DATA from N_STARTS starts: the given one, and others between the bounds, or within a factor e of
+   !! the start. An interrupt ends the search with the best values so far.
+   subroutine seek(data, structure, n_starts, cores, search)
+      type(measured_type), intent(in)  :: data
+      type(structure_type), intent(in) :: structure
+      integer, intent(in)              :: n_starts, cores
+      type(search_type), intent(out)   :: search
+      real(wp) :: least, y(size(data%parameters))
+      integer  :: i, k
+
+      allocate (task)
+      task%data = data
+      task%structure = structure
+      task%cores = cores
+      task%is_predicted = any([(is_predicted(data, i, structure%plan), i = 1, size(structure%plan%stages))] .and. &
+         [(any(is_of_modes(data%rows) .and. data%rows%stage == structure%plan%stages(i)%id), i = 1, size(structure%plan%stages))])
+      task%search%free = [(i, i = 1, size(y))]
+      allocate (task%search%is_held(size(y)), task%search%is_at_bound(size(y)), source=.false.)
+      do k = 1, n_starts
+         y = inner_value(data%parameters, data%parameters%start)
+         do i = 1, merge(size(y), 0, k > 1)
+            associate (part => modulo(0.5_wp*(k - 1)*sqrt(real(4*i + 1, wp)), 1.0_wp))
+               if (.not. data%parameters(i)%is_bounded) y(i) = y(i) + 2.0_wp*part - 1.0_wp
+               if (data%parameters(i)%is_bounded) y(i) = y_of(data%parameters(i), asin(2.0_wp*part - 1.0_wp))
+            end associate
+         end do
+         least = task%search%square
+         task%structure%by_number = .false.
+         call minimise(y)
+         if (allocated(task%search%best%mode)) then ! modes have changed places: a number may be that at the end
+            task%structure%by_number = any(task%search%best%mode /= task%search%first%mode .and. data%rows%mode > 0)
+            if (task%structure%by_number) call minimise(y)
+         end if
+         task%search%n_starts = k
+         associate (found => task%square, margin => same_minimum*(1.0_wp + task%square))
+            if (abs(found - least) <= margin) task%search%n_same = task%search%n_same + 1
+            if (found < least - margin) task%search%n_same = 1
+         end associate
+         if (task%search%fault /= '' .or. interrupt_so_far() /= 0) exit
+      end do
+      task%structure%by_number = task%search%by_number
+      do while (task%search%fault == '' .and. interrupt_so_far() == 0 .and. size(task%search%free) > 0)
+         call judge(k)
+         if (k == 0) exit
+         task%search%free = pack(task%search%free, task%search%free /= k)
+         if (task%search%is_at_bound(k)) cycle
+         task%search%is_held(k) = .true.
+         y = task%search%y
+         y(k) = inner_value(data%parameters(k), data%parameters(k)%start)
+         task%search%square = huge(1.0_wp)
+         call minimise(y)
+      end do
+      search = task%search
+      deallocate (task)
+   end subroutine seek
+
+   !> Go from the unknowns Y to the least sum of squares over those that are free. Where runs near another one predict frequencies,
+   !! lmder has these, and each round begins with a run in full where the last one has ended; a worse one goes half the way back.
+   subroutine minimise(y)
+      real(wp), intent(in) :: y(:)
+      real(wp), dimension(size(task%search%free)) :: diag, qtf, wa1, wa2, wa3, x
+      real(wp) :: fjac(size(task%data%rows), size(x)), fvec(size(task%data%rows)), wa4(size(task%data%rows)), best, now, z(size(y))
+      integer  :: backs, info, ipvt(size(x)), n, nfev, njev, round
+
+      n = size(x)
+      z = y
+      best = huge(best)
+      backs = 0
+      task%square = huge(best)
+      associate (parameters => task%data%parameters(task%search%free), free => task%search%free)
+         do round = 1, most_rounds
+            call run_at(z, now)
+            if (now >= best) then
+               if (round == 1 .or. backs == most_backs .or. interrupt_so_far() /= 0) exit
+               backs = backs + 1
+               z = 0.5_wp*(z + task%from)
+               cycle
+            end if
+            task%from = z
+            task%near = task%last
+            if (n == 0 .or. best - now <= search_settled*best) exit
+            best = now
+            diag = 1.0_wp
+            x = unknown_of(parameters, z(free))
+            call lmder(ask, size(fvec), n, x, fvec, fjac, size(fvec), merge(coarsely_settled, search_settled, task%is_predicted), &
+               1.0e-2_wp*search_settled, 0.0_wp, most_runs, &
+               diag, 2, first_step*sqrt(real(n, wp))/merge(norm2(x), 1.0_wp, norm2(x) > 0.0_wp), 0, info, nfev, njev, ipvt, qtf, &
+               wa1, wa2, wa3, wa4)
+            z(free) = y_of(parameters, x)
+            if (.not. task%is_predicted .or. info < 0) exit
+         end do
+      end associate
+   end subroutine minimise
+
+   !> Run in full at the unknowns Y. SQUARE is the sum of squares, huge where the run fails.
+   subroutine run_at(y, square)
+      real(wp), intent(in)  :: y(:)
+      real(wp), intent(out) :: square
+      type(answer_type), allocatable :: answers(:)
+
+      square = huge(square)
+      associate (search => task%search)
+         call run_all(task%data, task%structure, reshape(outer_value(task%data%parameters, y), [size(y), 1]), task%cores, answers)
+         search%n_runs = search%n_runs + 1
+         if (interrupt_so_far() /= 0) return
+         if (.not. allocated(search%y)) search%fault = answers(1)%fault
+         if (answers(1)%fault /= '') return
+         if (.not. allocated(search%y)) search%first = answers(1)
+         if (.not. allocated(search%y)) task%structure%shapes = answers(1)%shapes
+         task%last = answers(1)
+         square = sum(differences(task%data, task%last%value)**2)
+         task%square = min(task%square, square)
+         if (square < search%square .or. .not. allocated(search%y)) then
+            search%y = y
+            search%best = task%last
+            search%by_number = task%structure%by_number
+            search%square = square
+         end if
+         call show_line('run '//integer_text(search%n_runs)//', least sum of squares '//real_text(search%square), at_once=.true., &
+                        is_logged=.true.)
+      end associate
+   end subroutine run_at
+
+   !> For lmder: at X the differences FVEC (IFLAG 1) or their derivatives FJAC (IFLAG 2); IFLAG below zero ends the search.
+   subroutine ask(m, n, x, fvec, fjac, ldfjac, iflag)
+      integer, intent(in)     :: m, n, ldfjac
+      real(wp), intent(in)    :: x(n)
+      real(wp), intent(inout) :: fvec(m), fjac(ldfjac, n)
+      integer, intent(inout)  :: iflag
+      type(answer_type), allocatable :: answers(:)
+      real(wp) :: square, y(size(task%data%parameters))
+
+      y = task%from
+      associate (parameters => task%data%parameters, free => task%search%free)
+         y(free) = y_of(parameters(free), x)
+         if (iflag == 2) then
+            call differentiate(task%last%value, y, .false., fjac(:m, :))
+            fjac = fjac*spread((y_of(parameters(free), x + small) - y_of(parameters(free), x - small))/(2.0_wp*small), 1, m)
+         else
+            square = 0.0_wp
+            if (norm2(y - task%from) <= 16.0_wp*epsilon(y)*norm2(y)) then
+               task%last = task%near
+            else if (task%is_predicted) then
+               call run_all(task%data, task%structure, reshape(outer_value(parameters, y), [size(y), 1]), task%cores, answers, &
+                            task%near)
+               task%search%n_runs = task%search%n_runs + 1
+               if (answers(1)%fault /= '') square = huge(square)
+               if (answers(1)%fault == '') task%last = answers(1)
+            else
+               call run_at(y, square)
+               if (square < huge(square)) task%near = task%last
+            end if
+            fvec = failed
+            if (square < huge(square)) fvec = differences(task%data, task%last%value)
+         end if
+         if (interrupt_so_far() /= 0) iflag = -1
+      end associate
+   end subroutine ask
+
+   !> The derivatives of the differences by the free unknowns at Y, where the rows have VALUE; IS_CENTRAL: by steps to both sides.
+   subroutine differentiate(value, y, is_central, derivatives)
+      real(wp), intent(in)  :: value(:), y(:)
+      logical, intent(in)   :: is_central
+      real(wp), intent(out) :: derivatives(:, :)
+      type(answer_type), allocatable :: answers(:)
+      real(wp) :: before(size(value)), ends(2), points(size(y), 2*size(task%search%free)), step
+      integer  :: j, k, sides
+
+      associate (free => task%search%free, parameters => task%data%parameters)
+         sides = merge(2, 1, is_central)
+         points = spread(y, 2, size(points, 2))
+         do j = 1, size(free)
+            associate (p => parameters(free(j)))
+               step = search_difference
+               if (any(task%data%rows%amplitude > 0.0_wp)) step = 2.0_wp*step
+               if (p%is_bounded) ends = inner_value(p, [p%low, p%high])
+               if (.not. p%is_bounded) ends = y(free(j)) + 2.0_wp*step*[-1, 1]
+               if (y(free(j)) + step > ends(2)) step = -step
+               points(free(j), j) = y(free(j)) + step
+               points(free(j), size(free) + j) = min(ends(2), max(ends(1), y(free(j)) - step))
+            end associate
+         end do
+         call run_all(task%data, task%structure, outer_value(spread(parameters, 2, sides*size(free)), &
+                      points(:, :sides*size(free))), task%cores, answers, task%near)
+         task%search%n_runs = task%search%n_runs + size(answers)
+         derivatives = 0.0_wp
+         do j = 1, size(free)
+            do k = j, size(answers), size(free)
+               if (answers(k)%fault == '') cycle
+               answers(k)%value = value
+               points(free(j), k) = y(free(j))
+            end do
+            k = size(free) + j
+            ends = [points(free(j), j), y(free(j))]
+            before = value
+            if (is_central) ends(2) = points(free(j), k)
+            if (is_central) before = answers(k)%value
+            if (abs(ends(1) - ends(2)) > 0.0_wp) derivatives(:, j) = &
+               differences(task%data, task%data%rows%value + answers(j)%value - before)/(ends(1) - ends(2))
+         end do
+      end associate
+   end subroutine differentiate
+
+   !> Judge the free unknowns at the best values: K is one at its bound, or one that the rows do not determine; 0: there is none,
+   !! and the statistics are those of all.
+   subroutine judge(k)
+      integer, intent(out) :: k
+      real(wp) :: jacobian(size(task%data%rows), size(task%search%free))
+
+      associate (search => task%search, free => task%search%free)
+         k = findloc(abs(cos(unknown_of(task%data%parameters(free), search%y(free)))) < at_bound .and. &
+                     task%data%parameters(free)%is_bounded, .true., dim=1)
+         if (k > 0) k = free(k)
+         if (k > 0) search%is_at_bound(k) = .true.
+         if (k > 0) return
+         task%near = search%best
+         call differentiate(search%best%value, search%y, .true., jacobian)
+         if (interrupt_so_far() /= 0) return
+         call weigh(jacobian, search%statistics)
+         if (search%statistics%least < max(1.0_wp, undetermined*search%statistics%largest)) k = free(search%statistics%weakest)
+      end associate
+   end subroutine judge
+
+end module law_search
