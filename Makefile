@@ -22,7 +22,7 @@ WARNINGS   = -std=f2018 -Wall -Wextra
 FFLAGS_RELEASE = -O2 -fopenmp -fcheck=mem -fno-backtrace $(WARNINGS) $(FFLAGS)
 # -fcheck=recursion would take a second thread in a routine for a recursion
 FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero $(FFLAGS)
-LIBRARIES  = -larpack -lmetis -lopenblas
+LIBRARIES  = -larpack -lmetis -lminpack -lopenblas
 
 MANUAL     = $(BUILD)/manual/card_manual.f90
 SOURCES    = $(sort $(filter-out src/mpi/%,$(wildcard src/*/*.f90))) $(MANUAL)

@@ -1,4 +1,4 @@
-!> jointfit: the cards of a joint's laws, JNORM, JSHEAR and JIWAN, fitted to test data.
+!> jointfit: the cards of a joint's laws, JNORM, JSHEAR and JIWAN, fitted to test data, or to what was measured on a structure.
 program jointfit
    use c_library, only: end_run, tell_failed_writes
    use data_columns, only: branch_words, data_loss, data_normal, fit_reload, fit_unload
@@ -8,6 +8,7 @@ program jointfit
    use fit_data, only: read_test_data, test_data_type
    use fit_plot, only: write_plot
    use incomplete_results, only: all_complete, watch_ends, what_is_in_the_way
+   use identification, only: identify
    use, intrinsic :: iso_fortran_env, only: error_unit
    use law_cards, only: write_cards
    use machine, only: use_threads
@@ -26,11 +27,12 @@ program jointfit
    call read_fit_command(command, exit_status)
    if (exit_status >= 0) call end_run(exit_status)
    exit_status = 0
-   call use_threads(1)
+   if (command%structure%path == '') call use_threads(1)
    call tell_failed_writes()
    call watch_ends()
    call out%start('')
    if (command%plot /= '') call plot%start(command%plot)
+   if (command%structure%path /= '') call identify(command, out, plot, exit_status)
    do i = 1, size(command%files)
       call fit_file(i)
    end do

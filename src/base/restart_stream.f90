@@ -29,7 +29,7 @@ module restart_stream
 
    public :: open_restart
 
-   integer, parameter, public :: layout = 11 !! changes with the layout and with its contents
+   integer, parameter, public :: layout = 12 !! changes with the layout and with its contents
    character(*), parameter    :: magic = 'JOINTFEM RESTART'
    integer(int32), parameter  :: order_mark = int(z'01020304', int32), other_order = int(z'04030201', int32)
    integer, parameter, public :: version_length = 16

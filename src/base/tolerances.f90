@@ -185,6 +185,10 @@ module tolerances
    real(wp), parameter :: settled_iwan = 1.0e-9_wp   !! of the unknowns of Iwan's law: change in the last step
    real(wp), parameter :: iwan_difference = 1.0e-5_wp !! of these unknowns: differences in place of derivatives
    real(wp), parameter :: not_fixed = 1.0e-3_wp      !! of a derivative: no less fixes an unknown; of beta, of the largest d: counts as none
+   real(wp), parameter :: search_difference = 1.0e-2_wp !! of an unknown of --structure: differences in place of derivatives; a run has three digits
+   real(wp), parameter :: search_settled = 1.0e-4_wp !! of its sum of squares: change in the last step, far below one deviation
+   real(wp), parameter :: undetermined = 1.0e-3_wp   !! of the largest singular value: smaller ones are errors of these differences
+   real(wp), parameter :: at_bound = 5.0e-2_wp       !! cosine of z: an unknown within a thousandth of its range from a bound
    real(wp), parameter :: m_at_one = 1.0e-9_wp       !! of m: the fit of a straight line gives 1 but for rounding
 
 end module tolerances

@@ -7,7 +7,7 @@ module first_pressures
    use load_build, only: add_force
    use mesh_queries, only: n_points
    use model_data, only: freedoms_type, history_type, joint_type, joints_type, mesh_type, n_bars, n_sections, &
-                         stage_load_type, supported
+                         stage_load_type, supported, tightening_type
    use normal_curve, only: loading_pressure
    use text_tools, only: integer_text, real_text
    use tolerances, only: equal_gaps, pressure_of_no_load, zero_cosine, zero_resultant
@@ -45,14 +45,15 @@ contains
       loads = history%stages(1)
       do i = 1, n_bars(mesh)
          associate (bar => mesh%bars(i))
-            if (bar%stage /= 1) cycle
-            call add_force(bar%nodes(1), bar%preload*bar%direction(:, 1), loads)
-            call add_force(bar%nodes(2), -bar%preload*bar%direction(:, 2), loads)
+            if (.not. bar%tightening%is_in(1)) cycle
+            call add_force(bar%nodes(1), bar%tightening%preload_in(1)*bar%direction(:, 1), loads)
+            call add_force(bar%nodes(2), -bar%tightening%preload_in(1)*bar%direction(:, 2), loads)
          end associate
       end do
       do i = 1, n_sections(mesh)
          associate (section => mesh%sections(i))
-            if (section%stage == 1) call add_force(section%node, [section%preload, 0.0_wp, 0.0_wp], loads)
+            if (section%tightening%is_in(1)) &
+               call add_force(section%node, [section%tightening%preload_in(1), 0.0_wp, 0.0_wp], loads)
          end associate
       end do
       total = sum(norm2(loads%force(:, :loads%n), dim=1))
@@ -177,6 +178,13 @@ contains
 
    end function resting_pressure
 
+   !> The preload of a bolt in its last stage, 0: no bolt [force].
+   pure real(wp) function last_preload(tightening)
+      type(tightening_type), intent(in) :: tightening
+
+      last_preload = tightening%preload_in(tightening%last_until(huge(1)))
+   end function last_preload
+
    !> A guess of the pressure in JOINT: the largest total load of a stage over the joint area, or the pressure that its law gives
    !! for the largest prescribed displacement or interference; where none of these exists, a small fraction of the modulus of the
    !! bodies.
@@ -186,11 +194,11 @@ contains
       type(history_type), intent(in) :: history
       type(joint_type), intent(in) :: joint
       real(wp) :: force, moved
-      integer  :: s
+      integer  :: i, s
 
       force = 0.0_wp
-      if (n_bars(mesh) > 0) force = force + sum(abs(mesh%bars%preload))
-      if (n_sections(mesh) > 0) force = force + sum(abs(mesh%sections%preload))
+      if (n_bars(mesh) > 0) force = force + sum([(last_preload(mesh%bars(i)%tightening), i = 1, n_bars(mesh))])
+      if (n_sections(mesh) > 0) force = force + sum([(last_preload(mesh%sections(i)%tightening), i = 1, n_sections(mesh))])
       moved = max(0.0_wp, -minval(joints%element(joint%first:joint%last)%gap))
       do s = 1, size(history%stages)
          associate (loads => history%stages(s))

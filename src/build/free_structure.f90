@@ -19,7 +19,7 @@ module free_structure
 
 contains
 
-   !> Support the structure if it has no supports and some stage has MODES(FREE): all components of a node with rotations,
+   !> Support the structure if it has no supports and some stage has MODES(FREE) or METHOD = set: all components of a node with rotations,
    !! else 3, 2 and 1 components of three distant nodes of the largest body. Dependent nodes and nodes with CD are skipped.
    subroutine hold_free_structure(deck, mesh, joints, freedoms)
       type(checked_deck), intent(in)  :: deck
@@ -30,10 +30,14 @@ contains
       integer, allocatable :: dependent(:)
       logical  :: may_be(mesh%n_nodes)
       real(wp) :: along(3), off(mesh%n_nodes), turn(3)
+      logical  :: are_free(size(deck%control%stages))
 
-      if (.not. any(deck%control%stages%vibration%free) .or. any(freedoms%held(:, :mesh%n_nodes - n_sections(mesh)))) &
-         return
-      if (any(deck%control%stages%vibration%modes%id > 0 .and. .not. deck%control%stages%vibration%free)) return
+      associate (asked => deck%control%stages%vibration)
+         are_free = asked%free .or. asked%by_method
+         if (.not. any(are_free .and. deck%shares([(i, i = 1, size(asked))])) .or. &
+             any(freedoms%held(:, :mesh%n_nodes - n_sections(mesh)))) return
+         if (any(asked%modes%id > 0 .and. .not. are_free .and. deck%shares([(i, i = 1, size(asked))]))) return
+      end associate
       if (any(deck%bulk%spring%nodes(1) == 0 .or. deck%bulk%spring%nodes(2) == 0)) return ! a grounded spring
       do i = 1, size(joints%element)
          if (named_node(joints%element(i), 2) == 0) return                               ! a rigid base
@@ -99,6 +103,7 @@ contains
       if (.not. freedoms%floats) return
       arm = maxval(maxval(mesh%x, dim=2) - minval(mesh%x, dim=2))
       do s = 1, size(history%stages)
+         if (.not. deck%shares(s)) cycle
          force = 0.0_wp
          moment = 0.0_wp
          of_forces = 0.0_wp

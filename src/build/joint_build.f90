@@ -12,6 +12,7 @@ module joint_build
    use model_kind, only: space_hint
    use node_build, only: find_nodes
    use shear_stiffness, only: shear_law
+   use surface_parts, only: side_of_joint
    use text_tools, only: integer_text, real_text
    use tolerances, only: closed_joint
    implicit none
@@ -23,7 +24,6 @@ module joint_build
    type :: joint_tables
       type(id_table_type) :: joint   !! the JOINT cards
       type(id_table_type) :: side    !! the sides of the JOINT cards, those of card j at 2 j - 1 and 2 j
-      type(id_table_type) :: surface !! the surfaces of the model
       type(id_table_type) :: group   !! the CJOINT cards, by their PJOINT
       type(id_table_type) :: pjoint, jnorm, jshear, jiwan
    end type joint_tables
@@ -142,29 +142,35 @@ contains
       type(interface_element), allocatable :: elements(:)
       type(joint_tables)   :: tables
       integer, allocatable :: first(:), leader(:), members(:)
-      integer :: highest, i, j, n
+      type(joints_type)    :: none ! glued surfaces are no joints
+      integer :: highest, i, j, n, n_cards
 
       associate (cards => deck%bulk%joint, cjoints => deck%bulk%cjoint)
          call tables%joint%build(cards%id)
          call tables%side%build([(cards(j)%sides, j = 1, size(cards))])
-         call tables%surface%build(mesh%surfaces%id)
          call tables%group%build(cjoints%law)
          call tables%pjoint%build(deck%bulk%pjoint%id)
          call tables%jnorm%build(deck%bulk%jnorm%id)
          call tables%jshear%build(deck%bulk%jshear%id)
          call tables%jiwan%build(deck%bulk%jiwan%id)
          leader = [(tables%group%find(cjoints(i)%law), i = 1, size(cjoints))] ! the first card of the group
-         allocate (joints%list(size(cards) + count(leader == [(i, i = 1, size(cjoints))])), joints%element(0))
+         n_cards = count(.not. cards%is_glued)
+         allocate (joints%list(n_cards + count(leader == [(i, i = 1, size(cjoints))])), joints%element(0), joints%glue(0))
          highest = max(0, maxval(cjoints%id))
          n = 0
-         do j = 1, size(cards)
+         allocate (none%list(size(cards)))
+         do j = n_cards + 1, size(cards)
+            call joint_elements(deck, tables, j, mesh, none, highest, elements)
+            joints%glue = [joints%glue, elements]
+         end do
+         do j = 1, n_cards
             call joint_elements(deck, tables, j, mesh, joints, highest, elements)
             call add_elements(joints, n, j, cards(j)%id, cards(j)%line, elements)
-            joints%list(j)%side_1 = tables%surface%find(cards(j)%sides(1))
+            joints%list(j)%side_1 = side_of_joint(mesh, j, cards(j)%sides(1))
             call resolve_laws(deck, tables, cards(j)%law, mesh%dimension, joints%list(j))
          end do
          call list_owners(size(cjoints), reshape(leader, [1, size(cjoints)]), first, members)
-         j = size(cards)
+         j = n_cards
          do i = 1, size(cjoints)
             if (leader(i) /= i) cycle
             j = j + 1
@@ -231,14 +237,14 @@ contains
          surface = 0
          do k = 1, 2
             if (card%sides(k) == 0) cycle
-            surface(k) = tables%surface%find(card%sides(k))
+            surface(k) = side_of_joint(mesh, j, card%sides(k))
             if (surface(k) == 0) call deck%field_error(card%line, 'SIDE'//integer_text(k), &
                                                        'there is no PMARK '//integer_text(card%sides(k)))
             first = (tables%side%find(card%sides(k)) + 1)/2
-            if (first < j) call deck%field_error(card%line, 'SIDE'//integer_text(k), 'surface '//integer_text(card%sides(k))// &
-               ' is a side of JOINT '//integer_text(deck%bulk%joint(first)%id)//' already, and a face belongs to one JOINT. '// &
-               'Bodies that stand on one face: give the faces of all these bodies one PMARK and one JOINT; for laws of their '// &
-               'own, divide the face into a PMARK for each body')
+            if (first < j .and. any([card%sides(2), deck%bulk%joint(first)%sides(2)] == 0)) call deck%field_error(card%line, &
+               'SIDE'//integer_text(k), 'surface '//integer_text(card%sides(k))//' is a side of JOINT '// &
+               integer_text(deck%bulk%joint(first)%id)//' already. Joints share a surface where both give SIDE2: expected '// &
+               'SIDE2, or a PMARK for each joint')
          end do
          if (surface(1) == 0 .or. (surface(2) == 0 .and. card%sides(2) /= 0)) return
          if (any(mesh%surfaces(pack(surface, surface > 0))%n == 0)) return

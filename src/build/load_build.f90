@@ -195,7 +195,7 @@ contains
       do i = 1, size(deck%bulk%displacement)
          associate (card => deck%bulk%displacement(i))
             node = mesh%node_table%find(card%node)
-            if (node == 0) cycle
+            if (node == 0 .or. .not. may_act(card%set)) cycle
             do d = 1, 6
                if (.not. has_component(card%components, d)) cycle
                words = ''
@@ -234,11 +234,30 @@ contains
                                   ' too: case control is ambiguous')
          end associate
       end do
+   contains
+
+      !> Whether a load SET may belong to a stage with these supports.
+      pure logical function may_act(set)
+         integer, intent(in) :: set
+         integer :: k, s
+
+         may_act = all(deck%shares([(s, s = 1, size(deck%control%stages))]))
+         do s = 1, size(deck%control%stages)
+            if (may_act .or. .not. deck%shares(s)) cycle
+            associate (wanted => deck%control%stages(s)%load%id)
+               k = findloc(deck%bulk%load%set, wanted, dim=1)
+               may_act = wanted == set
+               if (k > 0) may_act = may_act .or. any(deck%bulk%load(k)%sets == set)
+            end associate
+         end do
+      end function may_act
+
    end subroutine check_cards
 
    !> The total load at the end of each stage, and the patterns of its oscillating loads.
-   subroutine build_loads(deck, mesh, freedoms, history, waves)
+   subroutine build_loads(deck, from, mesh, freedoms, history, waves)
       type(checked_deck), intent(in)  :: deck
+      integer, intent(in)             :: from(:) !! (stages) position of the stage from whose end each starts, 0: from rest
       type(mesh_type), intent(in) :: mesh
       type(freedoms_type), intent(in) :: freedoms
       type(history_type), intent(inout) :: history
@@ -254,12 +273,7 @@ contains
       call check_kept(deck, mesh)
       call find_pressed_sides(deck, mesh, cards%pressed)
       allocate (history%stages(size(deck%control%stages)))
-      history%stages%from = [(s - 1, s=1, size(history%stages))]
-      do s = 1, size(history%stages)
-         associate (from => deck%control%stages(s)%from%id)
-            if (from > 0) history%stages(s)%from = findloc(deck%control%stages%id, from, dim=1)
-         end associate
-      end do
+      history%stages%from = from
       allocate (at_end(0:size(history%stages)))
       if (size(deck%bulk%bolt) > 0 .and. .not. deck%errors%any()) then
          allocate (cards%pressing(3, mesh%n_nodes))

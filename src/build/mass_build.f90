@@ -4,6 +4,7 @@ module mass_build
    use displacement_systems, only: find_directions, find_system
    use kinds, only: wp
    use model_data, only: freedoms_type, mesh_type, n_bars
+   use shell_faces, only: mass_offset
    use text_tools, only: integer_text, one_of
    use tolerances, only: indefinite_inertia
    use unknowns, only: component_place, node_axes, place_of_component, rotation_at
@@ -61,12 +62,12 @@ contains
                inertia = deck%bulk%parameters%mass_factor*reshape([i11, -i21, -i31, -i21, i22, -i32, -i31, -i32, i33], [3, 3])
                if (any(deck%control%stages%vibration%modes%id > 0) .and. .not. is_inertia(inertia)) call deck%field_error( &
                   card%line, 'I11', 'not a possible inertia tensor: it must be positive semidefinite')
-               call find_system(deck, card%line, 'CID', card%system, mesh%systems, system)
+               call find_system(deck, card%line, 'CID', max(card%system, 0), mesh%systems, system)
                ok = system > 0 .and. any(abs(card%inertia) > 0.0_wp)
-               if (ok) call find_directions(deck, mesh%systems, card%line, card%system, mesh%x(:, node), axes, ok)
+               if (ok) call find_directions(deck, mesh%systems, card%line, max(card%system, 0), mesh%x(:, node), axes, ok)
                if (ok) inertia = matmul(axes, matmul(inertia, transpose(axes)))
             end associate
-            if (all(abs(card%offset) <= 0.0_wp)) cycle
+            if (all(abs(mass_offset(card, mesh%x(:, node))) <= 0.0_wp)) cycle
             if (rotation_at(mesh, node) == 0) call deck%field_error(card%line, 'X1', 'node '//integer_text(card%node)// &
                ' has no rotations, by which a mass beside it would move; expected a node of shells or beams, or the reference '// &
                'node of an RBE2, RBE3 or RBAR')

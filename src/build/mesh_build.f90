@@ -5,18 +5,19 @@
 module mesh_build
    use block_mesh, only: collect_cards, mesh_card_type
    use bulk_data, only: element_card
+   use contact_regions, only: add_regions
    use deck_check, only: checked_deck
    use displacement_systems, only: build_systems
    use elasticity, only: axisymmetric
    use element_build, only: check_elements, collect_elements, collect_sides, marked_side, resolve_properties
    use element_kinds, only: element_table
    use kinds, only: wp
-   use lists, only: list_owners
+   use lists, only: id_table_type, list_owners
    use model_data, only: mesh_type, placed_node
    use model_kind, only: find_kind, space_hint
    use node_build, only: append_nodes, build_nodes, fill_mid_sides, highest_number
    use numbers, only: cross
-   use text_tools, only: integer_text, one_of
+   use text_tools, only: integer_text, one_of, plural
    use tolerances, only: equal_distance
    implicit none
    private
@@ -46,15 +47,14 @@ contains
       call resolve_properties(deck, mesh)
       call collect_elements(deck, cards%element, mesh)
       call fill_mid_sides(deck, mesh)
-      ! bodies, faces, edges, interface elements and rigid elements share one numbering, as in NASTRAN
+      ! bodies, faces, edges, interface elements and springs share one numbering, as in NASTRAN
       associate (bulk => deck%bulk, of_blocks => cards%element(size(deck%bulk%element) + 1:))
          call deck%report_repeated('element', &
-            [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id, bulk%rigid%id, bulk%spring%id, bulk%mass%id, &
-             of_blocks%id], &
-            [bulk%element%line, bulk%edge%line, bulk%cjoint%line, bulk%conrod%line, bulk%rigid%line, bulk%spring%line, &
-             bulk%mass%line, of_blocks%line], &
-            n_cards=size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + size(bulk%rigid) + &
-                    size(bulk%spring) + size(bulk%mass))
+            [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id, bulk%spring%id, of_blocks%id], &
+            [bulk%element%line, bulk%edge%line, bulk%cjoint%line, bulk%conrod%line, bulk%spring%line, of_blocks%line], &
+            n_cards=size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + size(bulk%spring))
+         call warn_of_repeated(deck, [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id, bulk%spring%id, &
+                                      of_blocks%id], [bulk%rigid%id, bulk%mass%id])
       end associate
       call list_owners(mesh%n_nodes, mesh%element_nodes, mesh%first_at, mesh%elements_at)
       ! plane and axisymmetric bodies must not be mixed: forces are those of the thickness, or those of the whole ring
@@ -68,7 +68,23 @@ contains
       call check_nodes(deck, mesh)
       call check_elements(deck, cards%grid, mesh)
       call collect_sides(deck, cards%side, mesh, sides)
+      call add_regions(deck, mesh, sides)
    end subroutine build_mesh
+
+   !> Warn of numbers that rigid elements and masses, OTHERS, share with ELEMENTS or among themselves: nothing refers to them.
+   subroutine warn_of_repeated(deck, elements, others)
+      type(checked_deck), intent(in) :: deck
+      integer, intent(in) :: elements(:), others(:)
+      type(id_table_type)  :: table
+      integer, allocatable :: again(:)
+
+      call table%build([elements, others])
+      call table%list_repeated(again)
+      again = pack(again, again > size(elements)) - size(elements)
+      if (size(again) > 0) call deck%errors%warn(plural(size(again), 'number')// &
+         ' of rigid elements and masses are those of other elements too, the first '// &
+         integer_text(others(minval(again)))//'; NASTRAN wants numbers of their own')
+   end subroutine warn_of_repeated
 
    !> Append the reference nodes of RBE2M and RBE3M that name none: each at the centroid of its surface, numbered from the highest
    !! node number of the deck on. Find the nodes of NODEAT cards: the number of a card becomes a number of the node nearest to its
@@ -265,6 +281,9 @@ contains
          associate (card => deck%bulk%displacement(i))
             call require(card%line, card%field, card%node, called='G')
          end associate
+      end do
+      do i = 1, size(deck%bulk%suport)
+         call require(deck%bulk%suport(i)%line, deck%bulk%suport(i)%field, deck%bulk%suport(i)%node, called='ID')
       end do
       do i = 1, size(deck%bulk%mass)
          associate (card => deck%bulk%mass(i))

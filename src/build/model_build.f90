@@ -2,6 +2,7 @@
 !! not compile.
 module model_build
    use control_words, only: method_step
+   use case_sums, only: sum_cases
    use connected_bodies, only: find_parts
    use constraint_equations, only: expansion_type
    use deck_check, only: checked_deck
@@ -31,8 +32,10 @@ module model_build
    use stage_build, only: find_shown_nodes, plan_stages
    use stage_plan, only: stage_plan_type
    use structural_build, only: bow_edges, build_beams, build_rotations, build_shells, leave_out_idle
+   use superelement_build, only: find_retained, retained_type
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
+   use surface_parts, only: divide_shared_surfaces
    use surface_sides, only: split_shared_surfaces
    use temperature_build, only: build_temperatures
    use unit_watch, only: watch_units
@@ -55,8 +58,8 @@ contains
       type(deck_error_list), intent(inout), target :: errors
       type(checked_deck) :: checked
       type(tie_type), allocatable :: ties(:)
-      type(expansion_type), allocatable :: expansions(:)
       type(planned_wave), allocatable :: waves(:)
+      type(retained_type) :: retained
       logical :: is_whole
 
       allocate (model%warnings(0))
@@ -72,22 +75,20 @@ contains
             type(joints_type) :: joints
             call make_joints(checked, mesh, joints)
             block
-               type(freedoms_type) :: freedoms
-               call make_freedoms(checked, mesh, joints, ties, freedoms, expansions)
-               block
-                  type(history_type) :: history
-                  call make_history(checked, mesh, freedoms, expansions, history, waves)
-                  call find_shown_nodes(checked, mesh, freedoms, plan)
-                  call plan_vibrations(checked, mesh, joints%list%id, freedoms, waves, plan)
-                  if (.not. any(freedoms%used)) &
-                     call errors%add(0, 'nothing to solve: expected body elements or interface elements')
-                  if (errors%any()) return
-                  call find_start(checked, plan, mesh, history, joints, freedoms)
-                  call errors%warn(repeated_words(mesh))
-                  call errors%warn(crack_words(mesh, joints, freedoms))
-                  call watch_units(deck, joints, errors)
-                  call take_parts(joints, freedoms, history, model)
-               end block
+               type(freedoms_type), allocatable :: sets(:)
+               type(history_type) :: history
+               call make_stages(checked, plan, mesh, joints, ties, sets, history, waves)
+               call find_shown_nodes(checked, mesh, sets(1), plan)
+               if (any(plan%stages%output%dmig)) call find_retained(checked, mesh, sets(1), retained)
+               call plan_vibrations(checked, mesh, joints%list%id, sets, waves, plan)
+               if (.not. (any(sets(1)%used) .or. errors%any())) &
+                  call errors%add(0, 'nothing to solve: expected body elements or interface elements')
+               if (errors%any()) return
+               call find_start(checked, plan, mesh, history, joints, sets)
+               call errors%warn(repeated_words(mesh))
+               call errors%warn(crack_words(mesh, joints, sets(1)))
+               call watch_units(deck, joints, errors)
+               call take_parts(joints, sets, history, model)
             end block
          end block
       end associate
@@ -95,16 +96,17 @@ contains
    end subroutine build_model
 
    !> Move the parts into MODEL; a copy of the joints would take time.
-   subroutine take_parts(joints, freedoms, history, model)
+   subroutine take_parts(joints, sets, history, model)
       type(joints_type), intent(inout)  :: joints
-      type(freedoms_type), intent(in)   :: freedoms
+      type(freedoms_type), allocatable, intent(inout) :: sets(:)
       type(history_type), intent(inout) :: history
       type(model_type), intent(inout)   :: model
 
       call move_alloc(joints%list, model%joints%list)
       call move_alloc(joints%element, model%joints%element)
       call move_alloc(history%stages, model%history%stages)
-      model%freedoms = freedoms
+      model%freedoms = sets(1)
+      if (size(sets) > 1) call move_alloc(sets, model%sets)
    end subroutine take_parts
 
    !> Make the MESH: points with duplicates at split surfaces, mid-side and face nodes, elements and their laws, surfaces, bars and springs,
@@ -132,6 +134,7 @@ contains
       call bow_edges(mesh)
       call find_ties(deck, mesh, ties)
       call build_shell_faces(deck, mesh)
+      if (.not. deck%errors%any()) call divide_shared_surfaces(deck, mesh)
       call build_bars(deck, mesh)
       call build_rotations(deck, mesh)
       call build_sections(deck, mesh)
@@ -152,6 +155,48 @@ contains
       call build_gaps(deck, mesh, joints)
    end subroutine make_joints
 
+   !> Make the SETS of freedoms, one for the stages with the same SPC and MPC, and with them the HISTORY. After an error in the first
+   !! the others are not made.
+   subroutine make_stages(deck, plan, mesh, joints, ties, sets, history, waves)
+      type(checked_deck), intent(inout) :: deck
+      type(stage_plan_type), intent(in) :: plan
+      type(mesh_type), intent(in)       :: mesh
+      type(joints_type), intent(in)     :: joints
+      type(tie_type), intent(in)        :: ties(:)
+      type(freedoms_type), allocatable, intent(out)   :: sets(:)
+      type(history_type), intent(out)                 :: history
+      type(planned_wave), allocatable, intent(out) :: waves(:)
+      type(expansion_type), allocatable  :: expansions(:)
+      type(history_type) :: other
+      type(planned_wave), allocatable :: other_waves(:)
+      integer :: i, k, s
+
+      allocate (sets(size(plan%first_with)))
+      deck%keeps_distances = .not. plan%is_independent .and. &
+                             any(deck%control%stages%equations%id /= deck%control%stages(1)%equations%id)
+      do k = 1, size(sets)
+         deck%stage = plan%first_with(k)
+         if (k > 1 .and. deck%errors%any()) then
+            sets(k) = sets(1)
+            cycle
+         end if
+         call make_freedoms(deck, mesh, joints, ties, sets(k), expansions)
+         if (k == 1) then
+            call make_history(deck, plan, mesh, sets(k), expansions, history, waves)
+            cycle
+         end if
+         call make_history(deck, plan, mesh, sets(k), expansions, other, other_waves)
+         do s = 1, size(plan%stages)
+            if (plan%stages(s)%supports /= k) cycle
+            history%stages(s) = other%stages(s)
+         end do
+         do i = 1, size(waves)
+            if (plan%stages(waves(i)%stage)%supports == k) waves(i) = other_waves(i)
+         end do
+      end do
+      if (.not. deck%errors%any()) call sum_cases(plan, history)
+   end subroutine make_stages
+
    !> Make the FREEDOMS: supports, displacement systems, constraint equations and rigid elements, and the table of unknowns. EXPANSIONS are
    !! those of the rigid elements when warm.
    subroutine make_freedoms(deck, mesh, joints, ties, freedoms, expansions)
@@ -166,7 +211,7 @@ contains
       call build_supports(deck, mesh, joints, freedoms)
       call hold_free_structure(deck, mesh, joints, freedoms)
       call couple_node_systems(deck, mesh, freedoms)
-      call build_dependents(deck, ties, mesh, freedoms, expansions)
+      call build_dependents(deck, ties, joints%glue, mesh, freedoms, expansions)
       call leave_out_idle(mesh, freedoms)
       call check_masses(deck, mesh, freedoms)
       if (.not. deck%errors%any()) call couple_shell_faces(mesh, freedoms)
@@ -174,41 +219,47 @@ contains
    end subroutine make_freedoms
 
    !> Make the load HISTORY, and the loads that oscillate.
-   subroutine make_history(deck, mesh, freedoms, expansions, history, waves)
+   subroutine make_history(deck, plan, mesh, freedoms, expansions, history, waves)
       type(checked_deck), intent(in)     :: deck
+      type(stage_plan_type), intent(in)  :: plan
       type(mesh_type), intent(in)        :: mesh
       type(freedoms_type), intent(in)    :: freedoms
       type(expansion_type), intent(in)   :: expansions(:)
       type(history_type), intent(out)    :: history
       type(planned_wave), allocatable, intent(out) :: waves(:)
 
-      call build_loads(deck, mesh, freedoms, history, waves)
+      call build_loads(deck, plan%stages%begins_at, mesh, freedoms, history, waves)
       if (.not. deck%errors%any()) call check_balance(deck, mesh, freedoms, history)
       call build_temperatures(deck, expansions, mesh, freedoms, history)
    end subroutine make_history
 
    !> Find what the whole model determines: the connected parts, the pressures of the first increment, the final frames of the joints.
-   subroutine find_start(deck, plan, mesh, history, joints, freedoms)
+   subroutine find_start(deck, plan, mesh, history, joints, sets)
       type(checked_deck), intent(in)     :: deck
       type(stage_plan_type), intent(in)  :: plan
       type(mesh_type), intent(in)        :: mesh
       type(history_type), intent(in)     :: history
       type(joints_type), intent(inout)   :: joints   !! p_av, whether statics determines them, frames
-      type(freedoms_type), intent(inout) :: freedoms !! parts
-      integer :: j
+      type(freedoms_type), intent(inout) :: sets(:)  !! parts
+      integer :: j, k
 
-      call find_parts(mesh, freedoms, .false.)          ! bolts that are being tightened do not connect parts yet
-      call find_determinate_joints(mesh, joints, freedoms)
-      call find_first_pressures(plan%stages(1)%fractions(1), deck%control%method /= method_step, mesh, joints, freedoms, history, &
-                                deck%errors)
-      if (any(mesh%bars%bolt > 0) .or. n_sections(mesh) > 0) then
-         call find_parts(mesh, freedoms, .true.)
+      associate (freedoms => sets(1))
+         call find_parts(mesh, freedoms, .false.)          ! bolts that are being tightened do not connect parts yet
          call find_determinate_joints(mesh, joints, freedoms)
-      end if
-      do j = 1, size(joints%list)            ! the normals are final now
-         joints%list(j)%frame = find_frame(mesh, joints, joints%list(j))
+         call find_first_pressures(plan%stages(1)%fractions(1), deck%control%method /= method_step, mesh, joints, freedoms, &
+                                   history, deck%errors)
+         if (any(mesh%bars%bolt > 0) .or. n_sections(mesh) > 0) then
+            call find_parts(mesh, freedoms, .true.)
+            call find_determinate_joints(mesh, joints, freedoms)
+         end if
+         do j = 1, size(joints%list)            ! the normals are final now
+            joints%list(j)%frame = find_frame(mesh, joints, joints%list(j))
+         end do
+         call check_mass(deck, mesh, freedoms)
+      end associate
+      do k = 2, size(sets)
+         call find_parts(mesh, sets(k), .true.)
       end do
-      call check_mass(deck, mesh, freedoms)
    end subroutine find_start
 
 end module model_build

@@ -15,11 +15,11 @@ module node_pairing
    implicit none
    private
 
-   public :: pair_nodes, fit_side
+   public :: pair_nodes, fit_side, shares_facing
 
    real(wp), parameter, public :: facing = -0.5_wp      !! cosine of the normals of two sides that face each other, at most
 
-   real(wp), parameter :: twice = 1.01_wp     ! covered share above which faces lie behind one another
+   real(wp), parameter, public :: twice = 1.01_wp !! covered share above which faces lie behind one another
 
    real(wp), parameter, public :: default_reach = 0.1_wp !! of the longest side of a face of SIDE1
 
@@ -237,6 +237,25 @@ contains
          end if
       end associate
    end subroutine fit_side
+
+   !> The SHARE of each face of SURFACE that faces the surface OTHER within REACH, as of fit_side.
+   subroutine shares_facing(mesh, surface, other, reach, share)
+      type(mesh_type), intent(in)    :: mesh
+      type(surface_type), intent(in) :: surface, other
+      real(wp), intent(in)           :: reach
+      real(wp), intent(out)          :: share(:) !! (faces) of its area
+      type(opposite_faces)  :: opposite
+      type(cover_integrals) :: integrals
+      type(own_face)        :: face
+      integer :: s
+
+      call list_opposite(mesh, other, opposite)
+      call find_tilts(mesh, surface, opposite%own_tilt)
+      do s = 1, surface%n
+         call cover_face(mesh, surface, s, other, reach, opposite, face, integrals)
+         share(s) = integrals%seen/max(seen_area(face%seen), tiny(1.0_wp))
+      end do
+   end subroutine shares_facing
 
    !> The shortest distance between two lists of nodes [length].
    pure real(wp) function shortest_distance(mesh, nodes, others) result(shortest)

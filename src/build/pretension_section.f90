@@ -6,7 +6,7 @@ module pretension_section
    use kinds, only: wp
    use model_data, only: mesh_type, section_type
    use node_build, only: append_unknowns
-   use spring_build, only: find_stage, find_thread
+   use spring_build, only: add_tightening, find_thread
    use surface_build, only: find_surface, side_influence, surface_node_list, surface_nodes
    use surface_sides, only: elements_behind, list_sides, side_list, reverse_side
    use text_tools, only: integer_text
@@ -23,7 +23,7 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(inout) :: mesh
       integer, allocatable :: behind(:)
-      integer :: e, i, k, n
+      integer :: e, i, k, n, same
 
       n = count(deck%bulk%bolt%surface > 0)
       if (n == 0) return
@@ -34,9 +34,19 @@ contains
       k = 0
       do i = 1, size(deck%bulk%bolt)
          if (deck%bulk%bolt(i)%surface <= 0) cycle
-         k = k + 1
-         call build_section(deck, deck%bulk%bolt(i), k, mesh)
+         same = findloc(mesh%sections(:k)%surface, deck%bulk%bolt(i)%surface, dim=1)
+         if (same == 0) then
+            k = k + 1
+            same = k
+            call build_section(deck, deck%bulk%bolt(i), k, mesh)
+         end if
+         associate (section => mesh%sections(same), card => deck%bulk%bolt(i))
+            call add_tightening(deck, card, section%bolt, 'surface '//integer_text(section%surface), section%tightening)
+            if (section%thread%size == '') call find_thread(deck, card, mesh, section%thread)
+         end associate
       end do
+      n = k
+      mesh%sections = mesh%sections(:n)
       if (any(mesh%sections%point == 0)) return ! there are errors
       do k = 1, n ! the section nodes follow all others, with the elements behind the section
          behind = pack([(e, e = 1, mesh%n_elements)], mesh%element_section == k)
@@ -59,9 +69,6 @@ contains
 
       mesh%sections(k)%bolt = card%id
       mesh%sections(k)%surface = card%surface
-      mesh%sections(k)%preload = card%preload
-      call find_stage(deck, card, mesh%sections(k)%stage)
-      call find_thread(deck, card, mesh, mesh%sections(k)%thread)
       call find_surface(deck, card%line, 'PMARK', card%surface, mesh, s)
       if (s == 0) return
       if (mesh%surfaces(s)%n == 0) return ! reported already

@@ -7,6 +7,8 @@ module rigid_elements
                                    expansion_type, follow_dependents, solve_for
    use deck_check, only: checked_deck
    use field_rules, only: has_component
+   use glued_surfaces, only: add_glue
+   use interface_operator, only: interface_element
    use kinds, only: wp
    use mesh_queries, only: n_rotations
    use model_data, only: freedoms_type, mesh_type
@@ -27,9 +29,10 @@ contains
 
    !> Couple the model by the rigid elements and equations of DECK; supports and displacement systems must be known.
    !! Errors: missing or split nodes, components that do not exist, and the errors of check_dependences.
-   subroutine build_dependents(deck, ties, mesh, freedoms, expansions)
+   subroutine build_dependents(deck, ties, glue, mesh, freedoms, expansions)
       type(checked_deck), intent(in)  :: deck
       type(tie_type), intent(in)      :: ties(:) !! from SHELLTO cards
+      type(interface_element), intent(in) :: glue(:) !! of glued surfaces
       type(mesh_type), intent(in) :: mesh
       type(freedoms_type), intent(inout) :: freedoms
       type(expansion_type), allocatable, intent(out) :: expansions(:) !! of rigid elements, for temperatures
@@ -39,12 +42,12 @@ contains
 
       allocate (expansions(0))
       set = 0
-      if (size(deck%control%stages) > 0) set = deck%control%stages(1)%equations%id
+      if (size(deck%control%stages) > 0) set = deck%control%stages(deck%stage)%equations%id
       if (set > 0 .and. all(deck%bulk%equation%set /= set) .and. all(deck%bulk%equation_sum%set /= set)) call deck%errors%add( &
-         deck%control%stages(1)%equations%line, 'MPC: there is no MPC or MPCADD with set '//integer_text(set))
+         deck%control%stages(deck%stage)%equations%line, 'MPC: there is no MPC or MPCADD with set '//integer_text(set))
       call check_sums(deck, 'MPCADD', deck%bulk%equation_sum, deck%bulk%equation%set, 'MPC')
       allocate (active, source=summed_sets(deck%bulk%equation_sum, set))
-      if (size(deck%rigid) + size(deck%bulk%equation) + size(ties) == 0) return
+      if (size(deck%rigid) + size(deck%bulk%equation) + size(ties) + size(glue) == 0) return
       allocate (list%without(mesh%n_nodes), source=.false.)
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
@@ -63,14 +66,17 @@ contains
       end do
       freedoms%used = freedoms%used .or. list%without
       if (allocated(list%expansions)) call move_alloc(list%expansions, expansions)
-      if (deck%errors%any() .or. list%n == 0) return
+      if (deck%errors%any() .or. list%n + size(glue) == 0) return
       call follow_dependents(mesh, list, first, last)
       call check_dependences(deck, mesh, freedoms, list)
       do i = 1, n_rotations(mesh)
          freedoms%used(mesh%rotations(i)%node) = .true.
          if (.not. mesh%rotations(i)%of_element) list%without(mesh%rotations(i)%node) = .true.
       end do
-      if (.not. deck%errors%any()) call eliminate(list, mesh, freedoms)
+      if (deck%errors%any()) return
+      call add_glue(deck, glue, mesh, freedoms, list)
+      if (deck%keeps_distances) list%item(:list%n)%expands = .true.
+      call eliminate(list, mesh, freedoms)
    end subroutine build_dependents
 
    !> The nodes of RBE2M and RBE3M from their surface. RBE3M uses the tributary areas as weights, so that a load on the reference

@@ -4,6 +4,7 @@
 !! from the nodes of the shells and no unknowns of their own: u + theta x r. Joints, gaps and pressure use them as they use other
 !! nodes. Masses with an offset have such nodes too.
 module shell_faces
+   use bulk_data, only: mass_card
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use kinds, only: wp
@@ -18,11 +19,21 @@ module shell_faces
    implicit none
    private
 
-   public :: build_shell_faces, couple_shell_faces
+   public :: build_shell_faces, couple_shell_faces, mass_offset
 
    integer, parameter :: strips = 8 ! over the thickness at an edge: equal strips overestimate the inertia by 2/strips^2
 
 contains
+
+   !> The offset of the centre of the mass CARD from its node at X; with CID -1 the card has the centre itself, in basic axes.
+   pure function mass_offset(card, x) result(offset)
+      type(mass_card), intent(in) :: card
+      real(wp), intent(in)        :: x(3)
+      real(wp) :: offset(3)
+
+      offset = card%offset
+      if (card%system < 0) offset = card%offset - x
+   end function mass_offset
 
    !> Give the sides of shells in marked surfaces nodes of their own, and masses with an offset.
    subroutine build_shell_faces(deck, mesh)
@@ -37,9 +48,10 @@ contains
       do k = 1, size(deck%bulk%mass) ! the centre of mass of a CONM2 with an offset has a rigid lever from its node, as faces have
          associate (card => deck%bulk%mass(k))
             n = mesh%node_table%find(card%node)
-            if (n == 0 .or. all(abs(card%offset) <= 0.0_wp)) cycle
-            call find_directions(deck, mesh%systems, card%line, card%system, mesh%x(:, n), axes, ok)
-            faces = [faces, face_node_type(point=n, lever=matmul(axes, card%offset))]
+            if (n == 0) cycle
+            if (all(abs(mass_offset(card, mesh%x(:, n))) <= 0.0_wp)) cycle
+            call find_directions(deck, mesh%systems, card%line, max(card%system, 0), mesh%x(:, n), axes, ok)
+            faces = [faces, face_node_type(point=n, lever=matmul(axes, mass_offset(card, mesh%x(:, n))))]
          end associate
       end do
       do k = 1, size(mesh%surfaces)

@@ -7,7 +7,7 @@ module spring_build
    use displacement_systems, only: find_directions
    use kinds, only: wp
    use mesh_queries, only: shown_number
-   use model_data, only: a_spring, bar_type, mesh_type
+   use model_data, only: a_spring, bar_type, mesh_type, tightening_type
    use model_kind, only: space_hint
    use node_build, only: find_nodes
    use numbers, only: cross, identity
@@ -19,7 +19,7 @@ module spring_build
    implicit none
    private
 
-   public :: build_bars, is_bar, find_stage, find_thread, build_springs
+   public :: build_bars, is_bar, add_tightening, find_thread, build_springs
 
    character(2), parameter :: axis_names(6) = ['T1', 'T2', 'T3', 'R1', 'R2', 'R3']
 
@@ -38,7 +38,7 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(inout) :: mesh
       type(prod_card) :: prod
-      integer :: i, k, n, stage
+      integer :: i, k, n
       logical :: is_cut_beam
 
       deallocate (mesh%bars)
@@ -77,20 +77,11 @@ contains
          associate (card => deck%bulk%bolt(i))
             if (card%element == 0) cycle ! a solid bolt
             k = findloc(mesh%bars%id, card%element, dim=1)
-            call find_stage(deck, card, stage)
             if (k == 0) call deck%field_error(card%line, 'EID', 'there is no CROD '//integer_text(card%element)// &
                                               ' with a PROD, nor a CONROD, CBAR or CBEAM')
-            if (k == 0 .or. stage == 0) cycle
-            if (mesh%bars(k)%bolt > 0) then
-               call deck%field_error(card%line, 'EID', name_of_bar(deck, card%element)//' is BOLT '// &
-                  integer_text(mesh%bars(k)%bolt)//' already, and a bolt is tightened in one stage only; expected one BOLT '// &
-                  'for each element, with the stage that tightens it last')
-               cycle
-            end if
-            mesh%bars(k)%bolt = card%id
-            mesh%bars(k)%preload = card%preload
-            mesh%bars(k)%stage = stage
-            call find_thread(deck, card, mesh, mesh%bars(k)%thread)
+            if (k == 0) cycle
+            call add_tightening(deck, card, mesh%bars(k)%bolt, name_of_bar(deck, card%element), mesh%bars(k)%tightening)
+            if (mesh%bars(k)%thread%size == '') call find_thread(deck, card, mesh, mesh%bars(k)%thread)
          end associate
       end do
    end subroutine build_bars
@@ -135,7 +126,7 @@ contains
       bar%direction = spread(along/length, 2, 2)
       bar%stiffness = deck%bulk%mat1(material)%e*prod%area/length
       if (.not. deck%bulk%mat1(material)%bars_only) &
-         bar%torsion = 0.5_wp*deck%bulk%mat1(material)%e/(1.0_wp + deck%bulk%mat1(material)%nu)*prod%torsion/length
+         bar%torsion = deck%bulk%mat1(material)%shear*prod%torsion/length
       bar%area = prod%area
       bar%strength = deck%bulk%mat1(material)%strength
       bar%mass = deck%bulk%parameters%mass_factor*(deck%bulk%mat1(material)%rho*prod%area + prod%extra_mass)*length
@@ -146,16 +137,30 @@ contains
          integer_text(bar%id)//': in an axisymmetric model bars stand along y; their area is that of all round the ring')
    end subroutine build_bar
 
-   !> Position of the STAGE that tightens the bolt of CARD; 0: it is missing.
-   subroutine find_stage(deck, card, stage)
-      type(checked_deck), intent(in) :: deck
-      type(bolt_card), intent(in)    :: card
-      integer, intent(out)           :: stage
+   !> Add the stage of CARD to the TIGHTENING of bolt ID, which becomes the number of its first card.
+   subroutine add_tightening(deck, card, id, part, tightening)
+      type(checked_deck), intent(in)       :: deck
+      type(bolt_card), intent(in)          :: card
+      integer, intent(inout)               :: id
+      character(*), intent(in)             :: part !! what is tightened, for the message
+      type(tightening_type), intent(inout) :: tightening
+      integer :: n, stage
 
       stage = findloc(deck%control%stages%id, card%stage, dim=1)
       if (stage == 0 .and. card%stage > 0) call deck%field_error(card%line, 'STAGE', &
          'there is no SUBCASE '//integer_text(card%stage))
-   end subroutine find_stage
+      if (stage == 0) return
+      if (id == 0) id = card%id
+      if (.not. allocated(tightening%stage)) allocate (tightening%stage(0), tightening%preload(0))
+      if (any(tightening%stage == stage)) then
+         call deck%field_error(card%line, 'STAGE', part//' is BOLT '//integer_text(id)// &
+            ' already, which this SUBCASE tightens; expected one BOLT for each SUBCASE')
+         return
+      end if
+      n = count(tightening%stage < stage)
+      tightening%preload = [tightening%preload(:n), card%preload, tightening%preload(n + 1:)]
+      tightening%stage = [tightening%stage(:n), stage, tightening%stage(n + 1:)]
+   end subroutine add_tightening
 
    !> The THREAD of the bolt of CARD in the units of the deck.
    subroutine find_thread(deck, card, mesh, thread)

@@ -20,19 +20,34 @@ module stage_build
 
 contains
 
-   !> Plan the stages. A stage without INCR has one increment; so has METHOD = BACK.
+   !> Plan the stages. A stage without INCR has one increment; so has METHOD = BACK. Without joints, bolts, INCR and FROM the stages are
+   !! independent cases.
    subroutine plan_stages(deck, plan, errors)
       type(deck_type), intent(in)          :: deck
       type(stage_plan_type), intent(out)   :: plan
       type(deck_error_list), intent(inout) :: errors
-      integer :: s, k
+      integer :: i, s, k
 
       plan%measures_path = deck%control%method == method_newton
+      associate (given => deck%control%stages, bulk => deck%bulk)
+         plan%is_independent = size(given) > 1 .and. size(bulk%joint) + size(bulk%cjoint) + size(bulk%bolt) == 0 .and. &
+                               all(given%increments%id == 0 .and. given%from%id == 0)
+      end associate
+      plan%first_with = [1]
       allocate (plan%stages(size(deck%control%stages)))
       do s = 1, size(plan%stages)
          associate (stage => plan%stages(s), given => deck%control%stages(s))
             stage%id = given%id
             stage%from = given%from%id
+            if (.not. plan%is_independent) stage%begins_at = s - 1
+            if (stage%from > 0) stage%begins_at = findloc(deck%control%stages%id, stage%from, dim=1)
+            associate (first => deck%control%stages(plan%first_with))
+               stage%supports = findloc(first%supports%id == given%supports%id .and. first%equations%id == given%equations%id, &
+                                        .true., dim=1)
+            end associate
+            if (stage%supports == 0) plan%first_with = [plan%first_with, s]
+            if (stage%supports == 0) stage%supports = size(plan%first_with)
+            call plan_sum()
             stage%label = given%label
             stage%output = given%output
             stage%shown_words = ''
@@ -47,6 +62,24 @@ contains
             end if
          end associate
       end do
+
+   contains
+
+      !> Plan the SUBCOM at position S: its SUBSEQ names the last SUBCASEs before it.
+      subroutine plan_sum()
+         associate (given => deck%control%stages(s), stage => plan%stages(s))
+            if (given%combines == 0) return
+            stage%factors = given%factors
+            stage%parts = pack([(i, i = 1, s - 1)], deck%control%stages(:s - 1)%combines == 0)
+            if (size(stage%parts) < size(stage%factors)) return ! reported already
+            stage%parts = stage%parts(size(stage%parts) - size(stage%factors) + 1:)
+            if (any(plan%stages(stage%parts)%supports /= stage%supports)) call errors%add(given%combines, &
+               'SUBSEQ: the SUBCASEs have different SPC or MPC; expected a combination of cases with the same supports')
+            if (.not. plan%is_independent) call errors%add(given%line, 'SUBCOM: the stages of a deck with joints, bolts, INCR '// &
+               'or FROM are one history, which has no sum of cases; expected a SUBCASE with FROM and a LOAD that combines sets')
+         end associate
+      end subroutine plan_sum
+
    end subroutine plan_stages
 
    !> Set SHOWN of the limited stages of PLAN, and WATCHED of the stages with WATCH.

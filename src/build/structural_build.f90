@@ -263,7 +263,7 @@ contains
             k = findloc(deck%bulk%beam_property%id, card%property, dim=1)
             law%beam_section = deck%bulk%beam_property(k)%section
             law%e = property%e
-            law%g = 0.5_wp*property%e/(1.0_wp + property%nu)
+            law%g = deck%bulk%mat1(findloc(deck%bulk%mat1%id, deck%bulk%beam_property(k)%material, dim=1))%shear
             law%rho = property%rho
             law%expansion = property%alpha
             law%is_cut = any(deck%bulk%bolt%element == card%id)
@@ -272,7 +272,8 @@ contains
             do end = 1, 2
                law%offset(:, end) = matmul(node_axes(mesh, mesh%element_nodes(end, e)), card%offset(:, end))
             end do
-            law%orientation = matmul(node_axes(mesh, mesh%element_nodes(1, e)), card%orientation)
+            law%orientation = card%orientation
+            if (.not. card%in_basic) law%orientation = matmul(node_axes(mesh, mesh%element_nodes(1, e)), card%orientation)
             if (card%nodes(3) > 0) then
                other = mesh%node_table%find(card%nodes(3))
                if (other == 0) then
@@ -320,7 +321,7 @@ contains
          law%expansion = mat1(membrane)%alpha
          call elasticity_matrix(plane_stress, mat1(bending)%e, mat1(bending)%nu, d)
          law%bending = card%inertia_ratio*d(:3, :3)
-         if (shear > 0) law%shear = 0.5_wp*mat1(shear)%e/(1.0_wp + mat1(shear)%nu)*card%shear_ratio
+         if (shear > 0) law%shear = mat1(shear)%shear*card%shear_ratio
       end associate
       law%thickness = card%thickness
 

@@ -1,4 +1,4 @@
-!> Supports from SPC, SPC1, SPCM and PS of GRID, and their prescribed displacements.
+!> Supports from SPC, SPC1, SPCM, SUPORT and PS of GRID, and their prescribed displacements.
 !! SPCD gives a total at the end of a stage, among its loads. D of SPC holds from the end of the first stage on. SPCADD and
 !! MPCADD combine sets.
 module support_build
@@ -52,7 +52,7 @@ contains
          call hold(mesh, freedoms, mesh%node_table%find(deck%bulk%grid(i)%id), deck%bulk%grid(i)%ps)
       end do
       set = 0
-      if (size(deck%control%stages) > 0) set = deck%control%stages(1)%supports%id
+      if (size(deck%control%stages) > 0) set = deck%control%stages(deck%stage)%supports%id
       allocate (sets, source=support_sets(deck))
       do i = 1, size(deck%bulk%support)
          associate (card => deck%bulk%support(i), active => any(sets == deck%bulk%support(i)%set))
@@ -62,9 +62,15 @@ contains
             call apply_support(deck, card, active, mesh, freedoms)
          end associate
       end do
+      do i = 1, size(deck%bulk%suport)
+         associate (card => deck%bulk%suport(i))
+            call open_group(support_group('FREE', 0, card%line), freedoms)
+            call hold(mesh, freedoms, mesh%node_table%find(card%node), card%components)
+         end associate
+      end do
       call check_sums(deck, 'SPCADD', deck%bulk%support_sum, deck%bulk%support%set, 'SPC, SPC1 or SPCM')
       if (set > 0 .and. all(deck%bulk%support%set /= set) .and. all(deck%bulk%support_sum%set /= set)) call deck%errors%add( &
-         deck%control%stages(1)%supports%line, 'SPC: there is no SPC, SPC1, SPCM or SPCADD with set '//integer_text(set))
+         deck%control%stages(deck%stage)%supports%line, 'SPC: there is no SPC, SPC1, SPCM or SPCADD with set '//integer_text(set))
    end subroutine build_supports
 
    !> The active sets of supports: that of case control, or those of its SPCADD.
@@ -74,7 +80,7 @@ contains
       integer :: set
 
       set = 0
-      if (size(deck%control%stages) > 0) set = deck%control%stages(1)%supports%id
+      if (size(deck%control%stages) > 0) set = deck%control%stages(deck%stage)%supports%id
       sets = summed_sets(deck%bulk%support_sum, set)
    end function support_sets
 
@@ -141,7 +147,7 @@ contains
       type(freedoms_type), intent(inout) :: freedoms
 
       associate (groups => freedoms%support_groups)
-         if (size(groups) > 0 .and. any(group%kind == ['GRID', 'SPC '])) then
+         if (size(groups) > 0 .and. any(group%kind == ['GRID', 'SPC ', 'FREE'])) then
             if (groups(size(groups))%kind == group%kind .and. groups(size(groups))%id == group%id) return
          end if
       end associate

@@ -72,6 +72,7 @@ contains
       end do
       if (deck%errors%any()) return
       do s = 2, size(history%stages)
+         if (history%stages(s)%from == 0) cycle
          associate (a => history%stages(history%stages(s)%from)%temperature, b => history%stages(s)%temperature)
             history%stages(s)%changes(3) = abs(a%reference_share - b%reference_share) > 0.0_wp .or. differ(a%plate, b%plate)
             if (allocated(a%at) .and. allocated(b%at)) history%stages(s)%changes(3) = history%stages(s)%changes(3) .or. &
@@ -226,6 +227,7 @@ contains
             k = last(node)
             last(node) = i
             if (k == 0) cycle
+            if (.not. abs(deck%bulk%temperature(k)%value - card%value) > 0.0_wp) cycle
             if (deck%bulk%temperature(k)%set == card%set) call deck%field_error(card%line, card%field, 'node '// &
                integer_text(card%node)//' has a temperature in set '//integer_text(card%set)//' already, in '// &
                deck%text%place(deck%bulk%temperature(k)%line))

@@ -25,11 +25,11 @@ contains
    !> Plan the vibration of the stages with MODES. A blank ND means the lowest mode, or with V2 all modes up to it, as in NASTRAN;
    !! where both are blank and a response is asked for, the modes that cover its frequencies. Frequencies are not negative, so that
    !! V1 <= 0 is no limit.
-   subroutine plan_vibrations(deck, mesh, joint_ids, freedoms, waves, plan)
+   subroutine plan_vibrations(deck, mesh, joint_ids, sets, waves, plan)
       type(checked_deck), intent(in)       :: deck
       type(mesh_type), intent(in) :: mesh
       integer, intent(in)                  :: joint_ids(:)
-      type(freedoms_type), intent(in) :: freedoms
+      type(freedoms_type), intent(in) :: sets(:) !! of the plan
       type(planned_wave), intent(in)       :: waves(:) !! the loads of DLOAD
       type(stage_plan_type), intent(inout) :: plan
       integer :: k, s, undamped
@@ -41,9 +41,10 @@ contains
          if (deck%control%stages(s)%vibration%modes%id == 0) cycle
          plan%has_modes = .true.
          allocate (plan%stages(s)%vibration)
-         associate (asked => deck%control%stages(s)%vibration, vibration => plan%stages(s)%vibration)
+         associate (asked => deck%control%stages(s)%vibration, vibration => plan%stages(s)%vibration, &
+                    freedoms => sets(plan%stages(s)%supports))
             vibration%id = asked%modes%id
-            vibration%free = asked%free
+            vibration%free = asked%free .or. (asked%by_method .and. (freedoms%floats .or. size(deck%bulk%suport) > 0))
             vibration%on_loading = asked%on_loading
             vibration%amplitude = asked%amplitude
             vibration%damping = deck%bulk%parameters%damping
@@ -58,6 +59,8 @@ contains
                call deck%errors%add(asked%modes%line, 'MODES: there is no EIGRL '//integer_text(asked%modes%id))
             else
                vibration%eigrl_card = deck%bulk%eigrl(k)
+               if (vibration%by_point) call deck%errors%warn('EIGR '//integer_text(asked%modes%id)// &
+                  ': NORM = POINT, but the shapes are scaled as by MAX')
                covers = vibration%most == 0 .and. .not. vibration%has_highest
                if (covers) vibration%most = 1
                vibration%has_lowest = vibration%has_lowest .and. vibration%lowest > 0.0_wp
@@ -138,7 +141,7 @@ contains
       type(backbone_plan) :: backbone
       integer :: k, i
 
-      if (asked%free .and. .not. freedoms%floats .and. &
+      if (vibration%free .and. .not. freedoms%floats .and. &
           any([(supported(mesh, freedoms, i), i = 1, mesh%n_nodes - n_sections(mesh))])) call deck%errors%add(asked%backbone%line, &
          'BACKBONE with MODES(FREE): expected a deck without supports and all its MODES (FREE): the supports of this deck '// &
          'would bear a part of the inertia forces of the mode')

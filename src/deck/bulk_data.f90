@@ -13,6 +13,7 @@ module bulk_data
    use normal_curve, only: normal_law
    use iwan_law, only: iwan_type
    use shear_stiffness, only: shear_law
+   use text_tools, only: text_item
    implicit none
    private
 
@@ -47,6 +48,7 @@ module bulk_data
       real(wp) :: orientation(3) = 0.0_wp, offset(3, 2) = 0.0_wp ! X1, X2, X3 where there is no G0; WA, WB
       integer  :: pins(2) = 0                           ! PA, PB
       logical  :: blank(4) = .false.                    ! X1, X2, X3, PID
+      logical  :: in_basic = .false.                    ! OFFT B: X1, X2, X3 are in basic axes
    end type edge_card
 
    !> Additional data of a shell card: the position of its element_card, ZOFFS and T1 to T4.
@@ -127,6 +129,7 @@ module bulk_data
       integer  :: line = 0, id = 0
       logical  :: bars_only = .false., reference_given = .false. ! only E is given; TREF is given
       real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
+      real(wp) :: shear = 0.0_wp                        ! G of torsion and transverse shear
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF
       real(wp) :: damping = 0.0_wp                      ! GE
       real(wp) :: strength = 0.0_wp                     ! ST, 0: blank
@@ -173,7 +176,7 @@ module bulk_data
       integer, allocatable :: sets(:), at(:)            ! AT(k): data field of SETS(k)
    end type set_sum_card
 
-   !> FORCE (a vector), FORCE1 (a force from node ENDS(1) to ENDS(2)), FORCE2 (normal to two such lines) and MOMENT.
+   !> FORCE (a vector), FORCE1 (a force from node ENDS(1) to ENDS(2)), FORCE2 (normal to two such lines), and MOMENT likewise.
    type, public :: force_card
       integer  :: line = 0, set = 0, node = 0
       integer  :: system = 0                            ! CID of the vector, 0: global axes
@@ -246,7 +249,45 @@ module bulk_data
       integer  :: line = 0, id = 0, element = 0, stage = 0, surface = 0
       real(wp) :: preload = 0.0_wp
       type(thread_type) :: thread                       ! in mm and N
+      integer  :: kind = 0                              ! ETYPE of a BOLT of NX, 0: of this program
+      type(id_ranges) :: parts                          ! of NX: elements (1, 3) or nodes of its section (2)
+      integer  :: system = 0, axis = 0, node = 0        ! of NX: CSID, IDIR, GP
    end type bolt_card
+
+   !> BSURF, BSURFS, BCPROP, BCPROPS: a region of contact or glue, which becomes the marked SURFACE.
+   type, public :: region_card
+      integer :: line = 0, id = 0, surface = 0          ! SURFACE 0: no active pair has it
+      logical :: by_property = .false., is_bottom = .false. ! RANGES are properties; the faces of shells against their normals
+      type(id_ranges) :: ranges                         ! of elements
+      integer, allocatable :: corners(:, :)             ! (3, ranges) of the face of a BSURFS; not allocated: all free faces
+   end type region_card
+
+   !> BCRPARA.
+   type, public :: region_side_card
+      integer :: line = 0, id = 0
+      logical :: is_bottom = .false.
+   end type region_side_card
+
+   !> BCTSET, BGSET: pairs of regions in contact or glued.
+   type, public :: pair_card
+      integer :: line = 0, set = 0
+      logical :: is_glue = .false.
+      integer, allocatable  :: regions(:, :)            ! (2, pairs) SID, TID
+      real(wp), allocatable :: mu(:), reach(:)          ! FRIC; MAXD or SDIST, 0: blank
+   end type pair_card
+
+   !> BOLTFOR: the preload of bolts of NX.
+   type, public :: preload_card
+      integer  :: line = 0, set = 0
+      real(wp) :: force = 0.0_wp
+      type(id_ranges) :: bolts
+   end type preload_card
+
+   !> BOLTSEQ: the order of sets of preloads.
+   type, public :: sequence_card
+      integer :: line = 0, set = 0
+      integer, allocatable :: order(:), sets(:)
+   end type sequence_card
 
    type, public :: load_card
       integer  :: line = 0, set = 0
@@ -277,6 +318,7 @@ module bulk_data
       integer  :: line = 0, id = 0, law = 0, sides(2) = 0, fit = fit_auto
       real(wp) :: tolerance = 0.0_wp                    ! 0: default
       logical  :: is_linear = .false.                   ! PRESSURE LINEAR: elements at the Gauss points of the sides
+      logical  :: is_glued = .false.                    ! of a BGSET: no joint, the sides move together; behind all joints
    end type joint_card
 
    type, public :: cjoint_card
@@ -324,13 +366,14 @@ module bulk_data
       real(wp), allocatable :: fractions(:)                ! of the stage's load change; their sum is 1
    end type jincr_card
 
-   !> EIGRL: the range of natural frequencies and the scaling of the mode shapes.
+   !> EIGRL, EIGR: the range of natural frequencies and the scaling of the mode shapes.
    type, public :: eigrl_card
       integer  :: line = 0, id = 0
       logical  :: has_lowest = .false., has_highest = .false.
       real(wp) :: lowest = 0.0_wp, highest = 0.0_wp     ! V1, V2
       integer  :: most = 0                              ! ND, 0: blank
       logical  :: unit_mass = .true.                    ! NORM = MASS
+      logical  :: by_point = .false.                    ! EIGR, NORM = POINT
    end type eigrl_card
 
    !> JAMPL: N amplitudes of MODE in geometric progression, from LARGEST to RATIO times LARGEST.
@@ -384,7 +427,7 @@ module bulk_data
       type(mass_card), allocatable         :: mass(:)
       type(mat1_card), allocatable         :: mat1(:)
       type(support_card), allocatable      :: support(:)
-      type(set_sum_card), allocatable      :: support_sum(:), equation_sum(:)
+      type(set_sum_card), allocatable      :: support_sum(:), equation_sum(:), contact_sum(:), glue_sum(:)
       type(rigid_card), allocatable        :: rigid(:)
       type(place_card), allocatable        :: place(:)
       type(tie_card), allocatable          :: tie(:)
@@ -393,11 +436,18 @@ module bulk_data
       type(pressure_card), allocatable     :: pressure(:)
       type(surface_load_card), allocatable :: surface_load(:)
       type(gravity_card), allocatable      :: gravity(:)
-      type(displacement_card), allocatable :: displacement(:)
+      type(displacement_card), allocatable :: displacement(:), suport(:)
       type(temperature_card), allocatable  :: temperature(:)
       type(plate_temperature_card), allocatable :: plate_temperature(:)
       type(load_card), allocatable         :: load(:), dload(:)
       type(bolt_card), allocatable         :: bolt(:)
+      type(region_card), allocatable       :: region(:)
+      type(region_side_card), allocatable  :: region_side(:)
+      type(pair_card), allocatable         :: pair(:)
+      integer, allocatable                 :: touching(:)  !! sets of contact whose faces touch, by BCTPARM; 0: no set
+      type(preload_card), allocatable      :: preload(:)
+      type(sequence_card), allocatable     :: sequence(:)
+      type(text_item), allocatable         :: told(:)      !! what contact and bolts of NX have become; not allocated: there are none
       type(block_card), allocatable        :: block(:)
       type(pmark_card), allocatable        :: pmark(:)
       type(joint_card), allocatable        :: joint(:)

@@ -4,14 +4,13 @@
 module card_fields
    use deck_cards, only: card_type
    use deck_errors, only: deck_error_list
-   use field_rules, only: any_real, at_least_1, component_words, in_range, integer_fault, is_component_list, largest_size, &
-                          list_of, parse_integer, parse_real, real_fault, real_range, real_words, smallest_size
+   use field_rules, only: any_real, at_least_1, component_words, drop_blanks, in_range, integer_fault, is_component_list, is_zero, &
+                          largest_size, list_of, number_of, parse_integer, parse_real, real_fault, real_range, &
+                          real_words, smallest_size
    use kinds, only: wp
    use text_tools, only: integer_text, one_of
    implicit none
    private
-
-   public :: number_of
 
    !> Ranges of identification numbers, FIRST(k) THRU LAST(k).
    type, public :: id_ranges
@@ -36,15 +35,6 @@ module card_fields
 
 contains
 
-   !> Position of FIELD among the NAMES of fields. A name that is not there is an error of the source.
-   pure integer function number_of(names, field)
-      character(8), intent(in) :: names(:)
-      character(*), intent(in) :: field
-
-      number_of = findloc(names, field, dim=1)
-      if (number_of == 0) error stop 'no card has a field '//field
-   end function number_of
-
    !> Begin with the first field of a card that has been read.
    subroutine begin(self)
       class(card_fields_type), intent(inout) :: self
@@ -67,7 +57,8 @@ contains
       if (self%k > size(self%names)) self%names = [character(8) :: self%names, name]
    end subroutine go_on
 
-   !> Take the integer VALUE from the next field, an id of at least 1 unless LEAST and MOST are present. It is required without DEFAULT.
+   !> Take the integer VALUE from the next field, an id of at least 1 unless LEAST and MOST are present. It is required without DEFAULT;
+   !! 0 passes for blank where it is the DEFAULT.
    subroutine integer_field(self, name, value, default, least, most)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: name !! as in the card manual
@@ -80,6 +71,7 @@ contains
       bounds = at_least_1
       if (present(least)) bounds(1) = least
       if (present(most)) bounds(2) = most
+      if (present(default) .and. is_given) is_given = default /= 0 .or. self%fields(self%k)%text /= '0'
       if (present(default) .and. .not. is_given) then
          value = default
       else
@@ -100,7 +92,7 @@ contains
       end do
    end subroutine integer_fields
 
-   !> Take the real VALUE in RANGE from the next field; with WHOLE it may be an integer. It is required without DEFAULT.
+   !> Take the real VALUE in RANGE from the next field; with WHOLE it may be an integer. DEFAULT is as above.
    subroutine real_field(self, name, value, range, default, whole)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: name
@@ -113,6 +105,9 @@ contains
 
       call go_on(self, name, is_given)
       ok = .false.
+      if (is_given .and. present(default) .and. present(range)) then
+         if (range%above) is_given = abs(default) > 0.0_wp .or. .not. is_zero(self%text_at(self%k))
+      end if
       if (is_given .and. present(whole)) then
          call parse_integer(self%fields(self%k)%text, number, ok)
          value = real(number, wp)
@@ -137,7 +132,7 @@ contains
       end do
    end subroutine real_fields
 
-   !> Take a list of NASTRAN's components from the next field: different digits of 1 to 6. It is required without DEFAULT.
+   !> Take a list of NASTRAN's components from the next field, as 123 or 1 2 3. It is required without DEFAULT; with it 0 is blank.
    subroutine components(self, name, value, default)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: name
@@ -146,6 +141,8 @@ contains
       logical :: is_given, ok
 
       call go_on(self, name, is_given)
+      if (is_given) call drop_blanks(self%fields(self%k)%text, self%fields(self%k)%length)
+      if (is_given .and. present(default)) is_given = self%fields(self%k)%text /= '0'
       if (present(default) .and. .not. is_given) then
          value = default
       else
@@ -176,15 +173,12 @@ contains
    subroutine blank(self, names)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: names(:)
-      character(:), allocatable :: text
       integer :: i
       logical :: is_given
 
       do i = 1, size(names)
          call go_on(self, names(i), is_given)
-         if (.not. is_given) cycle
-         text = self%text_at(self%k)
-         if (verify(text, '0.+-') > 0 .or. index(text, '0') == 0) &
+         if (is_given .and. .not. is_zero(self%text_at(self%k))) &
             call self%wrong_entry(self%k, names(i), 'where the field must be blank')
       end do
    end subroutine blank
@@ -210,7 +204,7 @@ contains
       call self%must_be_blank(self%k + 1, self%n, '')
    end subroutine finish
 
-   !> The data fields FIRST to LAST must be blank; WHY ends the message.
+   !> The data fields FIRST to LAST must be blank or zero; WHY ends the message.
    subroutine must_be_blank(self, first, last, why)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: first, last
@@ -218,7 +212,8 @@ contains
       integer :: k
 
       do k = first, min(last, self%n)
-         if (self%fields(k)%length > 0) call self%error_at(k, ''''//self%text_at(k)//''' where the field must be blank'//why)
+         if (self%fields(k)%length == 0 .or. is_zero(self%text_at(k))) cycle
+         call self%error_at(k, ''''//self%text_at(k)//''' where the field must be blank'//why)
       end do
    end subroutine must_be_blank
 

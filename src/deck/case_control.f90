@@ -8,8 +8,11 @@ module case_control
    use deck_text, only: deck_text_type
    use field_rules, only: parse_integer, parse_real
    use kinds, only: wp
-   use nastran_compatibility, only: control_habit, ignored_entries_type, other_solution, parameters_type, read_echo, read_habit
-   use stage_entries, only: check_vibration, complete_response, pair_reference, read_pair, read_stage_entry, show_nodes, stage_type
+   use nastran_compatibility, only: ignored_entries_type, parameters_type, read_echo, read_habit
+   use nastran_solutions, only: is_direct, is_statics, judge_solution, starts_dmap, warn_of_dmap
+   use nastran_words, only: control_habit
+   use stage_entries, only: check_vibration, complete_response, pair_reference, read_pair, read_stage_entry, show_nodes, &
+                            stage_type, vibration_entries_type
    use text_tools, only: integer_text, upper
    use tolerances, only: back_tol, least_tol, newton_tol, path_tol
    implicit none
@@ -25,6 +28,7 @@ module case_control
       character(:), allocatable :: title
       character(8) :: length_unit = '', force_unit = ''  !! labels only
       integer :: method = method_step
+      logical :: method_is_given = .false.
       integer :: pressure = pressure_sumf
       logical :: carry = .false.
       logical :: average = .true.                        !! BACK: average two consecutive sets of results
@@ -38,6 +42,8 @@ module case_control
       logical :: is_direct = .false.                     !! SOL 108: its response needs no MODES
       character(8) :: matrices(2) = ''                   !! K2GG, M2GG: names of DMIG
       integer :: matrix_lines(2) = 0
+      logical :: refused = .false.                       !! a kind of analysis that is not available: the only error
+      logical :: is_static = .false.                     !! SOL of statics: METHOD = set has no effect
       logical :: lumped = .false.                        !! MASS = LUMPED: the mass of elements is lumped at their nodes
       logical :: mass_is_given = .false.                 !! MASS is given
       integer :: model = 0, model_line = 0               !! MODEL, 0: not given
@@ -56,11 +62,12 @@ contains
       has_petsc = .true.
    end subroutine offer_petsc
 
-   !> Read from line CURSOR of TEXT up to BEGIN BULK. CURSOR then is the line after BEGIN BULK; FOUND_BULK tells whether there is
-   !! one.
-   subroutine read_case_control(text, cursor, control, found_bulk, errors)
+   !> Read from line CURSOR of TEXT up to BEGIN BULK or, where there is none, up to the first card, on line FIRST_CARD. CURSOR then is
+   !! the line after BEGIN BULK, or FIRST_CARD; FOUND_BULK tells whether there is either.
+   subroutine read_case_control(text, cursor, first_card, control, found_bulk, errors)
       type(deck_text_type), intent(in)     :: text
       integer, intent(inout)               :: cursor
+      integer, intent(in)                  :: first_card !! 0: there is a BEGIN BULK, or no card
       type(case_control_type), intent(out) :: control
       logical, intent(out)                 :: found_bulk
       type(deck_error_list), intent(inout) :: errors
@@ -69,12 +76,15 @@ contains
       character(:), allocatable :: keys_seen ! in this place: above the stages, or in one stage
       character(:), allocatable :: line
       type(number_set) :: whole
-      logical :: goes_on, in_plots
+      character(:), allocatable :: refusal, warning
+      logical :: goes_on, in_dmap, in_plots, past_cend
       integer :: n_shown
 
       n_shown = 0
       goes_on = .false.
+      in_dmap = .false.
       in_plots = .false.
+      past_cend = .false.
       control%title = ''
       control%tolerance = 0.0_wp
       allocate (control%stages(0), control%sets(0))
@@ -82,39 +92,63 @@ contains
       keys_seen = '|'
       found_bulk = .false.
       do while (cursor <= text%n)
+         found_bulk = cursor == first_card
+         if (found_bulk) exit
          line = text%card_part(cursor)
          cursor = cursor + 1
          if (line == '') cycle
-         if (index(line, achar(9)) > 0) then
-            call errors%add(cursor - 1, 'a tab in column '//integer_text(index(line, achar(9)))//': expected blanks', &
-                            index(line, achar(9)), index(line, achar(9)))
-            cycle
-         end if
          if (goes_on) then ! the continued list of an entry without effect
             goes_on = line(len(line):) == ','
             cycle
          end if
          call cut_entry(line, cursor - 1, entry)
          if (in_plots .and. entry%key /= 'BEGIN' .and. entry%key /= 'ENDDATA') cycle
+         if (in_dmap .and. all(entry%key /= ['CEND ', 'BEGIN', 'SOL  '])) cycle
          if (entry%key == 'BEGIN') then
             found_bulk = .true.
-            if (upper(entry%value) /= 'BULK') call value_error(entry, 'BULK', errors)
+            if (upper(entry%value) /= 'BULK') call refuse('BEGIN: '''//entry%value//''', expected BULK: there is '// &
+                                                          'one structure, without superelements')
+            if (control%refused) return
             exit
          else if (entry%key == 'ENDDATA') then
             cursor = cursor - 1
             exit
          end if
          control%of_nastran = control%of_nastran .or. entry%key == 'SOL' .or. entry%key == 'CEND'
-         if (entry%key == 'METHOD' .and. entry%value /= '' .and. verify(entry%value, '0123456789') == 0) entry%key = 'MODES'
+         past_cend = past_cend .or. entry%key == 'CEND'
+         in_dmap = in_dmap .and. .not. past_cend
+         if (starts_dmap(entry%key) .and. .not. past_cend) then
+            in_dmap = .true.
+            call warn_of_dmap(entry%key, text%place(entry%line), errors)
+            cycle
+         else if (any(entry%key == ['SOL     ', 'APP     ', 'ANALYSIS'])) then
+            call judge_solution(entry, refusal, warning)
+            call errors%warn(warning)
+            if (refusal /= '') call refuse(refusal)
+            if (control%refused) return
+            if (entry%key == 'SOL') control%is_static = is_statics(entry)
+            if (entry%key == 'SOL') control%is_direct = is_direct(entry)
+         end if
+         if (entry%key == 'METHOD' .and. entry%value /= '' .and. verify(entry%value, '0123456789') == 0) then
+            if (control%is_static) call control%ignored%add('METHOD')
+            if (control%is_static) cycle
+            entry%key = 'MODES'
+            if (any(entry%describers == ['         ', 'BOTH     ', 'STRUCTURE'])) entry%describers = 'METHOD'
+         end if
+         do while (entry%key == 'SUBSEQ' .and. cursor <= text%n .and. index(entry%value//'|', ',|') > 0)
+            entry%value = entry%value//' '//adjustl(text%card_part(cursor))
+            cursor = cursor + 1
+         end do
          in_plots = entry%key == 'OUTPUT' .and. entry%describers /= '' ! NASTRAN's plot requests: all lines up to BEGIN BULK
          if (in_plots .or. (entry%key == 'OUTPUT' .and. entry%value == '')) then
             call control%ignored%add('OUTPUT')
          else if (entry%key == 'SET') then
             call read_set(text, entry, cursor, control%sets, errors)
-         else if (entry%key == 'SUBCASE' .or. any(global_keys == entry%key) .or. any(stage_keys == entry%key)) then
-            if (entry%key == 'SUBCASE') keys_seen = '|'
+         else if (any(entry%key == ['SUBCASE', 'SUBCOM ']) .or. any(global_keys == entry%key) .or. &
+                  any(stage_keys == entry%key)) then
+            if (any(entry%key == ['SUBCASE', 'SUBCOM '])) keys_seen = '|'
             if (index(keys_seen, '|'//entry%key//'('//entry%describers//')|') > 0) &
-               call errors%add(entry%line, entry%key//': given twice in the same place')
+               call errors%warn(entry%key//': given twice in the same place; the last one counts, in '//text%place(entry%line))
             keys_seen = keys_seen//entry%key//'('//entry%describers//')|'
             call read_entry(entry, control, common, errors)
          else
@@ -135,6 +169,18 @@ contains
       whole%id = all_nodes
       whole%text = 'ALL'
       control%sets = [control%sets, whole]
+
+   contains
+
+      !> Make WORDS about ENTRY the only error: nothing else of the deck is read.
+      subroutine refuse(words)
+         character(*), intent(in) :: words
+
+         control%refused = .true.
+         errors%n = 0
+         call errors%add(entry%line, words, entry%first, entry%last)
+      end subroutine refuse
+
    end subroutine read_case_control
 
    !> Watch the nodes and pairs of LIST, numbers and N-M with commas, in all stages; not OK: a word is neither. The nodes form a set
@@ -200,7 +246,6 @@ contains
       type(case_control_type), intent(inout) :: control
       type(stage_type), intent(inout)        :: common
       type(deck_error_list), intent(inout)   :: errors
-      character(:), allocatable :: number
       integer :: choice, n
       logical :: ok
 
@@ -223,16 +268,8 @@ contains
          return
       end if
       select case (entry%key)
-      case ('SUBCASE')
+      case ('SUBCASE', 'SUBCOM')
          call start_stage(entry, control, common, errors)
-      case ('SOL') ! numbers and names of statics and modes; old decks write 1,0
-         choice = scan(entry%value//',', ', ')
-         number = upper(entry%value(:choice - 1))
-         control%is_direct = index('|8|108|SEDFREQ|DFREQ|', '|'//number//'|') > 0
-         if (index('|1|3|24|101|103|106|SESTATIC|SESTATICS|STATIC|STATICS|NLSTATIC|SEMODES|MODES|8|11|108|111|SEDFREQ|DFREQ|'// &
-                   'SEMFREQ|MFREQ|', '|'//number//'|') == 0 .or. choice == 1) &
-            call value_error(entry, '101 (or 1, 24, 106, SESTATIC, NLSTATIC), statics, 103 (3, SEMODES), modes, or 108 or '// &
-                             '111 (SEDFREQ, SEMFREQ), response to a load that oscillates'//other_solution(number), errors)
       case ('TITLE')
          control%title = entry%value
       case ('K2GG', 'M2GG')
@@ -245,6 +282,7 @@ contains
          call read_units(entry, control, errors)
       case ('METHOD')
          call choose(entry, method_words, control%method, errors)
+         control%method_is_given = .true.
       case ('TOL')
          call parse_real(upper(entry%value), control%tolerance, ok)
          if (.not. ok .or. control%tolerance < least_tol .or. control%tolerance > 0.01_wp) &
@@ -314,24 +352,32 @@ contains
       n = size(control%stages)
       call read_number(entry, number, errors)
       if (n > 0 .and. number%id > 0) then
-         if (number%id <= control%stages(n)%id) call errors%add(entry%line, 'SUBCASE: '//integer_text(number%id)// &
+         if (number%id <= control%stages(n)%id) call errors%add(entry%line, entry%key//': '//integer_text(number%id)// &
             ' after '//integer_text(control%stages(n)%id)//', expected ascending numbers: stages run in the order of the deck', &
             entry%first, entry%last)
       end if
       control%stages = [control%stages, common]
       control%stages(n + 1)%id = number%id
       control%stages(n + 1)%line = entry%line
+      if (entry%key == 'SUBCASE') return
+      associate (stage => control%stages(n + 1)) ! what the SUBCASEs before it have
+         stage%combines = -1
+         stage%load = set_reference()
+         stage%temperature = set_reference()
+         stage%vibration = vibration_entries_type()
+      end associate
    end subroutine start_stage
 
-   !> Without SUBCASE there is one stage. All stages have the same supports: [k_b] is formed once.
+   !> Without SUBCASE there is one stage. A SUBCOM has the supports of the SUBCASE before it, and no loads of its own.
    subroutine check_stages(control, common, n_shown, errors)
       type(case_control_type), intent(inout) :: control
       type(stage_type), intent(in)           :: common !! the only stage of a deck without SUBCASE
       integer, intent(in)                    :: n_shown !! number of entries such as DISPLACEMENT
       type(deck_error_list), intent(inout)   :: errors
-      integer :: i
+      integer :: before, i
       logical :: shown
 
+      before = 0 ! number of SUBCASEs
       if (size(control%stages) == 0) then
          control%stages = [common]
          control%stages(1)%id = 1
@@ -339,13 +385,20 @@ contains
       if (control%method == method_back .and. size(control%stages) > 1) call errors%add(control%stages(2)%line, &
          'SUBCASE: METHOD = BACK solves one stage of loading only; expected METHOD = STEP or NEWTON for a history')
       do i = 1, size(control%stages)
-         associate (stage => control%stages(i), first => control%stages(1))
+         associate (stage => control%stages(i))
             if (stage%from%id > 0 .and. all(control%stages(:i - 1)%id /= stage%from%id)) call errors%add(stage%from%line, &
                'FROM: '//integer_text(stage%from%id)//', expected the number of an earlier SUBCASE')
-            if (stage%supports%id /= first%supports%id) call errors%add(max(stage%supports%line, stage%line), &
-               'SPC: all stages must have the same supports; give SPC above the first SUBCASE')
-            if (stage%equations%id /= first%equations%id) call errors%add(max(stage%equations%line, stage%line), &
-               'MPC: all stages must have the same equations; give MPC above the first SUBCASE')
+            if (stage%combines == 0) before = before + 1
+            if (stage%combines == 0) cycle
+            if (stage%combines < 0) stage%factors = [real(wp) ::]
+            if (stage%combines < 0) call errors%add(stage%line, 'SUBCOM: expected SUBSEQ = factors of the SUBCASEs before it')
+            if (size(stage%factors) > before) call errors%add(stage%combines, 'SUBSEQ: '//integer_text(size(stage%factors))// &
+               ' factors, but '//integer_text(before)//' SUBCASEs before this SUBCOM')
+            stage%load = set_reference()
+            stage%temperature = set_reference()
+            if (before == 0) cycle
+            stage%supports = control%stages(i - 1)%supports
+            stage%equations = control%stages(i - 1)%equations
          end associate
       end do
       shown = .false.

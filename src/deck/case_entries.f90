@@ -15,10 +15,11 @@ module case_entries
    !> Keys for all stages, and keys of a stage.
    character(8), parameter, public :: global_keys(16) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
       'CARRY', 'AVERAGE', 'PATHTOL', 'SOLVER', 'ECHO', 'RESTART', 'MASS', 'MODEL', 'K2GG', 'M2GG']
-   character(11), parameter, public :: stage_keys(18) = [character(11) :: 'SPC', 'MPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', &
-      'TEMPERATURE', 'WATCH', 'FROM', 'LOADSET', 'MODES', 'STIFFNESS', 'AMPLITUDE', 'BACKBONE', 'FREQUENCY', 'DLOAD', 'SDAMPING', &
-      'RESPONSE']
-   character(11), parameter :: short_keys(3) = [character(11) :: 'TEMPERATURE', 'FREQUENCY', 'SDAMPING'] ! four letters suffice
+   character(11), parameter, public :: stage_keys(22) = [character(11) :: 'SPC', 'MPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', &
+      'TEMPERATURE', 'WATCH', 'FROM', 'SUBSEQ', 'BCSET', 'BGSET', 'BOLTLD', 'LOADSET', 'MODES', 'STIFFNESS', 'AMPLITUDE', &
+      'BACKBONE', 'FREQUENCY', 'DLOAD', 'SDAMPING', 'RESPONSE']
+   character(11), parameter :: short_keys(7) = [character(11) :: 'TEMPERATURE', 'FREQUENCY', 'SDAMPING', 'TITLE', 'LABEL', &
+                                                           'METHOD', 'DLOAD'] ! four letters suffice
 
    !> A key with a number, and its line (0: not given).
    type, public :: set_reference

@@ -8,7 +8,7 @@ module deck_cards
    implicit none
    private
 
-   public :: read_card, add_field_error, card_name, is_continuation, check_first_field
+   public :: read_card, add_field_error, card_name, is_continuation, check_first_field, loose_text
 
    integer, parameter :: field_width = 32 !! longest entry of a field (free field only)
 
@@ -29,6 +29,7 @@ module deck_cards
       type(card_field), allocatable :: fields(:)
       character(8) :: marker = ''            !! field 10 of the line cut last
       logical, private :: half = .false.     ! that line is in large field and its second half is missing
+      logical, private :: is_long = .false.  ! that line has the fields of its continuations
    contains
       procedure :: where_is, field_error
    end type card_type
@@ -50,6 +51,7 @@ contains
       card%n = 0
       card%marker = ''
       card%half = .false.
+      card%is_long = .false.
       if (.not. allocated(card%fields)) allocate (card%fields(64))
       call text%find(cursor, file, first, last, comma)
       card%name = card_name(text%files(file)%bytes(first:last), comma)
@@ -57,7 +59,7 @@ contains
       call check_first_field(text%files(file)%bytes(first:last), comma, cursor, errors)
       if (errors%n > errors_before) card%name = '' ! the card cannot be interpreted
       do
-         call cut_line(text%files(file)%bytes(first:last), comma, cursor, text%has_tabs, card, errors)
+         call cut_line(text%files(file)%bytes(first:last), comma, cursor, card, errors)
          cursor = cursor + 1
          do while (cursor <= text%n)
             call text%find(cursor, file, first, last, comma)
@@ -66,6 +68,8 @@ contains
          end do
          if (cursor > text%n) exit
          if (.not. is_continuation(text%files(file)%bytes(first:last), comma)) exit
+         if (card%is_long) call errors%add(cursor, 'a continuation of a line with more than 8 entries after the name: which '// &
+                                           'of them are continued? expected 8 on each line, or all on one')
          associate (line => text%files(file)%bytes(first:last), marker => card%marker(2:))
             given = line(:min(8, end_of_first_field(line, comma))) ! a name, `+AB`, must be that in field 10 of the line before
             if (given(2:) == '' .or. upper(given(2:)) == upper(marker)) cycle
@@ -131,6 +135,23 @@ contains
       end select
    end function is_continuation
 
+   !> The column from which the text of LINE is not read: in columns 73 to 80 text that is no continuation mark, or past column 80; 0:
+   !! none. NEXT, the line behind it, may have that text as its mark.
+   pure integer function loose_text(line, comma, next) result(column)
+      character(*), intent(in) :: line, next
+      integer, intent(in)      :: comma !! column of the first comma in LINE, 0: none
+      character(8) :: mark
+
+      column = 0
+      if (comma > 0 .or. len(line) <= 72) return
+      mark = adjustl(line(73:min(80, len(line))))
+      if (mark /= '' .and. scan(mark(1:1), '+*') == 0) column = 73
+      if (column == 73 .and. next(:min(1, len(next))) == '+') then
+         if (upper(next(2:min(8, len(next)))) == upper(mark(2:)) .and. mark(2:) /= '') column = 0
+      end if
+      if (column == 0 .and. len(line) > 80) column = 81
+   end function loose_text
+
    !> The last column of field 1 of LINE.
    pure integer function end_of_first_field(line, comma) result(last)
       character(*), intent(in)      :: line
@@ -164,63 +185,54 @@ contains
    end subroutine check_first_field
 
    !> Cut one line into fields and append them to CARD. Fixed fields: eight of 8 columns, or four of 16, after the name; columns 73-80
-   !! are the continuation mark. Free field: eight or four entries between commas, and one more for the mark.
-   recursive subroutine cut_line(line, comma, at, has_tabs, card, errors)
+   !! are the continuation mark, text behind them is not read. Free field: eight or four entries between commas, and one more for the
+   !! mark. A small free-field line with more entries, none of them a mark, is several lines in one: the next eight entries are those of
+   !! a continuation.
+   subroutine cut_line(line, comma, at, card, errors)
       character(*), intent(in)             :: line     !! its card part
       integer, intent(in)                  :: comma    !! column of the first comma, 0: none
       integer, intent(in)                  :: at       !! index in the deck text
-      logical, intent(in)                  :: has_tabs !! the line may contain tabs
       type(card_type), intent(inout)       :: card
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: plain
-      integer :: first, k, last, most, tab
+      integer :: first, k, last, most
       logical :: large
 
-      if (has_tabs) then
-         tab = index(line, achar(9))
-         if (tab > 0) then
-            call errors%add(at, 'a tab in column '//integer_text(tab)//': expected blanks, fields are columns of eight', tab, tab)
-            plain = line(:min(len(line), 1000))
-            do while (tab > 0) ! blanks up to the next field, so that one tab makes one error
-               plain = plain(:tab - 1)//repeat(' ', 8 - modulo(tab - 1, 8))//plain(tab + 1:)
-               tab = index(plain, achar(9))
-            end do
-            call cut_line(plain, index(plain, ','), at, .false., card, errors)
-            return
-         end if
-      end if
       large = index(line(:merge(comma - 1, min(8, len(line)), comma > 0)), '*') > 0
       do while (card%half .and. .not. large .and. modulo(card%n, 8) /= 0) ! the second half of a large-field line is missing
          call push(card, '', at, 0, 0, errors)
       end do
       card%marker = ''
-      if (comma == 0 .and. len(line) > 80) &
-         call errors%add(at, 'text past column 80: expected at most ten fields of eight columns', 81, len(line))
+      card%is_long = .false.
       most = merge(4, 8, large)
       first = merge(comma + 1, 9, comma > 0)
-      do k = 1, most
-         if (comma > 0) then
-            last = index(line(min(first, len(line) + 1):), ',')
-            last = merge(len(line), first + last - 2, last == 0)
-            call push(card, line(first:last), at, first, max(first, last), errors)
-            first = last + 2
-         else
-            last = first + 64/most - 1
-            call push(card, line(first:min(last, len(line))), at, first, last, errors)
-            first = last + 1
-         end if
+      do
+         do k = 1, most
+            if (comma > 0) then
+               last = index(line(min(first, len(line) + 1):), ',')
+               last = merge(len(line), first + last - 2, last == 0)
+               call push(card, line(first:last), at, first, max(first, last), errors)
+               first = last + 2
+            else
+               last = first + 64/most - 1
+               call push(card, line(first:min(last, len(line))), at, first, last, errors)
+               first = last + 1
+            end if
+         end do
+         card%half = large .and. modulo(card%n, 8) == 4
+         if (first > len(line)) return
+         last = merge(len(line), min(80, len(line)), comma > 0)
+         if (comma == 0 .or. verify(line(first:), ' ,') == 0) exit
+         k = verify(line(first:), ' ')
+         if (large .or. scan(line(first + k - 1:first + k - 1), '+*') == 1) exit
+         card%is_long = .true.
       end do
-      card%half = large .and. modulo(card%n, 8) == 4
-      if (first > len(line)) return
-      last = merge(len(line), min(80, len(line)), comma > 0)
       card%marker = adjustl(line(first:last))
-      if (comma > 0) then
-         if (index(line(first:), ',') > 0 .or. scan(card%marker(1:1), '+*') == 0) call errors%add(at, 'more than '// &
-            integer_text(most)//' entries after the name: use a continuation line', first, last)
-      else if (card%marker /= '' .and. scan(card%marker(1:1), '+*') == 0) then
-         call errors%add(at, ''''//trim(card%marker)//''' in columns 73 to 80: expected a continuation mark that begins with '// &
-                         '+ or *, or blanks', first, last)
-      end if
+      if (comma == 0) return
+      k = index(line(first:)//',', ',')
+      card%marker = adjustl(line(first:first + k - 2))
+      if ((card%marker /= '' .and. scan(card%marker(1:1), '+*') == 0) .or. card%is_long .or. &
+          verify(line(min(first + k, len(line) + 1):), ' ,') > 0) call errors%add(at, 'more than '//integer_text(most)// &
+         ' entries after the name: use a continuation line', first, last)
    end subroutine cut_line
 
    !> Append a field: ENTRY without surrounding blanks, in capitals.

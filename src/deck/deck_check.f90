@@ -1,16 +1,19 @@
 !> Finds errors between cards that have been read: repeated numbers, missing laws of joints, wrong references.
 module deck_check
    use bulk_data, only: bulk_data_type, rigid_card
-   use card_fields, only: number_of
    use case_control, only: case_control_type
    use deck_cards, only: add_field_error, card_name
    use deck_errors, only: deck_error_list
    use deck_input, only: card_kind, deck_type
    use deck_text, only: deck_text_type
+   use field_rules, only: number_of
    use lists, only: id_table_type, sorted_order
    use text_tools, only: integer_text, one_of
    implicit none
    private
+
+   ! cards of NX, which other cards stand for in the model
+   character(8), parameter :: of_nx(7) = [character(8) :: 'BCTSET', 'BGSET', 'BOLT', 'BSURF', 'BSURFS', 'BCPROP', 'BCPROPS']
 
    !> The parts of a deck, and the list of its errors.
    type, public :: checked_deck
@@ -20,11 +23,14 @@ module deck_check
       type(deck_error_list), pointer    :: errors => null()
       type(card_kind), pointer, private :: kinds(:) => null()
       type(rigid_card), allocatable     :: rigid(:) !! those of BULK; nodes of marked surfaces are added when known
+      integer :: stage = 1                     !! position of the stage whose supports and equations are built
+      logical :: keeps_distances = .false.     !! MPC: a history in which they change
    contains
       procedure :: start
       procedure, private :: kind_of_line, named_field_error, numbered_field_error
       generic :: field_error => named_field_error, numbered_field_error
       procedure :: card_on
+      procedure :: shares
       procedure :: check_ids
       procedure :: mesh_is_faulty
       procedure :: report_repeated
@@ -46,6 +52,17 @@ contains
       allocate (self%rigid(0))
       if (allocated(deck%bulk%rigid)) self%rigid = deck%bulk%rigid
    end subroutine start
+
+   !> Whether the stage at position S has the supports and equations that are built.
+   elemental logical function shares(self, s)
+      class(checked_deck), intent(in) :: self
+      integer, intent(in)             :: s
+
+      associate (stages => self%control%stages)
+         shares = stages(s)%supports%id == stages(self%stage)%supports%id .and. &
+                  stages(s)%equations%id == stages(self%stage)%equations%id
+      end associate
+   end function shares
 
    !> Kind of the card that begins on LINE.
    integer function kind_of_line(self, line) result(kind)
@@ -71,7 +88,13 @@ contains
       character(*), intent(in)           :: field, message
       character(*), intent(in), optional :: called !! name in the message, default: FIELD
 
-      call self%field_error(line, number_of(self%kinds(self%kind_of_line(line))%fields, field), message, called)
+      associate (kind => self%kinds(self%kind_of_line(line)))
+         if (any(kind%name == of_nx) .and. all(kind%fields /= field)) then ! of the card that it stands for
+            call self%errors%add(line, field//': '//message)
+         else
+            call self%field_error(line, number_of(kind%fields, field), message, called)
+         end if
+      end associate
    end subroutine named_field_error
 
    !> Add an error about data field K. NOUN, a word for the entry, precedes the name.

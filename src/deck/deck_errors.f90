@@ -64,11 +64,15 @@ contains
       self%items(self%n) = item
    end subroutine add
 
-   !> Add WORDS to the warnings, if there are any.
+   !> Add WORDS to the warnings, if there are any, once.
    pure subroutine warn(self, words)
       class(deck_error_list), intent(inout) :: self
       character(*), intent(in)              :: words
+      integer :: i
 
+      if (allocated(self%warnings)) then
+         if (any([(self%warnings(i)%words == words, i = 1, size(self%warnings))])) return
+      end if
       call append(self%warnings, words)
    end subroutine warn
 

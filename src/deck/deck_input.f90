@@ -3,25 +3,30 @@ module deck_input
    use bulk_data, only: bulk_data_type
    use card_fields, only: card_fields_type
    use case_control, only: case_control_type, read_case_control, watch_also
-   use deck_cards, only: card_name, card_type, check_first_field, is_continuation, read_card
+   use deck_cards, only: card_name, card_type, check_first_field, is_continuation, loose_text, read_card
    use deck_errors, only: deck_error_list
    use deck_parameters, only: parameter_type
-   use deck_text, only: deck_text_of_bytes, deck_text_type, is_include, read_deck_text
+   use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
+   use include_lines, only: is_include
    use, intrinsic :: iso_fortran_env, only: int8
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
-   use lists, only: id_table_type
    use matrix_cards, only: read_dmig, read_retained
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
                          read_temperature
    use mesh_cards, only: complete_remedy, fill_defaults, read_block, read_edge, read_edge_defaults, read_element, read_grid, &
                          read_pmark, read_grid_defaults, read_system, system_names
-   use nastran_compatibility, only: is_idle_card, other_solution
+   use nastran_compatibility, only: take_idle_card
+   use nastran_defaults, only: find_first_card, take_initial_temperature, take_only_sets
+   use nx_cards, only: read_contact_parameter, read_pair, read_preload, read_region, read_sequence, read_side_of_region
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
    use response_cards, only: read_darea, read_dload, read_lseq, read_rload, read_tabled
    use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
-   use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, read_support
+   use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, &
+                            read_suport, read_support
+   use text_tools, only: plural, upper
+   use unused_cards, only: count_unused
    use vibration_cards, only: read_eigrl, read_frequencies, read_jampl, read_tabdmp1
    implicit none
    private
@@ -44,6 +49,7 @@ module deck_input
       type(bulk_data_type)    :: bulk
       logical :: is_whole = .false. !! false: a part of the deck is missing, so that references to it cannot be checked
       type(card_kind), allocatable :: kinds(:) !! of card, with their field tables
+      integer :: default_law = 0               !! number of the JNORM and JSHEAR of contacts of NX without PJOINT, 0: none
    end type deck_type
 
    abstract interface
@@ -81,17 +87,25 @@ contains
       call add(['CONROD'], read_rod)
       call add(['NODEAT'], read_place)
       call add(['MAT1'], read_mat1)
+      call add(['BSURF  ', 'BSURFS ', 'BCPROP ', 'BCPROPS'], read_region)
       cards%of_mesh = .true.
+      call add(['BCRPARA'], read_side_of_region)
+      call add(['BCTSET', 'BGSET '], read_pair)
+      call add(['BCTADD', 'BGADD '], read_sum)
+      call add(['BCTPARM'], read_contact_parameter)
+      call add(['BOLTFOR'], read_preload)
+      call add(['BOLTSEQ'], read_sequence)
       call add(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
       call add(['PELAS', 'PBUSH'], read_spring_property)
       call add(['CONM2 ', 'CMASS2'], read_mass)
       call add(['SPC ', 'SPC1', 'SPCM'], read_support)
       call add(['SPCADD'], read_sum)
+      call add(['SUPORT'], read_suport)
       call add(['RBE2 ', 'RBE3 ', 'RBAR ', 'RBE2M', 'RBE3M'], read_rigid)
       call add(['SHELLTO'], read_tie)
       call add(['MPC'], read_equation)
       call add(['MPCADD'], read_sum)
-      call add(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)
+      call add(['FORCE  ', 'FORCE1 ', 'FORCE2 ', 'MOMENT ', 'MOMENT1', 'MOMENT2'], read_force)
       call add(['PLOAD4', 'PLOADE', 'PLOAD ', 'PLOAD2'], read_pressure)
       call add(['PLOADM', 'FORCEM'], read_surface_load)
       call add(['GRAV  ', 'RFORCE', 'ACCEL1'], read_gravity)
@@ -109,7 +123,7 @@ contains
       call add(['JIWAN'], read_jiwan)
       call add(['JGAP'], read_jgap)
       call add(['JINCR'], read_jincr)
-      call add(['EIGRL'], read_eigrl)
+      call add(['EIGRL', 'EIGR '], read_eigrl)
       call add(['JAMPL'], read_jampl)
       call add(['FREQ1', 'FREQ2', 'FREQ4', 'FREQ ', 'FREQ3', 'FREQ5'], read_frequencies)
       call add(['TABDMP1'], read_tabdmp1)
@@ -153,13 +167,16 @@ contains
          bulk%mass(n('CONM2')), bulk%mat1(n('MAT1')), bulk%support(2*n('SPC')), bulk%support_sum(n('SPCADD')), &
          bulk%rigid(n('RBE2')), bulk%place(n('NODEAT')), bulk%tie(n('SHELLTO')), bulk%equation(n('MPC')), &
          bulk%equation_sum(n('MPCADD')), bulk%force(n('FORCE')), bulk%pressure(n('PLOAD')), bulk%surface_load(n('PLOADM')), &
-         bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
+         bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%suport(4*n('SUPORT')), &
+         bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
          bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
          bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
          bulk%jiwan(n('JIWAN')), bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
          bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')), bulk%dynamic%rload(n('RLOAD1')), bulk%dload(n('DLOAD')), &
          bulk%dynamic%darea(2*n('DAREA')), bulk%dynamic%lseq(n('LSEQ')), bulk%dynamic%tabled(n('TABLED1')), &
-         bulk%matrices%dmig(n('DMIG')), bulk%matrices%retained(4*n('ASET')))
+         bulk%matrices%dmig(n('DMIG')), bulk%matrices%retained(4*n('ASET')), bulk%region(n('BSURF')), &
+         bulk%region_side(n('BCRPARA')), bulk%pair(n('BCTSET')), bulk%contact_sum(n('BCTADD')), bulk%glue_sum(n('BGADD')), &
+         bulk%touching(n('BCTPARM')), bulk%preload(n('BOLTFOR')), bulk%sequence(n('BOLTSEQ')))
 
    contains
 
@@ -176,16 +193,17 @@ contains
    end subroutine make_room
 
    !> Read the deck PATH. READABLE is false where the file cannot be read; errors in the deck go to ERRORS.
-   subroutine read_deck(path, deck, errors, readable, parameters, watched)
+   subroutine read_deck(path, deck, errors, readable, parameters, watched, law)
       character(*), intent(in)             :: path
       type(deck_type), intent(out)         :: deck
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
       type(parameter_type), intent(in), optional :: parameters(:) !! of --set; default: none
       character(*), intent(in), optional   :: watched             !! of --watch: node numbers with commas; default and '': none
+      character(*), intent(in), optional   :: law                 !! file of --law; default and '': none
       logical :: ok
 
-      call read_deck_text(path, deck%text, errors, readable, parameters)
+      call read_deck_text(path, deck%text, errors, readable, parameters, law)
       if (readable) call read_lines(deck, errors)
       if (.not. present(watched) .or. .not. readable) return
       if (watched == '') return
@@ -209,18 +227,22 @@ contains
       type(deck_type), intent(inout), target       :: deck
       type(deck_error_list), intent(inout), target :: errors
       integer(int8), allocatable :: kind_at(:) ! (lines) kind of the card that begins there, 0: none or unknown
-      integer :: cursor
-      logical :: found_bulk, is_whole
+      integer :: cursor, first_card
+      logical :: found_bulk, is_alone, is_idle, is_whole
 
       if (.not. deck%text%is_text) return
       is_whole = .not. errors%any()
+      if (deck%text%tab_lines /= '') call errors%warn('tabs are read as blanks up to the next column of eight: '// &
+                                                      deck%text%tab_lines)
       cursor = 1
-      call read_case_control(deck%text, cursor, deck%control, found_bulk, errors)
+      call list_cards(deck%kinds)
+      call find_first_card(deck%text, deck%kinds%name, first_card, is_alone, errors)
+      call read_case_control(deck%text, cursor, first_card, deck%control, found_bulk, errors)
+      if (deck%control%refused) return
       if (.not. found_bulk) then
          call errors%add(0, 'no BEGIN BULK: expected it between case control and the cards')
          return
       end if
-      call list_cards(deck%kinds)
       allocate (kind_at(deck%text%n), source=0_int8)
       deck%bulk%ignored = deck%control%ignored
       deck%bulk%parameters = deck%control%parameters
@@ -233,18 +255,22 @@ contains
          bulk%spring_property = bulk%spring_property(:count(bulk%spring_property%line > 0))
          bulk%support = bulk%support(:count(bulk%support%line > 0))
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
+         bulk%suport = bulk%suport(:count(bulk%suport%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
          bulk%dynamic%darea = bulk%dynamic%darea(:count(bulk%dynamic%darea%line > 0))
          bulk%matrices%retained = bulk%matrices%retained(:count(bulk%matrices%retained%line > 0))
          do cursor = 1, merge(0, size(bulk%matrices%retained), any(deck%control%stages%output%dmig))
-            call bulk%ignored%add('ASET')
+            call take_idle_card('ASET', bulk%matrices%retained(cursor)%line, bulk%ignored, is_idle)
          end do
          do cursor = 1, merge(size(bulk%matrices%dmig), 0, all(deck%control%matrices == ''))
             call bulk%ignored%add('DMIG')
          end do
          call fill_defaults(bulk)
          call count_unused(bulk)
-         call bulk%ignored%settle(any(asked%modes%id /= 0), any(asked%modes%id /= 0 .and. asked%frequency%id > 0), errors)
+         call bulk%ignored%settle(any(asked%modes%id /= 0), any(asked%modes%id /= 0 .and. asked%frequency%id > 0), &
+                                  any(deck%control%stages%warms_materials), errors)
+         if (is_alone) call take_only_sets(bulk, deck%control%stages(1), errors)
+         call take_initial_temperature(deck%control%stages%initial, bulk, errors)
       end associate
       deck%is_whole = is_whole
    end subroutine read_lines
@@ -261,9 +287,12 @@ contains
       integer(long) :: first, last
       integer :: at, comma, file
       integer :: ended_file ! file whose ENDDATA was read last, 1: the deck itself
+      integer :: loose(2), n_loose(2) ! first line with text in columns 73 to 80, and past column 80; and their number
       logical :: is_open    ! a card may be continued
 
       ended_file = 0
+      loose = 0
+      n_loose = 0
       is_open = .false.
       do while (cursor <= text%n)
          at = cursor
@@ -279,6 +308,7 @@ contains
             cycle
          end if
          associate (line => text%files(file)%bytes(first:last))
+            if (len(line) > 72 .and. comma == 0) call watch_columns(line)
             if (is_continuation(line, comma)) then
                if (.not. is_open) call errors%add(at, 'a continuation line without a card before it')
                cycle
@@ -287,6 +317,9 @@ contains
             if (is_include(line)) cycle ! the lines of the file follow in the deck text
             if (card_name(line, comma) == 'ENDDATA') then
                ended_file = file
+            else if (upper(line(:min(6, len(line)))) == 'BEGIN') then
+               call errors%add(at, 'a second BEGIN: there is one structure, without superelements; the rest is not read')
+               return
             else
                is_open = .true.
                bulk%n_cards = bulk%n_cards + 1
@@ -294,9 +327,31 @@ contains
             end if
          end associate
       end do
-      if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck may be truncated; expected ENDDATA after the last card')
+      if (ended_file /= 1 .and. text%ends_whole) then
+         call errors%warn('no ENDDATA: expected it after the last card; a deck that is cut off between two lines would look '// &
+                          'the same')
+      else if (ended_file /= 1) then
+         call errors%add(0, 'no ENDDATA, and the last line has no end: the deck may be truncated; expected ENDDATA after the '// &
+                         'last card')
+      end if
+      if (n_loose(1) > 0) call errors%warn('text in columns 73 to 80 that is no continuation mark is not read: '// &
+         plural(n_loose(1), 'line')//', the first '//text%place(loose(1)))
+      if (n_loose(2) > 0) call errors%warn('text past column 80 is not read: '//plural(n_loose(2), 'line')//', the first '// &
+                                           text%place(loose(2)))
 
    contains
+
+      !> Note the text that is not read at the end of LINE, line AT.
+      subroutine watch_columns(line)
+         character(*), intent(in) :: line
+         integer :: column, k
+
+         column = loose_text(line, comma, text%card_part(min(at + 1, text%n)))
+         if (column == 0) return
+         k = merge(1, 2, column == 73)
+         n_loose(k) = n_loose(k) + 1
+         if (loose(k) == 0) loose(k) = at
+      end subroutine watch_columns
 
       !> Note the card that begins with LINE, line AT of TEXT; the first comma is in column COMMA, 0: none.
       subroutine find_card(line)
@@ -305,6 +360,7 @@ contains
          type(deck_error_list) :: faults
          character(8) :: name
          integer :: behind, kind
+         logical :: is_idle
 
          name = card_name(line, comma)
          call check_first_field(line, comma, at, faults)
@@ -314,17 +370,17 @@ contains
          if (kind <= size(cards) .and. .not. faults%any()) then
             kind_at(at) = int(kind, int8)
             cards(kind)%n = cards(kind)%n + 1
-         else if (.not. faults%any() .and. is_idle_card(name)) then
-            call bulk%ignored%add(trim(name))
          else
+            is_idle = .false.
+            if (.not. faults%any()) call take_idle_card(trim(name), at, bulk%ignored, is_idle)
+            if (is_idle) return
             behind = at
             call read_card(text, behind, card, errors) ! finds the other errors of the card
             if (card%name == 'CQUAD9') then
                call errors%add(card%line, 'CQUAD9 is a complete element of nine nodes; expected a CQUAD8, no node inside'// &
                                complete_remedy, 1, 8)
             else if (card%name /= '') then
-               call errors%add(card%line, ''''//trim(card%name)//''' is not a card of jointfem; see input/cards.md'// &
-                               other_solution(trim(card%name)), 1, 8)
+               call errors%add(card%line, ''''//trim(card%name)//''' is not a card of jointfem; see input/cards.md', 1, 8)
             end if
          end if
       end subroutine find_card
@@ -350,6 +406,11 @@ contains
          call read_by(k, others)
       end do
       !$omp end parallel sections
+      if (allocated(others%warnings)) then
+         do k = 1, size(others%warnings)
+            call errors%warn(others%warnings(k)%words)
+         end do
+      end if
       do k = 1, others%n
          call errors%add(others%items(k)%line, others%items(k)%message, others%items(k)%first, others%items(k)%last)
       end do
@@ -383,41 +444,5 @@ contains
       end subroutine read_by
 
    end subroutine read_all
-
-   !> Add the unused properties and coordinate systems of BULK to its entries without effect.
-   subroutine count_unused(bulk)
-      type(bulk_data_type), intent(inout) :: bulk
-
-      associate (properties => [bulk%block%property, bulk%element%property, bulk%edge%property], &
-                 springs => bulk%spring_property, is_bush => bulk%spring%is_bush, system => bulk%system)
-         call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%beam_property%id], properties, &
-            [spread('PSHELL', 1, size(bulk%pshell)), spread('PAXIS ', 1, size(bulk%paxis)), &
-             spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod)), bulk%beam_property%name])
-         call count_unnamed(pack(springs%id, .not. springs%is_bush), pack(bulk%spring%property, .not. is_bush), &
-                            spread('PELAS ', 1, count(.not. springs%is_bush)))
-         call count_unnamed(pack(springs%id, springs%is_bush), pack(bulk%spring%property, is_bush), &
-                            spread('PBUSH ', 1, count(springs%is_bush)))
-         if (size(system) == 0) return
-         call count_unnamed(system%id, [system%reference, bulk%force%system, bulk%pressure%system, bulk%gravity%system, &
-            bulk%spring%system, bulk%mass%system, bulk%grid%cp, bulk%grid%cd], &
-            system_names(system%kind + merge(0, 3, system%nodes(1) > 0)))
-      end associate
-
-   contains
-
-      !> Add the cards with numbers ID, CALLED so, that are not among NAMES.
-      subroutine count_unnamed(id, names, called)
-         integer, intent(in)      :: id(:), names(:)
-         character(6), intent(in) :: called(:)
-         type(id_table_type) :: named
-         integer :: i
-
-         call named%build(names)
-         do i = 1, size(id)
-            if (id(i) > 0 .and. named%find(id(i)) == 0) call bulk%ignored%add(trim(called(i)))
-         end do
-      end subroutine count_unnamed
-
-   end subroutine count_unused
 
 end module deck_input

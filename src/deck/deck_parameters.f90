@@ -1,7 +1,7 @@
 !> Replaces ${NAME} in a deck by the number or word that the command gives with --set NAME=VALUE.
 module deck_parameters
    use kinds, only: long
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, upper
    implicit none
    private
 
@@ -13,6 +13,8 @@ module deck_parameters
    type, public :: parameter_type
       character(:), allocatable :: name, value
       logical :: is_used = .false. !! the deck uses it
+      logical :: is_long = .false. !! where VALUE does not fit, its line changes to free field
+      character(:), allocatable :: cards !! names of the cards that use it, a blank before and behind each
    end type parameter_type
 
 contains
@@ -31,10 +33,11 @@ contains
       type(parameter_type), intent(inout)      :: parameters(:)
       character(:), allocatable, intent(out)   :: fault
       character(:), allocatable :: filled, line, wider
-      integer(long) :: finish, start, used
+      integer(long) :: card, finish, start, used
       integer :: n
 
       fault = ''
+      card = 1
       if (index(bytes, '${') == 0) return
       allocate (character(len(bytes, long) + len(bytes, long)/8 + 80) :: filled) ! a copy for each line would be quadratic in time
       used = 0
@@ -45,7 +48,8 @@ contains
          finish = start - 1 + index(bytes(start:), achar(10), kind=long)
          if (finish < start) finish = len(bytes, long)
          line = bytes(start:finish)
-         if (index(line, '${') > 0) call fill_line(line, n, parameters, fault)
+         if (scan(line(1:1), '+*, $'//achar(10)) == 0) card = start
+         if (index(line, '${') > 0) call fill_line(line, n, first_word(bytes(card:min(card + 8, finish))), parameters, fault)
          if (used + len(line) > len(filled, long)) then
             allocate (character(2*len(filled, long) + len(line)) :: wider)
             wider(:used) = filled(:used)
@@ -58,10 +62,42 @@ contains
       bytes = filled(:used)
    end subroutine fill_parameters
 
-   !> Put the values into one LINE, number N of its file. A value is not searched for parameters.
-   subroutine fill_line(line, n, parameters, fault)
+   !> The name of the card with this LINE.
+   pure function first_word(line) result(name)
+      character(*), intent(in)  :: line
+      character(:), allocatable :: name
+
+      name = upper(line(:scan(line//' ', ' ,*=') - 1))
+   end function first_word
+
+   !> LINE, a card or a continuation in fixed fields, in free field; a comment behind it is dropped. A parameter counts as a word.
+   pure function in_free_field(line) result(free)
+      character(*), intent(in)  :: line
+      character(:), allocatable :: free, plain
+      integer :: comment, first, width
+
+      comment = 1
+      do while (comment <= len(line))
+         if (line(comment:comment) == '$' .and. line(comment:min(comment + 1, len(line))) /= '${') exit
+         comment = comment + 1
+      end do
+      plain = line(:comment - 1)
+      plain = plain(:verify(plain, ' '//achar(13)//achar(10), back=.true.))
+      width = merge(16, 8, index(plain(:min(8, len(plain))), '*') > 0)
+      free = trim(plain(:min(8, len(plain))))
+      first = 9
+      do while (first <= len(plain))
+         free = free//','//trim(adjustl(plain(first:min(first + merge(8, width, first > 72) - 1, len(plain)))))
+         first = first + width
+      end do
+      free = free//new_line('a')
+   end function in_free_field
+
+   !> Put the values into one LINE, number N of its file, of the CARD. A value is not searched for parameters.
+   recursive subroutine fill_line(line, n, card, parameters, fault)
       character(:), allocatable, intent(inout) :: line
       integer, intent(in)                      :: n
+      character(*), intent(in)                 :: card
       type(parameter_type), intent(inout)      :: parameters(:)
       character(:), allocatable, intent(inout) :: fault
       character(:), allocatable :: name, rest, value
@@ -88,11 +124,18 @@ contains
             return
          end if
          parameters(k)%is_used = .true.
+         if (.not. allocated(parameters(k)%cards)) parameters(k)%cards = ' '
+         if (index(parameters(k)%cards, ' '//card//' ') == 0) parameters(k)%cards = parameters(k)%cards//card//' '
          value = parameters(k)%value
          rest = line(at + closing:)
          width = max(closing, len(value))
          if (len(value) > closing .and. verify(rest, ' '//achar(13)//achar(10)) > 0) then
             blanks = verify(rest, ' ') - 1
+            if (is_fixed .and. blanks < len(value) - closing .and. parameters(k)%is_long) then
+               line = in_free_field(line)
+               call fill_line(line, n, card, parameters, fault)
+               return
+            end if
             if (is_fixed .and. blanks < len(value) - closing .and. fault == '') fault = 'line '//integer_text(n)//': '//value// &
                ' in the place of ${'//name//'} does not fit in front of what follows'
             rest = rest(1 + min(blanks, len(value) - closing):)

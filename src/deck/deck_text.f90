@@ -5,29 +5,32 @@ module deck_text
    use terminal, only: standard_input
    use deck_errors, only: deck_error_list
    use deck_parameters, only: fill_parameters, parameter_type
+   use include_lines, only: file_named_by, is_include, is_open
    use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: long
    use lists, only: first_not_below
-   use text_tools, only: integer_text, upper
+   use tab_columns, only: expand_tabs
+   use text_tools, only: integer_text, one_of, upper
    implicit none
    private
 
-   public :: read_deck_text, deck_text_of_bytes, checksum_of, scan_line, is_include
+   public :: read_deck_text, deck_text_of_bytes, checksum_of, scan_line
 
    integer, parameter :: max_files = 500 ! a deck and its INCLUDE files
    integer, parameter :: max_depth = 20  ! depth of nested INCLUDE
+   integer, parameter :: most_include = 8 ! continuations of an INCLUDE
 
    !> Place of a line. Its card part is the line without its comment ($ to the end) and without trailing blanks.
    type, public :: line_place
       integer(long) :: start  = 0 !! byte of its file, from 1
       integer       :: length = 0 !! of the card part
-      integer       :: comma  = 0 !! column of the first comma in the card part, 0: none
+      integer       :: comma  = 0 !! column of the first comma in the card part up to column 72, 0: none
    end type line_place
 
    ! classes of bytes
-   integer, parameter :: plain = 0, line_feed = 1, carriage_return = 2, tab = 3, dollar = 4, comma = 5, control = 6
+   integer, parameter :: plain = 0, line_feed = 1, carriage_return = 2, dollar = 3, comma = 4, control = 5
    integer :: code
-   integer(int8), parameter :: meaning(0:255) = int([(control, code = 0, 8), tab, line_feed, control, control, carriage_return, &
+   integer(int8), parameter :: meaning(0:255) = int([(control, code = 0, 8), plain, line_feed, control, control, carriage_return, &
       (control, code = 14, 31), (plain, code = 32, 35), dollar, (plain, code = 37, 43), comma, (plain, code = 45, 126), &
       control, (plain, code = 128, 255)], int8)
 
@@ -48,13 +51,15 @@ module deck_text
       integer :: n = 0       !! number of lines
       integer :: n_files = 0
       logical :: is_text = .true.  !! false: a file contains bytes that are not text, or the deck is empty
-      logical :: has_tabs = .false. !! a line has a tab outside of comments
+      logical :: ends_whole = .false. !! the last line of the deck has a line end
+      character(:), allocatable :: tab_lines !! the first line with tabs of each file, and how many have tabs; empty: none
       type(source_file), allocatable         :: files(:)
       type(line_place), allocatable, private :: lines(:)
       type(part_type), allocatable, private  :: parts(:)
       integer, private                       :: n_parts = 0
       type(parameter_type), allocatable      :: parameters(:) !! of --set
       character(:), allocatable              :: options       !! of the command, that change the problem; not allocated: none
+      character(:), allocatable, private     :: law           ! file of --law, until its lines follow BEGIN BULK
    contains
       procedure :: line => whole_line
       procedure :: card_part
@@ -68,16 +73,20 @@ contains
 
    !> Read the deck PATH and its INCLUDE files. READABLE is false where PATH itself cannot be read (TEXT is then empty). All other
    !! errors go to ERRORS.
-   subroutine read_deck_text(path, text, errors, readable, parameters)
+   subroutine read_deck_text(path, text, errors, readable, parameters, law)
       character(*), intent(in)             :: path
       type(deck_text_type), intent(out)    :: text
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
       type(parameter_type), intent(in), optional :: parameters(:) !! default: none
+      character(*), intent(in), optional   :: law !! file of cards behind BEGIN BULK; default and '': none
       integer :: k
 
       allocate (text%files(max_files), text%lines(1024), text%parts(2*max_files), text%parameters(0))
       if (present(parameters)) text%parameters = parameters
+      if (present(law)) then
+         if (law /= '') text%law = law
+      end if
       call add_file(text, path, 0, 0, errors, readable)
       do k = 1, size(text%parameters)
          associate (parameter => text%parameters(k))
@@ -97,6 +106,7 @@ contains
       allocate (text%files(max_files), text%lines(1024), text%parts(2*max_files))
       text%n_files = 1
       text%files(1) = source_file(path='text', true_path='', bytes=bytes)
+      call take_tabs(text, 1, errors)
       call add_lines(text, 1, 0, errors)
    end subroutine deck_text_of_bytes
 
@@ -215,20 +225,37 @@ contains
          call fill_parameters(text%files(me)%bytes, text%parameters, fault)
          if (fault /= '') call errors%add(0, text%files(me)%path//', '//fault)
       end if
+      call take_tabs(text, me, errors)
       text%files(me)%true_path = true_path(path)
       text%n_files = me
       call add_lines(text, me, depth, errors)
    end subroutine add_file
 
-   !> Add the lines of file ME; an INCLUDE line is added and then followed.
+   !> Expand the tabs of file ME, and note that there are some.
+   subroutine take_tabs(text, me, errors)
+      type(deck_text_type), intent(inout)  :: text
+      integer, intent(in)                  :: me
+      type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: fault
+      integer :: first, n
+
+      if (.not. allocated(text%tab_lines)) text%tab_lines = ''
+      call expand_tabs(text%files(me)%bytes, n, first, fault)
+      if (fault /= '') call errors%add(0, text%files(me)%path//', '//fault)
+      if (n > 0) text%tab_lines = text%tab_lines//one_of(text%tab_lines == '', '', '; ')//text%files(me)%path//', line '// &
+                                  integer_text(first)//' (one of '//integer_text(n)//')'
+   end subroutine take_tabs
+
+   !> Add the lines of file ME; an INCLUDE line is added and then followed. A name in quotes may go on on the next lines.
    recursive subroutine add_lines(text, me, depth, errors)
       type(deck_text_type), intent(inout)  :: text
       integer, intent(in)                  :: me, depth
       type(deck_error_list), intent(inout) :: errors
       type(line_place), allocatable :: wider(:)
-      integer :: number, bad
+      integer :: number, bad, opened
       integer(long) :: start, next, length
-      logical :: has_tab, starts_part
+      character(:), allocatable :: statement ! an INCLUDE so far; empty: none
+      logical :: starts_part
 
       length = len(text%files(me)%bytes, long)
       if (me == 1 .and. len_trim(text%files(me)%bytes) == 0) then
@@ -240,6 +267,8 @@ contains
          if (text%files(me)%bytes(1:3) == char(239)//char(187)//char(191)) start = 4 ! UTF-8 byte order mark
       end if
       number = 0
+      statement = ''
+      opened = 0
       starts_part = .true. ! at the start of the file, and after the lines of another file
       do while (start <= length)
          number = number + 1
@@ -253,44 +282,82 @@ contains
             call move_alloc(wider, text%lines)
          end if
          text%n = text%n + 1
-         call scan_line(text%files(me)%bytes, start, text%lines(text%n), next, has_tab, bad)
-         text%has_tabs = text%has_tabs .or. has_tab
+         call scan_line(text%files(me)%bytes, start, text%lines(text%n), next, bad)
          if (bad >= 0) then
             call errors%add(text%n, 'byte '//integer_text(bad)//' on this line is no text: a deck is a text file')
             text%is_text = .false.
             return
          end if
-         call follow_include(text, me, depth, starts_part, errors)
+         call take_include(next > length)
          start = next
       end do
+      if (me == 1 .and. length > 0) text%ends_whole = text%files(1)%bytes(length:) == achar(10)
+
+   contains
+
+      !> Follow the INCLUDE on the line read last, or on it and the lines before it, which are blank lines from then on.
+      subroutine take_include(is_last)
+         logical, intent(in) :: is_last !! line of the file
+         integer(long) :: first, last
+         integer :: comma, file
+         logical :: is_begin
+
+         starts_part = .false.
+         call text%find(text%n, file, first, last, comma)
+         associate (line => text%files(file)%bytes(first:last))
+            is_begin = .false.
+            if (allocated(text%law) .and. statement == '') is_begin = index(upper(adjustl(line)), 'BEGIN') == 1
+            if (statement == '' .and. .not. (is_include(line) .or. is_begin)) return
+            if (statement == '') opened = text%n
+            statement = statement//trim(adjustl(line))
+         end associate
+         if (is_begin) then
+            call add_law(starts_part)
+            statement = ''
+            return
+         end if
+         if (opened < text%n) text%lines(text%n)%length = 0
+         if (is_open(statement) .and. .not. is_last .and. text%n < opened + most_include) return
+         call follow_include(text, me, opened, statement, depth, starts_part, errors)
+         statement = ''
+      end subroutine take_include
+
+      !> The lines of the file of --law.
+      subroutine add_law(followed)
+         logical, intent(out) :: followed
+         character(:), allocatable :: path
+
+         call move_alloc(text%law, path)
+         call add_file(text, path, me, depth + 1, errors, followed)
+         if (.not. followed) call errors%add(0, '--law '//path//': the file cannot be read')
+      end subroutine add_law
+
    end subroutine add_lines
 
-   !> Where the last line read is an INCLUDE, read that file at once.
-   recursive subroutine follow_include(text, me, depth, followed, errors)
+   !> Read the file that the INCLUDE on line HERE names at once; STATEMENT is the whole of it.
+   recursive subroutine follow_include(text, me, here, statement, depth, followed, errors)
       type(deck_text_type), intent(inout)  :: text
-      integer, intent(in)                  :: me, depth
+      integer, intent(in)                  :: me, here, depth
+      character(*), intent(in)             :: statement
       logical, intent(out)                 :: followed !! lines of another file were added
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: line, path, resolved
-      integer(long) :: first, last
-      integer :: here, ancestor, closing, file, comma
+      character(:), allocatable :: folder, path, resolved
+      integer :: ancestor
 
-      here = text%n
       followed = .false.
-      call text%find(here, file, first, last, comma)
-      if (.not. is_include(text%files(file)%bytes(first:last))) return
-      line = adjustl(text%card_part(here))
-      path = trim(adjustl(line(8:)))
-      if (index(path, '=') == 1) path = trim(adjustl(path(2:)))
-      if (scan(path, '''"') == 1) then ! in quotes, the last character of the line is the closing one
-         closing = index(path(2:), path(1:1))
-         path = path(2:merge(closing, 0, len(path) == closing + 1))
-      end if
+      path = file_named_by(statement)
       if (path == '') then
          call errors%add(here, 'INCLUDE: expected a file name, INCLUDE ''mesh.bdf''')
          return
       end if
-      if (path(1:1) /= '/') path = text%files(me)%path(:index(text%files(me)%path, '/', back=.true.))//path
+      if (path(1:1) /= '/') then ! beside the file of the INCLUDE, or else beside the deck
+         folder = text%files(me)%path(:index(text%files(me)%path, '/', back=.true.))
+         if (.not. is_regular_file(folder//path)) then
+            if (is_regular_file(text%files(1)%path(:index(text%files(1)%path, '/', back=.true.))//path)) &
+               folder = text%files(1)%path(:index(text%files(1)%path, '/', back=.true.))
+         end if
+         path = folder//path
+      end if
       resolved = true_path(path)
       ancestor = me
       do while (ancestor > 0)
@@ -311,19 +378,17 @@ contains
    end subroutine follow_include
 
    !> Scan the line of BYTES that begins at START; each byte is examined once.
-   pure subroutine scan_line(bytes, start, line, next, has_tab, bad)
+   pure subroutine scan_line(bytes, start, line, next, bad)
       character(*), intent(in)      :: bytes
       integer(long), intent(in)     :: start
       type(line_place), intent(out) :: line
       integer(long), intent(out)    :: next    !! start of the next line
-      logical, intent(out)          :: has_tab !! in the card part
       integer, intent(out)          :: bad     !! code of the first byte that no text file holds (a control character other
                                                !! than a tab), -1: none
       integer(long) :: i, finish
       logical :: in_card ! still in the card part
 
       bad = -1
-      has_tab = .false.
       in_card = .true.
       line%start = start
       finish = len(bytes, long)
@@ -333,9 +398,7 @@ contains
          case (plain)
             cycle
          case (comma)
-            if (in_card .and. line%comma == 0) line%comma = int(i - start + 1)
-         case (tab)
-            has_tab = has_tab .or. in_card
+            if (in_card .and. line%comma == 0 .and. i < start + 72) line%comma = int(i - start + 1)
          case (dollar)
             if (in_card) finish = i - 1
             in_card = .false.
@@ -354,18 +417,5 @@ contains
       end do
       line%length = len_trim(bytes(start:finish))
    end subroutine scan_line
-
-   !> Whether LINE (its card part) is an INCLUDE: the word, followed by a blank, a quote or an equals sign.
-   pure logical function is_include(line)
-      character(*), intent(in) :: line
-      integer :: first
-
-      is_include = .false.
-      first = verify(line, ' ')
-      if (first == 0) return
-      if (line(first:first) /= 'I' .and. line(first:first) /= 'i') return ! the usual case
-      is_include = upper(line(first:min(first + 6, len(line)))) == 'INCLUDE'
-      if (is_include .and. len(line) > first + 6) is_include = scan(line(first + 7:first + 7), ' ''"=') == 1
-   end function is_include
 
 end module deck_text

@@ -11,7 +11,7 @@ module field_rules
    private
 
    public :: parse_integer, parse_real, integer_fault, real_fault, real_words, in_range, is_component_list, has_component, &
-             list_of
+             list_of, is_zero, drop_blanks, number_of
 
    integer, parameter :: most_digits = 15, max_exact = 22 ! numbers of so many digits, and 10**22, are exact in real(wp)
    integer :: k
@@ -236,6 +236,34 @@ contains
       digits = integer_text(components)
       is_component_list = verify(digits, '123456') == 0 .and. all([(index(digits, digits(i:i)) == i, i = 1, len(digits))])
    end function is_component_list
+
+   !> Whether TEXT is a zero, which passes for a blank.
+   pure logical function is_zero(text)
+      character(*), intent(in) :: text
+
+      is_zero = verify(text, '0.+-') == 0 .and. index(text, '0') > 0
+   end function is_zero
+
+   !> Position of FIELD among the NAMES of fields. A name that is not there is an error of the source.
+   pure integer function number_of(names, field)
+      character(8), intent(in) :: names(:)
+      character(*), intent(in) :: field
+
+      number_of = findloc(names, field, dim=1)
+      if (number_of == 0) error stop 'no card has a field '//field
+   end function number_of
+
+   !> Take the blanks out of TEXT of this LENGTH.
+   pure subroutine drop_blanks(text, length)
+      character(*), intent(inout) :: text
+      integer, intent(inout)      :: length
+      integer :: i
+
+      do i = length, 1, -1
+         if (text(i:i) == ' ') text(i:) = text(i + 1:)
+      end do
+      length = len_trim(text)
+   end subroutine drop_blanks
 
    !> Whether digit D, 1 to 6, is among COMPONENTS.
    elemental logical function has_component(components, d)

@@ -7,6 +7,7 @@ module load_cards
    use card_fields, only: card_fields_type, id_ranges
    use field_rules, only: at_least_1, not_negative, positive, real_range
    use kinds, only: wp
+   use nx_cards, only: is_nx_bolt, read_nx_bolt
    use text_tools, only: integer_text, one_of
    use tolerances, only: least_fraction
    implicit none
@@ -93,16 +94,16 @@ contains
       real(wp) :: f, direction(3)
 
       associate (force => bulk%force(card%i))
-         force%is_moment = card%name == 'MOMENT'
+         force%is_moment = card%name(:1) == 'M'
          call card%field('SID', force%set)
          call card%field('G', force%node)
          select case (card%name)
-         case ('FORCE1')
-            call card%field('F', force%force(1))
+         case ('FORCE1', 'MOMENT1')
+            call card%field(merge('M', 'F', force%is_moment), force%force(1))
             call card%field(['G1', 'G2'], force%ends(:2))
             call card%finish(force%line)
-         case ('FORCE2')
-            call card%field('F', force%force(1))
+         case ('FORCE2', 'MOMENT2')
+            call card%field(merge('M', 'F', force%is_moment), force%force(1))
             call card%field(['G1', 'G2', 'G3', 'G4'], force%ends)
             call card%finish(force%line)
          case default
@@ -294,6 +295,10 @@ contains
       real(wp), parameter :: usual_friction = 0.12_wp ! mu_G
       logical :: ok
 
+      if (is_nx_bolt(card)) then
+         call read_nx_bolt(card, bulk%bolt(card%i))
+         return
+      end if
       associate (bolt => bulk%bolt(card%i))
          call card%field('BID', bolt%id)
          call card%field('EID', bolt%element, default=0)

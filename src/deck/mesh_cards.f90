@@ -88,7 +88,8 @@ contains
          call card%field('ID', grid%id)
          call card%field('CP', grid%cp, default=-1, least=0)
          call card%field(['X1', 'X2', 'X3'], grid%x, default=0.0_wp, whole=.true.)
-         call card%field('CD', grid%cd, default=-1, least=0)
+         call card%field('CD', grid%cd, default=-1, least=-1)
+         if (card%text_at(6) == '-1') call card%error('CD', '-1, a node of a fluid; there are no fluids')
          call card%components('PS', grid%ps, default=0)
          call card%blank(['SEID'])
          call card%finish(grid%line)
@@ -104,14 +105,14 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       type(plate_card) :: plate
       character(:), allocatable :: flag
-      integer :: complete, k, kind
+      integer :: complete, kind
 
       kind = findloc(element_table%card, card%name, dim=1, back=.true.) ! the second-order kind where there is one
       associate (element => bulk%element(card%i), n => element_table(kind)%n_nodes, corners => element_table(kind)%n_corners)
          call card%field('EID', element%id)
          call card%field('PID', element%property)
          call card%field(node_names(:corners), element%nodes(:corners))
-         call card%field(node_names(corners + 1:n), element%nodes(corners + 1:n), default=0)
+         call card%field(node_names(corners + 1:n), element%nodes(corners + 1:n), default=0, least=0)
          if (any(kind == [kind_tria3, kind_quad4, kind_tria6])) call card%skip(['THETA'])
          if (any(kind == [kind_tria3, kind_quad4])) then
             call card%field('ZOFFS', plate%offset, default=0.0_wp)
@@ -147,8 +148,7 @@ contains
                                integer_text(n)//', no nodes inside faces'//complete_remedy)
             element%nodes(corners + 1:) = 0 ! the mid-side nodes have another order
          else if (card%n > 2 + n) then
-            k = findloc(card%fields(3 + n:card%n)%length > 0, .true., dim=1) + 2 + n
-            call card%error_at(k, ''''//card%text_at(k)//''' after the last node, G'//integer_text(n)//', expected nothing')
+            call card%must_be_blank(3 + n, card%n, ': G'//integer_text(n)//' is the last node')
          end if
          element%kind = merge(kind, element_table(kind)%linear, any(element%nodes(corners + 1:n) > 0))
       end associate
@@ -160,8 +160,7 @@ contains
    subroutine read_edge(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      character(8) :: word
-      logical  :: ok
+      logical :: ok, only_global
 
       associate (edge => bulk%edge(card%i))
          edge%kind = edge_crod
@@ -182,22 +181,35 @@ contains
             if (edge%nodes(3) > 0) edge%orientation = 0.0_wp
             if (edge%nodes(3) == 0) edge%blank(:3) = .not. card%given(['X1', 'X2', 'X3'])
             edge%blank(4:) = .not. card%given(['PID'])
-            call card%word('OFFT', '|GGG|', word)
+            call read_offset_kind(card, edge%in_basic, only_global)
             call card%components('PA', edge%pins(1), default=0)
             call card%components('PB', edge%pins(2), default=0)
             call card%field(['W1A', 'W2A', 'W3A'], edge%offset(:, 1), default=0.0_wp)
             call card%field(['W1B', 'W2B', 'W3B'], edge%offset(:, 2), default=0.0_wp)
+            if (.not. only_global .and. any(abs(edge%offset) > 0.0_wp)) call card%error('OFFT', &
+               'offsets in element axes; expected GGG or BGG, offsets in the axes of the nodes')
          end if
          call card%finish(edge%line)
       end associate
    end subroutine read_edge
 
+   !> OFFT: three letters for the orientation vector (G: in the axes of the node, B: basic axes) and the offsets of both ends (G, or O: in
+   !! element axes, without effect where there are none). Older decks write the kind of orientation: 1 a vector, 2 a node.
+   subroutine read_offset_kind(card, in_basic, only_global)
+      type(card_fields_type), intent(inout) :: card
+      logical, intent(out)                  :: in_basic, only_global
+      character(8) :: word
+
+      call card%word('OFFT', '|GGG|BGG|GGO|GOG|GOO|BGO|BOG|BOO|0|1|2|', word)
+      in_basic = word(1:1) == 'B'
+      only_global = index(word(2:), 'O') == 0
+   end subroutine read_offset_kind
+
    !> BAROR, BEAMOR: defaults for blank PID and X1, X2, X3 (or G0) of CBAR, CBEAM; one card of each at most.
    subroutine read_edge_defaults(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      character(8) :: word
-      logical :: ok
+      logical :: ok, only_global
 
       associate (defaults => bulk%edge_defaults(merge(1, 2, card%name == 'BAROR')))
          if (defaults%line > 0) call card%errors%add(card%line, trim(card%name)//': given twice; expected at most one in a deck')
@@ -208,7 +220,7 @@ contains
          call card%field(['X2', 'X3'], defaults%orientation(2:), default=0.0_wp, whole=.true.)
          call parse_integer(card%text_at(5), defaults%nodes(3), ok)
          if (ok .and. any(card%given(['X2', 'X3']))) defaults%nodes(3) = 0
-         call card%word('OFFT', '|GGG|', word)
+         call read_offset_kind(card, defaults%in_basic, only_global)
          call card%finish(defaults%line)
       end associate
    end subroutine read_edge_defaults

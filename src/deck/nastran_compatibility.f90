@@ -1,28 +1,29 @@
-!> Recognises the entries of NASTRAN decks that the program reads without effect.
-!! These entries ask for output, choose a solution method, or belong to what nothing uses. An entry that would change an answer is
-!! not among them.
+!> Notes the entries of NASTRAN decks that the program reads without effect, and those whose effect depends on the stages.
 !!
-!! The module also recognises the lines of case control that NASTRAN knows and this program does not, and NASTRAN's forms of ECHO.
+!! The module also interprets PARAM, the lines of case control that NASTRAN knows and this program does not, and NASTRAN's forms of ECHO.
 module nastran_compatibility
-   use case_entries, only: choose, entry_type, value_error
+   use case_entries, only: entry_type, global_keys, stage_keys, value_error
    use deck_errors, only: deck_error_list
-   use field_rules, only: parse_integer, parse_real
+   use field_rules, only: list_of, parse_integer, parse_real
    use kinds, only: wp
+   use nastran_words, only: control_habit, is_idle_card, of_reduction, of_response
    use text_tools, only: integer_text, one_of, upper
    implicit none
    private
 
-   public :: control_habit, is_idle_card, take_parameter, read_habit, read_echo, other_solution
+   public :: take_idle_card, take_parameter, read_habit, read_echo
 
    integer, parameter :: name_length = 40
+   integer, parameter :: with_modes = 1, with_response = 2, with_materials = 3, always = 4 ! temperatures of materials
 
    !> An entry whose effect depends on the stages.
    type :: waiting_entry
       character(name_length) :: name = ''
       integer :: n = 0                        ! number of entries of this name
       integer :: line = 0                     ! line of the first in the deck text
-      logical :: needs_response = .false.     ! has an effect with FREQUENCY only; otherwise with MODES
+      integer :: need = with_modes            ! the stages in which it has an effect
       character(:), allocatable :: refusal    ! error message where the entry has an effect; empty: no error
+      character(:), allocatable :: warning    ! likewise
    end type waiting_entry
 
    !> The entries without effect of one deck.
@@ -48,42 +49,29 @@ module nastran_compatibility
    real(wp), parameter     :: all_frequencies = 1.0e30_wp ! default of HFREQ in NASTRAN
    character(*), parameter :: which_modes = 'expected none: V1, V2 and ND of EIGRL say which modes take part'
 
-   ! of executive control and case control
-   character(12), parameter :: control_words(65) = [character(12) :: &
-      'SCREEN', 'FORMAT', &
-      'ID', 'TIME', 'NASTRAN', 'INIT', 'ASSIGN', 'DIAG', 'GEOMCHECK', 'ECHOON', 'ECHOOFF', 'SUBTITLE', 'LINE', &
-      'MAXLINES', 'PAGE', 'POST', 'ELSUM', 'GROUNDCHECK', 'WEIGHTCHECK', 'AUTOSPC', 'NLPARM', 'NLSTRESS', 'DISPLACEMENT', &
-      'VECTOR', 'SVECTOR', 'VELOCITY', 'ACCELERATION', 'STRESS', 'ELSTRESS', 'STRAIN', 'ELSTRAIN', 'FORCE', 'ELFORCE', &
-      'SPCFORCES', 'MPCFORCES', 'OLOAD', 'GPFORCE', 'GPSTRESS', 'GPSTRAIN', 'GPSDCON', 'ELSDCON', 'GPKE', 'ESE', 'EKE', &
-      'EDE', 'STRFIELD', 'SURFACE', 'VOLUME', 'BOUTPUT', 'DATAREC', 'THERMAL', 'FLUX', 'HOUTPUT', 'ENTHALPY', 'MEFFMASS', &
-      'MODALKE', 'OTIME', 'OFREQUENCY', 'OMODES', 'PLOTID', 'SETP', 'XYPLOT', 'XYPRINT', 'SEALL', 'VUGRID']
-   ! of the bulk data: plots, and properties and materials of unsupported elements
-   character(8), parameter :: card_names(39) = [character(8) :: &
-      'MAT4', 'MAT5', 'DTI', &
-      'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBCOMP', &
-      'PBEND', 'PBUSH1D', 'PCOMP', 'PCOMPG', 'PCOMPS', 'PDAMP', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &
-      'PMASS', 'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PVISC', 'PWELD', 'MAT2', 'MAT3', 'MAT8', 'MAT9', &
-      'MAT10', 'MAT11', 'TABLEM1', 'MDLPRM', 'ABSNMVS', 'ABSTRCT']
-
 contains
 
-   !> The word of case control without effect that KEY stands for, in at least four letters; empty: none.
-   pure function control_habit(key) result(word)
-      character(*), intent(in)  :: key !! in capitals
-      character(:), allocatable :: word
-      integer :: i
+   !> Note the card NAME on LINE among the entries without effect, IGNORED, where it IS_ONE of them.
+   pure subroutine take_idle_card(name, line, ignored, is_one)
+      character(*), intent(in)                  :: name
+      integer, intent(in)                       :: line
+      type(ignored_entries_type), intent(inout) :: ignored
+      logical, intent(out)                      :: is_one
 
-      word = ''
-      i = findloc(control_words == key .or. (len(key) >= 4 .and. index(control_words, key) == 1), .true., dim=1)
-      if (i > 0) word = trim(control_words(i))
-   end function control_habit
-
-   !> Whether a card of bulk data has no effect, by its NAME.
-   pure logical function is_idle_card(name)
-      character(*), intent(in) :: name
-
-      is_idle_card = any(card_names == name)
-   end function is_idle_card
+      is_one = .true.
+      if (is_idle_card(name)) then
+         call ignored%add(name)
+      else if (any(of_response == name)) then
+         call ignored%wait(name, line, .true., refusal='expected none: damping is that of GE, PARAM G and SDAMPING')
+      else if (any(of_reduction == name)) then
+         call ignored%wait(name, line, .false., warning='the modes are those of the whole model, which is not reduced')
+      else if (index(name, 'MATT') == 1) then
+         call ignored%wait(name, line, .false., need=with_materials, refusal='expected MAT1 at the temperature of the set, '// &
+                           'and TEMPERATURE(LOAD)')
+      else
+         is_one = .false.
+      end if
+   end subroutine take_idle_card
 
    !> Store the PARAM NAME with this VALUE on LINE in PARAMETERS, or among the entries without effect, IGNORED. Where the PARAM would
    !! change the answer in an unsupported way, or its value is wrong, EXPECTED is the expected value.
@@ -132,7 +120,7 @@ contains
          if (name == 'INREL' .and. (.not. is_integer .or. number /= 0)) then
             expected = '0: inertia relief is not available'
          else if (name == 'LGDISP' .and. (.not. is_integer .or. number > 0)) then
-            expected = '-1 or 0: displacements are small here'
+            call ignored%wait('PARAM LGDISP', line, .false., need=always, warning='displacements are small here')
          else
             call ignored%add('PARAM '//name)
          end if
@@ -146,14 +134,16 @@ contains
       type(ignored_entries_type), intent(inout)  :: ignored
       type(deck_error_list), intent(inout)   :: errors
       character(:), allocatable :: expected, name, value
-      integer :: choice, comma
+      integer :: comma
 
-      choice = 0
       select case (entry%key)
       case ('INCLUDE', 'CEND') ! lines of an INCLUDE file follow in the deck text; CEND is the end of NASTRAN's executive control
-      case ('APP', 'ANALYSIS')
-         call choose(entry, '|STATICS|STATIC|DISP|DISPLACEMENT|', choice, errors)
+      case ('APP', 'ANALYSIS') ! judged already
          call ignored%add(entry%key)
+      case ('RESVEC')
+         call ignored%wait(entry%key, entry%line, .true., refusal='expected none: MODES names the modes')
+      case ('RANDOM')
+         call ignored%wait(entry%key, entry%line, .true., warning='the response is that to DLOAD; none is random')
       case ('PARAM')
          value = upper(adjustl(entry%value)) ! 'PARAM,POST,-1'
          if (index(value, ',') == 1) value = adjustl(value(2:))
@@ -167,21 +157,31 @@ contains
          if (control_habit(entry%key) /= '') then
             call ignored%add(control_habit(entry%key))
          else
-            call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is not a key of case control'// &
-               other_solution(entry%key)//'; expected '// &
-               'TITLE, UNITS, METHOD, TOL, PATHTOL, PRESSURE, CARRY, AVERAGE, SOLVER, MASS, RESTART, ECHO, SPC, '// &
-                            'MPC, SUBCASE, LABEL, LOAD, TEMPERATURE(LOAD), INCR, OUTPUT, WATCH, MODES, STIFFNESS, AMPLITUDE, '// &
-                            'FREQUENCY, DLOAD, LOADSET, SDAMPING, RESPONSE, K2GG, M2GG or BEGIN BULK')
+            call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is not a key of case control; expected '// &
+                            list_of('|TITLE|'//words_of(pack(global_keys, global_keys /= 'TITLE'))//words_of(stage_keys)// &
+                                    'SUBCASE|SET|', ', ')//' or BEGIN BULK')
          end if
       end select
    end subroutine read_habit
+
+   !> 'A|B|' of the words A, B.
+   pure function words_of(list) result(words)
+      character(*), intent(in)  :: list(:)
+      character(:), allocatable :: words
+      integer :: i
+
+      words = ''
+      do i = 1, size(list)
+         words = words//trim(list(i))//'|'
+      end do
+   end function words_of
 
    !> ECHO = NO or NONE, or any of NASTRAN's words for printing the deck, in any order, to any file.
    subroutine read_echo(entry, is_on, errors)
       type(entry_type), intent(in)         :: entry
       logical, intent(out)                 :: is_on
       type(deck_error_list), intent(inout) :: errors
-      character(*), parameter :: off = '|NO|NONE|', on = '|YES|BOTH|SORT|UNSORT|PUNCH|FILE|'
+      character(*), parameter :: off = '|NO|NONE|', on = '|YES|BOTH|SORT|SORTED|UNSORT|UNSORTED|PUNCH|FILE|ALL|'
       character(:), allocatable :: word
 
       word = '|'//upper(entry%value(:scan(entry%value//',', ' ,(') - 1))//'|'
@@ -189,29 +189,6 @@ contains
                                                                         'PUNCH or NONE', errors)
       is_on = index(off, word) == 0
    end subroutine read_echo
-
-   !> Words for a solution of NASTRAN that is not among those of this program, by a WORD that belongs to it: a number of SOL, a key of
-   !! case control or a card; empty: none.
-   pure function other_solution(word) result(words)
-      character(*), intent(in)  :: word !! in capitals
-      character(:), allocatable :: words
-
-      select case (word)
-      case ('9', '12', '109', '112', '129', '159', 'SEDTRAN', 'SEMTRAN', 'NLTRAN', 'TLOAD1', 'TLOAD2', 'TSTEP', 'TSTEPNL', &
-            'TIC', 'IC')
-         words = 'transient response (SOL 109, 112, 129), which jointfem does not have'
-      case ('RANDOM', 'RANDPS', 'RANDT1', 'TABRND1', 'TABRNDG')
-         words = 'random response, which jointfem does not have; without RANDOM, RANDPS, TABRND1 it computes the '// &
-                 'response to DLOAD'
-      case ('7', '10', '107', '110', 'SEDCEIG', 'SEMCEIG', 'CMETHOD', 'EIGC')
-         words = 'complex modes (SOL 107, 110), which jointfem does not have; MODES gives real modes with their loss factors'
-      case ('5', '105', 'SEBUCKL', 'BUCKLING')
-         words = 'buckling (SOL 105), which jointfem does not have'
-      case default
-         words = ''
-      end select
-      if (words /= '') words = '; '//word//' belongs to '//words
-   end function other_solution
 
    !> Take the N entries NAMES out.
    pure subroutine drop(self, names, n)
@@ -238,14 +215,15 @@ contains
       if (index(self%names//',', ', '//trim(name)//',') == 0) self%names = self%names//', '//trim(name)
    end subroutine add
 
-   !> Note the entry NAME on LINE, which has an effect in a stage with MODES or, if NEEDS_RESPONSE, with FREQUENCY. With a
-   !! REFUSAL the effect is an error.
-   pure subroutine wait(self, name, line, needs_response, refusal)
+   !> Note the entry NAME on LINE, which has an effect in a stage with MODES, if NEEDS_RESPONSE with FREQUENCY, or in those of NEED.
+   !! With a REFUSAL the effect is an error, with a WARNING it is missing.
+   pure subroutine wait(self, name, line, needs_response, refusal, warning, need)
       class(ignored_entries_type), intent(inout) :: self
       character(*), intent(in)               :: name
       integer, intent(in)                    :: line
       logical, intent(in)                    :: needs_response
-      character(*), intent(in), optional     :: refusal
+      character(*), intent(in), optional     :: refusal, warning
+      integer, intent(in), optional          :: need
       type(waiting_entry) :: entry
       integer :: i
 
@@ -254,30 +232,38 @@ contains
       if (i == 0) then
          entry%name = name
          entry%line = line
-         entry%needs_response = needs_response
+         entry%need = merge(with_response, with_modes, needs_response)
+         if (present(need)) entry%need = need
          entry%refusal = ''
+         entry%warning = ''
          self%waiting = [self%waiting, entry]
          i = size(self%waiting)
       end if
       self%waiting(i)%n = self%waiting(i)%n + 1
       if (present(refusal) .and. self%waiting(i)%refusal == '') self%waiting(i)%refusal = refusal
+      if (present(warning)) self%waiting(i)%warning = warning
    end subroutine wait
 
-   !> Decide the noted entries, now that it is known whether any stage has MODES and FREQUENCY.
-   subroutine settle(self, has_modes, has_response, errors)
+   !> Decide the noted entries, now that it is known whether any stage has MODES, FREQUENCY and temperatures of materials.
+   subroutine settle(self, has_modes, has_response, has_materials, errors)
       class(ignored_entries_type), intent(inout) :: self
-      logical, intent(in)                    :: has_modes, has_response
+      logical, intent(in)                    :: has_modes, has_response, has_materials
       type(deck_error_list), intent(inout)   :: errors
+      logical :: has(4)
       integer :: i
 
       if (.not. allocated(self%waiting)) return
+      has([with_modes, with_response, with_materials, always]) = [has_modes, has_response, has_materials, .true.]
       do i = 1, size(self%waiting)
          associate (entry => self%waiting(i))
-            if (.not. merge(has_response, has_modes, entry%needs_response)) then
+            if (entry%refusal /= '' .and. has(entry%need)) then
+               call errors%add(entry%line, trim(entry%name)//': this card would change the '// &
+                               one_of(entry%need == with_response, 'response; ', 'answer; ')//entry%refusal)
+            else if (entry%warning /= '' .and. has(entry%need)) then
+               call errors%warn(trim(entry%name)//': '//entry%warning)
+            else if (.not. has(entry%need)) then
                call self%add(trim(entry%name))
                self%n = self%n + entry%n - 1
-            else if (entry%refusal /= '') then
-               call errors%add(entry%line, trim(entry%name)//': this card would change the response; '//entry%refusal)
             end if
          end associate
       end do

@@ -116,7 +116,8 @@ contains
       end if
    end subroutine read_rod
 
-   !> MAT1: two of E, G and NU suffice, with G = E/(2 (1 + NU)); E suffices for bars. All three must agree within one per cent. Of the
+   !> MAT1: two of E, G and NU suffice, with G = E/(2 (1 + NU)); E suffices for bars. Of all three, G
+   !! holds for torsion and transverse shear, with a warning where they differ by more than one per cent. Of the
    !! stress limits, the limit in tension is compared with bolt stresses. The material system has no effect on an isotropic material.
    subroutine read_mat1(card, bulk)
       type(card_fields_type), intent(inout) :: card
@@ -150,10 +151,12 @@ contains
             nu = e/(2.0_wp*g) - 1.0_wp
             if (nu <= -1.0_wp .or. nu >= 0.5_wp) call card%error('G', 'E and G give NU = E/(2G) - 1 = '//real_text(nu)// &
                                                                  ', expected above -1 and below 0.5')
-         else if (has_g .and. abs(e/(2.0_wp*(1.0_wp + nu)) - g) > 0.01_wp*g) then
-            call card%error('G', 'does not agree with E and NU, which give G = '//real_text(e/(2.0_wp*(1.0_wp + nu)))// &
-                            '; leave one of the three blank')
+         else if (has_g) then
+            if (abs(e/(2.0_wp*(1.0_wp + nu)) - g) > 0.01_wp*g) call card%errors%warn('MAT1 '//card%text_at(1)//': G = '// &
+               real_text(g)//' does not agree with E and NU, which give G = '//real_text(e/(2.0_wp*(1.0_wp + nu)))// &
+               '; G holds for the torsion and the transverse shear of beams, rods and shells, E and NU for all else')
          end if
+         bulk%mat1(card%i)%shear = merge(g, 0.5_wp*e/(1.0_wp + nu), has_e .and. has_g .and. has_nu)
       end associate
    end subroutine read_mat1
 
@@ -165,7 +168,8 @@ contains
       integer :: line
 
       call card%skip(['N ', 'V1', 'V2'])
-      call card%finish(line)
+      line = card%line
+      if (card%n > 3) call bulk%ignored%add('fields behind V2 of PARAM '//card%text_at(1))
       if (.not. card%given('N')) call card%error('N', 'blank, expected the name of a parameter')
       if (.not. card%given('V1')) call card%error('V1', 'blank, expected the value of the parameter')
       if (.not. all(card%given(['N ', 'V1']))) return

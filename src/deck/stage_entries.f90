@@ -21,8 +21,9 @@ module stage_entries
    !> The vibration entries of one stage.
    type, public :: vibration_entries_type
       integer  :: line(size(keys)) = 0        !! line of each key, 0: not given
-      type(set_reference) :: modes            !! EIGRL
+      type(set_reference) :: modes            !! EIGRL, EIGR
       logical  :: free = .false.              !! MODES(FREE)
+      logical  :: by_method = .false.         !! METHOD = set: free where nothing supports the structure
       logical  :: on_loading = .false.        !! STIFFNESS = LOAD
       real(wp) :: amplitude = 0.0_wp          !! [length], 0: not given
       type(set_reference) :: backbone         !! JAMPL
@@ -70,7 +71,12 @@ module stage_entries
       type(set_reference) :: increments, supports
       type(set_reference) :: from         !! SUBCASE from whose end it starts; none: the one before
       type(set_reference) :: temperature  !! at the end of the stage; none: TREF everywhere
+      type(set_reference) :: initial      !! before any load, in place of TREF
+      logical :: warms_materials = .false. !! a set of temperatures holds for the materials
       type(set_reference) :: equations    !! constraint equations, MPC
+      integer :: combines = 0             !! SUBCOM: line of SUBSEQ, -1: not given; 0: no SUBCOM
+      real(wp), allocatable :: factors(:) !! SUBSEQ: of the SUBCASEs before it, the last of them last
+      type(set_reference) :: contact, glue, bolts !! of NX: BCSET, BGSET, BOLTLD
       type(output_request) :: output
       type(limit_type), allocatable :: only(:) !! not allocated: tables of all nodes and elements
       type(limit_type), allocatable :: watch(:) !! nodes whose displacement the answer gives; not allocated: none
@@ -106,17 +112,24 @@ contains
             call read_number(entry, stage%supports, errors)
          case ('MPC')
             call read_number(entry, stage%equations, errors)
+         case ('BCSET')
+            call read_number(entry, stage%contact, errors)
+         case ('BGSET')
+            call read_number(entry, stage%glue, errors)
+         case ('BOLTLD')
+            call read_number(entry, stage%bolts, errors)
          case ('OUTPUT')
             call read_output(entry, stage, errors)
+         case ('SUBSEQ')
+            call read_factors(entry, stage, errors)
          case ('TEMPERATURE')
-            call read_number(entry, stage%temperature, errors)
-            if (entry%describers /= 'LOAD') call errors%add(entry%line, 'TEMPERATURE: expected TEMPERATURE(LOAD) = set, the '// &
-               'temperatures at the end of the stage; without thermal strain the temperature is TREF of MAT1')
+            call read_temperature(entry, stage, errors)
          case ('MODES')
             call read_number(entry, asked%modes, errors)
             asked%free = entry%describers == 'FREE'
-            if (entry%describers /= '' .and. .not. asked%free) call errors%add(entry%line, 'MODES('//entry%describers// &
-               '): expected MODES = set, or MODES(FREE) = set, modes without the supports')
+            asked%by_method = entry%describers == 'METHOD'
+            if (entry%describers /= '' .and. .not. (asked%free .or. asked%by_method)) call errors%add(entry%line, &
+               'MODES('//entry%describers//'): expected MODES = set, or MODES(FREE) = set, modes without the supports')
          case ('STIFFNESS')
             choice = 1
             call choose(entry, '|UNLOAD|LOAD|', choice, errors)
@@ -142,6 +155,54 @@ contains
          end select
       end associate
    end subroutine read_stage_entry
+
+   !> TEMPERATURE(LOAD) = set: at the end of the stage; of (BOTH), which may be left out, for the materials too, of (MATERIAL) for these
+   !! alone; TEMPERATURE(INITIAL): the temperatures before any load.
+   subroutine read_temperature(entry, stage, errors)
+      type(entry_type), intent(in)         :: entry
+      type(stage_type), intent(inout)      :: stage
+      type(deck_error_list), intent(inout) :: errors
+      type(set_reference) :: set
+
+      call read_number(entry, set, errors)
+      stage%warms_materials = stage%warms_materials .or. index(entry%describers, 'LOAD') /= 1
+      select case (entry%describers)
+      case ('LOAD', 'BOTH', '')
+         stage%temperature = set
+      case ('INIT', 'INITIAL')
+         stage%initial = set
+      case ('MATE', 'MATERIAL')
+      case default
+         call errors%add(entry%line, 'TEMPERATURE('//entry%describers//'): expected TEMPERATURE(LOAD) = set, the temperatures '// &
+                         'at the end of the stage, or TEMPERATURE(INITIAL), (MATERIAL) or (BOTH)')
+      end select
+   end subroutine read_temperature
+
+   !> SUBSEQ = 1.0, -0.5 of a SUBCOM.
+   subroutine read_factors(entry, stage, errors)
+      type(entry_type), intent(in)         :: entry
+      type(stage_type), intent(inout)      :: stage
+      type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: rest
+      real(wp) :: factor
+      integer  :: comma
+      logical  :: ok
+
+      rest = upper(entry%value)
+      stage%factors = [real(wp) ::]
+      ok = stage%combines /= 0
+      if (.not. ok) call errors%add(entry%line, 'SUBSEQ: expected below a SUBCOM')
+      do while (ok .and. rest /= '')
+         comma = scan(rest//',', ', ')
+         call parse_real(rest(:comma - 1), factor, ok)
+         stage%factors = [stage%factors, factor]
+         rest = adjustl(rest(min(comma + 1, len(rest) + 1):))
+         if (index(rest, ',') == 1) rest = adjustl(rest(2:))
+      end do
+      if (stage%combines /= 0 .and. .not. (ok .and. size(stage%factors) > 0)) &
+         call value_error(entry, 'real numbers with commas between them, a factor of each SUBCASE before', errors)
+      if (stage%combines /= 0) stage%combines = entry%line
+   end subroutine read_factors
 
    !> OUTPUT = LAST, PLOT: words with commas.
    subroutine read_output(entry, stage, errors)

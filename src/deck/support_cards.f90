@@ -1,5 +1,5 @@
 !> Reads the cards of supports, prescribed displacements, springs and nodal masses.
-!! Supports: SPC, SPC1, SPCM and their sum SPCADD; MPCADD combines constraint equations likewise. Prescribed displacements: SPCD.
+!! Supports: SPC, SPC1, SPCM and their sum SPCADD, SUPORT; MPCADD combines constraint equations likewise. Prescribed displacements: SPCD.
 !! Springs: CELAS1, CELAS2, CBUSH, PELAS, PBUSH. Masses: CONM2.
 module support_cards
    use bulk_data, only: bulk_data_type, displacement_card, set_sum_card, spring_property_card, support_card
@@ -10,7 +10,7 @@ module support_cards
    implicit none
    private
 
-   public :: read_support, read_sum, read_displacement, read_spring, read_spring_property, read_mass
+   public :: read_support, read_suport, read_sum, read_displacement, read_spring, read_spring_property, read_mass
 
 contains
 
@@ -38,6 +38,29 @@ contains
       end associate
    end subroutine read_support
 
+   !> SUPORT: up to four nodes with components that are held at rest and free in the modes.
+   subroutine read_suport(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      integer :: k
+
+      card%i = card%i - 1
+      do k = 1, max(2, min(card%n, 8)), 2
+         if (k > 1 .and. card%text_at(k) == '' .and. card%text_at(k + 1) == '') then
+            call card%skip(['ID', 'C '])
+            cycle
+         end if
+         card%i = card%i + 1
+         associate (held => bulk%suport(card%i))
+            held%line = card%line
+            held%field = k
+            call card%field('ID'//integer_text((k + 1)/2), held%node)
+            call card%components('C'//integer_text((k + 1)/2), held%components)
+         end associate
+      end do
+      call card%must_be_blank(9, card%n, '')
+   end subroutine read_suport
+
    !> SPCADD: the supports of all sets S1, S2, ...; MPCADD: their constraint equations.
    subroutine read_sum(card, bulk)
       type(card_fields_type), intent(inout) :: card
@@ -47,7 +70,7 @@ contains
       integer :: k, set
       logical :: ok
 
-      a_set = one_of(card%name == 'SPCADD', 'a support set', 'a set of equations')
+      a_set = one_of(card%name == 'SPCADD', 'a support set', one_of(card%name == 'MPCADD', 'a set of equations', 'a set of pairs'))
       total%line = card%line
       call card%field('SID', total%set)
       call card%field('S1', set)
@@ -59,11 +82,16 @@ contains
          total%sets = [total%sets, set]
          total%at = [total%at, k]
       end do
-      if (card%name == 'SPCADD') then
+      select case (card%name)
+      case ('SPCADD')
          bulk%support_sum(card%i) = total
-      else
+      case ('MPCADD')
          bulk%equation_sum(card%i) = total
-      end if
+      case ('BCTADD')
+         bulk%contact_sum(card%i) = total
+      case default
+         bulk%glue_sum(card%i) = total
+      end select
    end subroutine read_sum
 
    !> SPCD: displacements of held components in a load set; as for forces, the total at the end of the stage. SPC: supports with the
@@ -228,7 +256,7 @@ contains
             call card%blank(['G2', 'C2'])
          else
             call card%field('G', mass%node)
-            call card%field('CID', mass%system, default=0, least=0)
+            call card%field('CID', mass%system, default=0, least=-1)
             call card%field('M', mass%mass, not_negative)
             call card%field(['X1', 'X2', 'X3'], mass%offset, default=0.0_wp)
             call card%blank(['-'])

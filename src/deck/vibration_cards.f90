@@ -1,4 +1,4 @@
-!> Reads the cards of vibration analysis: EIGRL, JAMPL, FREQ, FREQ1 to FREQ5 and TABDMP1.
+!> Reads the cards of vibration analysis: EIGRL, EIGR, JAMPL, FREQ, FREQ1 to FREQ5 and TABDMP1.
 module vibration_cards
    use bulk_data, only: bulk_data_type
    use card_fields, only: card_fields_type
@@ -17,27 +17,56 @@ module vibration_cards
 
 contains
 
-   !> EIGRL: the modes between V1 and V2, at most ND of them, scaled by NORM. The controls of Lanczos' method and of its printout have no
-   !! effect.
+   !> EIGRL: the modes between V1 and V2, at most ND of them, scaled by NORM. EIGR: the same with its F1, F2 and ND, whatever its METHOD;
+   !! the methods that iterate find at most 3 NE modes without ND. The controls of the methods and of printout have no effect.
    subroutine read_eigrl(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      character(8) :: norm
+      character(8) :: method, norm
+      character(1) :: of
+      integer :: estimate
 
       associate (eigrl => bulk%eigrl(card%i))
          call card%field('SID', eigrl%id)
-         call card%field('V1', eigrl%lowest, default=0.0_wp)
-         call card%field('V2', eigrl%highest, positive, default=0.0_wp)
-         call card%field('ND', eigrl%most, default=0)
-         call card%skip(['MSGLVL', 'MAXSET', 'SHFSCL'])
-         call card%word('NORM', '|MASS|MAX|', norm)
-         call card%finish(eigrl%line)
-         eigrl%has_lowest = card%given('V1')
-         eigrl%has_highest = card%given('V2')
+         of = merge('V', 'F', card%name == 'EIGRL')
+         if (of == 'F') call card%word('METHOD', '|LAN|AHOU|AGIV|GIV|MGIV|HOU|MHOU|INV|SINV|UINV|', method)
+         call card%field(of//'1', eigrl%lowest, default=0.0_wp)
+         call card%field(of//'2', eigrl%highest, positive, default=0.0_wp)
+         estimate = 0
+         if (of == 'F') call card%field('NE', estimate, default=0, least=0)
+         call card%field('ND', eigrl%most, default=0, least=0)
+         if (of == 'V') call card%skip(['MSGLVL', 'MAXSET', 'SHFSCL'])
+         if (of == 'F') call card%skip(['blank', 'blank'])
+         call card%word('NORM', one_of(of == 'V', '|MASS|MAX|', '|MASS|MAX|POINT|'), norm)
+         eigrl%line = card%line
+         if (of == 'V') call read_options(card, norm)
+         eigrl%has_lowest = card%given(of//'1')
+         eigrl%has_highest = card%given(of//'2')
          eigrl%unit_mass = norm == 'MASS'
-         if (eigrl%has_lowest .and. eigrl%has_highest) call check_range(card, eigrl%lowest, eigrl%highest, 'V')
+         eigrl%by_point = norm == 'POINT'
+         if (of == 'F' .and. eigrl%most == 0 .and. index(method, 'INV') > 0) eigrl%most = 3*estimate
+         if (eigrl%has_lowest .and. eigrl%has_highest) call check_range(card, eigrl%lowest, eigrl%highest, of)
       end associate
    end subroutine read_eigrl
+
+   !> The continuations of an EIGRL: controls of the method, KEY=VALUE or a word or number alone, have no effect; NORM=MASS and NORM=MAX
+   !! are the NORM of the first line.
+   subroutine read_options(card, norm)
+      type(card_fields_type), intent(inout) :: card
+      character(8), intent(inout)           :: norm
+      character(:), allocatable :: option
+      integer :: k
+
+      do k = 9, card%n
+         option = card%text_at(k)
+         if (index(option, 'NORM=') == 1) then
+            norm = option(6:)
+            if (all(norm /= ['MASS', 'MAX '])) call card%error_at(k, 'NORM: '''//option(6:)//''', expected MASS or MAX')
+         else if (index(option, 'V1=') + index(option, 'V2=') + index(option, 'ND=') > 0) then
+            call card%error_at(k, ''''//option//''' on a continuation; expected V1, V2 and ND in their fields')
+         end if
+      end do
+   end subroutine read_options
 
    !> JAMPL: the amplitudes at which BACKBONE follows a mode through its hysteresis loops.
    subroutine read_jampl(card, bulk)

@@ -4,6 +4,7 @@ module fit_command
    use c_library, only: is_same_file
    use terminal, only: command_reader, complain, input_argument, next_option, say, version
    use data_columns, only: branch_words, reading_type, read_number, read_system
+   use deck_parameters, only: is_parameter_name, parameter_type
    use field_rules, only: parse_integer
    use kinds, only: wp
    use text_tools, only: integer_text, plural, upper
@@ -14,9 +15,9 @@ module fit_command
 
    character(*), parameter :: program = 'jointfit', nl = new_line('a')
    character(*), parameter :: standard_output = '/dev/stdout'
-   character(13), parameter :: options_with_value(11) = [character(13) :: '--id', '--branch', '--as', '--p-tolerance', '--dmax', &
+   character(13), parameter :: options_with_value(16) = [character(13) :: '--id', '--branch', '--as', '--p-tolerance', '--dmax', &
                                                         '--noise', '--units', '--columns', '--plot', '--area', &
-                                                         '--bulk']
+                                                         '--bulk', '--structure', '--measured', '--start', '--starts', '--set']
    integer, parameter :: largest_in_small_field = 99999999
 
    character(*), parameter :: help = &
@@ -82,6 +83,14 @@ module fit_command
       '   --as BRANCH       with --branch: use the data for this branch of the card'//nl// &
       '   --dmax X          DMAX of the card, in its units (default: the largest d of the loading data)'//nl// &
       ''//nl// &
+      'a structure:'//nl// &
+      '   --structure DECK  parameters ${N} of DECK from what was measured on the structure, in place of DATA; the deck''s'//nl// &
+      '                     cards with the values go to standard output, below tables of parameters and rows'//nl// &
+      '   --measured FILE   rows of measured values, and the parameters with their starts and bounds'//nl// &
+      '   --start N=V       begin the search of ${N} at V'//nl// &
+      '   --starts N        search from N starts between the bounds (default 1)'//nl// &
+      '   --set N=V         a parameter of the deck that keeps the value V'//nl// &
+      ''//nl// &
       'output:'//nl// &
       '   --id N            number of the first card (default 1); the cards of further files have the next numbers'//nl// &
       '   --plot FILE       write data and fit as a script for gnuplot, which draws an SVG picture in the same folder'//nl// &
@@ -109,6 +118,9 @@ module fit_command
       type(fit_choice)   :: fit          !! --p-tolerance, --joint-fit, --one-pressure
       type(reading_type) :: reading      !! --units, --columns, --decimal-comma
       type(input_argument), allocatable :: files(:)
+      type(input_argument) :: structure, measured           !! --structure, --measured: PATH empty: none
+      type(parameter_type), allocatable :: start(:), set(:) !! --start, --set
+      integer :: n_starts = 1            !! --starts
    end type fit_command_type
 
 contains
@@ -123,6 +135,9 @@ contains
       logical :: is_missing, ok
 
       command%plot = ''
+      command%structure = input_argument('', '')
+      command%measured = command%structure
+      allocate (command%start(0), command%set(0))
       command%reading%columns = ''
       expected = ''
       status = 1
@@ -216,12 +231,45 @@ contains
          command%reading%columns = value
          ok = value /= ''
          expected = 'the names of the columns, as ''p [MPa], lambda [um]'''
+      case ('--structure', '--measured')
+         if (option == '--structure') command%structure = input_argument(value, value)
+         if (option == '--measured') command%measured = input_argument(value, value)
+         ok = value /= ''
+         expected = 'the name of a file'
+      case ('--starts')
+         call parse_integer(value, command%n_starts, ok)
+         ok = ok .and. command%n_starts > 0
+         expected = 'a number of 1 or more'
+      case ('--start', '--set')
+         if (option == '--start') call add_parameter(value, command%start, ok)
+         if (option == '--set') call add_parameter(value, command%set, ok)
+         expected = 'NAME=VALUE'
       case ('--plot')
          command%plot = value
          ok = value /= ''
          expected = 'the name of a file for gnuplot'
       end select
    end subroutine take_value
+
+   !> Add TEXT, NAME=VALUE, to LIST.
+   subroutine add_parameter(text, list, ok)
+      character(*), intent(in) :: text
+      type(parameter_type), allocatable, intent(inout) :: list(:)
+      logical, intent(out)     :: ok
+      type(parameter_type), allocatable :: longer(:)
+      real(wp) :: value
+      integer  :: n
+
+      n = index(text//'=', '=')
+      ok = is_parameter_name(text(:n - 1))
+      if (ok) call read_number(text(n + 1:), value, ok)
+      if (.not. ok) return
+      allocate (longer(size(list) + 1)) ! (an array constructor would lose texts in gfortran 12)
+      longer(:size(list)) = list
+      longer(size(longer))%name = text(:n - 1)
+      longer(size(longer))%value = text(n + 1:)
+      call move_alloc(longer, list)
+   end subroutine add_parameter
 
    !> Read TEXT, E,H or E,H,E,H and so on, of specimens on each other: their compression BULK under unit pressure, the sum of H/E.
    subroutine read_specimens(text, bulk, ok)
@@ -258,7 +306,10 @@ contains
 
       fault = ''
       associate (n => size(command%files))
-         if (n == 0) then
+         if (command%structure%path /= '' .or. command%measured%path /= '') then
+            if (n > 0 .or. command%structure%path == '' .or. command%measured%path == '') &
+               fault = '--structure DECK and --measured FILE go together, without other files'
+         else if (n == 0) then
             fault = 'no data file given'
          else if (command%as > 0 .and. command%only == 0) then
             fault = '--as needs --branch, the branch of the data'

@@ -13,7 +13,7 @@ module fit_plot
    implicit none
    private
 
-   public :: write_plot
+   public :: write_plot, put_block, quoted
 
 contains
 

@@ -111,6 +111,8 @@ module analysis_state
       ! over all nodes, from the last recover_bodies
       real(wp), allocatable :: all_u(:, :)          !! displacements [length]
       real(wp), allocatable :: all_unbalanced(:, :) !! applied - internal forces; on held components minus the reaction
+      real(wp), allocatable :: stands(:, :)         !! where held components stood when they were held; not allocated: at rest [length]
+      integer :: supports = 1                       !! which of the freedoms of the model are in force
       integer, allocatable  :: retained_index(:)    !! (n_nodes) of a node among the retained ones, 0: nowhere
       ! over retained nodes
       logical, allocatable  :: held(:, :)           !! supported or locked
@@ -123,6 +125,8 @@ module analysis_state
       logical, allocatable  :: is_elastic(:)        !! of bars: no bolt, or locked
       real(wp), allocatable :: rest_tension(:)      !! of locked bolts: tension at the lengths at rest and at TREF [force]
       logical, allocatable  :: is_locked(:)         !! of sections
+      real(wp), allocatable :: start_tension(:)     !! of bars, then of sections: of a bolt that is tightened again, at the start of the
+                                                    !! stage; else 0 [force]
       ! of interface elements and joints
       type(element_state), allocatable :: states(:)
       real(wp), allocatable :: movement(:, :)       !! (3, n) total, of end 1 relative to end 2, in element axes [length]
@@ -147,6 +151,7 @@ contains
       type(case_control_type), intent(in) :: control
       type(analysis_type), intent(out)    :: analysis
 
+      analysis%supports = model%supports
       analysis%carry = control%carry
       analysis%eq10 = control%pressure == pressure_eq10
       analysis%average = control%average
@@ -163,6 +168,7 @@ contains
       analysis%after = analysis%now
       allocate (analysis%rest_tension(n_bars(model%mesh)), source=0.0_wp)
       allocate (analysis%is_locked(n_sections(model%mesh)), source=.false.)
+      allocate (analysis%start_tension(n_bars(model%mesh) + n_sections(model%mesh)), source=0.0_wp)
       allocate (analysis%is_elastic(n_bars(model%mesh)), source=.true.)
       if (n_bars(model%mesh) > 0) analysis%is_elastic = model%mesh%bars%bolt == 0
       allocate (analysis%states(size(model%joints%element)), analysis%energy(size(model%joints%list)))

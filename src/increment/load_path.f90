@@ -30,8 +30,8 @@ contains
          analysis%goes_on = .false.
          return
       end if
-      call lock_bolts(model, system, analysis)
       stage = analysis%next
+      call lock_bolts(model, system, analysis, stage)
       analysis%next = stage + 1
       analysis%stage = stage
       analysis%increment = 0
@@ -43,12 +43,15 @@ contains
       analysis%after%temperature = model%history%stages(stage)%temperature
       associate (loads => model%history%stages(stage))
          if (allocated(loads%moved)) analysis%after%moved = loads%moved
+         if (allocated(analysis%stands)) analysis%after%moved = analysis%after%moved + analysis%stands
          do i = 1, loads%n
             analysis%after%load(:, loads%node(i)) = analysis%after%load(:, loads%node(i)) + loads%force(:model%mesh%dimension, i)
          end do
       end associate
       do i = 1, n_bars(model%mesh)
-         if (model%mesh%bars(i)%stage == stage) analysis%rest_tension(i) = model%mesh%bars(i)%preload
+         associate (tightening => model%mesh%bars(i)%tightening)
+            if (tightening%is_in(stage)) analysis%rest_tension(i) = tightening%preload_in(stage)
+         end associate
          call add_axial_force(model, i, analysis%rest_tension(i), analysis%after%load)
       end do
       if (allocated(analysis%after%temperature%at)) then
@@ -60,8 +63,7 @@ contains
       end if
       do i = 1, n_sections(model%mesh)
          associate (section => model%mesh%sections(i))
-            if (section%stage == stage) &
-               analysis%after%load(1, section%node) = analysis%after%load(1, section%node) + section%preload
+            analysis%after%load(1, section%node) = analysis%after%load(1, section%node) + section%tightening%preload_in(stage)
             if (analysis%is_locked(i)) analysis%after%moved(1, section%node) = analysis%before%moved(1, section%node)
          end associate
       end do

@@ -40,6 +40,16 @@ module model_data
       type(beam_law), allocatable  :: beams(:)
    end type structural_type
 
+   !> The stages that tighten a bolt, positions in ascending order, and its preload at the end of each. It is locked after each of them.
+   type, public :: tightening_type
+      integer, allocatable  :: stage(:)
+      real(wp), allocatable :: preload(:)    !! [force]
+   contains
+      procedure :: is_in
+      procedure :: preload_in
+      procedure :: last_until
+   end type tightening_type
+
    !> A marked surface: sides of elements, edges in the plane and faces of solids. Each side has the node order of its element: a
    !! plane body lies on the left of an edge, the right-hand normal of a face points out of the solid.
    type, public :: surface_type
@@ -53,6 +63,7 @@ module model_data
       integer, allocatable :: strip(:)       !! (n) which strip over the thickness, on an edge of shells, see shell_faces; 0: none
       logical :: was_split = .false.         !! a joint split the surface: the other body has duplicates of its nodes
       integer, allocatable :: line(:)        !! (n) of its card in the deck text
+      integer :: joint = 0                   !! the JOINT card that has these sides of a surface of several joints, 0: the whole surface
    end type surface_type
 
    real(wp), parameter, public :: whole_share = 0.999_wp !! share of a face or side above which the whole of it counts as covered
@@ -131,10 +142,9 @@ module model_data
       integer  :: kind = a_bar
       character(2) :: axis = ''              !! of a spring: T1, T2 or T3, as the card numbers its components
       integer  :: bolt = 0                   !! BOLT id, 0: none
-      real(wp) :: preload = 0.0_wp           !! of a bolt [force]
       real(wp) :: area = 0.0_wp              !! of a bar [length^2]
       real(wp) :: strength = 0.0_wp          !! ST of its material, 0: not given [pressure]
-      integer  :: stage = 0                  !! position of the stage that tightens the bolt; elastic from its end on
+      type(tightening_type) :: tightening    !! of a bolt; it is elastic between its stages and after them
       type(thread_type) :: thread            !! of a bolt, in the units of the deck
       real(wp) :: torsion = 0.0_wp           !! G J/L of a bar [force x length]
       real(wp) :: mass = 0.0_wp              !! (rho A + NSM) L of a bar [force x time^2/length]
@@ -161,8 +171,7 @@ module model_data
       real(wp) :: direction(3) = 0.0_wp      !! unit, from the side behind to the marked side: g > 0 shortens the bolt
       real(wp) :: area = 0.0_wp              !! [length^2]
       real(wp) :: strength = 0.0_wp          !! ST of its material, 0: not given [pressure]
-      real(wp) :: preload = 0.0_wp           !! tension [force]
-      integer  :: stage = 0                  !! position of the stage that tightens it; from the end of this stage on g is held
+      type(tightening_type) :: tightening    !! g is held between its stages and after them
       type(thread_type) :: thread            !! in the units of the deck
    end type section_type
 
@@ -261,6 +270,7 @@ module model_data
    type, public :: joints_type
       type(joint_type), allocatable :: list(:)
       type(interface_element), allocatable :: element(:) !! those of joint j are first to last of it
+      type(interface_element), allocatable :: glue(:)    !! of glued surfaces: what they move relative to each other is zero
    end type joints_type
 
    !> What the unknowns of the nodes are: supported, dependent, coupled; the connected parts.
@@ -288,11 +298,40 @@ module model_data
       type(mesh_type)     :: mesh
       type(joints_type)   :: joints
       type(freedoms_type) :: freedoms
+      type(freedoms_type), allocatable :: sets(:) !! of the stages, where SPC or MPC differ; FREEDOMS is the one in force
+      integer :: supports = 1                !! its position
       type(history_type)  :: history
       type(text_item), allocatable :: warnings(:) !! about the model, found while it was built
    end type model_type
 
 contains
+
+   !> Whether STAGE tightens the bolt.
+   pure logical function is_in(self, stage)
+      class(tightening_type), intent(in) :: self
+      integer, intent(in)                :: stage
+
+      is_in = allocated(self%stage)
+      if (is_in) is_in = any(self%stage == stage)
+   end function is_in
+
+   !> The preload at the end of STAGE; 0 where this stage does not tighten the bolt.
+   pure real(wp) function preload_in(self, stage) result(preload)
+      class(tightening_type), intent(in) :: self
+      integer, intent(in)                :: stage
+
+      preload = 0.0_wp
+      if (self%is_in(stage)) preload = self%preload(findloc(self%stage, stage, dim=1))
+   end function preload_in
+
+   !> The last stage until STAGE that tightens the bolt, 0: none.
+   pure integer function last_until(self, stage) result(last)
+      class(tightening_type), intent(in) :: self
+      integer, intent(in)                :: stage
+
+      last = 0
+      if (allocated(self%stage)) last = max(0, maxval(self%stage, mask=self%stage <= stage))
+   end function last_until
 
    !> The number of bars.
    pure integer function n_bars(mesh)

@@ -66,6 +66,10 @@ module stage_plan
    type, public :: planned_stage
       integer :: id = 0
       integer :: from = 0                   !! number of the stage that FROM names, 0: none
+      integer :: begins_at = 0              !! position of the stage from whose end it starts, 0: the structure at rest
+      integer :: supports = 1               !! which of the freedoms of the model it has
+      integer, allocatable  :: parts(:)     !! SUBCOM: positions of the stages that it combines; not allocated: no SUBCOM
+      real(wp), allocatable :: factors(:)   !! likewise
       character(:), allocatable :: label
       type(output_request) :: output
       logical, allocatable :: shown(:)      !! nodes to which its tables are limited; not allocated: all
@@ -81,6 +85,8 @@ module stage_plan
    type, public :: stage_plan_type
       type(planned_stage), allocatable :: stages(:)
       logical :: measures_path = .false.      !! NEWTON: increments are printed with their error of path
+      logical :: is_independent = .false.     !! linear: every stage starts from rest
+      integer, allocatable :: first_with(:)   !! position of the first stage with each of the freedoms of the model
       ! whether any stage has
       logical :: has_modes = .false.          !! natural modes
       logical :: has_backbones = .false.      !! a backbone

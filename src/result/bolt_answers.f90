@@ -142,9 +142,9 @@ contains
             answer%has_load = any(history%crossing(:, i) /= 0)
             call find_load(bolt, history%crossing(:, i), history%passed - history%passed_before, axial, whole)
             answer%load_change = above(axial, floor)
-            answer%has_ratio = bolt%stage /= stage .and. abs(answer%load_change) > along_it*whole
+            answer%has_ratio = .not. bolt%tightening%is_in(stage) .and. abs(answer%load_change) > along_it*whole
             if (answer%has_ratio) answer%ratio = answer%change/answer%load_change
-            answer%is_locked = bolt%stage == stage .and. analysis%fraction >= 1.0_wp
+            answer%is_locked = bolt%tightening%is_in(stage) .and. analysis%fraction >= 1.0_wp
             if (bolt%bar > 0) answer%is_locked = answer%is_locked .or. analysis%is_elastic(bolt%bar)
             if (bolt%section > 0) answer%is_locked = answer%is_locked .or. analysis%is_locked(bolt%section)
             if (.not. answer%is_locked) cycle
@@ -300,9 +300,10 @@ contains
       integer  :: i, k, n
 
       n = history%passages%n
-      associate (bolts => history%bolts)
-         if (any(bolts%stage == stage)) then
-            where (bolts%stage == stage)
+      associate (bolts => history%bolts, &
+                 is_now => [(history%bolts(i)%tightening%is_in(stage), i = 1, size(history%bolts))])
+         if (any(is_now)) then
+            where (is_now)
                history%tightened = force
                history%largest = force
             end where
@@ -316,7 +317,7 @@ contains
             history%passed_base(:, :n) = history%passed
             history%passed_base(:, n + 1:) = history%passed
          end if
-         where (bolts%stage <= stage) history%largest = max(history%largest, force)
+         where ([(bolts(i)%tightening%last_until(stage) > 0, i = 1, size(bolts))]) history%largest = max(history%largest, force)
          k = findloc(of_loads, history%kind(stage), dim=1)
          do i = 1, size(bolts)
             by = changes_by_kind(stage, force(i), history, i)

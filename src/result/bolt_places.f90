@@ -8,7 +8,7 @@ module bolt_places
    use interface_operator, only: at_first_end
    use kinds, only: wp
    use mesh_queries, only: element_points, n_points
-   use model_data, only: model_type, n_bars, n_sections, section_type, temperature_type
+   use model_data, only: model_type, n_bars, n_sections, section_type, temperature_type, tightening_type
    use node_coupling, only: corner_displacements
    use numbers, only: cross, first_largest
    use passing_forces, only: cut_passages, passage_type, start_passages
@@ -26,7 +26,7 @@ module bolt_places
    type, public :: bolt_place
       integer  :: id = 0                  !! of its BOLT card
       integer  :: bar = 0, section = 0    !! position of its bar or of its pretension section: one of them is 0
-      integer  :: stage = 0               !! position of the stage that tightens it
+      type(tightening_type) :: tightening
       integer  :: joint = 0               !! position of the joint that it crosses, the largest of several; 0: none
       real(wp) :: point(3) = 0.0_wp       !! on its axis [length]
       real(wp) :: direction(3) = 0.0_wp   !! along it, unit
@@ -59,7 +59,7 @@ contains
          associate (bar => model%mesh%bars(i))
             if (bar%bolt == 0) cycle
             n = n + 1
-            bolts(n) = bolt_place(id=bar%bolt, bar=i, stage=bar%stage, point=model%mesh%x(:, bar%nodes(1)), &
+            bolts(n) = bolt_place(id=bar%bolt, bar=i, tightening=bar%tightening, point=model%mesh%x(:, bar%nodes(1)), &
                                   direction=bar%direction(:, 1), area=bar%area, strength=bar%strength, thread=bar%thread, &
                                   cut=planes_along(model, planes, bar%nodes, bar%direction(:, 1)))
             span = [0.0_wp, norm2(model%mesh%x(:, bar%nodes(2)) - model%mesh%x(:, bar%nodes(1)))]
@@ -92,8 +92,8 @@ contains
       associate (section => model%mesh%sections(i))
          s = findloc(model%mesh%surfaces%id, section%surface, dim=1)
          call surface_nodes(model%mesh, model%mesh%surfaces(s), list)
-         bolt = bolt_place(id=section%bolt, section=i, stage=section%stage, direction=section%direction, area=section%area, &
-                           strength=section%strength, thread=section%thread, &
+         bolt = bolt_place(id=section%bolt, section=i, tightening=section%tightening, direction=section%direction, &
+                           area=section%area, strength=section%strength, thread=section%thread, &
                            cut=planes_along(model, planes, list%node, section%direction))
          centroid = 0.0_wp
          do s = 1, list%n

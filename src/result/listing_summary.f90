@@ -3,7 +3,7 @@ module listing_summary
    use control_words, only: method_newton, method_step, pressure_eq10
    use deck_cards, only: card_name
    use deck_input, only: deck_type
-   use deck_text, only: is_include
+   use include_lines, only: is_include
    use element_kinds, only: element_table
    use element_mapping, only: has_modes
    use equation_solver, only: equation_system
@@ -166,6 +166,11 @@ contains
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
       call put_lines(file, upper(deck%bulk%ignored%words()), ',')
+      if (allocated(deck%bulk%told)) then
+         do i = 1, size(deck%bulk%told)
+            call put_lines(file, upper(deck%bulk%told(i)%words), ',')
+         end do
+      end if
       if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
       do i = 1, size(model%warnings)
          call put_lines(file, 'WARNING: '//upper(model%warnings(i)%words), ' ')

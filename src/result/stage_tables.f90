@@ -323,7 +323,8 @@ contains
                call bars%put('BOLT', bar%bolt, where=bar%bolt > 0)
                call bars%put([character(7) :: 'ELEMENT', 'NODE 1', 'NODE 2'], [bar%id, model%mesh%node_id(bar%nodes)])
                call bars%put([character(10) :: 'FORCE', 'ELONGATION'], values)
-               call bars%put('state', state_of_bolt(bar%stage == analysis%stage, analysis%is_elastic(i)), where=bar%bolt > 0)
+               call bars%put('state', state_of_bolt(bar%tightening%is_in(analysis%stage), analysis%is_elastic(i)), &
+                             where=bar%bolt > 0)
                call bars%keep_row()
             end if
          end associate
@@ -348,7 +349,7 @@ contains
             call table%put([character(7) :: 'INCR', 'BOLT', 'SURFACE'], [analysis%increment, section%bolt, section%surface])
             call table%put('FORCE', section_tension(model, analysis, i), floors(1))
             call table%put('SHORTENED BY', overlap_now(model, analysis, i), floors(2))
-            call table%put('state', state_of_bolt(section%stage == analysis%stage, analysis%is_locked(i)))
+            call table%put('state', state_of_bolt(section%tightening%is_in(analysis%stage), analysis%is_locked(i)))
             call table%keep_row()
          end associate
       end do

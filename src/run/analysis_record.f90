@@ -25,7 +25,7 @@ contains
       type(analysis_type), intent(inout)       :: a
       integer :: n, i
 
-      call stream%part('analysis_type', 3)
+      call stream%part('analysis_type', 4)
       call stream%item('stage', a%stage)
       call stream%item('next', a%next)
       call stream%item('increment', a%increment)
@@ -48,6 +48,7 @@ contains
       call stream%item('loose_force', a%loose_force)
       call stream%item('all_u', a%all_u)
       call stream%item('all_unbalanced', a%all_unbalanced)
+      call record_plane(stream, 'stands', a%stands)
       call stream%item('retained_index', a%retained_index)
       call stream%item('held', a%held)
       call stream%item('change', a%change)
@@ -58,6 +59,7 @@ contains
       call stream%item('unbalanced', a%unbalanced)
       call stream%item('is_elastic', a%is_elastic)
       call stream%item('rest_tension', a%rest_tension)
+      call stream%item('start_tension', a%start_tension)
       call stream%item('is_locked', a%is_locked)
       call stream%item('movement', a%movement)
       call stream%item('k', a%k)

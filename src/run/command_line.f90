@@ -17,8 +17,8 @@ module command_line
 
    character(*), parameter :: program = 'jointfem', nl = new_line('a')
    character(9), parameter :: help_options(2) = [character(9) :: '--help', '-h'] ! the entry may follow
-   character(10), parameter :: options_with_value(8) = [character(10) :: '-o', '--threads', '--watch', '--summary', '--set', &
-                                                        '--progress', help_options]
+   character(10), parameter :: options_with_value(9) = [character(10) :: '-o', '--threads', '--watch', '--summary', '--set', &
+                                                        '--progress', '--law', help_options]
 
    character(*), parameter :: help = &
       'usage: jointfem [options] DECK...'//nl// &
@@ -45,6 +45,7 @@ module command_line
       '                 N=V,V:M=W,W one for each pair, --set F one for each row of the CSV file F below its line of names;'//nl// &
       '                 runs of one deck go on side by side on the cores'//nl// &
       '   --watch N,N   nodes whose displacement and stiffness are added to the answer of every stage; N-M: M against N'//nl// &
+      '   --law F       file with the PJOINT, JNORM and JSHEAR of contacts that BCTSET cards of NX define'//nl// &
       '   --summary F   write a table of all runs to the file F, one row for each run; F may be new or an earlier table'//nl// &
       '   --resume      continue each deck from its restart file, beam.restart: the results are those of an'//nl// &
       '                 uninterrupted run. A deck without a restart file starts from the beginning.'//nl// &
@@ -82,6 +83,7 @@ module command_line
       integer :: threads    = 0             !! --threads, 0: all cores
       integer :: n_rows     = 1             !! runs of each deck: the combinations of the rows of --set
       character(:), allocatable :: watched  !! --watch: numbers and N-M with commas, empty: none
+      character(:), allocatable :: law      !! --law: path of the law of contacts, empty: none
       character(:), allocatable :: summary  !! --summary: path of the table of the batch, empty: none
       character(:), allocatable :: folder   !! -o, with a slash at its end, empty: here
       type(deck_argument), allocatable :: decks(:)
@@ -101,6 +103,7 @@ contains
 
       command%folder = ''
       command%watched = ''
+      command%law = ''
       command%summary = ''
       allocate (settings(0))
       status = 1
@@ -140,6 +143,8 @@ contains
             if (len(value) == 0) command%folder = './'
          case ('--summary')
             command%summary = value
+         case ('--law')
+            command%law = value
          case ('--set')
             call read_setting(value, settings, text)
             ok = text == ''

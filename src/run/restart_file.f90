@@ -6,8 +6,8 @@
 !! run that wrote the file discards them too: both runs then agree to the last digit. The model is built from the deck.
 module restart_file
    use analysis_record, only: record_analysis
-   use analysis_state, only: analysis_type
-   use bolt_locking, only: lock_again, lock_bolts
+   use analysis_state, only: analysis_type, interface_stiffness, start_analysis
+   use bolt_locking, only: lock_again, lock_bolts, release_bolts, tightens
    use c_library, only: c_fsync, close_file, is_regular_file, read_all_bytes, remove_file
    use control_words, only: no_restart, restart_stages
    use deck_input, only: deck_type
@@ -16,12 +16,13 @@ module restart_file
    use equations, only: form_body_stiffness, start_equations
    use incomplete_results, only: create_part, name_part, say_at_interrupts
    use kinds, only: long
-   use model_data, only: model_type
+   use model_data, only: freedoms_type, model_type
    use run_of_deck, only: goes_on, is_over, is_refused, run_type, tell
    use restart_stream, only: open_restart, restart_stream_type
    use result_names, only: restart_ending
-   use results, only: record_reference, record_results
+   use results, only: record_reference, record_results, return_to_rest
    use stage_plan, only: factorisations_of, stage_plan_type, where_in_plan
+   use support_change, only: hand_over, hold_anew
    use terminal, only: version
    use text_tools, only: integer_text, one_of
    implicit none
@@ -59,15 +60,21 @@ contains
    end subroutine open_restart_file
 
    !> TAKE UP FROM THE RESTART FILE: the state of ANALYSIS, of the bolts in the equations of SYSTEM, and the results so far.
-   subroutine take_up(run, model, plan, system, analysis)
+   subroutine take_up(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)         :: run
-      type(model_type), intent(in)          :: model
+      type(deck_type), intent(in)           :: deck
+      type(model_type), intent(inout)       :: model
       type(stage_plan_type), intent(in)     :: plan
       class(equation_system), intent(inout), allocatable :: system
       type(analysis_type), intent(inout)    :: analysis
       character(:), allocatable :: name, words
 
       if (is_over(run) .or. .not. run%resumes) return
+      call run%restart%part('supports', 1)
+      call run%restart%item('supports', analysis%supports)
+      call take_supports(run, deck, plan, max(1, min(analysis%supports, size(plan%first_with))), 0, model, system)
+      if (run%failure%raised) return
+      if (model%supports /= 1) call start_analysis(model, system, deck%control, analysis)
       call record_analysis(run%restart, analysis)
       call record_results(run%restart, run%results)
       run%problem = ''
@@ -120,6 +127,8 @@ contains
       ok = descriptor >= 0
       if (ok) then
          call stream%start(descriptor, version, run%deck_sum)
+         call stream%part('supports', 1)
+         call stream%item('supports', analysis%supports)
          call record_analysis(stream, analysis)
          call record_results(stream, run%results)
          call stream%complete(ok)
@@ -143,12 +152,13 @@ contains
    end subroutine write_restart
 
    !> FROM: keep the state at the end of the stage just completed, its bolts locked, if a later stage starts from it. Where the next
-   !! stage starts from an earlier one, return to the state that this one left; the bodies are formed anew only where other bolts are
-   !! locked in it.
+   !! stage starts from an earlier one, return to the state that this one left. Bolts that the next stage tightens again are released.
+   !! The bodies are formed anew only where other bolts are locked now. An independent case starts from rest. A stage with other
+   !! supports or equations changes them.
    subroutine go_to_start(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)         :: run
       type(deck_type), intent(in)           :: deck
-      type(model_type), intent(in)          :: model
+      type(model_type), intent(inout)       :: model
       type(stage_plan_type), intent(in)     :: plan
       class(equation_system), intent(inout), allocatable :: system
       type(analysis_type), intent(inout)    :: analysis
@@ -168,24 +178,106 @@ contains
             call record_reference(stream, run%results)
             run%results%kept(done)%words = stream%bytes(:stream%used)
          end if
-         if (from(next) == done) return
+         if (from(next) == 0) then
+            call take_supports(run, deck, plan, plan%stages(next)%supports, next, model, system)
+            if (run%failure%raised) return
+            call start_analysis(model, system, deck%control, analysis)
+            call interface_stiffness(model, system, analysis, run%failure)
+            call return_to_rest(model, run%results)
+            analysis%next = next
+            return
+         end if
+         if (from(next) == done) then
+            call change_supports(run, deck, plan, next, model, system, analysis)
+            if (run%failure%raised .or. .not. tightens(model, next)) return
+            call lock_bolts(model, system, analysis)
+         end if
          allocate (locked, source=[analysis%is_elastic, analysis%is_locked])
-         stream%writes = .false.
-         stream%bytes = run%results%kept(from(next))%words
-         stream%last = len(stream%bytes, long)
-         stream%used = 0
-         call record_analysis(stream, analysis)
-         call record_reference(stream, run%results)
-         analysis%next = next
+         if (from(next) /= done) then
+            if (model%supports /= plan%stages(from(next))%supports) then
+               call take_supports(run, deck, plan, plan%stages(from(next))%supports, next, model, system)
+               if (run%failure%raised) return
+               call start_analysis(model, system, deck%control, analysis)
+               locked = .not. [analysis%is_elastic, analysis%is_locked]
+            end if
+            stream%writes = .false.
+            stream%bytes = run%results%kept(from(next))%words
+            stream%last = len(stream%bytes, long)
+            stream%used = 0
+            call record_analysis(stream, analysis)
+            call record_reference(stream, run%results)
+            analysis%next = next
+         end if
+         call release_bolts(model, next, analysis)
          if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
             call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
             if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
             if (run%failure%raised) return
             call lock_again(model, analysis, system)
          end if
+         if (from(next) == done) return
          call system%forget_past()
          if (all(from(next + 1:) /= from(next))) deallocate (run%results%kept(from(next))%words)
+         call change_supports(run, deck, plan, next, model, system, analysis)
       end associate
    end subroutine go_to_start
+
+   !> Put the freedoms K of MODEL in force, with their equations. Those of independent cases are kept where a stage from NEXT on has
+   !! them.
+   subroutine take_supports(run, deck, plan, k, next, model, system)
+      type(run_type), intent(inout)         :: run
+      type(deck_type), intent(in)           :: deck
+      type(stage_plan_type), intent(in)     :: plan
+      integer, intent(in)                   :: k, next
+      type(model_type), intent(inout)       :: model
+      class(equation_system), intent(inout), allocatable :: system
+
+      if (k == model%supports) return
+      if (.not. allocated(run%kept)) allocate (run%kept(size(model%sets)))
+      if (plan%is_independent .and. any(plan%stages(max(1, next):)%supports == model%supports)) &
+         call move_alloc(system, run%kept(model%supports)%system)
+      model%supports = k
+      model%freedoms = model%sets(k)
+      if (allocated(run%kept(k)%system)) then
+         call move_alloc(run%kept(k)%system, system)
+         return
+      end if
+      call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
+      if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
+   end subroutine take_supports
+
+   !> Change the supports and the equations of a history to those of the stage NEXT, where these are others, and say so in the
+   !! listing.
+   subroutine change_supports(run, deck, plan, next, model, system, analysis)
+      type(run_type), intent(inout)         :: run
+      type(deck_type), intent(in)           :: deck
+      type(stage_plan_type), intent(in)     :: plan
+      integer, intent(in)                   :: next
+      type(model_type), intent(inout)       :: model
+      class(equation_system), intent(inout), allocatable :: system
+      type(analysis_type), intent(inout)    :: analysis
+      type(freedoms_type) :: before
+      integer :: held, released
+      logical :: other
+
+      associate (k => plan%stages(next)%supports)
+         if (k == model%supports) return
+         call lock_bolts(model, system, analysis)
+         associate (stages => deck%control%stages(plan%first_with([model%supports, k])))
+            other = stages(1)%equations%id /= stages(2)%equations%id
+         end associate
+         call hand_over(model, model%sets(k), other, analysis, released)
+         before = model%freedoms
+         call take_supports(run, deck, plan, k, next, model, system)
+         if (run%failure%raised) return
+         call hold_anew(model, before, other, system, analysis, held)
+         analysis%supports = k
+      end associate
+      call run%results%page%file%put('')
+      call run%results%page%file%put(' SUPPORTS OF STAGE '//integer_text(plan%stages(next)%id)//': '//integer_text(released)// &
+         ' COMPONENTS RELEASED, THEIR FORCES DECREASE TO ZERO OVER THE STAGE; '//integer_text(held)// &
+         ' HELD ANEW WHERE THEY STAND')
+      if (other) call run%results%page%file%put(' EQUATIONS OF STAGE '//integer_text(plan%stages(next)%id)//': LIKEWISE')
+   end subroutine change_supports
 
 end module restart_file

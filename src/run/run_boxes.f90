@@ -32,6 +32,7 @@ module run_boxes
    use newton_method, only: seat_joints
    use normal_stiffness, only: branch_open
    use openblas, only: prepare_openblas, tell_kernel
+   use nx_translation, only: translate_contacts
    use range_watch, only: warn
    use restart_file, only: open_restart_file, take_up, write_restart
    use result_names, only: remove_old_results
@@ -39,7 +40,8 @@ module run_boxes
    use run_of_deck, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, &
                           phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
                           is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
-   use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
+   use structure_reduction, only: condense_structure
+   use stage_plan, only: factorisations_of, shows_bodies, stage_name, stage_plan_type, vibration_plan_type, where_in_plan
    use response_tables, only: list_pair_response, list_response, list_uncovered
    use vibration_tables, only: list_backbone
    use vtu_grids, only: write_piece
@@ -62,17 +64,22 @@ contains
       class(equation_system), allocatable, intent(inout) :: system
       type(analysis_type), intent(inout) :: analysis
       type(model_type), allocatable :: loose
+      logical :: is_free
 
       if (is_over(run)) return
       associate (stage => plan%stages(analysis%stage))
-         if (analysis%increment == size(stage%fractions) .and. allocated(stage%vibration)) then
+         if (analysis%increment == size(stage%fractions) .and. (allocated(stage%vibration) .or. stage%output%dmig)) then
             call enter(run, phase_modes)
-            if (stage%vibration%free) then
+            is_free = .false.
+            if (allocated(stage%vibration)) is_free = stage%vibration%free
+            if (is_free) then
                allocate (loose, source=model)
                call release_supports(loose)
                call oscillate(run, deck, loose, plan, stage%vibration, system, analysis)
+               call condense_structure(run, deck, loose, plan, system, analysis)
             else
-               call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
+               if (allocated(stage%vibration)) call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
+               call condense_structure(run, deck, model, plan, system, analysis)
             end if
             if (.not. run%failure%raised) call end_stage(plan, run%results)
             call enter(run, phase_increments)
@@ -180,7 +187,9 @@ contains
 
       call say_at_interrupts(argument%name//': interrupted; nothing of this run is kept (RESTART would keep its stages)')
       call start_run(command, argument, run)
-      call read_deck(argument%path, deck, run%errors, readable, argument%parameters, command%watched)
+      call read_deck(argument%path, deck, run%errors, readable, argument%parameters, command%watched, &
+                     command%law)
+      call translate_contacts(deck, run%errors)
       if (.not. readable) then
          run%ending = is_unreadable
          return
@@ -210,7 +219,14 @@ contains
       if (is_over(run)) return
       call build_model(deck, model, plan, run%errors)
       loose = ''
-      if (.not. run%errors%any()) loose = loose_words(model%mesh, model%joints, model%freedoms)
+      if (.not. run%errors%any()) then
+         loose = loose_words(model%mesh, model%joints, model%freedoms)
+         do i = 2, size(plan%first_with)
+            if (loose /= '') exit
+            loose = loose_words(model%mesh, model%joints, model%sets(i))
+            if (loose /= '') loose = stage_name(plan%stages(plan%first_with(i)))//': '//loose
+         end do
+      end if
       if (run%errors%any()) then
          run%ending = has_errors
       else if (run%suggests) then
@@ -268,7 +284,7 @@ contains
    subroutine start_joints(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(deck_type), intent(in)        :: deck
-      type(model_type), intent(in)       :: model
+      type(model_type), intent(inout)    :: model
       type(stage_plan_type), intent(in)  :: plan
       class(equation_system), allocatable, intent(inout) :: system
       type(analysis_type), intent(out)   :: analysis
@@ -279,7 +295,7 @@ contains
          if (deck%control%method /= method_back) call seat_joints(model, analysis, system, run%failure)
          call interface_stiffness(model, system, analysis, run%failure)
       end if
-      call take_up(run, model, plan, system, analysis)
+      call take_up(run, deck, model, plan, system, analysis)
       call expect(run, plan, analysis%stage, analysis%increment)
       call enter(run, phase_increments)
       if (any(model%joints%element%gap < 0.0_wp) .and. deck%control%method /= method_back) call note_drops(run, model, analysis)

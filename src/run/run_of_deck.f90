@@ -8,7 +8,7 @@ module run_of_deck
    use deck_input, only: deck_type
    use distance_watch, only: distance_words
    use distribution, only: memory_of_all
-   use equation_solver, only: failure_type, solver_description
+   use equation_solver, only: equation_system, failure_type, solver_description
    use error_report, only: print_errors
    use incomplete_results, only: say_at_interrupts, what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
@@ -42,6 +42,11 @@ module run_of_deck
                                  is_unsolved = 5, is_unwritten = 6, is_refused = 7, was_searched = 8
    integer, parameter :: status_of(0:8) = [0, 1, 1, 2, 0, status_unsolved, status_unwritten, 1, 0]
 
+   !> Equations of independent cases whose supports come again.
+   type, public :: kept_equations
+      class(equation_system), allocatable :: system
+   end type kept_equations
+
    !> The run of one deck.
    type, public :: run_type
       type(failure_type) :: failure            !! why the structure cannot be solved
@@ -57,6 +62,7 @@ module run_of_deck
       type(restart_stream_type) :: restart     !! the restart file to continue from, while it is read
       logical :: resumes = .false.             !! there is such a file
       character(:), allocatable :: problem     !! why the restart file cannot be used
+      type(kept_equations), allocatable :: kept(:) !! of each of the freedoms of the model
       logical :: misses_output = .false.       !! a restart file, the answer or a VTU file could not be written
       integer(long), private :: began = 0      ! clock at the start
       type(solver_description) :: solver       !! for the operations in the table at the end
@@ -234,9 +240,15 @@ contains
       type(run_type), intent(in)   :: run
       type(deck_type), intent(in)  :: deck
       type(model_type), intent(in) :: model
+      integer :: i
 
       if (allocated(model%mesh%kind_words)) call tell(run, model%mesh%kind_words)
       if (deck%bulk%ignored%n > 0) call tell(run, deck%bulk%ignored%words())
+      if (allocated(deck%bulk%told)) then
+         do i = 1, size(deck%bulk%told)
+            call tell(run, deck%bulk%told(i)%words)
+         end do
+      end if
       if (deck%control%of_nastran .and. size(deck%control%stages) > 1) call tell(run, plural(size(deck%control%stages), &
          'SUBCASE')//' are stages of one history: each starts from the end of the previous one, or of the one that FROM names')
    end subroutine say_of_deck

@@ -19,9 +19,9 @@ module side_by_side
    implicit none
    private
 
-   public :: another_run
+   public :: another_run, c_kill, c_memfd_create
 
-   character(*), parameter :: streams_at = '/proc/self/fd/' ! a process opens them there at their beginning
+   character(*), parameter, public :: streams_at = '/proc/self/fd/' ! a process opens them there at their beginning
    integer, parameter :: most_ahead = 100 ! of the first run that is not shown: the streams of all stay open until then
 
    !> The process of a run.

@@ -35,6 +35,7 @@ module natural_modes
       real(wp), allocatable :: k(:, :)       !! (3, n) k_sx, k_sy, k_n of interface elements [force/length]
       logical, allocatable  :: is_elastic(:) !! bars: no bolts, or tightened ones
       logical, allocatable  :: is_locked(:)  !! tightened pretension sections of solid bolts
+      integer, allocatable  :: held(:, :)    !! (2, n) node and direction of unknowns that are held besides; not allocated: none
       type(mass_matrix_type) :: mass
       class(equation_system), allocatable :: started !! ordered, without a matrix
    end type oscillating_type
@@ -55,17 +56,23 @@ module natural_modes
 
 contains
 
-   !> MODEL without its supports; the condition on the axis of a ring remains.
+   !> MODEL without its supports, or those of SUPORT where it has any; the condition on the axis of a ring remains.
    pure subroutine release_supports(model)
       type(model_type), intent(inout) :: model
-      logical :: free(model%mesh%dimension)
-      integer :: i
+      logical :: free(model%mesh%dimension), some
+      integer :: d, i
 
-      do i = 1, model%mesh%n_nodes - n_sections(model%mesh)
-         free = supported(model%mesh, model%freedoms, i)
-         if (model%mesh%axisymmetric) free(1) = free(1) .and. abs(model%mesh%x(1, i)) > 0.0_wp
-         model%freedoms%held(:, i) = model%freedoms%held(:, i) .and. .not. free
-      end do
+      associate (groups => model%freedoms%support_groups, of => model%freedoms%support_of)
+         some = any(groups%kind == 'FREE')
+         do i = 1, model%mesh%n_nodes - n_sections(model%mesh)
+            free = supported(model%mesh, model%freedoms, i)
+            do d = 1, merge(size(free), 0, some)
+               if (free(d)) free(d) = groups(of(d, i))%kind == 'FREE'
+            end do
+            if (model%mesh%axisymmetric) free(1) = free(1) .and. abs(model%mesh%x(1, i)) > 0.0_wp
+            model%freedoms%held(:, i) = model%freedoms%held(:, i) .and. .not. free
+         end do
+      end associate
    end subroutine release_supports
 
    !> Stiffness and mass about the state of ANALYSIS, and the order of the equations. The solver is SKYLINE if SYSTEM is
@@ -84,8 +91,9 @@ contains
          structure%k(:, i) = oscillation_stiffness(model%joints%list(model%joints%element(i)%joint)%law, &
             model%joints%element(i)%area, analysis%states(i), on_loading)
       end do
-      structure%is_elastic = [(analysis%is_elastic(i) .or. model%mesh%bars(i)%stage == analysis%stage, i = 1, n_bars(model%mesh))]
-      structure%is_locked = [(analysis%is_locked(i) .or. model%mesh%sections(i)%stage == analysis%stage, i = 1, &
+      structure%is_elastic = [(analysis%is_elastic(i) .or. model%mesh%bars(i)%tightening%is_in(analysis%stage), &
+                               i = 1, n_bars(model%mesh))]
+      structure%is_locked = [(analysis%is_locked(i) .or. model%mesh%sections(i)%tightening%is_in(analysis%stage), i = 1, &
                               n_sections(model%mesh))]
       call form_mass(model, structure%mass)
       call start_equations(model, structure%started, failure, &
@@ -114,7 +122,7 @@ contains
       call form_structure_stiffness(model, stiffness_matrices(structure%k), 'natural modes', system, failure)
    end subroutine factorise_at
 
-   !> Hold the overlap of tightened solid bolts.
+   !> Hold the overlap of tightened solid bolts, and what else STRUCTURE holds.
    subroutine hold_bolts(model, structure, system)
       type(model_type), intent(in)          :: model
       type(oscillating_type), intent(in)    :: structure
@@ -123,6 +131,10 @@ contains
 
       do i = 1, n_sections(model%mesh)
          if (structure%is_locked(i)) call lock_unknown(model%mesh%sections(i)%node, 1, system)
+      end do
+      if (.not. allocated(structure%held)) return
+      do i = 1, size(structure%held, 2)
+         call lock_unknown(structure%held(1, i), structure%held(2, i), system)
       end do
    end subroutine hold_bolts
 

@@ -37,3 +37,23 @@ done <<'DECKS'
 20 0.4
 30 0.3
 DECKS
+
+# Warmed by DT the feet slide further apart under their full limit; cooled again they stick, and the thrust falls by alpha DT L over the
+# flexibilities in series: the shear of both nodes in contact, and the plate, which a deck without joints pulls at the same nodes.
+feet_span() { awk -F, -v column="$2" '$1 == 1 && $2 == "1" && $12 == "LOAD" { v[$4] = $column } END { print v[1], v[3] }' "$work/$1.joint.csv"; }
+thrust_of() { value feet_warmed rows "stage=$1" rows 'load = 1' rows joint=1 print 'abs(sum(tau_x*area))'; }
+feet feet_still 20 0.2 && {
+   read -r left right <<< "$(feet_span feet_still 6)"
+   read -r near_x far_x <<< "$(feet_span feet_still 8)"
+   read -r near_a far_a <<< "$(feet_span feet_still 11)"
+   sed '/JOINT\|^CBAR\|^JNORM\|^JSHEAR\|^PMARK,2[02]/d; s/^LOAD = 11/SPC = 2\n&/
+        s/^PLOADM.*/'"SPC1,2,2,$left,$right\nSPC1,2,1,$left\nFORCE,11,$right,,1.,-1.,0."/ "$work/feet_still.bdf" > "$work/feet_pulled.bdf"
+   run feet_pulled && for dt in 2 5; do
+      soft="-1*$(moved feet_pulled "$right" 1) + 1/(5e5*$near_a) + 1/(5e5*$far_a)"
+      sed "s/^LOAD = 11/SUBCASE 1;LOAD = 11;SUBCASE 2;LOAD = 11;TEMP(LOAD) = 7;SUBCASE 3;LOAD = 11/
+           s/^MAT1.*/MAT1,1,210000.,,0.3,,1.2-5,20.;TEMPD,7,$((20 + dt)).0/" "$work/feet_still.bdf" | cards feet_warmed
+      run feet_warmed || continue
+      near "feet warmed by $dt: the full limit" "$(thrust_of 2)" "0.2*$(value feet_warmed rows stage=2 rows 'load = 1' rows joint=1 print 'sum(force)')" 1e-9
+      near "feet cooled by $dt: thrust" "$(thrust_of 3)" "abs($(thrust_of 2) - 1.2e-5*$dt*($far_x - $near_x)/($soft))" 1e-5
+   done
+}

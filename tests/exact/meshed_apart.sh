@@ -99,3 +99,19 @@ solids_apart solids plain && {
       holds "solids, $form: pressures differ by $apart" "$apart >= 0 and $apart < 1e-9"
    done
 }
+
+# Nodes that stand up to TOL apart along the faces, divisions graded on one side only: no pair of them makes a moment of its own. The
+# moments of reactions and of the joint are those of the load by statics; the free modes of the pair of blocks are those of a rigid body.
+cards graded_apart <<'DECK'
+METHOD = NEWTON;SPC = 1;LOAD = 1;MODES(FREE) = 4;BEGIN BULK
+BLOCK3,1,1,3,2,1,0.0,0.0,0.0;+,60.0,30.0,8.0,,,,1,1;+,,,,,9,21;BLOCK3,2,1,3,2,1,0.0,0.0,8.0;+,60.0,30.0,20.0,1.5,,,101,101;+,,,,,22,10
+PMARK,9;PMARK,10;PMARK,21;PMARK,22;PSOLID,1,1;MAT1,1,1.0E5,,0.3,7.0-9;SPCM,1,123,9;JOINT,1,1,22,21,5.0;PJOINT,1,1,1,1;JNORM,1,1.0-3,0.5,3.0E4;JSHEAR,1,1500.0
+FORCEM,1,1000.0,0.1,-0.05,-1.0,10;EIGRL,4,,,7;ENDDATA
+DECK
+run graded_apart && {
+   judge 'graded faces: moments of the reactions by statics' -F, '$2 == "ALL" { n += 3; for (k = 12; k <= 14; k++) if (($k - (k == 12 ? 14000 : k == 13 ? -32000 : 3000))^2 > 1e-8) print $0 }
+      END { print "checked " n }' "$work/graded_apart.reaction.csv"
+   ask 'graded faces: moments of the joint by statics' graded_apart all 'sum(force*(x - 30)) = 100*12 within 1e-6' all 'sum(force*(y - 15)) = -50*12 within 1e-6' \
+      all 'abs(sum(tau_x*area*(y - 15)) + sum(tau_y*area*(x - 30))) < 1e-6'
+   judge 'graded faces: modes of a rigid body' -F, 'NR > 1 { n++; if ($2 <= 6 ? $3 > 1 : $3 < 1e3) print $0 } END { print "checked " n }' "$work/graded_apart.modes.csv"
+}

@@ -60,6 +60,7 @@ deck bolted_cantilever bolts   'RESTART = 2; SOLVER = SKYLINE'
 deck bracket_spiders spiders   'RESTART = 1'
 deck flange_sector sector     'RESTART = 1'
 deck solid_bolt    solid       'RESTART = 1'
+sed -i 's/^BOLT  .*/&\nBOLT,9,,8000.,2,40/' decks/solid.bdf # tightened again in the second stage
 deck cantilever_cases cases    'RESTART = 1; SOLVER = TREE; INCR = 5' # states kept for later stages
 sed -i 's/^ENDDATA/JINCR,5,2\nENDDATA/' decks/cases.bdf
 deck column_tetra10 bodies     'RESTART = 1'

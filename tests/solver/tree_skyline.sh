@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Every deck of input/ (three long ones by TREE alone), and the decks in this folder (moved supports, one large enough for several
 # threads, one large enough for an ordering by a coarse graph), by SOLVER = TREE and by SOLVER = SKYLINE: the same results. TREE
-# with one thread and with two, three, and for the decks of this folder 8 and 16, on whatever machine, the longest decks with three:
-# the same bytes.
+# with one thread and with two or three in turn, and for the decks of this folder 2, 3, 8 and 16, on whatever machine: the same bytes.
+# ALL=yes in the environment: two and three for every deck.
 #
 #    tree_skyline.sh PROGRAM QUERY WORK_FOLDER
 set -u
@@ -61,8 +61,8 @@ for deck in input/*.bdf $here/*.bdf; do
    else
       failed=$((failed + 1)) words='FAILED to run'
    fi
-   list='2 3' preload=
-   grep -qx "$name" tests/compare/long_decks.txt && list=3
+   turn=$((5 - ${turn:-3})) list=$turn preload=
+   [ -z "${ALL:-}" ] || list='2 3'
    [ "${deck#$here}" = "$deck" ] || list='2 3 8 16' preload=$many
    for threads in $list; do
       if run threads tree --threads "$threads" && same tree threads; then

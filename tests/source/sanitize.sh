@@ -15,7 +15,7 @@ set -u
 work=$1
 shift
 [ $# -gt 0 ] || set -- address bad threads memcheck
-make=${MAKE:-make} fc=${FC:-gfortran} libraries=${LIBRARIES:--larpack -lmetis -lopenblas}
+make=${MAKE:-make} fc=${FC:-gfortran} libraries=${LIBRARIES:--larpack -lmetis -lminpack -lopenblas}
 passed=0 failed=0
 mkdir -p "$work/results"
 

@@ -1,0 +1,281 @@
+!> The answers of a structure to the rows of a measured file, at the end of a stage. Near a run with modes, their frequencies follow
+!! from the change of the joint stiffness alone, exact in the first order:
+!!
+!!      d lambda = phi^T [dk] phi/(phi^T [m] phi), the sum over interface elements of their stiffness times movement^2
+!!
+!! A mode is followed by its shape: that of the largest MAC (x^T y)^2/(x^T x y^T y) with the shape given, or of its number at the
+!! start. BY_NUMBER a number is that of the mode at any values.
+module structure_answers
+   use analysis_state, only: analysis_type
+   use backbone, only: backbone_type, find_loop, start_backbone
+   use bolt_locking, only: bar_tension, section_tension
+   use deck_input, only: deck_type
+   use deck_parameters, only: parameter_type
+   use element_mapping, only: two_pi
+   use equation_solver, only: equation_system, failure_type
+   use interface_operator, only: joint_movement
+   use kinds, only: wp
+   use load_path, only: recover_bodies
+   use measured_data, only: a_bolt, a_displacement, a_frequency, a_loss, a_phase, a_stiffness, an_amplitude, measured_row, &
+                            measured_type
+   use mode_values, only: evaluate_modes, modes_type
+   use modal_response, only: find_response, response_type
+   use model_data, only: model_type
+   use natural_modes, only: find_natural_modes, oscillating_type, release_supports, spectrum_type, start_oscillation
+   use shear_loops, only: oscillation_stiffness
+   use stage_plan, only: merged, stage_plan_type
+   use text_tools, only: integer_text
+   use watched_nodes, only: find_watched, watch_answer, watch_state
+   implicit none
+   private
+
+   public :: take_stage, is_of_modes, mac_of
+
+   !> What the runs share.
+   type, public :: structure_type
+      character(:), allocatable :: path, watched
+      type(parameter_type), allocatable :: set(:)    !! of --set, which stay
+      type(deck_type)       :: deck
+      type(model_type)      :: model
+      type(stage_plan_type) :: plan
+      class(equation_system), allocatable :: system  !! its bodies formed for the start
+      logical, allocatable  :: keeps_bodies(:)       !! (parameters) the bodies do not depend on it
+      real(wp), allocatable :: shapes(:, :)          !! (components, rows) of the modes at the start
+      logical :: by_number = .false.                 !! a mode without a given shape has its number at any values
+   end type structure_type
+
+   type, public :: answer_type
+      character(:), allocatable :: fault             !! why the run failed, '': it did not
+      real(wp), allocatable :: value(:)              !! (rows)
+      real(wp), allocatable :: mac(:)                !! (rows) of modes, else 1
+      integer, allocatable  :: mode(:)               !! (rows) number of the mode, 0: none
+      real(wp), allocatable :: lambda(:)             !! (rows) of frequencies, omega^2 [1/time^2]
+      real(wp), allocatable :: k(:, :)               !! (3 n, stages) k_sx, k_sy, k_n of the interface elements under oscillation
+      real(wp), allocatable :: moved(:, :)           !! (3 n, rows) square of their movement in the mode, of generalised mass 1
+      real(wp), allocatable :: shapes(:, :)          !! (components, rows) of the modes
+   end type answer_type
+
+contains
+
+   !> Whether ROW needs the modes of its stage.
+   elemental logical function is_of_modes(row)
+      type(measured_row), intent(in) :: row
+
+      is_of_modes = any(row%kind == [a_frequency, a_loss, an_amplitude, a_phase])
+   end function is_of_modes
+
+   !> MAC of two shapes: 1 where they are proportional, 0 where they are orthogonal.
+   pure real(wp) function mac_of(x, y) result(mac)
+      real(wp), intent(in) :: x(:), y(:)
+      real(wp) :: scale
+
+      mac = 0.0_wp
+      scale = sum(x**2)*sum(y**2)
+      if (scale > 0.0_wp) mac = sum(x*y)**2/scale
+   end function mac_of
+
+   !> The answers to the rows of stage S at its end; BEFORE is the end of the stage from which it started.
+   subroutine take_stage(data, s, structure, analysis, before, answer, failure, near)
+      type(measured_type), intent(in)         :: data
+      integer, intent(in)                     :: s
+      type(structure_type), intent(inout)     :: structure
+      type(analysis_type), intent(in)         :: analysis
+      type(watch_state), intent(in)           :: before
+      type(answer_type), intent(inout)        :: answer
+      type(failure_type), intent(inout)       :: failure
+      type(answer_type), intent(in), optional :: near
+      type(analysis_type), allocatable :: whole ! a copy, as the increments go on from the original
+      type(watch_answer) :: watched
+      type(model_type), allocatable :: loose
+      logical :: of_modes(size(data%rows))
+      integer :: i, k
+
+      associate (model => structure%model, plan => structure%plan)
+         allocate (whole, source=analysis)
+         call recover_bodies(model, structure%system, whole)
+         if (allocated(plan%stages(s)%watched)) &
+            call find_watched(model, whole, plan%stages(s)%watched, plan%stages(s)%pairs, before, watched)
+         do i = 1, size(data%rows)
+            associate (row => data%rows(i), value => answer%value(i))
+               if (row%stage /= plan%stages(s)%id) cycle
+               if (row%nodes(2) > 0) then
+                  do k = size(watched%pairs), 2, -1
+                     if (all(watched%pairs(k)%pair%ids == row%nodes)) exit
+                  end do
+               end if
+               select case (row%kind)
+               case (a_bolt)
+                  k = findloc(model%mesh%bars%bolt, row%bolt, dim=1)
+                  if (k > 0) value = bar_tension(model, whole, k)
+                  if (k == 0) value = section_tension(model, whole, findloc(model%mesh%sections%bolt, row%bolt, dim=1))
+               case (a_displacement)
+                  if (row%nodes(2) == 0) value = whole%all_u(row%direction, model%mesh%node_table%find(row%nodes(1)))
+                  if (row%nodes(2) > 0) value = watched%pairs(k)%moved(row%direction + 1)
+               case (a_stiffness)
+                  if (row%nodes(2) > 0) value = watched%pairs(k)%stiffness(row%direction + 1)
+                  if (row%nodes(2) == 0) value = sum(watched%nodes%stiffness, &
+                     mask=watched%nodes%node == model%mesh%node_table%find(row%nodes(1)))
+               end select
+            end associate
+         end do
+         of_modes = is_of_modes(data%rows) .and. data%rows%stage == plan%stages(s)%id
+         if (.not. any(of_modes)) return
+         allocate (loose, source=model)
+         if (plan%stages(s)%vibration%free) call release_supports(loose)
+         if (.not. present(near) .or. any(of_modes .and. (data%rows%kind /= a_frequency .or. data%rows%amplitude > 0.0_wp))) then
+            call take_modes(data, s, of_modes, structure, loose, whole, answer, failure)
+            return
+         end if
+         answer%k(:, s) = stiffness_of(loose, whole, plan%stages(s)%vibration%on_loading)
+         do i = 1, merge(size(of_modes), 0, present(near))
+            if (.not. of_modes(i)) cycle
+            answer%lambda(i) = near%lambda(i) + sum((answer%k(:, s) - near%k(:, s))*near%moved(:, i))
+            answer%value(i) = sqrt(max(0.0_wp, answer%lambda(i)))/two_pi
+         end do
+      end associate
+   end subroutine take_stage
+
+   !> The stiffness of the interface elements under oscillation.
+   pure function stiffness_of(model, analysis, on_loading) result(k)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      logical, intent(in)             :: on_loading
+      real(wp) :: k(3*size(model%joints%element))
+      integer  :: i
+
+      do i = 1, size(model%joints%element)
+         k(3*i - 2:3*i) = oscillation_stiffness(model%joints%list(model%joints%element(i)%joint)%law, &
+                                                model%joints%element(i)%area, analysis%states(i), on_loading)
+      end do
+   end function stiffness_of
+
+   !> The answers of modes, backbone and response to the rows OF_MODES of stage S. LOOSE is the model, without supports where the
+   !! modes are those of a free structure.
+   subroutine take_modes(data, s, of_modes, structure, loose, analysis, answer, failure)
+      type(measured_type), intent(in)     :: data
+      integer, intent(in)                 :: s
+      logical, intent(in)                 :: of_modes(:)
+      type(structure_type), intent(inout) :: structure
+      type(model_type), intent(in)        :: loose
+      type(analysis_type), intent(inout)  :: analysis
+      type(answer_type), intent(inout)    :: answer
+      type(failure_type), intent(inout)   :: failure
+      type(oscillating_type) :: oscillating
+      type(spectrum_type)    :: spectrum
+      type(modes_type), allocatable :: modes
+      type(response_type)    :: response
+      class(equation_system), allocatable :: shifted
+      integer :: f, i, k, m(size(of_modes))
+
+      associate (vibration => structure%plan%stages(s)%vibration, rows => data%rows, nodes => loose%mesh%node_table)
+         if (allocated(vibration%response) .and. all(rows%frequency <= 0.0_wp .or. .not. of_modes)) deallocate (vibration%response)
+         if (allocated(vibration%response)) then ! of the frequencies and nodes of the rows alone
+            vibration%response%spreads = vibration%response%spreads(:0)
+            vibration%response%pairs = vibration%response%pairs(:0)
+            vibration%response%frequencies = [real(wp) ::]
+            do i = 1, size(rows)
+               if (of_modes(i) .and. rows(i)%frequency > 0.0_wp) vibration%response%frequencies = &
+                  merged(vibration%response%frequencies, [rows(i)%frequency])
+            end do
+            vibration%response%nodes = [(max(1, nodes%find(rows(i)%nodes(1))), i = 1, size(rows))]
+         end if
+         call start_oscillation(loose, analysis, structure%system, vibration%on_loading, oscillating, failure)
+         call find_natural_modes(loose, oscillating, vibration, spectrum, shifted, failure)
+         if (failure%raised) return
+         allocate (modes)
+         call evaluate_modes(loose, analysis, oscillating, vibration, spectrum, shifted, modes)
+         if (allocated(vibration%response)) &
+            call find_response(loose, oscillating, vibration%response, spectrum, modes, shifted, response, failure)
+         if (failure%raised) return
+         answer%k(:, s) = stiffness_of(loose, analysis, vibration%on_loading)
+         m = 0
+         do i = 1, size(rows)
+            if (.not. of_modes(i)) cycle
+            if (rows(i)%frequency > 0.0_wp) then
+               f = minloc(abs(response%frequency - rows(i)%frequency), dim=1)
+               answer%value(i) = merge(response%phase(rows(i)%direction, i, f), response%amplitude(rows(i)%direction, i, f), &
+                                       rows(i)%kind == a_phase)
+               cycle
+            end if
+            call match_mode(rows(i), i, structure, modes, m(i), answer%mac(i))
+            if (m(i) == 0) call failure%raise('mode '//integer_text(rows(i)%mode)//' is not among those found')
+            if (failure%raised) return
+            answer%mode(i) = modes%n_before + m(i)
+            associate (mode => modes%modes(m(i)))
+               answer%lambda(i) = mode%lambda
+               answer%value(i) = merge(mode%frequency, mode%loss, rows(i)%kind == a_frequency)
+               answer%shapes(:, i) = reshape(mode%u, [size(mode%u)])
+               do k = 1, size(loose%joints%element)
+                  answer%moved(3*k - 2:3*k, i) = joint_movement(loose%joints%element(k), mode%u)**2/mode%mass
+               end do
+            end associate
+         end do
+      end associate
+      if (any(of_modes .and. data%rows%amplitude > 0.0_wp)) &
+         call take_backbone(data, s, of_modes .and. data%rows%amplitude > 0.0_wp, m, modes, structure, loose, analysis)
+
+   contains
+
+      !> The answers of the backbone to the rows OF_LOOPS, which follow the modes M.
+      subroutine take_backbone(data, s, of_loops, m, modes, structure, loose, analysis)
+         type(measured_type), intent(in)     :: data
+         integer, intent(in)                 :: s, m(:)
+         logical, intent(in)                 :: of_loops(:)
+         type(modes_type), intent(in)        :: modes
+         type(structure_type), intent(inout) :: structure
+         type(model_type), intent(in)        :: loose
+         type(analysis_type), intent(inout)  :: analysis
+         type(backbone_type) :: found
+         logical :: more
+         integer :: i, k
+
+         associate (wanted => structure%plan%stages(s)%vibration%backbone)
+            wanted%mode = modes%n_before + m(findloc(of_loops, .true., dim=1))
+            wanted%amplitudes = [real(wp) ::]
+            do i = 1, size(m)
+               if (of_loops(i)) wanted%amplitudes = merged(wanted%amplitudes, [data%rows(i)%amplitude])
+            end do
+            call start_backbone(loose, structure%plan, analysis, structure%system, modes, found, failure)
+            more = .not. failure%raised
+            do while (more)
+               call find_loop(loose, structure%plan, analysis, found, more)
+            end do
+            if (.not. failure%raised .and. (found%problem /= '' .or. found%is_limited)) &
+               call failure%raise('backbone: '//found%problem)
+            do i = 1, merge(0, size(m), failure%raised)
+               k = minloc(abs(wanted%amplitudes - data%rows(i)%amplitude), dim=1)
+               if (of_loops(i)) answer%value(i) = merge(sqrt(found%loops(k)%omega_squared)/two_pi, found%loops(k)%loss, &
+                                                        data%rows(i)%kind == a_frequency)
+            end do
+         end associate
+      end subroutine take_backbone
+
+   end subroutine take_modes
+
+   !> The mode M of MODES that ROW, number I, means, and its MAC with the shape given or that of the start; 0: none.
+   subroutine match_mode(row, i, structure, modes, m, mac)
+      type(measured_row), intent(in)   :: row
+      integer, intent(in)              :: i
+      type(structure_type), intent(in) :: structure
+      type(modes_type), intent(in)     :: modes
+      integer, intent(out)             :: m
+      real(wp), intent(out)            :: mac
+      real(wp) :: macs(size(modes%modes))
+      integer  :: k, p
+
+      m = row%mode - modes%n_before
+      mac = 1.0_wp
+      if (m < 1 .or. m > size(macs)) m = 0
+      if (size(row%shape) == 0 .and. .not. allocated(structure%shapes)) return
+      do k = 1, size(macs)
+         associate (u => modes%modes(k)%u)
+            if (size(row%shape) == 0) macs(k) = mac_of(reshape(u, [size(u)]), structure%shapes(:, i))
+            if (size(row%shape) > 0) macs(k) = mac_of(row%shape, &
+               [(u(row%at(2, p), structure%model%mesh%node_table%find(row%at(1, p))), p = 1, size(row%shape))])
+         end associate
+      end do
+      if (.not. structure%by_number .or. size(row%shape) > 0) m = maxloc(macs, dim=1)
+      if (m > 0) mac = macs(m)
+   end subroutine match_mode
+
+end module structure_answers
