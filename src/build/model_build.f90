@@ -35,6 +35,7 @@ module model_build
    use stage_build, only: find_shown_nodes, plan_stages
    use stage_plan, only: stage_plan_type
    use structural_build, only: build_beams, build_rotations, leave_out_idle
+   use superelement_build, only: find_retained, retained_type
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use surface_parts, only: divide_shared_surfaces
@@ -61,6 +62,7 @@ contains
       type(checked_deck) :: checked
       type(tie_type), allocatable :: ties(:)
       type(planned_wave), allocatable :: waves(:)
+      type(retained_type) :: retained
       logical :: is_whole
 
       allocate (model%warnings(0))
@@ -80,6 +82,7 @@ contains
                type(history_type) :: history
                call make_stages(checked, plan, mesh, joints, ties, sets, history, waves)
                call find_shown_nodes(checked, mesh, sets(1), plan)
+               if (any(plan%stages%output%dmig)) call find_retained(checked, mesh, sets(1), retained)
                call plan_vibrations(checked, mesh, joints%list%id, sets, waves, plan)
                if (.not. (any(sets(1)%used) .or. errors%any())) &
                   call errors%add(0, 'nothing to solve: expected body elements or interface elements')

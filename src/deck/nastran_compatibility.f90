@@ -64,8 +64,7 @@ contains
       if (is_idle_card(name)) then
          call ignored%add(name)
       else if (any(of_response == name)) then
-         call ignored%wait(name, line, .true., refusal='expected none: damping is that of GE, PARAM G and SDAMPING, and DLOAD '// &
-                                                       'names the load')
+         call ignored%wait(name, line, .true., refusal='expected none: damping is that of GE, PARAM G and SDAMPING')
       else if (any(of_reduction == name)) then
          call ignored%wait(name, line, .false., warning=not_reduced)
       else if (index(name, 'MATT') == 1) then
@@ -146,8 +145,8 @@ contains
       case ('INCLUDE', 'CEND') ! lines of an INCLUDE file follow in the deck text; CEND is the end of NASTRAN's executive control
       case ('APP', 'ANALYSIS') ! judged already
          call ignored%add(entry%key)
-      case ('LOADSET', 'RESVEC')
-         call ignored%wait(entry%key, entry%line, .true., refusal='expected none: DLOAD names the load, MODES the modes')
+      case ('RESVEC')
+         call ignored%wait(entry%key, entry%line, .true., refusal='expected none: MODES names the modes')
       case ('RANDOM')
          call ignored%wait(entry%key, entry%line, .true., warning='the response is that to DLOAD; none is random')
       case ('PARAM')

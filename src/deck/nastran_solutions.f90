@@ -78,7 +78,7 @@ contains
    pure logical function is_direct(entry)
       type(entry_type), intent(in) :: entry
 
-      is_direct = any(word_of(entry) == [character(9) :: '|8|', '|108|', '|SEDFREQ|', '|DFREQ|'])
+      is_direct = any(word_of(entry) == [character(9) :: '|8|', '|26|', '|108|', '|SEDFREQ|', '|DFREQ|'])
    end function is_direct
 
    !> The first word of the value of ENTRY between bars.

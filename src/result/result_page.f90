@@ -19,13 +19,13 @@ module result_page
    integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
                                  response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9, watch_table = 10, &
                                  split_table = 11, reaction_table = 12, shell_table = 13, pair_table = 14, &
-                                 pair_modes_table = 15, pair_response_table = 16, cases_table = 17, clamping_table = 18, &
-                                 parts_table = 19, vdi_table = 20
+                                 pair_modes_table = 15, pair_response_table = 16, cases_table = 17, dmig_table = 18, &
+                                 clamping_table = 19, parts_table = 20, vdi_table = 21
    character(*), parameter, public :: history_ending = '.joint.csv'
-   character(22), parameter, public :: table_endings(17) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
+   character(22), parameter, public :: table_endings(18) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
       '.modes.csv', '.modes.energy.csv', '.response.csv', '.backbone.csv', '.loop.csv', '.backbone.response.csv', '.watch.csv', &
       '.watch.energy.csv', '.reaction.csv', '.shell.csv', '.between.csv', '.between.modes.csv', '.between.response.csv', &
-      '.cases.csv']
+      '.cases.csv', '.dmig']
 
    !> The values of a case in .cases.csv.
    character(9), parameter, public :: case_names(10) = [character(9) :: 'u_max', 'mises_max', 'p_max', 'contact', 'safety', &

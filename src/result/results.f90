@@ -26,7 +26,7 @@ module results
    use range_watch, only: print_warnings, range_watch_type, record_watch, start_watch, warn, watch_increment, watch_stage
    use restart_stream, only: restart_stream_type
    use result_names, only: early_ending, listing_ending, remove_all
-   use result_page, only: backbone_table, bend_table, bolt_table, case_names, cases_table, energy_table, joint_table, &
+   use result_page, only: backbone_table, bend_table, bolt_table, case_names, cases_table, dmig_table, energy_table, joint_table, &
                           loop_table, modes_table, page_type, record_page, pair_modes_table, pair_response_table, pair_table, &
                           response_table, set_labels, shell_table, split_table, table_columns, table_endings, watch_table
    use stage_entries, only: output_all, output_joint, output_last
@@ -115,6 +115,7 @@ contains
       is_asked(pair_table) = plan%has_pairs
       is_asked(pair_modes_table) = plan%has_pairs .and. plan%has_modes
       is_asked(pair_response_table) = plan%has_pairs .and. plan%has_responses
+      is_asked(dmig_table) = any(plan%stages%output%dmig)
       is_asked(shell_table) = any(plan%stages%output%forces)
       is_asked(cases_table) = any([(is_case(model%history, i), i = 1, size(plan%stages))])
       do i = 1, size(table_endings)
@@ -122,7 +123,8 @@ contains
          associate (table => results%page%tables(i))
             call table%start(base//trim(table_endings(i)))
             ok = ok .and. .not. table%fault
-            call table%put(csv_titles(table_columns(i, results%page%labels, model)))
+            if (i == dmig_table) call table%put('$ stiffness and mass condensed on the components of ASET')
+            if (i /= dmig_table) call table%put(csv_titles(table_columns(i, results%page%labels, model)))
          end associate
       end do
    end subroutine start_results

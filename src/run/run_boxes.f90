@@ -40,6 +40,7 @@ module run_boxes
    use run_of_deck, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, &
                           phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
                           is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
+   use structure_reduction, only: condense_structure
    use stage_plan, only: factorisations_of, shows_bodies, stage_name, stage_plan_type, vibration_plan_type, where_in_plan
    use response_tables, only: list_pair_response, list_response, list_uncovered
    use vibration_tables, only: list_backbone
@@ -63,17 +64,22 @@ contains
       class(equation_system), allocatable, intent(inout) :: system
       type(analysis_type), intent(inout) :: analysis
       type(model_type), allocatable :: loose
+      logical :: is_free
 
       if (is_over(run)) return
       associate (stage => plan%stages(analysis%stage))
-         if (analysis%increment == size(stage%fractions) .and. allocated(stage%vibration)) then
+         if (analysis%increment == size(stage%fractions) .and. (allocated(stage%vibration) .or. stage%output%dmig)) then
             call enter(run, phase_modes)
-            if (stage%vibration%free) then
+            is_free = .false.
+            if (allocated(stage%vibration)) is_free = stage%vibration%free
+            if (is_free) then
                allocate (loose, source=model)
                call release_supports(loose)
                call oscillate(run, deck, loose, plan, stage%vibration, system, analysis)
+               call condense_structure(run, deck, loose, plan, system, analysis)
             else
-               call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
+               if (allocated(stage%vibration)) call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
+               call condense_structure(run, deck, model, plan, system, analysis)
             end if
             if (.not. run%failure%raised) call end_stage(plan, run%results)
             call enter(run, phase_increments)

@@ -35,6 +35,7 @@ module natural_modes
       real(wp), allocatable :: k(:, :)       !! (3, n) k_sx, k_sy, k_n of interface elements [force/length]
       logical, allocatable  :: is_elastic(:) !! bars: no bolts, or tightened ones
       logical, allocatable  :: is_locked(:)  !! tightened pretension sections of solid bolts
+      integer, allocatable  :: held(:, :)    !! (2, n) node and direction of unknowns that are held besides; not allocated: none
       type(mass_matrix_type) :: mass
       class(equation_system), allocatable :: started !! ordered, without a matrix
       logical :: is_counted = .true.         !! prove by a count that no mode is missing
@@ -122,7 +123,7 @@ contains
       call form_structure_stiffness(model, stiffness_matrices(structure%k), 'natural modes', system, failure)
    end subroutine factorise_at
 
-   !> Hold the overlap of tightened solid bolts.
+   !> Hold the overlap of tightened solid bolts, and what else STRUCTURE holds.
    subroutine hold_bolts(model, structure, system)
       type(model_type), intent(in)          :: model
       type(oscillating_type), intent(in)    :: structure
@@ -131,6 +132,10 @@ contains
 
       do i = 1, n_sections(model%mesh)
          if (structure%is_locked(i)) call lock_unknown(model%mesh%sections(i)%node, 1, system)
+      end do
+      if (.not. allocated(structure%held)) return
+      do i = 1, size(structure%held, 2)
+         call lock_unknown(structure%held(1, i), structure%held(2, i), system)
       end do
    end subroutine hold_bolts
 

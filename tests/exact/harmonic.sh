@@ -105,14 +105,13 @@ harmonic freq3_log "$harmonic_modal" 'DAREA,30,1,1,3.0\nRLOAD1,20,30,,,1.0\nFREQ
 harmonic freq5 "$harmonic_modal" 'DAREA,30,1,1,3.0\nRLOAD1,20,30,,,1.0\nFREQ5,7,20.0,200.0,0.6,1.2,0.9\nFREQ,7,300.0,10.0,300.0' && harmonic_grid freq5 FREQ5 10 \
    "0.6*$harmonic_f0" "0.9*$harmonic_f0" "1.2*$harmonic_f0" 300
 
-# ---- what is refused, by name
-harmonic tload 'SOL 109\nCEND\nSPC = 1\nDLOAD = 20\nTSTEP = 3' 'TLOAD1,20,30,,,8\nTSTEP,3,100,0.1' 2 && {
-   says 'SOL 109' "$work/tload.log" "expected 101.*109 belongs to transient response (SOL 109, 112, 129)"
-   says 'TLOAD1' "$work/tload.log" 'TLOAD1 belongs to transient response'
-   says 'TSTEP' "$work/tload.log" "'TSTEP' is not a key of case control; TSTEP belongs to transient response"
+# ---- what is refused, by name; RANDOM is told to have no effect
+harmonic tload 'SOL 109\nCEND\nSPC = 1\nDLOAD = 20\nTSTEP = 3' 'TLOAD1,20,30,,,8\nTSTEP,3,100,0.1' 2 &&
+   says 'SOL 109' "$work/tload.log" 'SOL: 109 is transient response'
+harmonic random "$harmonic_modal\nRANDOM = 3" "DAREA,30,1,1,3.0\nRLOAD1,20,30,,,1.0\n$harmonic_list\nRANDPS,3,1,1,1.0,0.0,9" && {
+   harmonic_near 'beside RANDOM' random 3 0
+   says 'RANDOM' "$work/random.log" 'RANDOM: the response is that to DLOAD; none is random'
 }
-harmonic random "$harmonic_modal\nRANDOM = 3" "DAREA,30,1,1,3.0\nRLOAD1,20,30,,,1.0\n$harmonic_list\nRANDPS,3,1,1,1.0,0.0,9" 2 &&
-   says 'RANDPS' "$work/random.log" 'RANDPS belongs to random response'
 harmonic delay "$harmonic_modal" "DAREA,30,1,1,3.0\nRLOAD1,20,30,5,,1.0\n$harmonic_list" 2 && says 'a set of DELAY' "$work/delay.log" '5 is a set of DELAY cards'
 harmonic missing "$harmonic_modal" "RLOAD1,20,30,,,8\n$harmonic_list" 2 && {
    says 'no EXCITEID' "$work/missing.log" 'EXCITEID: there is no DAREA, LSEQ, LOAD'
