@@ -234,7 +234,7 @@ contains
       type(deck_error_list), intent(inout), target :: errors
       integer(int8), allocatable :: kind_at(:) ! (lines) kind of the card that begins there, 0: none or unknown
       integer :: cursor, first_card
-      logical :: found_bulk, is_alone, is_idle, is_whole
+      logical :: found_bulk, is_alone, is_whole
 
       if (.not. deck%text%is_text) return
       is_whole = .not. errors%any()
