@@ -208,7 +208,7 @@ contains
       call self%must_be_blank(self%k + 1, self%n, '')
    end subroutine finish
 
-   !> The data fields FIRST to LAST must be blank or zero; WHY ends the message.
+   !> The data fields FIRST to LAST must be blank, or zero on a card of NASTRAN; WHY ends the message.
    subroutine must_be_blank(self, first, last, why)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: first, last
@@ -216,7 +216,7 @@ contains
       integer :: k
 
       do k = first, min(last, self%n)
-         if (self%fields(k)%length == 0 .or. is_zero(self%text_at(k))) cycle
+         if (self%fields(k)%length == 0 .or. (is_zero(self%text_at(k)) .and. .not. is_own_card(self%name))) cycle
          call self%error_at(k, ''''//self%text_at(k)//''' where the field must be blank'//why)
       end do
    end subroutine must_be_blank

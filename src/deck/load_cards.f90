@@ -359,7 +359,7 @@ contains
       call card%finish(line)
       card%i = card%i - 1
       do k = 1, n
-         if (.not. (card%given(name(k)) .or. card%given(t(k)))) cycle
+         if (k > 1 .and. number(k) == 0 .and. .not. abs(value(k)) > 0.0_wp) cycle ! blank or zero
          if (k > 1 .and. .not. (card%given(name(k)) .and. card%given(t(k)))) then
             call card%error(trim(name(k)), 'this and '//t(k)//' go together, one of them is blank')
             cycle

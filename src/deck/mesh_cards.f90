@@ -50,7 +50,7 @@ contains
             call card%field('CIDB', second%id, default=0)
             call card%field(['G1B', 'G2B', 'G3B'], second%nodes, default=0)
             call card%finish(system%line)
-            associate (has_field => card%given(['CIDB', 'G1B ', 'G2B ', 'G3B ']))
+            associate (has_field => [second%id, second%nodes] > 0)
                if (all(has_field)) then
                   card%i = card%i + 1
                   bulk%system(card%i) = system_card(line=card%line, id=second%id, kind=system%kind, field=5, nodes=second%nodes)
@@ -194,7 +194,7 @@ contains
             if (ok .and. any(card%given(['X2', 'X3']))) edge%nodes(3) = 0
             if (edge%nodes(3) > 0) edge%orientation = 0.0_wp
             if (edge%nodes(3) == 0) edge%blank(:3) = .not. card%given(['X1', 'X2', 'X3'])
-            edge%blank(4) = .not. card%given('PID')
+            edge%blank(4) = edge%property == 0
             call read_offset_kind(card, edge%in_basic, only_global)
             edge%blank(5) = .not. card%given('OFFT')
             call card%components('PA', edge%pins(1), default=0)

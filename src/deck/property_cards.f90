@@ -174,7 +174,7 @@ contains
          if (mat1%damping > 0.0_wp) call bulk%ignored%wait('GE of MAT1', card%line, needs_response=.false.)
       end associate
       associate (e => bulk%mat1(card%i)%e, nu => bulk%mat1(card%i)%nu, bars_only => bulk%mat1(card%i)%bars_only, &
-                 has_e => card%given('E'), has_g => card%given('G'), has_nu => card%given('NU'))
+                 has_e => bulk%mat1(card%i)%e > 0.0_wp, has_g => g > 0.0_wp, has_nu => card%given('NU'))
          bars_only = has_e .and. .not. (has_g .or. has_nu)
          if (card%is_faulty() .or. bars_only) return ! the blank one of the three follows
          if (.not. (has_e .or. (has_g .and. has_nu))) then

@@ -118,8 +118,8 @@ contains
       moved(2)%line = moved(1)%line
       moved(2)%set = moved(1)%set
       moved%field = [2, 5]
-      n = merge(2, 1, card%given('G2'))
-      if (any(card%given(['G2', 'C2', 'D2'])) .and. .not. all(card%given(['G2', 'C2']))) &
+      n = merge(2, 1, moved(2)%node > 0)
+      if (merge(.not. card%given('C2'), moved(2)%components > 0 .or. abs(moved(2)%value) > 0.0_wp, n == 2)) &
          call card%error('G2', 'node, components C2 and displacement D2 go together')
       do k = 1, n
          associate (held => moved(k), at => card%i + k - 1)
@@ -258,13 +258,13 @@ contains
          call card%skip(['S2'])
          call card%finish(first%line)
          if (first%damping(1) > 0.0_wp) call bulk%ignored%wait('GE of PELAS', card%line, needs_response=.false.)
-         if (card%given('PID2')) then
+         if (second%id > 0) then
             second%line = card%line
             second%field = 5
             card%i = card%i + 1
             bulk%spring_property(card%i) = second
             if (second%damping(1) > 0.0_wp) call bulk%ignored%wait('GE of PELAS', card%line, needs_response=.false.)
-         else if (card%given('K2')) then
+         else if (second%stiffness(1) > 0.0_wp) then
             call card%error('PID2', 'blank, but K2 is not')
          end if
       end associate
