@@ -20,7 +20,7 @@ module law_search
 
    integer, parameter  :: most_runs = 100          ! of a round, without those for derivatives
    real(wp), parameter :: coarsely_settled = 0.03_wp ! of the sum of squares: change in the last step of a round
-   integer, parameter  :: few_runs = 3             ! ... of one with predicted frequencies
+   integer, parameter  :: few_runs = 10            ! ... of one with predicted frequencies
    integer, parameter  :: most_rounds = 30, most_backs = 4
    real(wp), parameter :: failed = 1.0e8_wp        ! times the deviation: the difference of a run that has failed
    real(wp), parameter :: first_step = 0.7_wp      ! of an unknown
