@@ -20,7 +20,7 @@ module law_search
 
    integer, parameter  :: most_runs = 100          ! of a round, without those for derivatives
    real(wp), parameter :: coarsely_settled = 0.03_wp ! of the sum of squares: change in the last step of a round
-   integer, parameter  :: few_runs = 3             ! ... of one with predicted frequencies
+   integer, parameter  :: few_runs = 10            ! ... of one with predicted frequencies
    integer, parameter  :: most_rounds = 30, most_backs = 4
    real(wp), parameter :: failed = 1.0e8_wp        ! times the deviation: the difference of a run that has failed
    real(wp), parameter :: first_step = 0.7_wp      ! of an unknown
@@ -196,7 +196,7 @@ contains
       best = huge(best)
       backs = 0
       task%square = huge(best)
-      associate (parameters => task%data%parameters(task%search%free), free => task%search%free)
+      associate (parameters => task%data%parameters, free => task%search%free)
          do round = 1, most_rounds
             call run_at(z, now)
             if (now >= best) then
@@ -210,13 +210,13 @@ contains
             if (n == 0 .or. best - now <= search_settled*max(1.0_wp, best)) exit ! far below one deviation
             best = now
             diag = 1.0_wp
-            x = unknown_of(parameters, z(free))
+            x = unknown_of(parameters(free), z(free))
             task%x_from = x
             call lmder(ask, size(fvec), n, x, fvec, fjac, size(fvec), merge(coarsely_settled, search_settled, task%is_predicted), &
                1.0e-2_wp*search_settled, 0.0_wp, merge(few_runs, most_runs, task%is_predicted), &
                diag, 2, first_step*sqrt(real(n, wp))/merge(norm2(x), 1.0_wp, norm2(x) > 0.0_wp), 0, info, nfev, njev, ipvt, qtf, &
                wa1, wa2, wa3, wa4)
-            z(free) = y_of(parameters, x)
+            z(free) = y_of(parameters(free), x)
             if (.not. task%is_predicted .or. info < 0) exit
          end do
       end associate

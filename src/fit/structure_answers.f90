@@ -93,7 +93,7 @@ contains
       type(watch_answer) :: watched
       type(model_type), allocatable :: loose
       real(wp), allocatable :: q(:, :)
-      logical :: of_modes(size(data%rows))
+      logical :: needs_forces, of_modes(size(data%rows))
       integer :: i, k
 
       associate (model => structure%model, plan => structure%plan)
@@ -103,7 +103,8 @@ contains
             return
          end if
          allocate (whole, source=analysis)
-         if (any(of_modes) .or. allocated(plan%stages(s)%watched) .or. any(data%rows%kind == a_bolt) .or. &
+         needs_forces = any(of_modes) .and. .not. (present(near) .and. is_predicted(data, s, plan))
+         if (needs_forces .or. allocated(plan%stages(s)%watched) .or. any(data%rows%kind == a_bolt) .or. &
              any(abs(whole%now%moved) > 0.0_wp)) then
             call recover_bodies(model, structure%system, whole)
          else ! the displacements alone: the forces of all elements cost as much as a factorisation
