@@ -28,7 +28,7 @@ END {
       else if (w[1] == "CELLS") cells = w[2]
       else if (w[1] == "PUSHED_AWAY") tolerance = 1e-3
       else if (w[1] == "DROPS") drops = 1
-      else if (w[1] == "PATH") { path_tol = w[2]; if (tolerance < path_tol) tolerance = path_tol } # where another number of parts is within PATHTOL
+      else if (w[1] == "PATH") path_tol = w[2]
       else if (w[1] == "VARIANT") {
          n_variants++
          variant[n_variants] = w[2]
@@ -87,6 +87,7 @@ function judge(   v, n, text) {
          n_rows[v] = 0
          read_joints(v)
          if (variant[v] == "p") { finer_path(v); continue }
+         if (on["path"] && parts_of(v) != parts_of(1)) continue # its increments are divided otherwise: PATHTOL is a limit
          same_joints(v)
          answers(v)
          energies(v)
@@ -275,6 +276,17 @@ function same_joints(v,   r, b, k, names, n, stress, s, f, spinning, q, scale) {
       else if (value[v, r, "slip"] != value[1, b, "slip"]) { failed(sprintf("%s: slip %s for %s, row %d", variant[v], value[v, r, "slip"], value[1, b, "slip"], b)); break }
       if (!spinning && value[v, r, "branch_x"] != value[1, b, "branch_x"]) { failed(sprintf("%s: branch_x %s for %s, row %d", variant[v], value[v, r, "branch_x"], value[1, b, "branch_x"], b)); break }
    }
+}
+
+# The numbers of parts of the increments of variant V
+function parts_of(v,   path, text, f, inside, parts) {
+   path = folder "/d" number variant[v] ".out"
+   while ((getline text < path) > 0) {
+      if (text ~ /^ [A-Z]/) inside = text ~ /^ ERROR OF PATH/
+      else if (inside && split(text, f, " ") > 4) parts = parts " " f[2]
+   }
+   close(path)
+   return parts
 }
 
 # Both are within their PATHTOL of the path of many increments, as the halves of their parts say: an estimate, twice as far in places
