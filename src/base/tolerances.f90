@@ -22,6 +22,7 @@ module tolerances
    real(wp), parameter :: determined_motion = 1.0e-8_wp !! of a unit motion: what the fit of an RBE3 leaves, the root of 1E-16
    real(wp), parameter :: released_pivot = 1.0e-12_wp !! of the stiffness before releases: an earlier release has left none
    real(wp), parameter :: zero_rotation_stiffness = 1.0e-9_wp !! of the largest at the node: rods that are parallel but for rounding
+   real(wp), parameter :: idle_stiffness = 1.0e-8_wp !! of the largest at the node, as NASTRAN's EPZERO; of the load on it
    real(wp), parameter :: dependent_columns = 1.0e-12_wp !! reciprocal condition number of scaled columns: a least-squares fit fails
    real(wp), parameter :: indefinite_inertia = 1.0e-12_wp !! of a scaled tensor: a principal minor that is negative by rounding
    real(wp), parameter :: symmetric_tie = 1.0e-6_wp  !! of a value: equal ones of a symmetric structure, above its solution error

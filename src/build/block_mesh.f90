@@ -5,6 +5,7 @@ module block_mesh
    use deck_check, only: checked_deck
    use element_kinds, only: kind_hexa20, kind_hexa8, kind_quad4, kind_quad8
    use kinds, only: wp
+   use node_build, only: scalar_points
    use spatial_search, only: spatial_search_type
    use text_tools, only: integer_text
    use tolerances, only: welded_nodes
@@ -39,7 +40,7 @@ contains
       logical, allocatable :: is_welded(:)
       integer :: b, i
 
-      cards%grid = deck%bulk%grid
+      cards%grid = [deck%bulk%grid, scalar_points(deck)]
       cards%element = deck%bulk%element
       allocate (cards%side(0), blocks(size(deck%bulk%block)))
       do b = 1, size(blocks)

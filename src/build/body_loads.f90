@@ -12,8 +12,8 @@ module body_loads
    use isoparametric, only: body_forces
    use kinds, only: wp
    use mass_matrix, only: bar_mass, scalar_mass
-   use mesh_queries, only: element_points, is_beam, is_shell, n_points
-   use model_data, only: freedoms_type, mesh_type, stage_load_type
+   use mesh_queries, only: element_points, is_beam, is_scalar_point, is_shell, n_points, node_kind
+   use model_data, only: a_point, freedoms_type, mesh_type, stage_load_type
    use model_kind, only: space_hint
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity
@@ -176,7 +176,7 @@ contains
       type(stage_load_type), intent(inout) :: loads
       real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes)
       real(wp) :: a(3, 2*max_nodes), f(mesh%dimension, 2*max_nodes), m(2*max_nodes, 2*max_nodes), q(6, 2), x(3, 2)
-      integer  :: e, end, k
+      integer  :: e, end, i, k
 
       do e = 1, mesh%n_elements
          if (any(element_points(mesh, e) == 0) .or. mesh%element_property(e) == 0 .or. is_beam(mesh, e)) cycle
@@ -216,8 +216,17 @@ contains
          end associate
       end do
       do k = 1, size(mesh%masses)
+         if (is_scalar_point(mesh, mesh%masses(k)%node)) cycle
          associate (point => mesh%masses(k), acceleration => acceleration_at(field, mesh%x(:, mesh%masses(k)%node)))
             force(:, point%node) = force(:, point%node) + point%mass*acceleration + matmul(point%directed, acceleration)
+            if (.not. allocated(point%matrix)) cycle
+            do i = 1, size(point%nodes) ! all its points have this acceleration
+               if (node_kind(mesh, point%nodes(i)) /= a_point) cycle
+               associate (d => mesh%dimension, n => size(point%nodes))
+                  force(:d, point%nodes) = force(:d, point%nodes) + &
+                                           reshape(matmul(point%matrix(:, d*(i - 1) + 1:d*i), acceleration(:d)), [d, n])
+               end associate
+            end do
          end associate
       end do
    end subroutine add_field

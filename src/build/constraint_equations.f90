@@ -15,7 +15,7 @@ module constraint_equations
    implicit none
    private
 
-   public :: add_dependence, add_expansion, add_term, check_dependences, eliminate, follow_dependents, solve_for
+   public :: add_dependence, add_expansion, add_term, check_dependences, eliminate, follow_dependents, invert, solve_for
 
    !> What a rigid element adds to a constraint equation when it is warmed: GROWTH times T - REFERENCE, T the mean of two POINTS.
    type, public :: expansion_type

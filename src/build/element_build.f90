@@ -65,11 +65,12 @@ contains
                property%extra_mass = deck%bulk%parameters%mass_factor*card%extra_mass
             end if
             k = materials%find(card%material)
+            if (k > 0) call check_plate_material(k, card, property%state)
             if (k > 0) then
                property%e = deck%bulk%mat1(k)%e
                property%nu = deck%bulk%mat1(k)%nu
-               if (deck%bulk%mat1(k)%bars_only) call deck%field_error(card%line, 2, 'MAT1 '//integer_text(card%material)// &
-                  ' has only E, which suffices for bars; expected two of E, G and NU')
+               if (deck%bulk%mat1(k)%bars_only) call deck%field_error(card%line, card%material_at, 'MAT1 '// &
+                  integer_text(card%material)//' has only E, which suffices for bars; expected two of E, G and NU')
                property%rho = deck%bulk%parameters%mass_factor*deck%bulk%mat1(k)%rho
                if (property%state < axisymmetric .and. card%thickness > 0.0_wp) & ! a membrane
                   property%rho = property%rho + deck%bulk%parameters%mass_factor*card%extra_mass/card%thickness
@@ -77,11 +78,41 @@ contains
                property%strength = deck%bulk%mat1(k)%strength
                property%damping = deck%bulk%mat1(k)%damping
                property%reference = deck%bulk%mat1(k)%reference
+               if (allocated(card%plies)) call take_laminate(card, property)
             else if (card%material > 0) then
-               call deck%field_error(card%line, 2, 'there is no MAT1 '//integer_text(card%material))
+               call deck%field_error(card%line, card%material_at, 'there is no MAT1 '//integer_text(card%material))
             end if
          end associate
       end do
+
+   contains
+
+      !> MAT2 and MAT8, number K, are for shells.
+      subroutine check_plate_material(k, card, state)
+         integer, intent(in)             :: k, state
+         type(property_card), intent(in) :: card
+
+         if (deck%bulk%mat1(k)%name /= 'MAT1' .and. state /= shell) call deck%field_error(card%line, card%material_at, &
+            deck%bulk%mat1(k)%name//' '//integer_text(card%material)//' is for shells: PCOMP, or PSHELL with MID2, in a model '// &
+            'of space; expected a MAT1')
+      end subroutine check_plate_material
+
+      !> The mean density, TREF and GE of a laminate.
+      subroutine take_laminate(card, property)
+         type(property_card), intent(in)    :: card
+         type(property_type), intent(inout) :: property
+         integer :: i, k
+
+         property%rho = 0.0_wp
+         property%reference = card%reference
+         property%damping = card%damping
+         do i = 1, size(card%plies)
+            k = materials%find(card%plies(i)%material)
+            if (k > 0) property%rho = property%rho + deck%bulk%parameters%mass_factor*deck%bulk%mat1(k)%rho* &
+                                      card%plies(i)%thickness/card%thickness
+         end do
+      end subroutine take_laminate
+
    end subroutine resolve_properties
 
    !> The elements of CARDS, blocks included, and the beams, in ascending order of their numbers; blank mid-side nodes become
@@ -142,13 +173,9 @@ contains
       associate (kind => element_table(card%kind))
          state = 0
          if (property > 0) state = mesh%properties(property)%state
-         if (state > 0 .and. state /= beam .and. (state /= shell .or. kind%linear == card%kind) .and. &
-             (state == solid .eqv. kind%dimension == 3)) return
+         if (state > 0 .and. state /= beam .and. (state == solid .eqv. kind%dimension == 3)) return
          property = 0
-         if (state == shell .and. kind%linear /= card%kind) then
-            call deck%errors%add(card%line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells, '// &
-               'which Gmsh meshes in a run of their own with FirstNodeTag, or MODEL = PLANE for bodies in x-y')
-         else if (kind%dimension == 2 .and. card%property > 0 .and. any(deck%bulk%pmark%id == card%property)) then
+         if (kind%dimension == 2 .and. card%property > 0 .and. any(deck%bulk%pmark%id == card%property)) then
             call deck%field_error(card%line, 'PID', integer_text(card%property)//' is a PMARK: a surface of a plane body is '// &
                                   'marked with CBAR or CROD edges')
          else if (card%property > 0) then
@@ -250,7 +277,6 @@ contains
             if (any(doubtful(nodes))) return
             if (mesh%element_kind(e) == kind_edge2) return ! a beam: its length is checked with its offsets
             if (mesh%dimension == 3 .and. element_table(mesh%element_kind(e))%dimension == 2) then
-               if (size(nodes) > 4) return ! second order: reported already
                is_sound = smallest_jacobian(mesh%element_kind(e), flat_coordinates(mesh%x(:, nodes))) > 0.0_wp
             else
                is_sound = smallest_jacobian(mesh%element_kind(e), mesh%x(:mesh%dimension, nodes)) > 0.0_wp

@@ -236,12 +236,12 @@ contains
       end do
    contains
 
-      !> Whether a load SET may belong to a stage with these supports.
+      !> Whether a load SET belongs to a stage with these supports.
       pure logical function may_act(set)
          integer, intent(in) :: set
          integer :: k, s
 
-         may_act = all(deck%shares([(s, s = 1, size(deck%control%stages))]))
+         may_act = .false.
          do s = 1, size(deck%control%stages)
             if (may_act .or. .not. deck%shares(s)) cycle
             associate (wanted => deck%control%stages(s)%load%id)

@@ -1,6 +1,7 @@
 !> From a deck to the model that is solved: mesh, joints, freedoms and load history, each from those before it. An exchanged call does
 !! not compile.
 module model_build
+   use bush_build, only: bush_type, find_bushes
    use control_words, only: method_step
    use case_sums, only: sum_cases
    use connected_bodies, only: find_parts
@@ -14,11 +15,13 @@ module model_build
    use element_build, only: marked_side
    use element_unknowns, only: make_table
    use free_structure, only: check_balance, hold_free_structure
+   use idle_components, only: hold_idle
    use joint_build, only: build_joints
    use joint_gaps, only: build_gaps
    use joint_sides, only: find_frame
    use load_build, only: build_loads
    use mass_build, only: build_masses, check_mass, check_masses
+   use matrix_build, only: build_matrices
    use mesh_build, only: build_mesh, check_named_nodes
    use mesh_queries, only: start_freedoms, start_mesh
    use mesh_watch, only: crack_words, repeated_words
@@ -26,12 +29,13 @@ module model_build
    use pretension_section, only: build_sections
    use rigid_elements, only: build_dependents, name_surface_nodes
    use rod_torsion, only: add_torsion
+   use shell_build, only: bow_edges, build_shells
    use shell_faces, only: build_shell_faces, couple_shell_faces
    use shell_ties, only: find_ties, tie_type
    use spring_build, only: build_bars, build_springs
    use stage_build, only: find_shown_nodes, plan_stages
    use stage_plan, only: stage_plan_type
-   use structural_build, only: bow_edges, build_beams, build_rotations, build_shells, leave_out_idle
+   use structural_build, only: build_beams, build_rotations, leave_out_idle
    use superelement_build, only: find_retained, retained_type
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
@@ -89,6 +93,7 @@ contains
                call errors%warn(crack_words(mesh, joints, sets(1)))
                call watch_units(deck, joints, errors)
                call take_parts(joints, sets, history, model)
+               if (deck%bulk%parameters%holds_idle) call hold_idle_of_sets(waves, model, errors)
             end block
          end block
       end associate
@@ -109,6 +114,27 @@ contains
       if (size(sets) > 1) call move_alloc(sets, model%sets)
    end subroutine take_parts
 
+   !> Hold the idle components of MODEL under the supports of each stage, and warn of them.
+   subroutine hold_idle_of_sets(waves, model, errors)
+      type(planned_wave), intent(in)       :: waves(:)
+      type(model_type), intent(inout)      :: model
+      type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: words, first
+      integer :: k
+
+      call hold_idle(waves, model, first)
+      call errors%warn(first)
+      if (.not. allocated(model%sets)) return
+      model%sets(1) = model%freedoms
+      do k = 2, size(model%sets)
+         model%freedoms = model%sets(k)
+         call hold_idle(waves, model, words)
+         if (words /= first) call errors%warn(words)
+         model%sets(k) = model%freedoms
+      end do
+      model%freedoms = model%sets(1)
+   end subroutine hold_idle_of_sets
+
    !> Make the MESH: points with duplicates at split surfaces, mid-side and face nodes, elements and their laws, surfaces, bars and springs,
    !! masses, and the nodes of rotations and of pretension sections. TIES belong to the constraint equations. IS_WHOLE is false where an
    !! error of the mesh makes the rest pointless.
@@ -118,6 +144,7 @@ contains
       type(tie_type), allocatable, intent(out) :: ties(:)
       logical, intent(out)              :: is_whole
       type(marked_side), allocatable :: sides(:)
+      type(bush_type), allocatable :: bushes(:)
 
       call start_mesh(mesh)
       call build_mesh(deck, mesh, sides)
@@ -133,16 +160,18 @@ contains
       call split_shared_surfaces(deck, mesh)
       call bow_edges(mesh)
       call find_ties(deck, mesh, ties)
-      call build_shell_faces(deck, mesh)
+      call find_bushes(deck, mesh, bushes)
+      call build_shell_faces(deck, mesh, bushes)
       if (.not. deck%errors%any()) call divide_shared_surfaces(deck, mesh)
       call build_bars(deck, mesh)
-      call build_rotations(deck, mesh)
+      call build_rotations(deck, bushes, mesh)
       call build_sections(deck, mesh)
       call find_node_systems(deck, mesh)
       call build_beams(deck, mesh)
-      call build_springs(deck, mesh)
+      call build_springs(deck, bushes, mesh)
       call add_torsion(mesh)
-      call build_masses(deck, mesh)
+      call build_masses(deck, bushes, mesh)
+      call build_matrices(deck, mesh)
    end subroutine make_mesh
 
    !> Make the JOINTS and their interface elements, with their gaps.

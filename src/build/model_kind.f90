@@ -9,7 +9,7 @@ module model_kind
    use coordinate_systems, only: directions_at
    use deck_check, only: checked_deck
    use elasticity, only: axisymmetric
-   use element_kinds, only: element_table, is_second_order
+   use element_kinds, only: element_table
    use field_rules, only: has_component
    use kinds, only: wp
    use model_data, only: mesh_type
@@ -83,9 +83,9 @@ contains
 
       words = ''
       associate (bulk => deck%bulk)
-         do i = 1, size(bulk%element) ! elements of second order are no shells
+         do i = 1, size(bulk%element)
             associate (element => bulk%element(i))
-               if (element%property == 0 .or. is_second_order(element%kind)) cycle
+               if (element%property == 0) cycle
                k = findloc(bulk%pshell%id, element%property, dim=1)
                if (k == 0) cycle
                if (bulk%pshell(k)%bending <= 0) cycle

@@ -9,14 +9,14 @@ module node_build
    use displacement_systems, only: find_system
    use element_kinds, only: element_table, is_second_order
    use kinds, only: wp
-   use lists, only: sorted_order, list_owners
+   use lists, only: id_table_type, sorted_order, list_owners
    use model_data, only: mesh_type
    use text_tools, only: integer_text
    use tolerances, only: zero_coordinate
    implicit none
    private
 
-   public :: build_nodes, append_nodes, find_nodes, fill_mid_sides, append_unknowns, highest_number
+   public :: build_nodes, scalar_points, append_nodes, find_nodes, fill_mid_sides, append_unknowns, highest_number
 
    integer, parameter, public :: blank_node = -1   !! in element_nodes, until fill_mid_sides: left blank on the card
 
@@ -50,16 +50,49 @@ contains
             where (abs(x) <= zero_coordinate*(norm2(x) + norm2(mesh%systems(system)%origin))) x = 0.0_wp
          end associate
       end do
-      call deck%report_repeated('node', cards%id, cards%line, n_cards=size(deck%bulk%grid))
+      do i = 2, size(cards) ! scalar points have no place: that of another node
+         if (cards(i)%is_scalar) cards(i)%x = cards(1)%x
+      end do
+      call deck%report_repeated('node', cards%id, cards%line, &
+                                n_cards=size(deck%bulk%grid) + count(cards%is_scalar))
       call sorted_order(cards%id, order)
       mesh%n_nodes = size(cards)
       mesh%node_id = cards(order)%id
+      if (any(cards%is_scalar)) mesh%is_scalar = cards(order)%is_scalar
       allocate (mesh%x(3, mesh%n_nodes))
       do i = 1, mesh%n_nodes
          mesh%x(:, i) = cards(order(i))%x
       end do
       call mesh%node_table%build(mesh%node_id)
    end subroutine build_nodes
+
+   !> The scalar points of DECK: those of SPOINT, and others that CELAS3, CELAS4, CMASS3 and CMASS4 name.
+   pure function scalar_points(deck) result(points)
+      type(checked_deck), intent(in) :: deck
+      type(grid_card), allocatable :: points(:)
+      type(id_table_type) :: known
+      integer, allocatable :: named(:), order(:)
+      integer :: i, id, k
+
+      allocate (points(0))
+      do i = 1, size(deck%bulk%scalar)
+         associate (card => deck%bulk%scalar(i))
+            do k = 1, size(card%first)
+               points = [points, (grid_card(line=card%line, id=id, is_scalar=.true.), id = card%first(k), card%last(k))]
+            end do
+         end associate
+      end do
+      named = [pack(deck%bulk%mass%node, deck%bulk%mass%is_scalar), pack(deck%bulk%mass%node_2, deck%bulk%mass%is_scalar), &
+               pack(deck%bulk%spring%nodes(1), deck%bulk%spring%is_scalar), &
+               pack(deck%bulk%spring%nodes(2), deck%bulk%spring%is_scalar)]
+      call known%build([deck%bulk%grid%id, points%id])
+      call sorted_order(named, order)
+      named = named(order)
+      do i = 1, size(named)
+         if (named(i) == 0 .or. any(named(max(1, i - 1):i - 1) == named(i))) cycle
+         if (known%find(named(i)) == 0) points = [points, grid_card(id=named(i), is_scalar=.true.)]
+      end do
+   end function scalar_points
 
    !> Append nodes at X, numbered from the highest number on, and enter them in the table of numbers. Numbers stop at the
    !! largest integer.

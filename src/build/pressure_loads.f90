@@ -330,14 +330,14 @@ contains
          if (s == 0) then
             n = kind%n_nodes
             nodes(:n) = element_points(mesh, e)
-            p(:n) = factor*pressed%p(:n)
+            c = kind%n_corners
          else
             n = kind%side_size(s)
             nodes(:n) = mesh%element_nodes(kind%side_nodes(:n, s), e)
             c = kind%side_corners(s)
-            p(:c) = factor*pressed%p(:c)
-            p(c + 1:2*c) = 0.5_wp*(p(:c) + cshift(p(:c), 1))
          end if
+         p(:c) = factor*pressed%p(:c)
+         if (c <= 4) p(c + 1:2*c) = 0.5_wp*(p(:c) + cshift(p(:c), 1))
          if (norm2(pressed%direction) > 0.0_wp) then
             call side_forces(property%state, property%thickness, mesh%x(:d, nodes(:n)), p(:n), f, pressed%direction(:d))
          else

@@ -1,4 +1,4 @@
-!> Constraint equations of rigid elements (RBE2, RBAR, RBE3, RBE2M, RBE3M) and of the MPC of case control.
+!> Constraint equations of rigid elements (RBE1, RBE2, RBAR, RROD, RBE3, RBE2M, RBE3M) and of the MPC of case control.
 !! Reference nodes of RBE2 have rotations, and those of RBE3 if the card names rotations. An axisymmetric model has none, because
 !! the rigid-body motion of a ring is axial only.
 module rigid_elements
@@ -16,6 +16,7 @@ module rigid_elements
    use shell_ties, only: add_ties, tie_type
    use support_build, only: check_sums, summed_sets
    use surface_build, only: find_surface, surface_node_list, surface_nodes
+   use rigid_bars, only: add_rigid_body, add_rod
    use rigid_fit, only: mean_motion
    use text_tools, only: integer_text
    use tolerances, only: zero_area, zero_component_along
@@ -51,11 +52,17 @@ contains
       allocate (list%without(mesh%n_nodes), source=.false.)
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
-            if (card%is_mean .and. abs(card%alpha) > 0.0_wp .and. any(deck%control%stages%temperature%id > 0)) &
-               call deck%field_error(card%line, card%alpha_at, 'not zero, and case control has TEMPERATURE(LOAD), but a mean '// &
-               'motion has no thermal expansion; expected blank or zero', called='ALPHA')
-            if (card%is_mean) call add_mean(deck, card, mesh, freedoms, list)
-            if (.not. card%is_mean) call add_rigid(deck, card, mesh, freedoms, list)
+            if (card%is_mean .and. allocated(card%um_nodes) .and. abs(card%alpha) > 0.0_wp .and. &
+                any(deck%control%stages%temperature%id > 0)) call deck%field_error(card%line, card%alpha_at, &
+               'not zero, and case control has TEMPERATURE(LOAD), but UM names other dependent components; expected '// &
+               'blank or zero', called='ALPHA')
+            if (card%is_mean) then
+               call add_mean(deck, card, mesh, freedoms, list)
+            else if (card%is_rod .or. allocated(card%um_nodes)) then
+               call add_several(deck, card, mesh, freedoms, list)
+            else
+               call add_rigid(deck, card, mesh, freedoms, list)
+            end if
          end associate
       end do
       first = list%n + 1
@@ -70,8 +77,10 @@ contains
       call follow_dependents(mesh, list, first, last)
       call check_dependences(deck, mesh, freedoms, list)
       do i = 1, n_rotations(mesh)
+         ! springs use those of a point of its own
+         if (.not. (mesh%rotations(i)%of_element .or. freedoms%used(mesh%rotations(i)%node))) &
+            list%without(mesh%rotations(i)%node) = .true.
          freedoms%used(mesh%rotations(i)%node) = .true.
-         if (.not. mesh%rotations(i)%of_element) list%without(mesh%rotations(i)%node) = .true.
       end do
       if (deck%errors%any()) return
       call add_glue(deck, glue, mesh, freedoms, list)
@@ -157,6 +166,30 @@ contains
       end do
    end subroutine add_rigid
 
+   !> The constraint equations of a rigid element with independent components at several nodes.
+   subroutine add_several(deck, card, mesh, freedoms, list)
+      type(checked_deck), intent(in)       :: deck
+      type(rigid_card), intent(in)         :: card
+      type(mesh_type), intent(in) :: mesh
+      type(freedoms_type), intent(in) :: freedoms
+      type(dependence_list), intent(inout) :: list
+      integer :: k, nodes(size(card%nodes))
+      integer, allocatable :: independent(:)
+
+      do k = 1, size(nodes)
+         call find_node(deck, card%line, card%at(k), card%nodes(k), mesh, freedoms, list, nodes(k))
+      end do
+      if (card%is_rod) then
+         if (all(nodes > 0)) call add_rod(deck, card, mesh, nodes, list)
+         return
+      end if
+      allocate (independent(size(card%um_nodes)))
+      do k = 1, size(independent)
+         call find_node(deck, card%line, card%um_at(k), card%um_nodes(k), mesh, freedoms, list, independent(k))
+      end do
+      if (all(nodes > 0) .and. all(independent > 0)) call add_rigid_body(deck, card, mesh, nodes, independent, list)
+   end subroutine add_several
+
    !> The constraint equation of an MPC if its set is ACTIVE.
    subroutine add_equation(deck, card, active, mesh, freedoms, list)
       type(checked_deck), intent(in)       :: deck
@@ -228,9 +261,11 @@ contains
       type(mesh_type), intent(in) :: mesh
       type(freedoms_type), intent(in) :: freedoms
       type(dependence_list), intent(inout) :: list
-      real(wp) :: r(3, size(card%nodes)), axes(3, 3, size(card%nodes)), t(6, 3, size(card%nodes)), direction(6)
-      integer  :: before, c, digit, i, nodes(size(card%nodes)), point
-      logical  :: determined(6), used(3, size(card%nodes))
+      real(wp) :: r(3, size(card%nodes)), axes(3, 3, size(card%nodes)), direction(6)
+      real(wp), allocatable :: t(:, :, :)
+      type(component_place) :: of_node
+      integer  :: before, c, digit, i, m, nodes(size(card%nodes)), point
+      logical  :: determined(6), used(6, size(card%nodes))
 
       before = list%n
       call find_node(deck, card%line, card%node_at, card%node, mesh, freedoms, list, point)
@@ -245,13 +280,19 @@ contains
       do i = 1, size(nodes)
          r(:, i) = mesh%x(:, nodes(i)) - mesh%x(:, point)
          axes(:, :, i) = node_axes(mesh, nodes(i))
-         used(:, i) = [(c <= mesh%dimension .and. has_component(card%directions(i), c), c = 1, 3)]
+         if (mesh%dimension == 2) axes(:, 3, i) = third_axis(mesh, nodes(i))
+         do c = 1, 6
+            of_node = place_of_component(mesh, nodes(i), c)
+            used(c, i) = has_component(card%directions(i), c) .and. of_node%node > 0
+         end do
       end do
+      m = merge(6, 3, any(used(4:, :)))
+      allocate (t(6, m, size(nodes)))
       if (mesh%axisymmetric) then ! from axial displacements only
          r = 0.0_wp
          axes([1, 3], :, :) = 0.0_wp
       end if
-      call mean_motion(r, axes, used, card%weight, t, determined)
+      call mean_motion(r, axes, used(:m, :), card%weight, t, determined)
       do digit = 1, 6
          if (.not. has_component(card%components, digit)) cycle
          associate (place => place_of_component(mesh, point, digit))
@@ -260,13 +301,17 @@ contains
             if (any(.not. determined .and. abs(direction) > zero_component_along)) then
                call deck%field_error(card%line, 'REFC', 'component '//integer_text(digit)//' of node '// &
                   integer_text(card%node)//' does not follow from the components C of these nodes; nodes on a line, for '// &
-                     'example, do not determine the rotation about it')
+                  'example, do not determine the rotation about it; expected REFC without this component, a node beside the '// &
+                  'line, or 4, 5, 6 in C at nodes with rotations')
                return
             end if
             call add_dependence(list, place, card%line, card%node_at)
             do i = 1, size(nodes)
-               do c = 1, mesh%dimension
-                  call add_term(list, component_place(nodes(i), c), place%scale*dot_product(direction, t(:, c, i)))
+               do c = 1, m
+                  of_node = place_of_component(mesh, nodes(i), c)
+                  if (of_node%node > 0) call add_term(list, of_node, place%scale*dot_product(direction, t(:, c, i))/of_node%scale)
+                  if (c <= 3) call add_expansion(list, [point, nodes(i)], -card%alpha*place%scale* &
+                     dot_product(direction, t(:, c, i))*dot_product(axes(:, c, i), r(:, i)), card%reference)
                end do
             end do
          end associate
@@ -324,8 +369,7 @@ contains
       if (mesh%axisymmetric) direction([1, 3, 4, 5, 6]) = 0.0_wp
    end function direction_of
 
-   !> Error: C without a displacement, because the mean is one of displacements. Rotations in C are ignored, as nodes of bodies have
-   !! none; a rotation that a node has is an error.
+   !> Error: C without a component that the node has. Rotations in C count at nodes with rotations.
    subroutine check_directions(deck, card, mesh)
       type(checked_deck), intent(in) :: deck
       type(rigid_card), intent(in)   :: card
@@ -343,12 +387,7 @@ contains
             place = place_of_component(mesh, node, digit)
             has_rotation = has_rotation .or. place%node > 0
          end do
-         if (has_rotation) then
-            call deck%field_error(card%line, card%at(i), 'its components C, '//integer_text(card%directions(i))// &
-               ', are rotations too, which this node has; expected C of 1 to 3', &
-               called='G')
-            return
-         else if (no_displacement(mesh, card%directions(i))) then
+         if (.not. has_rotation .and. no_displacement(mesh, card%directions(i))) then
             call deck%field_error(card%line, card%at(i), 'its components C, '//integer_text(card%directions(i))// &
                ', contain no displacement of the nodes of this model', called='G')
             return

@@ -15,25 +15,30 @@ contains
    !! that fits the measured displacements in the sense of least squares. Point i lies at the arm R(:, i) from the reference point;
    !! c_i are its displacements along the directions AXES(:, 1 to 3, i), of which those USED count, with WEIGHT(i).
    !!    sum of w G^T (G {u, theta} - c) = 0,  G = directions^T [1 W]
+   !! Six directions are given where rotations of the points are measured too; they count with the square of the mean arm, as in NASTRAN.
    !! A component that this equation does not determine is not DETERMINED, and its row is zero: for collinear points the rotation
    !! about their line.
    pure subroutine mean_motion(r, axes, used, weight, t, determined)
       real(wp), intent(in)  :: r(:, :)       !! (3, points) [length]
       real(wp), intent(in)  :: axes(:, :, :) !! (3, 3, points), unit
-      logical, intent(in)   :: used(:, :)    !! (3, points)
+      logical, intent(in)   :: used(:, :)    !! (3 or 6, points)
       real(wp), intent(in)  :: weight(:)     !! > 0
-      real(wp), intent(out) :: t(:, :, :)    !! (6, 3, points) [-], rotations [1/length]
+      real(wp), intent(out) :: t(:, :, :)    !! (6, 3 or 6, points) [-], rotations [1/length]
       logical, intent(out)  :: determined(6)
-      real(wp) :: g(6, 3, size(weight)), a(6, 6), inverse(6, 6), extent
+      real(wp) :: g(6, size(used, 1), size(weight)), a(6, 6), inverse(6, 6), arm, extent
       integer  :: c, i
 
       extent = sqrt(sum(r**2)/size(weight))
       if (extent <= 0.0_wp) extent = 1.0_wp
+      arm = sum(norm2(r, dim=1))/size(weight)
+      if (arm <= 0.0_wp) arm = 1.0_wp
       a = 0.0_wp
+      g = 0.0_wp
       do i = 1, size(weight)
-         g(:3, :, i) = axes(:, :, i)
-         g(4:, :, i) = matmul(transpose(by_rotation(r(:, i)/extent)), axes(:, :, i)) ! rotations times the size: one unit
-         do c = 1, 3
+         g(:3, :3, i) = axes(:, :, i)
+         if (size(g, 2) == 6) g(4:, 4:, i) = arm/extent*axes(:, :, i)
+         g(4:, :3, i) = matmul(transpose(by_rotation(r(:, i)/extent)), axes(:, :, i)) ! rotations times the size: one unit
+         do c = 1, size(used, 1)
             if (.not. used(c, i)) g(:, c, i) = 0.0_wp
          end do
          a = a + weight(i)/sum(weight)*matmul(g(:, :, i), transpose(g(:, :, i)))
@@ -42,6 +47,7 @@ contains
       do i = 1, size(weight)
          t(:, :, i) = weight(i)/sum(weight)*matmul(inverse, g(:, :, i))
          t(4:, :, i) = t(4:, :, i)/extent
+         if (size(g, 2) == 6) t(:, 4:, i) = t(:, 4:, i)*arm
       end do
    end subroutine mean_motion
 

@@ -2,18 +2,20 @@
 !! A marked surface of shells lies half a thickness off their mean plane, on the side to which the normals of the marking elements
 !! point. A marked edge of shells is as wide as the thickness and is cut into strips. The nodes of such sides have rigid levers r
 !! from the nodes of the shells and no unknowns of their own: u + theta x r. Joints, gaps and pressure use them as they use other
-!! nodes. Masses with an offset have such nodes too.
+!! nodes. Masses with an offset and bushes between nodes apart have such nodes too.
 module shell_faces
    use bulk_data, only: mass_card
+   use bush_build, only: add_ends, bush_type
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
+   use element_kinds, only: max_side_nodes
    use kinds, only: wp
    use mesh_queries, only: element_points, is_shell, open_left_out
    use model_data, only: face_node_type, freedoms_type, mesh_type, surface_type
    use node_build, only: append_nodes
    use node_coupling, only: couple_node, transformation, unknown_nodes
    use numbers, only: by_rotation, cross
-   use shell_membrane, only: shell_frame, shell_frame_of
+   use shell_element, only: node_normal, node_thickness
    use text_tools, only: integer_text
    use unknowns, only: third_axis
    implicit none
@@ -36,9 +38,10 @@ contains
    end function mass_offset
 
    !> Give the sides of shells in marked surfaces nodes of their own, and masses with an offset.
-   subroutine build_shell_faces(deck, mesh)
+   subroutine build_shell_faces(deck, mesh, bushes)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(inout) :: mesh
+      type(bush_type), intent(inout) :: bushes(:) !! the ends of their arms are faces too
       type(face_node_type), allocatable :: faces(:)
       real(wp) :: axes(3, 3)
       integer  :: i, k, n
@@ -54,6 +57,7 @@ contains
             faces = [faces, face_node_type(point=n, lever=matmul(axes, mass_offset(card, mesh%x(:, n))))]
          end associate
       end do
+      call add_ends(bushes, faces)
       do k = 1, size(mesh%surfaces)
          associate (surface => mesh%surfaces(k))
             if (.not. any([(is_shell(mesh, surface%element(n)), n = 1, surface%n)])) cycle
@@ -91,13 +95,12 @@ contains
       type(face_node_type), allocatable, intent(inout) :: faces(:)
       type(face_node_type), allocatable :: added(:)
       integer, allocatable :: n_of(:), of_node(:, :)
-      integer  :: c, i, line, n, nodes(4), row, s
-      real(wp) :: side, up(3, mesh%n_nodes)
-      type(shell_frame) :: frame
+      integer  :: at, c, i, line, n, nodes(max_side_nodes), row, s
+      real(wp) :: normal(3), side, t(max_side_nodes), up(3, mesh%n_nodes)
 
       call cut_edges(surface)
-      allocate (added(4*surface%n), of_node(0:strips, mesh%n_nodes))
-      allocate (n_of(4*surface%n), source=0)
+      allocate (added(max_side_nodes*surface%n), of_node(0:strips, mesh%n_nodes))
+      allocate (n_of(max_side_nodes*surface%n), source=0)
       of_node = 0
       up = 0.0_wp
       n = 0
@@ -108,26 +111,27 @@ contains
          nodes(:c) = surface%nodes(:c, s)
          associate (corners => element_points(mesh, surface%element(s)), &
                     law => mesh%structural%shells(mesh%structural%place(surface%element(s))))
-            frame = shell_frame_of(mesh%x(:, corners), law%offset)
-            side = sign(0.5_wp, dot_product(frame%axes(:, 3), cross(mesh%x(:, nodes(2)) - mesh%x(:, nodes(1)), &
-                                                                     mesh%x(:, nodes(c)) - mesh%x(:, nodes(1)))))
+            side = sign(0.5_wp, dot_product(node_normal(mesh%x(:, corners), 1), &
+                                            cross(mesh%x(:, nodes(2)) - mesh%x(:, nodes(1)), &
+                                                  mesh%x(:, nodes(surface%corners(s))) - mesh%x(:, nodes(1)))))
+            t(:size(corners)) = node_thickness(law, size(corners))
             do i = 1, c
-               associate (t => law%thickness(findloc(corners, nodes(i), dim=1)))
-                  if (row == 0) then
-                     call take(0, nodes(i), (law%offset + side*t)*frame%axes(:, 3), surface%nodes(i, s))
-                  else ! edge 1 to 2: 1 and 2 on the lower line of the strip, then 2 and 1 on the upper one
-                     if (all(abs(up(:, nodes(i))) <= 0.0_wp)) up(:, nodes(i)) = frame%axes(:, 3)
-                     do line = row - 1, row
-                        call take(merge(line, strips - line, dot_product(up(:, nodes(i)), frame%axes(:, 3)) >= 0.0_wp), nodes(i), &
-                                  (law%offset + t*(real(line, wp)/strips - 0.5_wp))*frame%axes(:, 3), &
-                                  surface%nodes(merge(i, 5 - i, line < row), s))
-                     end do
-                  end if
-               end associate
+               at = findloc(corners, nodes(i), dim=1)
+               normal = node_normal(mesh%x(:, corners), at)
+               if (row == 0) then
+                  call take(0, nodes(i), (law%offset + side*t(at))*normal, surface%nodes(i, s))
+               else ! edge 1 to 2: 1 and 2 on the lower line of the strip, then 2 and 1 on the upper one
+                  if (all(abs(up(:, nodes(i))) <= 0.0_wp)) up(:, nodes(i)) = normal
+                  do line = row - 1, row
+                     call take(merge(line, strips - line, dot_product(up(:, nodes(i)), normal) >= 0.0_wp), nodes(i), &
+                               (law%offset + t(at)*(real(line, wp)/strips - 0.5_wp))*normal, &
+                               surface%nodes(merge(i, 5 - i, line < row), s))
+                  end do
+               end if
             end do
          end associate
-         surface%corners(s) = max(3, merge(4, c, c == 2))
-         surface%n_nodes(s) = surface%corners(s)
+         if (c == 2) surface%corners(s) = 4
+         surface%n_nodes(s) = merge(4, c, c == 2)
       end do
       do i = 1, n
          added(i)%lever = added(i)%lever/n_of(i)

@@ -7,14 +7,14 @@
 module shell_ties
    use constraint_equations, only: add_dependence, add_term, dependence_list
    use deck_check, only: checked_deck
-   use element_kinds, only: kind_tria3, kind_tria6, max_nodes
+   use element_kinds, only: kind_tria3, kind_tria6, max_nodes, max_side_nodes
    use face_overlap, only: face_frame, find_point, in_frame, make_frame, map_point, seen_face
    use kinds, only: wp
    use mesh_queries, only: element_points, is_shell
    use model_data, only: mesh_type, surface_type
    use numbers, only: identity
    use rigid_fit, only: mean_motion
-   use shell_membrane, only: shell_frame, shell_frame_of
+   use shell_element, only: node_normal, node_thickness
    use surface_build, only: find_surface
    use text_tools, only: integer_text, real_text
    use unknowns, only: component_place, node_axes, place_of_component
@@ -75,8 +75,7 @@ contains
       type(tie_type), allocatable, intent(inout) :: ties(:)
       type(tie_type), allocatable :: added(:)
       type(face_frame)  :: frames(base%n)
-      type(shell_frame) :: frame
-      real(wp) :: along(3), arms(3, 3), farthest, miss, t
+      real(wp) :: along(3), arms(3, 3), farthest, miss, normal(3), t, thickness(max_side_nodes)
       integer  :: k, n, node, of_node(mesh%n_nodes), p, s
 
       do s = 1, base%n
@@ -88,13 +87,14 @@ contains
       do s = 1, side%n
          associate (corners => element_points(mesh, side%element(s)), &
                     law => mesh%structural%shells(mesh%structural%place(side%element(s))))
-            frame = shell_frame_of(mesh%x(:, corners), law%offset)
+            thickness(:size(corners)) = node_thickness(law, size(corners))
             do k = 1, 2
                node = side%nodes(k, s)
                along = mesh%x(:, side%nodes(3 - k, s)) - mesh%x(:, node)
-               t = law%thickness(findloc(corners, node, dim=1))
-               arms = spread(law%offset*frame%axes(:, 3), 2, 3)
-               arms(:, 1:2) = arms(:, 1:2) + 0.5_wp*t*reshape([frame%axes(:, 3), -frame%axes(:, 3)], [3, 2])
+               t = thickness(findloc(corners, node, dim=1))
+               normal = node_normal(mesh%x(:, corners), findloc(corners, node, dim=1))
+               arms = spread(law%offset*normal, 2, 3)
+               arms(:, 1:2) = arms(:, 1:2) + 0.5_wp*t*reshape([normal, -normal], [3, 2])
                arms(:, 3) = arms(:, 3) + 0.5_wp*t*along/norm2(along)
                if (of_node(node) == 0) then
                   n = n + 1

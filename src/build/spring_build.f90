@@ -1,19 +1,18 @@
-!> Bars of CROD and CONROD, BOLT cards of bars, and springs of CELAS1, CELAS2 and CBUSH.
+!> Bars of CROD and CONROD, BOLT cards of bars, and springs of CELAS1 to CELAS4 and CBUSH.
 !! A spring is stored as a bar of the model, one per direction; springs follow the bars.
 module spring_build
    use bolt_threads, only: in_units, thread_type
-   use bulk_data, only: bolt_card, edge_card, edge_crod, prod_card, spring_card
+   use bulk_data, only: bolt_card, edge_card, edge_crod, prod_card, spring_card, spring_property_card
+   use bush_build, only: bush_type
    use deck_check, only: checked_deck
-   use displacement_systems, only: find_directions
    use kinds, only: wp
-   use mesh_queries, only: shown_number
+   use mesh_queries, only: is_scalar_point, shown_number
    use model_data, only: a_spring, bar_type, mesh_type, tightening_type
    use model_kind, only: space_hint
    use node_build, only: find_nodes
-   use numbers, only: cross, identity
    use structural_build, only: is_beam_edge
    use text_tools, only: integer_text, one_of
-   use tolerances, only: no_lever, zero_cosine
+   use tolerances, only: zero_cosine
    use unit_watch, only: find_units
    use unknowns, only: node_axes, rotation_at
    implicit none
@@ -21,6 +20,8 @@ module spring_build
 
    public :: build_bars, is_bar, add_tightening, find_thread, build_springs
 
+   character(*), parameter :: turning_nodes = &
+      '; expected a node of shells or beams, or the reference node of an RBE2, RBAR, or RBE3 with rotations in REFC'
    character(2), parameter :: axis_names(6) = ['T1', 'T2', 'T3', 'R1', 'R2', 'R3']
 
 contains
@@ -183,12 +184,13 @@ contains
    end subroutine find_thread
 
    !> Append the springs to the bars of the model.
-   subroutine build_springs(deck, mesh)
-      type(checked_deck), intent(in)  :: deck
+   subroutine build_springs(deck, bushes, mesh)
+      type(checked_deck), intent(in) :: deck
+      type(bush_type), intent(in)    :: bushes(:)
       type(mesh_type), intent(inout) :: mesh
       type(bar_type), allocatable :: bars(:)
-      real(wp) :: stiffness(6), damping
-      integer  :: i, k, n
+      type(spring_property_card) :: law
+      integer :: i, k, n
 
       associate (cards => deck%bulk%spring, laws => deck%bulk%spring_property)
          call deck%report_repeated('PELAS', pack(laws%id, .not. laws%is_bush), pack(laws%line, .not. laws%is_bush))
@@ -198,142 +200,133 @@ contains
          allocate (bars(n + 6*size(cards)))
          bars(:n) = mesh%bars
          do i = 1, size(cards)
-            stiffness = [cards(i)%stiffness, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp] ! of a CELAS2
-            damping = cards(i)%damping
-            k = findloc(laws%id == cards(i)%property .and. (laws%is_bush .eqv. cards(i)%is_bush), .true., dim=1)
-            if (cards(i)%property > 0 .and. k > 0) then
-               stiffness = laws(k)%stiffness
-               damping = laws(k)%damping
-            else if (cards(i)%property > 0) then
-               call deck%field_error(cards(i)%line, 'PID', 'there is no '//one_of(cards(i)%is_bush, 'PBUSH', 'PELAS')//' '// &
-                                     integer_text(cards(i)%property))
-            end if
-            call build_spring(deck, cards(i), stiffness, damping, mesh, bars, n)
+            if (bushes(i)%is_whole) call build_bush(deck, cards(i), bushes(i), laws(bushes(i)%property), mesh, bars, n)
+            if (cards(i)%is_bush) cycle
+            law = spring_property_card()
+            law%stiffness(1) = cards(i)%stiffness ! of a CELAS2
+            law%damping(1) = cards(i)%damping
+            k = findloc(laws%id == cards(i)%property .and. .not. laws%is_bush, .true., dim=1)
+            if (cards(i)%property > 0 .and. k > 0) law = laws(k)
+            if (cards(i)%property > 0 .and. k == 0) call deck%field_error(cards(i)%line, 'PID', 'there is no PELAS '// &
+                                                                          integer_text(cards(i)%property))
+            call build_spring(deck, cards(i), law, mesh, bars, n)
          end do
       end associate
       mesh%bars = bars(:n)
    end subroutine build_springs
 
-   !> Append the springs of one CARD to BARS(:N).
-   subroutine build_spring(deck, card, stiffness, damping, mesh, bars, n)
-      type(checked_deck), intent(in)  :: deck
-      type(spring_card), intent(in)   :: card
-      real(wp), intent(in)            :: stiffness(6) !! of a CELAS the first [force/length], [moment]
-      real(wp), intent(in)            :: damping      !! structural [-]
-      type(mesh_type), intent(in) :: mesh
-      type(bar_type), intent(inout)   :: bars(:)
-      integer, intent(inout)          :: n
-      real(wp) :: directions(3, 3), axes(3, 3)
-      integer  :: k, nodes(2)
-      logical  :: ok
-
-      if (card%is_bush) then
-         call find_nodes(deck, card%line, card%nodes, mesh, nodes)
-         call find_axes(deck, card, mesh, nodes, stiffness, directions, ok)
-         if (.not. ok) return
-         do k = 1, 6
-            if (stiffness(k) > 0.0_wp) call add(k, stiffness(k), spread(directions(:, modulo(k - 1, 3) + 1), 2, 2))
-         end do
-         return
-      end if
-      do k = 1, 2
-         call find_nodes(deck, card%line, card%nodes(k:k), mesh, nodes(k:k), first=2*k + 1)
-         directions(:, k) = 0.0_wp
-         if (nodes(k) == 0) cycle
-         if (card%components(k) == 3 .and. mesh%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
-            'a plane model has no component 3'//space_hint(mesh))
-         if (all(card%components(k) /= [1, 2, mesh%dimension, 4, 5, 6])) return ! reported
-         axes = node_axes(mesh, nodes(k))
-         directions(:, k) = axes(:, modulo(card%components(k) - 1, 3) + 1)
-      end do
-      k = merge(1, 2, card%nodes(1) > 0) ! the first node that is not the ground
-      if (any(nodes == 0 .and. card%nodes > 0) .or. all(card%nodes == 0)) return
-      if (k == 1) directions(:, :2) = -directions(:, :2) ! the force of NASTRAN is k (u_1 - u_2)
-      if (k == 2) nodes = nodes([2, 1])
-      if (k == 2) directions(:, 1) = directions(:, 2)
-      call add(card%components(k), stiffness(1), directions(:, :2))
-      if (n > 0) bars(n)%ground_first = k == 2
-
-   contains
-
-      !> A spring along AXES, unit, or between rotations about them: the nodes of rotations have rotations times an arm as
-      !! components.
-      subroutine add(component, k_axis, axes)
-         integer, intent(in)  :: component
-         real(wp), intent(in) :: k_axis, axes(3, 2)
-         real(wp) :: along(3, 2)
-         integer  :: end, ends(2)
-
-         ends = nodes
-         along = axes
-         if (component > 3) then
-            if (mesh%dimension == 2 .and. component /= 6) return ! no rotation in the plane
-            along = 0.0_wp
-            do end = 1, 2
-               if (nodes(end) == 0) cycle
-               if (rotation_at(mesh, nodes(end)) == 0) then
-                  call deck%errors%add(card%line, 'spring '//integer_text(card%id)//': node '// &
-                     integer_text(shown_number(mesh, nodes(end)))// &
-                     ' has no rotations; expected a node of shells or beams, or the reference node of an RBE2, RBAR, or RBE3 '// &
-                     'with rotations in REFC')
-                  return
-               end if
-               associate (rotation => mesh%rotations(rotation_at(mesh, nodes(end))))
-                  ends(end) = rotation%node
-                  along(:, end) = axes(:, end)/rotation%arm
-                  if (mesh%dimension == 2) along(:, end) = [axes(3, end), 0.0_wp, 0.0_wp]/rotation%arm
-               end associate
-            end do
-            if (ends(2) == 0) along(:, 2) = along(:, 1)
-         end if
-         n = n + 1
-         bars(n) = bar_type(id=card%id, nodes=ends, kind=a_spring, axis=axis_names(component), stiffness=k_axis, damping=damping, &
-                            direction=along)
-      end subroutine add
-
-   end subroutine build_spring
-
-   !> The axes of a CBUSH at its first node: those of its system; without a system, the line between its nodes if it has K1 and K4
-   !! alone, and global axes if the nodes coincide. Error: a force between nodes apart that have rotations has a lever; the springs
-   !! of this program apply no moments to their nodes.
-   subroutine find_axes(deck, card, mesh, nodes, stiffness, directions, ok)
+   !> Append the springs of a CBUSH, one for each stiffness, to BARS(:N). Where only GE1 of all PBUSH is given it holds for all six.
+   subroutine build_bush(deck, card, bush, law, mesh, bars, n)
       type(checked_deck), intent(in) :: deck
       type(spring_card), intent(in)  :: card
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)            :: nodes(2)
-      real(wp), intent(in)           :: stiffness(6)
-      real(wp), intent(out)          :: directions(3, 3) !! columns, unit
-      logical, intent(out)           :: ok
-      real(wp) :: along(3), lever
-      integer  :: axis, end
+      type(bush_type), intent(in)    :: bush
+      type(spring_property_card), intent(in) :: law
+      type(mesh_type), intent(in)    :: mesh
+      type(bar_type), intent(inout)  :: bars(:)
+      integer, intent(inout)         :: n
+      type(bar_type) :: spring
+      real(wp) :: damping(6)
+      integer  :: end, i, k
+      logical  :: ok
 
-      directions = identity
-      ok = nodes(1) > 0 .and. (nodes(2) > 0 .or. card%nodes(2) == 0)
-      if (.not. ok) return
-      if (card%system > 0) then
-         call find_directions(deck, mesh%systems, card%line, card%system, mesh%x(:, nodes(1)), directions, ok, ['CID', 'GA '])
-      else if (card%system < 0 .and. nodes(2) > 0) then
-         along = mesh%x(:, nodes(2)) - mesh%x(:, nodes(1))
-         if (norm2(along) <= 0.0_wp) return
-         ok = all(stiffness([2, 3, 5, 6]) <= 0.0_wp)
-         if (ok) directions(:, 1) = along/norm2(along)
-         if (.not. ok) call deck%field_error(card%line, 'CID', 'blank, but GA and GB are apart and there is more than '// &
-            'K1 and K4; expected the system of its axes, 0 for global axes')
-      end if
-      if (.not. ok .or. nodes(2) == 0) return
-      lever = 0.0_wp
-      do axis = 1, mesh%dimension
-         if (stiffness(axis) > 0.0_wp) lever = max(lever, norm2(cross(mesh%x(:, nodes(2)) - mesh%x(:, nodes(1)), &
-                                                                       directions(:, axis))))
-      end do
+      damping = law%damping
+      if (all([(deck%bulk%spring_property(i)%damping(2:) <= 0.0_wp .or. .not. deck%bulk%spring_property(i)%is_bush, &
+                i = 1, size(deck%bulk%spring_property))])) damping = law%damping(1)
       do end = 1, 2
-         if (rotation_at(mesh, nodes(end)) == 0) cycle
-         if (lever <= no_lever*mesh%rotations(rotation_at(mesh, nodes(end)))%arm) cycle
-         call deck%field_error(card%line, 'GB', 'a spring across the line from GA to GB gives node '// &
-            integer_text(shown_number(mesh, nodes(end)))//' a moment, since the nodes are apart; expected nodes in one place, '// &
-            'one of them tied to GA or GB by an RBAR')
+         if (.not. bush%has_arm(end)) cycle
+         if (rotation_at(mesh, bush%nodes(end)) > 0) cycle
+         call deck%field_error(card%line, one_of(end == 1, 'GA', 'GB'), 'node '// &
+            integer_text(shown_number(mesh, bush%nodes(end)))//' has no rotations, but the nodes are apart, so '// &
+            'that this bush gives it a moment'//turning_nodes)
          return
       end do
-   end subroutine find_axes
+      do k = 1, 6
+         if (.not. law%stiffness(k) > 0.0_wp) cycle
+         spring = bar_type(id=card%id, nodes=bush%nodes, kind=a_spring, axis=axis_names(k), stiffness=law%stiffness(k), &
+                           damping=damping(k))
+         spring%direction = spread(bush%axes(:, modulo(k - 1, 3) + 1), 2, 2)
+         if (k <= 3) then
+            do end = 1, 2
+               if (bush%face(end) > 0) spring%nodes(end) = mesh%faces(bush%face(end))%node
+            end do
+         else
+            if (mesh%dimension == 2 .and. k < 6) cycle ! no rotation in the plane
+            ok = .true.
+            do end = 1, 2
+               if (ok .and. bush%nodes(end) > 0) call onto_rotation(deck, card, mesh, spring, end, ok)
+            end do
+            if (.not. ok) return
+         end if
+         n = n + 1
+         bars(n) = spring
+      end do
+   end subroutine build_bush
+
+   !> SPRING at END, so far along an axis, acts about it: on the node of rotations, whose components are rotations times an arm.
+   subroutine onto_rotation(deck, card, mesh, spring, end, ok)
+      type(checked_deck), intent(in) :: deck
+      type(spring_card), intent(in)  :: card
+      type(mesh_type), intent(in)    :: mesh
+      type(bar_type), intent(inout)  :: spring
+      integer, intent(in)            :: end
+      logical, intent(out)           :: ok
+      integer :: rotation
+
+      rotation = rotation_at(mesh, spring%nodes(end))
+      ok = rotation > 0
+      if (.not. ok) then
+         call deck%errors%add(card%line, 'spring '//integer_text(card%id)//': node '// &
+                              integer_text(shown_number(mesh, spring%nodes(end)))//' has no rotations'//turning_nodes)
+         return
+      end if
+      associate (along => spring%direction(:, end))
+         if (mesh%dimension == 2) along = [along(3), 0.0_wp, 0.0_wp]
+         along = along/mesh%rotations(rotation)%arm
+      end associate
+      spring%nodes(end) = mesh%rotations(rotation)%node
+   end subroutine onto_rotation
+
+   !> Append the spring of a CELAS to BARS(:N), with the first stiffness of LAW. The force of NASTRAN is k (u_1 - u_2).
+   subroutine build_spring(deck, card, law, mesh, bars, n)
+      type(checked_deck), intent(in) :: deck
+      type(spring_card), intent(in)  :: card
+      type(spring_property_card), intent(in) :: law
+      type(mesh_type), intent(in)    :: mesh
+      type(bar_type), intent(inout)  :: bars(:)
+      integer, intent(inout)         :: n
+      type(bar_type) :: spring
+      real(wp) :: axes(3, 3)
+      integer  :: component, k
+      logical  :: ok
+
+      spring = bar_type(id=card%id, kind=a_spring, stiffness=law%stiffness(1), damping=law%damping(1))
+      do k = 2, 1, -1 ! AXIS is the component of the first node that is not the ground
+         call find_nodes(deck, card%line, card%nodes(k:k), mesh, spring%nodes(k:k), first=2*k + 1)
+         if (spring%nodes(k) == 0) cycle
+         component = card%components(k)
+         if (is_scalar_point(mesh, spring%nodes(k))) component = 1
+         if (card%components(k) == 3 .and. mesh%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
+            'a plane model has no component 3'//space_hint(mesh))
+         if (component == 0) call deck%field_error(card%line, 'C'//integer_text(k), 'blank or 0, expected the component at G'// &
+                                                   integer_text(k))
+         if (all(component /= [1, 2, mesh%dimension, 4, 5, 6])) return ! reported
+         axes = node_axes(mesh, spring%nodes(k))
+         spring%direction(:, k) = -axes(:, modulo(component - 1, 3) + 1)
+         spring%axis = axis_names(component)
+         if (component <= 3) cycle
+         if (mesh%dimension == 2 .and. component /= 6) return ! no rotation in the plane
+         call onto_rotation(deck, card, mesh, spring, k, ok)
+         if (.not. ok) return
+      end do
+      if (any(spring%nodes == 0 .and. card%nodes > 0) .or. all(card%nodes == 0)) return
+      if (card%nodes(1) == 0) then
+         spring%ground_first = .true.
+         spring%nodes = spring%nodes([2, 1])
+         spring%direction(:, 1) = -spring%direction(:, 2)
+      end if
+      if (spring%nodes(2) == 0) spring%direction(:, 2) = spring%direction(:, 1)
+      n = n + 1
+      bars(n) = spring
+   end subroutine build_spring
 
 end module spring_build

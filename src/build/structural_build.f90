@@ -1,26 +1,24 @@
-!> Shells and beams from their cards: sections and geometry, and the rotation nodes of the model.
+!> Beams from their cards: sections and geometry, and the rotation nodes of the model.
 !! Nodes of shells and beams and reference nodes have rotations.
 module structural_build
    use beam_element, only: beam_axes, beam_length
-   use bulk_data, only: edge_card, edge_crod, property_card, rigid_card
+   use bulk_data, only: edge_card, edge_crod, rigid_card
+   use bush_build, only: bush_type, stiffness_turns
    use deck_check, only: checked_deck
-   use elasticity, only: beam, elasticity_matrix, max_stresses, plane_stress, shell
+   use elasticity, only: beam, shell
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: id_table_type
-   use mesh_queries, only: element_points, is_beam, is_shell, n_rotations, open_left_out
+   use mesh_queries, only: element_points, is_beam, is_scalar_point, n_rotations, open_left_out
    use model_data, only: freedoms_type, mesh_type, rotation_type
    use node_build, only: append_unknowns
    use rod_torsion, only: add_twisted, leave_out_untwisted
-   use shell_membrane, only: shell_law
    use text_tools, only: integer_text
    use unknowns, only: node_axes
    implicit none
    private
 
-   real(wp), parameter :: one_side = 0.5_wp   ! cosine: triangles at an edge less than 60 degrees apart lie on one side of it
-
-   public :: bow_edges, build_beams, build_rotations, build_shells, is_beam_edge, leave_out_idle
+   public :: build_beams, build_rotations, has_rotations, is_beam_edge, leave_out_idle
 
 contains
 
@@ -35,17 +33,20 @@ contains
 
    !> Give a node of rotations, behind the nodes of the deck, to each node of shells and beams and each reference node of rigid
    !! elements. An axisymmetric model has none. Missing nodes are reported elsewhere.
-   subroutine build_rotations(deck, mesh)
+   subroutine build_rotations(deck, bushes, mesh)
       type(checked_deck), intent(in)  :: deck
+      type(bush_type), intent(in)     :: bushes(:)
       type(mesh_type), intent(inout) :: mesh
       type(rotation_type), allocatable :: rotations(:)
       integer, allocatable :: elements(:), n_elements(:), points(:)
-      real(wp) :: square(mesh%n_nodes)
+      real(wp) :: arm, square(mesh%n_nodes)
       integer  :: count_of(mesh%n_nodes), e, i, k, n, node
       logical  :: turns
 
       if (mesh%axisymmetric) return
-      if (size(deck%rigid) == 0 .and. all(mesh%properties%state < shell) .and. all(mesh%bars%torsion <= 0.0_wp)) return
+      if (size(deck%rigid) + size(bushes) + size(deck%bulk%mass) + size(deck%bulk%matrices%dmig) == 0 .and. &
+          all(mesh%properties%state < shell) .and. &
+          all(mesh%bars%torsion <= 0.0_wp)) return
       allocate (rotations(size(deck%rigid) + mesh%n_nodes))
       mesh%rotation_of = spread(0, 1, mesh%n_nodes)
       n = 0
@@ -60,16 +61,43 @@ contains
             mesh%rotation_of(node) = n
          end associate
       end do
-      do i = 1, size(deck%rigid) ! an end of an RBAR without elements
+      do i = 1, size(deck%rigid) ! an end of an RBAR without elements, and nodes of RBE1
          associate (card => deck%rigid(i))
-            if (card%is_mean .or. card%surface > 0 .or. size(card%nodes) /= 1) cycle
-            if (.not. any([(has_component(card%components, k), k = 4, 6)])) cycle
-            node = mesh%node_table%find(card%nodes(1))
-            if (node == 0 .or. mesh%node_table%find(card%node) == 0) cycle
-            if (mesh%rotation_of(node) > 0 .or. mesh%first_at(node + 1) > mesh%first_at(node)) cycle
-            n = n + 1
-            rotations(n) = rotation_type(point=node, arm=arm_of(mesh, mesh%node_table%find(card%node), card))
-            mesh%rotation_of(node) = n
+            if (card%is_mean .or. card%surface > 0 .or. mesh%node_table%find(card%node) == 0) cycle
+            do e = 1, size(card%nodes)
+               if (size(card%nodes) > 1 .and. .not. allocated(card%um_nodes)) exit
+               if (any([(has_component(card%directions(e), k), k = 4, 6)])) &
+                  call turn(card%nodes(e), arm_of(mesh, mesh%node_table%find(card%node), card))
+            end do
+            if (.not. allocated(card%um_nodes)) cycle
+            do e = 1, size(card%um_nodes)
+               if (any([(has_component(card%um_components(e), k), k = 4, 6)])) &
+                  call turn(card%um_nodes(e), arm_of(mesh, mesh%node_table%find(card%node), card))
+            end do
+         end associate
+      end do
+      do i = 1, size(bushes) ! nodes that springs turn
+         do k = 1, 2
+            call stiffness_turns(deck, bushes, i, k, turns, arm)
+            if (turns) call turn(deck%bulk%spring(i)%nodes(k), arm)
+         end do
+      end do
+      do i = 1, size(deck%bulk%force)
+         node = deck%bulk%force(i)%node
+         if (deck%bulk%force(i)%is_moment .and. any(deck%bulk%spring%nodes(1) == node .or. deck%bulk%spring%nodes(2) == node)) &
+            call turn(node, 1.0_wp)
+      end do
+      do i = 1, size(deck%bulk%mass)
+         if (deck%bulk%mass(i)%component > 3 .or. allocated(deck%bulk%mass(i)%matrix)) call turn(deck%bulk%mass(i)%node, 1.0_wp)
+         if (deck%bulk%mass(i)%component_2 > 3) call turn(deck%bulk%mass(i)%node_2, 1.0_wp)
+      end do
+      do i = 1, size(deck%bulk%matrices%dmig)
+         associate (card => deck%bulk%matrices%dmig(i))
+            if (all(deck%control%matrices /= card%name) .or. .not. allocated(card%nodes)) cycle
+            if (card%component > 3) call turn(card%node, 1.0_wp)
+            do k = 1, size(card%nodes)
+               if (card%components(k) > 3) call turn(card%nodes(k), 1.0_wp)
+            end do
          end associate
       end do
       ! nodes of shells and beams; their arm is the root mean square of the distances to the other nodes of their elements
@@ -109,6 +137,24 @@ contains
          elements = [(mesh%elements_at(first(points(k)):first(points(k)) + n_elements(k) - 1), k = 1, n)]
       end associate
       call append_unknowns(mesh, points, n_elements, elements)
+
+   contains
+
+      !> Give node ID rotations, unless it has rotations or belongs to a body.
+      subroutine turn(id, arm)
+         integer, intent(in)  :: id
+         real(wp), intent(in) :: arm !! [length]
+         integer :: node
+
+         node = 0
+         if (id > 0) node = mesh%node_table%find(id)
+         if (node == 0) return
+         if (mesh%rotation_of(node) > 0 .or. mesh%first_at(node + 1) > mesh%first_at(node) .or. is_scalar_point(mesh, node)) return
+         n = n + 1
+         rotations(n) = rotation_type(point=node, arm=arm)
+         mesh%rotation_of(node) = n
+      end subroutine turn
+
    end subroutine build_rotations
 
    !> Whether element E is a shell or a beam, by its property.
@@ -121,16 +167,22 @@ contains
          has_rotations = any(mesh%properties(mesh%element_property(e))%state == [shell, beam])
    end function has_rotations
 
-   !> In the plane the node of rotations has one component, about z; at a node of rods alone, those that a rod twists.
+   !> A scalar point has one component. In the plane the node of rotations has one component, about z; at a node of rods alone, those
+   !! that a rod twists.
    subroutine leave_out_idle(mesh, freedoms)
       type(mesh_type), intent(in) :: mesh
       type(freedoms_type), intent(inout) :: freedoms
       integer :: k
 
+      do k = 1, size(mesh%is_scalar)
+         if (.not. mesh%is_scalar(k)) cycle
+         call open_left_out(mesh, freedoms)
+         freedoms%left_out(2:, k) = .true.
+         freedoms%held(2:, k) = .true.
+      end do
       if (mesh%dimension == 3) call leave_out_untwisted(mesh, freedoms)
       if (mesh%dimension == 3) return
       do k = 1, n_rotations(mesh)
-         if (.not. mesh%rotations(k)%of_element) cycle
          call open_left_out(mesh, freedoms)
          freedoms%left_out(2, mesh%rotations(k)%node) = .true.
          freedoms%held(2, mesh%rotations(k)%node) = .true.
@@ -155,93 +207,6 @@ contains
       arm = sqrt(arm/max(n, 1))
       if (arm <= 0.0_wp) arm = 1.0_wp
    end function arm_of
-
-   !> Build the shells of the model, and set the positions of its beams.
-   subroutine build_shells(deck, mesh)
-      type(checked_deck), intent(in)  :: deck
-      type(mesh_type), intent(inout) :: mesh
-      type(shell_law), allocatable :: of_property(:)
-      type(id_table_type) :: plates
-      integer :: e, i, n(2)
-
-      do i = 1, size(deck%bulk%plate)
-         associate (card => deck%bulk%element(deck%bulk%plate(i)%element))
-            if (all(mesh%properties%id /= card%property .or. mesh%properties%state /= shell)) call deck%field_error(card%line, &
-               'ZOFFS', 'this and thicknesses at corners are for shells in a model of space; expected blanks')
-         end associate
-      end do
-      if (.not. any([(has_rotations(mesh, e), e = 1, mesh%n_elements)])) return
-      mesh%structural%place = spread(0, 1, mesh%n_elements)
-      allocate (of_property(size(mesh%properties)))
-      do i = 1, size(deck%bulk%pshell)
-         if (mesh%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! they come first
-      end do
-      call plates%build([(deck%bulk%element(deck%bulk%plate(i)%element)%id, i = 1, size(deck%bulk%plate))])
-      n = 0
-      do e = 1, mesh%n_elements
-         if (.not. has_rotations(mesh, e)) cycle
-         i = merge(2, 1, is_beam(mesh, e))
-         n(i) = n(i) + 1
-         mesh%structural%place(e) = n(i)
-      end do
-      deallocate (mesh%structural%shells, mesh%structural%beams)
-      allocate (mesh%structural%shells(n(1)), mesh%structural%beams(n(2)))
-      do e = 1, mesh%n_elements
-         if (.not. is_shell(mesh, e)) cycle
-         associate (law => mesh%structural%shells(mesh%structural%place(e)))
-            law = of_property(mesh%element_property(e))
-            i = 0
-            if (size(deck%bulk%plate) > 0) i = plates%find(mesh%element_id(e))
-            if (i == 0) cycle
-            law%offset = deck%bulk%plate(i)%offset
-            where (deck%bulk%plate(i)%thickness > 0.0_wp) law%thickness = deck%bulk%plate(i)%thickness
-         end associate
-      end do
-   end subroutine build_shells
-
-   !> Find the edges between triangular shells, which their drilling rotations bow (shell_membrane), once shared surfaces are split:
-   !! triangles lie on different sides of the edge, and no quadrilateral has it. Triangles on the same nodes lie on one side.
-   pure subroutine bow_edges(mesh)
-      type(mesh_type), intent(inout) :: mesh
-      integer :: b, e, i, k
-
-      do e = 1, mesh%n_elements
-         if (.not. is_shell(mesh, e)) cycle
-         if (size(element_points(mesh, e)) /= 3) cycle
-         associate (nodes => mesh%element_nodes(:3, e), law => mesh%structural%shells(mesh%structural%place(e)))
-            do i = 1, 3
-               b = nodes(modulo(i, 3) + 1)
-               law%bowed(i) = .false.
-               do k = mesh%first_at(nodes(i)), mesh%first_at(nodes(i) + 1) - 1
-                  associate (other => mesh%elements_at(k))
-                     if (.not. is_shell(mesh, other)) cycle
-                     if (all(element_points(mesh, other) /= b)) cycle
-                     if (size(element_points(mesh, other)) == 4) then
-                        law%bowed(i) = .false.
-                        exit
-                     end if
-                     if (dot_product(across(e, nodes(i), b), across(other, nodes(i), b)) < one_side) law%bowed(i) = .true.
-                  end associate
-               end do
-            end do
-         end associate
-      end do
-
-   contains
-
-      !> The direction from the edge between nodes A and B into triangle E.
-      pure function across(e, a, b) result(inward)
-         integer, intent(in) :: e, a, b
-         real(wp) :: inward(3)
-
-         associate (along => mesh%x(:, b) - mesh%x(:, a), centre => sum(mesh%x(:, mesh%element_nodes(:3, e)), dim=2)/3.0_wp)
-            inward = centre - mesh%x(:, a)
-            inward = inward - dot_product(inward, along)/max(dot_product(along, along), tiny(1.0_wp))*along
-            inward = inward/max(norm2(inward), tiny(1.0_wp))
-         end associate
-      end function across
-
-   end subroutine bow_edges
 
    !> Build the beams of the model; displacement systems must be known. Errors: a beam without length, or without plane 1.
    subroutine build_beams(deck, mesh)
@@ -302,42 +267,5 @@ contains
          end associate
       end do
    end subroutine build_beams
-
-   !> The LAW of shells of a PSHELL.
-   subroutine find_shell(deck, card, law)
-      type(checked_deck), intent(in)  :: deck
-      type(property_card), intent(in) :: card
-      type(shell_law), intent(out)    :: law
-      real(wp) :: d(max_stresses, max_stresses)
-      integer  :: bending, membrane, shear
-
-      membrane = material_of(card%material)
-      bending = material_of(card%bending, 'MID2')
-      shear = material_of(card%shear, 'MID3')
-      if (any([membrane, bending] == 0)) return
-      associate (mat1 => deck%bulk%mat1)
-         call elasticity_matrix(plane_stress, mat1(membrane)%e, mat1(membrane)%nu, d)
-         law%d = d(:3, :3)
-         law%expansion = mat1(membrane)%alpha
-         call elasticity_matrix(plane_stress, mat1(bending)%e, mat1(bending)%nu, d)
-         law%bending = card%inertia_ratio*d(:3, :3)
-         if (shear > 0) law%shear = mat1(shear)%shear*card%shear_ratio
-      end associate
-      law%thickness = card%thickness
-
-   contains
-
-      !> The MAT1 with this ID; 0: blank, or missing. A missing MID1 is reported elsewhere.
-      integer function material_of(id, field) result(k)
-         integer, intent(in) :: id
-         character(*), intent(in), optional :: field
-
-         k = 0
-         if (id <= 0) return
-         k = findloc(deck%bulk%mat1%id, id, dim=1)
-         if (k == 0 .and. present(field)) call deck%field_error(card%line, field, 'there is no MAT1 '//integer_text(id))
-      end function material_of
-
-   end subroutine find_shell
 
 end module structural_build

@@ -8,12 +8,12 @@ module support_build
    use field_rules, only: has_component
    use kinds, only: wp
    use lists, only: first_not_below
-   use mesh_queries, only: is_face_node, n_points
-   use model_data, only: freedoms_type, joints_type, mesh_type, n_bars, n_sections, stage_load_type, support_group
+   use mesh_queries, only: is_face_node, is_scalar_point, n_points
+   use model_data, only: bar_nodes, freedoms_type, joints_type, mesh_type, n_bars, n_sections, stage_load_type, support_group
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
-   use unknowns, only: component_place, place_of_component
+   use unknowns, only: component_place, place_of_component, rotation_at
    implicit none
    private
 
@@ -41,7 +41,14 @@ contains
          freedoms%used(joints%element(i)%node) = .true.
       end do
       do i = 1, n_bars(mesh)
-         freedoms%used(pack(mesh%bars(i)%nodes, mesh%bars(i)%nodes > 0)) = .true.
+         freedoms%used(bar_nodes(mesh%bars(i))) = .true.
+      end do
+      do i = 1, size(mesh%faces) ! those of bushes: the nodes behind their arms
+         associate (face => mesh%faces(i))
+            if (.not. freedoms%used(face%node) .or. rotation_at(mesh, face%point) == 0) cycle
+            freedoms%used(face%point) = .true.
+            freedoms%used(mesh%rotations(rotation_at(mesh, face%point))%node) = .true.
+         end associate
       end do
       do i = 1, n_sections(mesh)
          if (mesh%sections(i)%node > 0) freedoms%held(2:, mesh%sections(i)%node) = .true.
@@ -133,6 +140,7 @@ contains
       integer :: k
 
       places = places_of(mesh, node, components)
+      if (is_scalar_point(mesh, node) .and. components == 0) places = places_of(mesh, node, 1)
       do k = 1, count(places%node > 0)
          freedoms%held(places(k)%d, places(k)%node) = .true.
          associate (group => freedoms%support_of(places(k)%d, places(k)%node))

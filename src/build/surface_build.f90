@@ -6,7 +6,7 @@ module surface_build
    use isoparametric, only: side_areas, side_forces
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
-   use mesh_queries, only: is_shell
+   use mesh_queries, only: element_points, is_shell
    use model_data, only: mesh_type, surface_type
    use surface_sides, only: nodes_of, side_corners
    use text_tools, only: integer_text, one_of
@@ -33,7 +33,7 @@ contains
       type(id_table_type)  :: marks
       integer, allocatable :: surface(:), first(:), members(:), said(:) ! said: missing marks
       character(:), allocatable :: words
-      integer :: i, k, most_nodes
+      integer :: i, k, most_nodes, room
 
       words = ''
       most_nodes = 2*(mesh%dimension - 1)                     ! of a side
@@ -59,8 +59,9 @@ contains
       do k = 1, size(mesh%surfaces)
          associate (marked => mesh%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
             marked%id = card%id
-            allocate (marked%nodes(most_nodes, n), marked%strip(n), source=0)
-            allocate (marked%element(n), marked%other(n), marked%line(n), marked%corners(n), marked%n_nodes(n))
+            room = n*merge(2, 1, mesh%dimension == 3 .and. any(is_second_order(mesh%element_kind))) ! an edge of a shell may be two
+            allocate (marked%nodes(most_nodes, room), marked%strip(room), source=0)
+            allocate (marked%element(room), marked%other(room), marked%line(room), marked%corners(room), marked%n_nodes(room))
             do i = first(k), first(k + 1) - 1
                associate (side => sides(members(i)))
                   if (all(side%nodes(:side%corners) > 0)) call add_side(deck, side, mesh, marked) ! else reported already
@@ -125,23 +126,58 @@ contains
             call deck%errors%add(side%line, 'the '//side_name(mesh, nodes)//' is no side of a body element')
             return
          end if
-         side_nodes = nodes ! of the face of a shell on the marked side
+         side_nodes = shell_face(mesh, owner, nodes)
       end associate
       if (own_side > 0) then
          associate (kind => element_table(mesh%element_kind(owner)))
             side_nodes = mesh%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner)
          end associate
          if (any(side_nodes == 0)) return ! reported already
-         call check_mark(deck, side, mesh, owner, side_nodes)
       end if
-      surface%n = surface%n + 1
-      surface%line(surface%n) = side%line
-      surface%corners(surface%n) = side%corners
-      surface%n_nodes(surface%n) = size(side_nodes)
-      surface%nodes(:size(side_nodes), surface%n) = side_nodes
-      surface%element(surface%n) = owner
-      surface%other(surface%n) = other
+      if (own_side > 0 .or. size(side_nodes) > side%corners) call check_mark(deck, side, mesh, owner, side_nodes)
+      if (size(side_nodes) == 3 .and. is_shell(mesh, owner) .and. own_side > 0) then ! an edge of second order: two edges
+         call append(side_nodes([1, 3]))
+         call append(side_nodes([3, 2]))
+      else
+         call append(side_nodes)
+      end if
+
+   contains
+
+      !> Append the side with these NODES.
+      subroutine append(nodes)
+         integer, intent(in) :: nodes(:)
+
+         surface%n = surface%n + 1
+         surface%line(surface%n) = side%line
+         surface%corners(surface%n) = side%corners
+         surface%n_nodes(surface%n) = size(nodes)
+         surface%nodes(:size(nodes), surface%n) = nodes
+         surface%element(surface%n) = owner
+         surface%other(surface%n) = other
+      end subroutine append
+
    end subroutine add_side
+
+   !> The nodes of the face of shell E on the side on which its corners have the order of CORNERS.
+   pure function shell_face(mesh, e, corners) result(nodes)
+      type(mesh_type), intent(in) :: mesh
+      integer, intent(in)         :: e, corners(:)
+      integer, allocatable :: nodes(:)
+      integer :: ends(2), j, k
+
+      nodes = corners
+      associate (kind => element_table(mesh%element_kind(e)), of_element => element_points(mesh, e))
+         if (kind%n_nodes == kind%n_corners) return
+         do k = 1, size(corners)
+            ends = [findloc(of_element, corners(k), dim=1), findloc(of_element, corners(modulo(k, size(corners)) + 1), dim=1)]
+            do j = 1, kind%n_edges
+               if (all(kind%edges(:, j) == ends) .or. all(kind%edges(:, j) == ends([2, 1]))) &
+                  nodes = [nodes, of_element(kind%n_corners + j)]
+            end do
+         end do
+      end associate
+   end function shell_face
 
    !> Error: mid-side nodes of SIDE other than SIDE_NODES, those of the side of element E. Gmsh writes the mid-side node of an edge
    !! as X1 of a CBAR.

@@ -30,7 +30,7 @@ contains
       integer, allocatable :: nodes(:)
 
       associate (kind => element_table(mesh%element_kind(e)))
-         if (s == 0) nodes = mesh%element_nodes(:kind%n_nodes, e)
+         if (s == 0) nodes = mesh%element_nodes(:kind%n_corners, e)
          if (s > 0) nodes = mesh%element_nodes(kind%side_nodes(:kind%side_corners(s), s), e)
       end associate
    end function side_corners

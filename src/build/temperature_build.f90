@@ -8,7 +8,7 @@ module temperature_build
    use kinds, only: wp
    use lists, only: first_not_below
    use mesh_queries, only: element_points, is_shell, n_points
-   use model_data, only: a_bar, freedoms_type, history_type, mesh_type, n_bars, stage_load_type, temperature_type
+   use model_data, only: a_bar, freedoms_type, history_type, mesh_type, n_bars, slope_row, stage_load_type, temperature_type
    use support_build, only: differ
    use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: least_misfit
@@ -168,7 +168,9 @@ contains
       if (.not. allocated(loads%moved)) allocate (loads%moved(mesh%dimension, mesh%n_nodes), source=0.0_wp)
       do k = 1, size(expansions)
          associate (part => expansions(k))
-            loads%moved(part%d, part%node) = part%growth*(0.5_wp*sum(loads%temperature%at(part%points)) - part%reference)
+            associate (moved => loads%moved(part%d, part%node)) ! a mean grows in several arms
+               moved = moved + part%growth*(0.5_wp*sum(loads%temperature%at(part%points)) - part%reference)
+            end associate
          end associate
       end do
    end subroutine expand
@@ -353,13 +355,13 @@ contains
             given(node) = .true.
          end associate
       end do
-      allocate (temperature%plate(5, size(mesh%structural%shells)), source=0.0_wp)
+      allocate (temperature%plate(slope_row, size(mesh%structural%shells)), source=0.0_wp)
       do e = 1, mesh%n_elements
          if (card_of(e) == 0) cycle
          associate (card => deck%bulk%plate_temperature(card_of(e)), nodes => element_points(mesh, e), &
                     place => mesh%structural%place(e))
             temperature%plate(:size(nodes), place) = card%mean - temperature%at(nodes)
-            temperature%plate(5, place) = card%slope
+            temperature%plate(slope_row, place) = card%slope
          end associate
       end do
    end subroutine set_plate_temperatures

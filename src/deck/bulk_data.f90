@@ -22,6 +22,7 @@ module bulk_data
       integer  :: cp = 0, cd = 0                        ! systems of the coordinates X and of displacements, 0: global axes
       real(wp) :: x(3) = 0.0_wp
       logical  :: doubtful = .false.                    ! a field could not be read
+      logical  :: is_scalar = .false.                   ! a scalar point
    end type grid_card
 
    !> A coordinate system, by three points in system REFERENCE (CORD2) or by three NODES (CORD1): the origin, a point on z, one in x-z.
@@ -51,10 +52,13 @@ module bulk_data
       logical  :: in_basic = .false.                    ! OFFT B: X1, X2, X3 are in basic axes
    end type edge_card
 
-   !> Additional data of a shell card: the position of its element_card, ZOFFS and T1 to T4.
+   !> Additional data of a shell card: the position of its element_card, ZOFFS, T1 to T4, THETA and MCID.
    type, public :: plate_card
       integer  :: element = 0
       real(wp) :: offset = 0.0_wp, thickness(4) = 0.0_wp ! 0: that of the PSHELL
+      logical  :: is_relative = .false.                 ! TFLAG: T1 to T4 are shares of T
+      real(wp) :: angle = 0.0_wp                        ! THETA, in degrees
+      integer  :: system = -1                           ! MCID; -1: THETA
    end type plate_card
 
    !> PBAR, PBARL, PBEAM, PBEAML.
@@ -73,9 +77,16 @@ module bulk_data
       real(wp) :: x(2) = 0.0_wp, p(2) = 0.0_wp
    end type beam_load_card
 
-   !> PSHELL, PAXIS and PSOLID.
+   type, public :: ply_card
+      integer  :: id = 0, material = 0, at = 0          ! AT is the data field of MID
+      real(wp) :: thickness = 0.0_wp, angle = 0.0_wp    ! in degrees
+      logical  :: shown = .false.                       ! SOUT
+   end type ply_card
+
+   !> PSHELL, PCOMP, PAXIS and PSOLID.
    type, public :: property_card
       integer  :: line = 0, id = 0, material = 0
+      character(6) :: name = 'PSHELL'                   ! or PCOMP
       integer  :: state = plane_stress                  ! of elasticity
       real(wp) :: thickness = 0.0_wp                    ! of a PSHELL
       logical  :: incompatible = .false.                ! modes of Wilson and Taylor
@@ -84,6 +95,10 @@ module bulk_data
       real(wp) :: extra_mass = 0.0_wp                   ! NSM, per area
       real(wp) :: fibre(2) = 0.0_wp                     ! Z1, Z2
       logical  :: fibre_given(2) = .false.
+      integer  :: material_at = 2                       ! data field of MATERIAL
+      type(ply_card), allocatable :: plies(:)           ! of a PCOMP
+      real(wp) :: lowest = 0.0_wp                       ! Z0
+      real(wp) :: reference = 0.0_wp, damping = 0.0_wp  ! TREF and GE of a PCOMP
    end type property_card
 
    type, public :: prod_card
@@ -96,13 +111,17 @@ module bulk_data
       integer :: nodes(2) = 0
    end type conrod_card
 
-   !> CELAS1, CELAS2 (between component COMPONENTS(1) of node 1 and COMPONENTS(2) of node 2) and CBUSH (along three axes).
+   !> CELAS1 to 4 (between component COMPONENTS(1) of node 1 and COMPONENTS(2) of node 2) and CBUSH (along three axes).
    type, public :: spring_card
       integer  :: line = 0, id = 0, nodes(2) = 0        ! 0: the ground
-      integer  :: property = 0                          ! PELAS or PBUSH; 0: a CELAS2
+      integer  :: property = 0                          ! PELAS or PBUSH; 0: a CELAS2 or CELAS4
       integer  :: components(2) = 0
-      logical  :: is_bush = .false.
+      logical  :: is_bush = .false., is_scalar = .false. ! CBUSH; CELAS3 and CELAS4
       integer  :: system = -1                           ! CID of a CBUSH, 0: global axes, -1: blank
+      integer  :: other = 0                             ! GO of a CBUSH, 0: blank
+      real(wp) :: orientation(3) = 0.0_wp               ! X1, X2, X3
+      integer  :: point_system = -1                     ! OCID, -1: the point divides the line between the nodes at SHARE
+      real(wp) :: share = 0.5_wp, point(3) = 0.0_wp     ! S; S1, S2, S3
       real(wp) :: stiffness = 0.0_wp, damping = 0.0_wp  ! of a CELAS2: K and GE
    end type spring_card
 
@@ -112,14 +131,29 @@ module bulk_data
       logical  :: is_bush = .false.
       integer  :: field = 1                             ! data field of the id
       real(wp) :: stiffness(6) = 0.0_wp
-      real(wp) :: damping = 0.0_wp                      ! GE of a PELAS
+      real(wp) :: damping(6) = 0.0_wp                   ! GE, of a PELAS the first
+      real(wp) :: mass = 0.0_wp                         ! M of a PBUSH
    end type spring_property_card
 
-   !> CONM2: a mass at a node; CMASS2: a mass that resists along one component of it.
-   type, public :: mass_card
-      integer  :: line = 0, id = 0, node = 0
-      integer  :: component = 0                         ! of a CMASS2, 0: CONM2
+   !> SPOINT: scalar points, which have one component.
+   type, extends(id_ranges), public :: scalar_card
+      integer :: line = 0
+   end type scalar_card
+
+   !> PMASS: one of its masses.
+   type, public :: pmass_card
+      integer  :: line = 0, id = 0
       real(wp) :: mass = 0.0_wp
+   end type pmass_card
+
+   !> CONM1, CONM2: a mass at a node; CMASS1 to 4: a mass that resists along one component of it, less COMPONENT_2 of NODE_2.
+   type, public :: mass_card
+      integer  :: line = 0, id = 0, node = 0, node_2 = 0
+      integer  :: component = 0, component_2 = 0
+      logical  :: is_directed = .false., is_scalar = .false. ! CMASS1 to 4; of these CMASS3 and CMASS4
+      integer  :: property = 0                          ! PMASS, 0: MASS is given
+      real(wp) :: mass = 0.0_wp
+      real(wp), allocatable :: matrix(:)                ! of a CONM1: M11, M21, M22, ..., M66
       integer  :: system = 0                            ! CID of offset and inertia, 0: global axes
       real(wp) :: offset(3) = 0.0_wp                    ! X1 to X3: from the node to the centre of mass
       real(wp) :: inertia(6) = 0.0_wp                   ! I11, I21, I22, I31, I32, I33, about the centre of mass
@@ -133,6 +167,8 @@ module bulk_data
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF
       real(wp) :: damping = 0.0_wp                      ! GE
       real(wp) :: strength = 0.0_wp                     ! ST, 0: blank
+      character(4) :: name = 'MAT1'                     ! MAT2 or MAT8: of shells alone, with the values below
+      real(wp) :: stress(3, 3) = 0.0_wp, expansions(3) = 0.0_wp, shear_moduli(2) = 0.0_wp
    end type mat1_card
 
    !> SPC, SPC1 and SPCM: the nodes FIRST(k) to LAST(k), or all nodes of a marked surface.
@@ -152,7 +188,9 @@ module bulk_data
       integer :: surface = 0                            ! RBE2M, RBE3M: PMARK of the nodes; 0: listed
       integer, allocatable  :: nodes(:), directions(:), at(:) ! AT(k): data field of NODES(k)
       real(wp), allocatable :: weight(:)
-      integer, allocatable  :: um_nodes(:), um_components(:), um_at(:) ! RBE3 with UM: dependent in place of COMPONENTS
+      integer, allocatable  :: um_nodes(:), um_components(:), um_at(:) ! RBE3 with UM: dependent in place of COMPONENTS. RBE1, and
+                                                        ! RBAR with both ends independent: six independent components
+      logical :: is_rod = .false.                       ! RROD: the distance of two nodes is constant
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! coefficient of thermal expansion, TREF
       integer  :: alpha_at = 0                          ! its data field
    end type rigid_card
@@ -416,7 +454,8 @@ module bulk_data
       type(element_card), allocatable      :: element(:)   !! of bodies; faces of marked surfaces too
       type(edge_card), allocatable         :: edge(:)      !! CBAR, CBEAM and CROD
       type(edge_card)                      :: edge_defaults(2) !! of BAROR and BEAMOR
-      type(plate_card), allocatable        :: plate(:)     !! of CQUAD4 and CTRIA3 with ZOFFS or T1 to T4
+      type(plate_card), allocatable        :: plate(:)     !! of elements with ZOFFS, T1 to T4, THETA
+      integer                              :: n_plates = 0 !! of PLATE that are filled
       type(beam_property_card), allocatable :: beam_property(:)
       type(beam_load_card), allocatable    :: beam_load(:)
       type(property_card), allocatable     :: pshell(:), paxis(:), psolid(:)
@@ -425,6 +464,8 @@ module bulk_data
       type(spring_card), allocatable       :: spring(:)
       type(spring_property_card), allocatable :: spring_property(:)
       type(mass_card), allocatable         :: mass(:)
+      type(pmass_card), allocatable        :: pmass(:)
+      type(scalar_card), allocatable       :: scalar(:)
       type(mat1_card), allocatable         :: mat1(:)
       type(support_card), allocatable      :: support(:)
       type(set_sum_card), allocatable      :: support_sum(:), equation_sum(:), contact_sum(:), glue_sum(:)

@@ -8,10 +8,11 @@ module deck_input
    use deck_parameters, only: parameter_type
    use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
    use include_lines, only: is_include
-   use, intrinsic :: iso_fortran_env, only: int8
+   use, intrinsic :: iso_fortran_env, only: int16
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
    use matrix_cards, only: read_dmig, read_retained
+   use laminate_cards, only: read_laminate, read_plate_material
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
                          read_temperature
    use mesh_cards, only: complete_remedy, fill_defaults, read_block, read_edge, read_edge_defaults, read_element, read_grid, &
@@ -22,9 +23,9 @@ module deck_input
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
    use response_cards, only: read_darea, read_dload, read_lseq, read_rload, read_tabled
-   use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
-   use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, &
-                            read_suport, read_support
+   use rigid_cards, only: count_idle_rotations, read_equation, read_place, read_rigid, read_tie
+   use support_cards, only: read_displacement, read_mass, read_pmass, read_scalar, read_spring, read_spring_property, &
+                            read_sum, read_suport, read_support
    use text_tools, only: plural, upper
    use unused_cards, only: count_unused
    use vibration_cards, only: read_eigrl, read_frequencies, read_jampl, read_tabdmp1
@@ -74,12 +75,13 @@ contains
       call add(['GRID'], read_grid)
       call add(['GRDSET'], read_grid_defaults)
       call add(system_names, read_system)
-      call add(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
+      call add(['CTRIA3', 'CTRIA6', 'CTRIAR', 'CQUAD4', 'CQUAD8', 'CQUADR', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
       call add(['CBAR ', 'CBEAM', 'CROD '], read_edge)
       call add(['BAROR ', 'BEAMOR'], read_edge_defaults)
       call add(['BLOCK2', 'BLOCK3'], read_block)
       call add(['PMARK'], read_pmark)
       call add(['PSHELL'], read_pshell)
+      call add(['PCOMP ', 'PCOMPG'], read_laminate, joined='PSHELL')
       call add(['PAXIS'], read_body_property)
       call add(['PSOLID'], read_body_property)
       call add(['PROD'], read_rod)
@@ -88,6 +90,7 @@ contains
       call add(['NODEAT'], read_place)
       call add(['MAT1'], read_mat1)
       call add(['BSURF  ', 'BSURFS ', 'BCPROP ', 'BCPROPS'], read_region)
+      call add(['MAT2', 'MAT8'], read_plate_material, joined='MAT1')
       cards%of_mesh = .true.
       call add(['BCRPARA'], read_side_of_region)
       call add(['BCTSET', 'BGSET '], read_pair)
@@ -95,17 +98,19 @@ contains
       call add(['BCTPARM'], read_contact_parameter)
       call add(['BOLTFOR'], read_preload)
       call add(['BOLTSEQ'], read_sequence)
-      call add(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
+      call add(['CELAS1', 'CELAS2', 'CELAS3', 'CELAS4', 'CBUSH '], read_spring)
       call add(['PELAS', 'PBUSH'], read_spring_property)
-      call add(['CONM2 ', 'CMASS2'], read_mass)
+      call add(['CONM2 ', 'CONM1 ', 'CMASS1', 'CMASS2', 'CMASS3', 'CMASS4'], read_mass)
+      call add(['PMASS'], read_pmass)
+      call add(['SPOINT'], read_scalar)
       call add(['SPC ', 'SPC1', 'SPCM'], read_support)
       call add(['SPCADD'], read_sum)
       call add(['SUPORT'], read_suport)
-      call add(['RBE2 ', 'RBE3 ', 'RBAR ', 'RBE2M', 'RBE3M'], read_rigid)
+      call add(['RBE2 ', 'RBE1 ', 'RBE3 ', 'RBAR ', 'RROD ', 'RBE2M', 'RBE3M'], read_rigid)
       call add(['SHELLTO'], read_tie)
       call add(['MPC'], read_equation)
       call add(['MPCADD'], read_sum)
-      call add(['FORCE  ', 'FORCE1 ', 'FORCE2 ', 'MOMENT ', 'MOMENT1', 'MOMENT2'], read_force)
+      call add(['FORCE  ', 'FORCE1 ', 'FORCE2 ', 'MOMENT ', 'MOMENT1', 'MOMENT2', 'SLOAD  '], read_force)
       call add(['PLOAD4', 'PLOADE', 'PLOAD ', 'PLOAD2'], read_pressure)
       call add(['PLOADM', 'FORCEM'], read_surface_load)
       call add(['GRAV  ', 'RFORCE', 'ACCEL1'], read_gravity)
@@ -138,14 +143,16 @@ contains
 
    contains
 
-      !> Add the kinds NAMES, which READ reads.
-      subroutine add(names, read)
+      !> Add the kinds NAMES, which READ reads, into the array of the kind JOINED where it is present.
+      subroutine add(names, read, joined)
          character(*), intent(in) :: names(:)
          procedure(read_one)      :: read
+         character(*), intent(in), optional :: joined
          type(card_kind) :: kind
          integer :: k
 
          kind%routine = size(cards) + 1
+         if (present(joined)) kind%routine = cards(findloc(cards%name, joined, dim=1))%routine
          kind%read => read
          do k = 1, size(names)
             kind%name = names(k)
@@ -164,9 +171,11 @@ contains
          bulk%plate(0), bulk%beam_property(n('PBAR')), bulk%beam_load(n('PLOAD1')), bulk%block(n('BLOCK2')), &
          bulk%pmark(n('PMARK')), bulk%pshell(n('PSHELL')), bulk%paxis(n('PAXIS')), bulk%psolid(n('PSOLID')), &
          bulk%prod(n('PROD')), bulk%conrod(n('CONROD')), bulk%spring(n('CBUSH')), bulk%spring_property(2*n('PBUSH')), &
-         bulk%mass(n('CONM2')), bulk%mat1(n('MAT1')), bulk%support(2*n('SPC')), bulk%support_sum(n('SPCADD')), &
+         bulk%mass(n('CONM2')), bulk%pmass(4*n('PMASS')), bulk%scalar(n('SPOINT')), &
+         bulk%mat1(n('MAT1')), bulk%support(2*n('SPC')), bulk%support_sum(n('SPCADD')), &
          bulk%rigid(n('RBE2')), bulk%place(n('NODEAT')), bulk%tie(n('SHELLTO')), bulk%equation(n('MPC')), &
-         bulk%equation_sum(n('MPCADD')), bulk%force(n('FORCE')), bulk%pressure(n('PLOAD')), bulk%surface_load(n('PLOADM')), &
+         bulk%equation_sum(n('MPCADD')), bulk%force(n('FORCE') + 2*sum(cards%n, mask=cards%name == 'SLOAD')), &
+         bulk%pressure(n('PLOAD')), bulk%surface_load(n('PLOADM')), &
          bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%suport(4*n('SUPORT')), &
          bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
          bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
@@ -226,7 +235,7 @@ contains
    subroutine read_lines(deck, errors)
       type(deck_type), intent(inout), target       :: deck
       type(deck_error_list), intent(inout), target :: errors
-      integer(int8), allocatable :: kind_at(:) ! (lines) kind of the card that begins there, 0: none or unknown
+      integer(int16), allocatable :: kind_at(:) ! (lines) kind of the card that begins there, 0: none or unknown
       integer :: cursor, first_card
       logical :: found_bulk, is_alone, is_idle, is_whole
 
@@ -243,7 +252,7 @@ contains
          call errors%add(0, 'no BEGIN BULK: expected it between case control and the cards')
          return
       end if
-      allocate (kind_at(deck%text%n), source=0_int8)
+      allocate (kind_at(deck%text%n), source=0_int16)
       deck%bulk%ignored = deck%control%ignored
       deck%bulk%parameters = deck%control%parameters
       call find_cards(deck%text, cursor, deck%kinds, kind_at, deck%bulk, errors)
@@ -253,6 +262,8 @@ contains
          ! the arrays whose cards may fill one entry or several are cut to the filled entries
          bulk%system = bulk%system(:count(bulk%system%line > 0))
          bulk%spring_property = bulk%spring_property(:count(bulk%spring_property%line > 0))
+         bulk%pmass = bulk%pmass(:count(bulk%pmass%line > 0))
+         bulk%force = bulk%force(:count(bulk%force%line > 0))
          bulk%support = bulk%support(:count(bulk%support%line > 0))
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
          bulk%suport = bulk%suport(:count(bulk%suport%line > 0))
@@ -265,8 +276,10 @@ contains
          do cursor = 1, merge(size(bulk%matrices%dmig), 0, all(deck%control%matrices == ''))
             call bulk%ignored%add('DMIG')
          end do
+         bulk%plate = bulk%plate(:bulk%n_plates)
          call fill_defaults(bulk)
          call count_unused(bulk)
+         call count_idle_rotations(bulk)
          call bulk%ignored%settle(any(asked%modes%id /= 0), any(asked%modes%id /= 0 .and. asked%frequency%id > 0), &
                                   any(deck%control%stages%warms_materials), errors)
          if (is_alone) call take_only_sets(bulk, deck%control%stages(1), errors)
@@ -281,7 +294,7 @@ contains
       type(deck_text_type), intent(in)     :: text
       integer, intent(inout)               :: cursor
       type(card_kind), intent(inout)       :: cards(:)   !! the number of each kind
-      integer(int8), intent(inout)         :: kind_at(:) !! (lines) kind of the card that begins there
+      integer(int16), intent(inout)         :: kind_at(:) !! (lines) kind of the card that begins there
       type(bulk_data_type), intent(inout)  :: bulk
       type(deck_error_list), intent(inout) :: errors
       integer(long) :: first, last
@@ -368,7 +381,7 @@ contains
             if (cards(kind)%name == name) exit
          end do
          if (kind <= size(cards) .and. .not. faults%any()) then
-            kind_at(at) = int(kind, int8)
+            kind_at(at) = int(kind, int16)
             cards(kind)%n = cards(kind)%n + 1
          else
             is_idle = .false.
@@ -392,7 +405,7 @@ contains
    !! a serial run.
    subroutine read_all(text, kind_at, cards, bulk, errors)
       type(deck_text_type), intent(in)             :: text
-      integer(int8), intent(in)                    :: kind_at(:)
+      integer(int16), intent(in)                    :: kind_at(:)
       type(card_kind), intent(inout)               :: cards(:)
       type(bulk_data_type), intent(inout)          :: bulk
       type(deck_error_list), intent(inout), target :: errors

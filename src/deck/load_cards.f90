@@ -86,6 +86,25 @@ contains
       end do
    end function geometric_sum
 
+   !> SLOAD: up to three forces F on scalar points S.
+   subroutine read_scalar_load(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      integer :: k, set
+
+      call card%field('SID', set)
+      do k = 1, max(1, min(3, card%n/2))
+         if (k > 1) card%i = card%i + 1
+         associate (force => bulk%force(card%i))
+            force%line = card%line
+            force%set = set
+            call card%field('S'//integer_text(k), force%node)
+            call card%field('F'//integer_text(k), force%force(1))
+         end associate
+      end do
+      call card%finish(set)
+   end subroutine read_scalar_load
+
    !> FORCE: the vector F (N1, N2, N3) at one node in system CID; as in NASTRAN, the direction is not normalised. MOMENT likewise.
    !! FORCE1: F along the line from G1 to G2. FORCE2: F along the vector product of the lines G1-G2 and G3-G4.
    subroutine read_force(card, bulk)
@@ -93,6 +112,10 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       real(wp) :: f, direction(3)
 
+      if (card%name == 'SLOAD') then
+         call read_scalar_load(card, bulk)
+         return
+      end if
       associate (force => bulk%force(card%i))
          force%is_moment = card%name(:1) == 'M'
          call card%field('SID', force%set)

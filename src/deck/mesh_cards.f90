@@ -97,43 +97,23 @@ contains
       end associate
    end subroutine read_grid
 
-   !> CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA and CHEXA: elements of bodies. In a model of solids plane elements are faces of
-   !! marked surfaces. Any mid-side node makes an element second order. THETA turns material axes and has no effect on an isotropic
-   !! material. ZOFFS and corner thicknesses belong to shells and must be blank in second-order elements.
+   !> CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA and CHEXA: elements of bodies; CTRIAR is a CTRIA3, CQUADR a CQUAD4. In a model of
+   !! solids plane elements are faces of marked surfaces. Any mid-side node makes an element second order. THETA turns material axes
+   !! and has no effect on an isotropic material. ZOFFS and corner thicknesses belong to shells.
    subroutine read_element(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(plate_card) :: plate
-      character(:), allocatable :: flag
       integer :: complete, kind
 
       kind = findloc(element_table%card, card%name, dim=1, back=.true.) ! the second-order kind where there is one
+      if (card%name == 'CTRIAR') kind = kind_tria3
+      if (card%name == 'CQUADR') kind = kind_quad4
       associate (element => bulk%element(card%i), n => element_table(kind)%n_nodes, corners => element_table(kind)%n_corners)
          call card%field('EID', element%id)
          call card%field('PID', element%property)
          call card%field(node_names(:corners), element%nodes(:corners))
          call card%field(node_names(corners + 1:n), element%nodes(corners + 1:n), default=0, least=0)
-         if (any(kind == [kind_tria3, kind_quad4, kind_tria6])) call card%skip(['THETA'])
-         if (any(kind == [kind_tria3, kind_quad4])) then
-            call card%field('ZOFFS', plate%offset, default=0.0_wp)
-            if (kind == kind_tria3) call card%skip(['-'])
-            call card%skip(['-    ', 'TFLAG'])
-            flag = card%text_at(10)
-            if (flag /= '' .and. flag /= '0') call card%error('TFLAG', 'expected 0 or blank: T1 to T4 are thicknesses')
-            call card%field(thickness_names(:corners), plate%thickness(:corners), positive, default=0.0_wp)
-            plate%element = card%i
-            if (abs(plate%offset) > 0.0_wp .or. any(plate%thickness > 0.0_wp)) then
-               !$omp critical (plates) ! in any order: they are found by the numbers of their elements
-               bulk%plate = [bulk%plate, plate]
-               !$omp end critical (plates)
-            end if
-         end if
-         if (kind == kind_tria6) call card%blank(['ZOFFS', 'T1   ', 'T2   ', 'T3   '])
-         if (kind == kind_quad8) then
-            call card%blank(['T1', 'T2', 'T3', 'T4'])
-            call card%skip(['THETA'])
-            call card%blank(['ZOFFS'])
-         end if
+         if (any(kind == [kind_tria3, kind_quad4, kind_tria6, kind_quad8])) call read_plate(card, kind, bulk)
          element%line = card%line
          complete = 0 ! nodes of complete second order, on faces and in the centre too, as Gmsh writes it
          if (kind == kind_hexa20) complete = 27
@@ -153,6 +133,40 @@ contains
          element%kind = merge(kind, element_table(kind)%linear, any(element%nodes(corners + 1:n) > 0))
       end associate
    end subroutine read_element
+
+   !> The fields of a plane element behind its nodes: THETA or MCID, ZOFFS, and thicknesses at corners.
+   subroutine read_plate(card, kind, bulk)
+      type(card_fields_type), intent(inout) :: card
+      integer, intent(in)                   :: kind
+      type(bulk_data_type), intent(inout)   :: bulk
+      type(plate_card) :: plate
+      character(8) :: flag
+      integer :: system
+      logical :: is_system
+
+      flag = ''
+      associate (corners => element_table(kind)%n_corners)
+         if (kind == kind_quad8) call card%field(thickness_names, plate%thickness, positive, default=0.0_wp)
+         call card%field('THETA', plate%angle, default=0.0_wp, whole=.true.)
+         call card%field('ZOFFS', plate%offset, default=0.0_wp)
+         if (kind == kind_tria3) call card%skip(['-'])
+         if (any(kind == [kind_tria3, kind_quad4])) then
+            call card%skip(['-'])
+            call card%word('TFLAG', '||0|1|', flag)
+         end if
+         if (kind /= kind_quad8) call card%field(thickness_names(:corners), plate%thickness(:corners), positive, default=0.0_wp)
+      end associate
+      plate%element = card%i
+      plate%is_relative = flag == '1'
+      call parse_integer(card%text_at(merge(15, 3 + element_table(kind)%n_nodes, kind == kind_quad8)), system, is_system)
+      if (is_system) plate%system = system
+      if (.not. is_system .and. all(abs([plate%angle, plate%offset, plate%thickness]) <= 0.0_wp)) return
+      !$omp critical (plates) ! in any order: they are found by the numbers of their elements
+      if (bulk%n_plates == size(bulk%plate)) bulk%plate = [bulk%plate, spread(plate, 1, max(64, bulk%n_plates))]
+      bulk%n_plates = bulk%n_plates + 1
+      bulk%plate(bulk%n_plates) = plate
+      !$omp end critical (plates)
+   end subroutine read_plate
 
    !> CBAR, CBEAM: a beam, or with the PID of a PMARK an edge of a marked surface. The orientation vector of such an edge (Gmsh writes
    !! one) has no meaning; in a second-order edge Gmsh writes the mid-side node in its place. CROD: such an edge, or with a PROD a bar

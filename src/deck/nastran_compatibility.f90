@@ -42,6 +42,7 @@ module nastran_compatibility
       real(wp) :: mass_factor = 1.0_wp        !! WTMASS: densities are multiplied by it
       real(wp) :: damping = 0.0_wp            !! G: overall structural damping [-]
       integer  :: mass_line = 0               !! line of COUPMASS, 0: not given
+      logical  :: holds_idle = .true.         !! AUTOSPC: components without stiffness are held
       logical  :: lumped = .false.            !! COUPMASS below 1
       logical  :: is_structural = .false.     !! KDAMP = -1: the damping of SDAMPING is structural
    end type parameters_type
@@ -105,6 +106,9 @@ contains
          parameters%mass_line = line
          if (.not. is_integer) expected = 'an integer: above 0 consistent mass, else lumped mass'
          call ignored%wait('PARAM COUPMASS', line, needs_response=.false.)
+      case ('AUTOSPC')
+         parameters%holds_idle = value /= 'NO'
+         call ignored%add('PARAM '//name)
       case ('KDAMP')
          parameters%is_structural = number == -1
          if (.not. is_integer .or. abs(number) /= 1) expected = '1, SDAMPING is viscous, or -1, it is structural'

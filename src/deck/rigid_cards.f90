@@ -1,4 +1,4 @@
-!> Reads the cards of dependent nodes: RBE2, RBE3, RBAR, SHELLTO, MPC and NODEAT.
+!> Reads the cards of dependent nodes: RBE1, RBE2, RBE3, RBAR, RROD, SHELLTO, MPC and NODEAT.
 !! RBE2: nodes that move with one node as a rigid body. RBE3: a node that moves as the weighted mean of others. Both list their nodes
 !! or name a marked surface. MPC: a constraint equation between components. NODEAT: a node given by its place.
 module rigid_cards
@@ -6,11 +6,12 @@ module rigid_cards
    use card_fields, only: card_fields_type
    use field_rules, only: at_least_1, component_words, has_component, parse_integer, positive
    use kinds, only: wp
-   use text_tools, only: one_of
+   use lists, only: id_table_type
+   use text_tools, only: integer_text, one_of
    implicit none
    private
 
-   public :: read_rigid, read_place, read_tie, read_equation
+   public :: count_idle_rotations, read_rigid, read_place, read_tie, read_equation
 
    character(*), parameter :: a_node = 'a node number'
 
@@ -22,13 +23,20 @@ contains
    subroutine read_rigid(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      integer  :: c, directions, first, last, node
+      integer  :: directions, first, last, node
       real(wp) :: weight
 
-      if (card%name == 'RBAR') then
+      select case (card%name)
+      case ('RBAR')
          call read_rigid_bar(card, bulk%rigid(card%i))
          return
-      end if
+      case ('RBE1')
+         call read_rigid_body(card, bulk%rigid(card%i))
+         return
+      case ('RROD')
+         call read_rigid_rod(card, bulk%rigid(card%i))
+         return
+      end select
       associate (rigid => bulk%rigid(card%i))
          rigid%line = card%line
          rigid%is_mean = card%name(:4) == 'RBE3'
@@ -68,8 +76,6 @@ contains
             rigid%at = [merge(5, 4, rigid%is_mean)]
             rigid%directions = [directions]
          end select
-         if (rigid%is_mean .and. any([(any(has_component(rigid%directions, c)), c = 4, 6)])) &
-            call bulk%ignored%add('456 in C of '//trim(card%name))
       end associate
    end subroutine read_rigid
 
@@ -115,8 +121,20 @@ contains
       call card%finish(rigid%line)
       rigid%alpha_at = 8
       a = merge(2, 1, independent(1) == 0 .and. independent(2) > 0) ! the independent end
-      if (any([(.not. has_component(independent(a), c), c = 1, 6)]) .or. independent(3 - a) > 0) then
-         call card%error('CNA', 'expected all six components, 123456, independent at one end, in CNA or CNB')
+      if (all(independent > 0) .and. len(integer_text(independent(1))//integer_text(independent(2))) == 6) then
+         rigid%um_nodes = nodes
+         rigid%um_components = independent
+         rigid%um_at = [2, 3]
+         rigid%nodes = nodes
+         rigid%at = [2, 3]
+         if (all(dependent == 0)) dependent = [(others_of(independent(a)), a = 1, 2)]
+         rigid%directions = dependent
+         rigid%weight = [1.0_wp, 1.0_wp]
+         rigid%node = nodes(1)
+         rigid%node_at = 2
+         return
+      else if (any([(.not. has_component(independent(a), c), c = 1, 6)]) .or. independent(3 - a) > 0) then
+         call card%error('CNA', 'expected six independent components in all, in CNA and CNB')
       else if (dependent(a) > 0) then
          call card%error(merge('CMA', 'CMB', a == 1), 'components of the independent end; expected a blank')
       end if
@@ -130,6 +148,115 @@ contains
       rigid%directions = [rigid%components]
       rigid%weight = [1.0_wp]
    end subroutine read_rigid_bar
+
+   !> The components that are not among COMPONENTS, 0: none.
+   pure integer function others_of(components) result(others)
+      integer, intent(in) :: components
+      integer :: c
+
+      others = 0
+      do c = 1, 6
+         if (.not. has_component(components, c)) others = 10*others + c
+      end do
+   end function others_of
+
+   !> RBE1: six independent components CN of the nodes GN, then UM and the dependent components CM of the nodes GM, ALPHA and TREF.
+   subroutine read_rigid_body(card, rigid)
+      type(card_fields_type), intent(inout) :: card
+      type(rigid_card), intent(inout)       :: rigid
+      integer :: components, k, node
+      logical :: is_dependent, node_ok, ok
+
+      allocate (rigid%nodes(0), rigid%at(0), rigid%directions(0), rigid%weight(0), rigid%um_nodes(0), rigid%um_components(0), &
+                rigid%um_at(0))
+      rigid%line = card%line
+      rigid%node_at = 2
+      call card%field('EID', rigid%id)
+      is_dependent = .false.
+      k = 2
+      do while (k <= card%n)
+         if (card%text_at(k) == 'UM') then
+            is_dependent = .true.
+         else if (is_real(card%text_at(k))) then
+            call read_expansion(card, k, card%n, rigid)
+            exit
+         else if (card%text_at(k) /= '') then
+            call card%integer_at(k, 'G', node, node_ok, bounds=at_least_1, expected=a_node)
+            call card%integer_at(k + 1, 'C', components, ok, expected=component_words)
+            if (node_ok .and. is_dependent) then
+               rigid%nodes = [rigid%nodes, node]
+               rigid%directions = [rigid%directions, components]
+               rigid%at = [rigid%at, k]
+            else if (node_ok) then
+               rigid%um_nodes = [rigid%um_nodes, node]
+               rigid%um_components = [rigid%um_components, components]
+               rigid%um_at = [rigid%um_at, k]
+            end if
+            k = k + 1
+         end if
+         k = k + 1
+      end do
+      rigid%weight = spread(1.0_wp, 1, size(rigid%nodes))
+      if (size(rigid%um_nodes) > 0) rigid%node = rigid%um_nodes(1)
+      if (size(rigid%um_nodes) == 0 .or. size(rigid%nodes) == 0) call card%error('EID', &
+         'expected nodes and their independent components, UM, nodes and their dependent components')
+   end subroutine read_rigid_body
+
+   !> RROD: the distance of the nodes GA and GB is constant; a component CMA or CMB depends.
+   subroutine read_rigid_rod(card, rigid)
+      type(card_fields_type), intent(inout) :: card
+      type(rigid_card), intent(inout)       :: rigid
+      integer :: c(2), end
+
+      rigid%is_rod = .true.
+      allocate (rigid%nodes(2))
+      call card%field('EID', rigid%id)
+      call card%field(['GA', 'GB'], rigid%nodes)
+      call card%field(['CMA', 'CMB'], c, default=0, least=0, most=3)
+      call card%field('ALPHA', rigid%alpha, default=0.0_wp)
+      call card%field('TREF', rigid%reference, default=0.0_wp)
+      call card%finish(rigid%line)
+      rigid%alpha_at = 6
+      if (count(c > 0) /= 1) call card%error('CMA', 'expected one dependent component, 1 to 3, in CMA or CMB')
+      end = merge(1, 2, c(1) > 0)
+      rigid%nodes = rigid%nodes([end, 3 - end])
+      rigid%at = [end + 1, 4 - end]
+      rigid%node = rigid%nodes(2)
+      rigid%node_at = 4 - end
+      rigid%components = c(end)
+      rigid%directions = [c(end), 0]
+      rigid%weight = [1.0_wp, 1.0_wp]
+   end subroutine read_rigid_rod
+
+   !> Count the RBE3 and RBE3M whose rotations in C have no effect, because some of their nodes belong to no shell, beam or rigid
+   !! element.
+   subroutine count_idle_rotations(bulk)
+      type(bulk_data_type), intent(inout) :: bulk
+      type(id_table_type) :: turning
+      integer, allocatable :: nodes(:, :)
+      integer :: c, i, k
+
+      associate (edge => bulk%edge, plate => bulk%element, rigid => bulk%rigid)
+         if (.not. any(rigid%is_mean)) return
+         allocate (nodes(4, size(edge) + size(plate) + size(rigid)), source=0)
+         do i = 1, size(edge)
+            if (any(bulk%beam_property%id == edge(i)%property)) nodes(:2, i) = edge(i)%nodes(:2)
+         end do
+         do i = 1, size(plate)
+            if (any(bulk%pshell%id == plate(i)%property .and. bulk%pshell%bending > 0)) &
+               nodes(:, size(edge) + i) = plate(i)%nodes(:4)
+         end do
+         nodes(1, size(edge) + size(plate) + 1:) = rigid%node
+         call turning%build([nodes])
+         do i = 1, size(rigid)
+            if (.not. rigid(i)%is_mean .or. .not. any([(any(has_component(rigid(i)%directions, c)), c = 4, 6)])) cycle
+            if (rigid(i)%surface == 0) then
+               if (all([(turning%find(rigid(i)%nodes(k)) > 0, k = 1, size(rigid(i)%nodes))])) cycle
+            end if
+            call bulk%ignored%add('456 in C of '//merge('RBE3M', 'RBE3 ', rigid(i)%surface > 0))
+         end do
+      end associate
+   end subroutine count_idle_rotations
 
    !> ALPHA in data field K, and TREF after it unless that is beyond field LAST.
    subroutine read_expansion(card, k, last, rigid)

@@ -1,16 +1,17 @@
 !> Reads the cards of supports, prescribed displacements, springs and nodal masses.
 !! Supports: SPC, SPC1, SPCM and their sum SPCADD, SUPORT; MPCADD combines constraint equations likewise. Prescribed displacements: SPCD.
-!! Springs: CELAS1, CELAS2, CBUSH, PELAS, PBUSH. Masses: CONM2.
+!! Springs: CELAS1 to 4, CBUSH, PELAS, PBUSH. Masses: CONM1, CONM2, CMASS1 to 4, PMASS. Scalar points: SPOINT.
 module support_cards
-   use bulk_data, only: bulk_data_type, displacement_card, set_sum_card, spring_property_card, support_card
+   use bulk_data, only: bulk_data_type, displacement_card, pmass_card, set_sum_card, spring_property_card, support_card
    use card_fields, only: card_fields_type
-   use field_rules, only: at_least_1, not_negative
+   use field_rules, only: at_least_1, not_negative, parse_integer, real_range
    use kinds, only: wp
    use text_tools, only: integer_text, one_of
    implicit none
    private
 
-   public :: read_support, read_suport, read_sum, read_displacement, read_spring, read_spring_property, read_mass
+   public :: read_support, read_suport, read_sum, read_displacement, read_spring, read_spring_property, read_mass, &
+             read_pmass, read_scalar
 
 contains
 
@@ -133,137 +134,215 @@ contains
       card%i = card%i + n - 1
    end subroutine read_displacement
 
-   !> CELAS1: a spring between component C1 of node G1 and C2 of G2, with a PELAS; CELAS2: with K. A blank node is the ground. CBUSH:
-   !! springs along the three axes of system CID between GA and GB or the ground, with a PBUSH. The position S on the line between the
-   !! nodes has no effect: the springs connect the displacements of the nodes, and their rotations.
+   !> CELAS1: a spring between component C1 of node G1 and C2 of G2, with a PELAS; CELAS2: with K. A blank node is the ground. CELAS3
+   !! and CELAS4: the same between scalar points S1 and S2. CBUSH: a bush.
    subroutine read_spring(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      character(2) :: field
-      integer :: c, k, offset
 
       associate (spring => bulk%spring(card%i))
          spring%is_bush = card%name == 'CBUSH'
+         spring%is_scalar = any(card%name == ['CELAS3', 'CELAS4'])
          call card%field('EID', spring%id)
          if (spring%is_bush) then
-            call card%field('PID', spring%property)
-            call card%field('GA', spring%nodes(1))
-            call card%field('GB', spring%nodes(2), default=0)
-            call card%skip(['GO', 'X2', 'X3'])
-            call card%field('CID', spring%system, default=-1, least=0)
-            call card%skip(['S'])
-            call card%field('OCID', offset, default=-1, least=-1)
-            call card%blank(['S1', 'S2', 'S3'])
-            call card%finish(spring%line)
-            if (spring%system < 0 .and. any(card%given(['GO', 'X2', 'X3']))) call card%error('CID', &
-               'blank, and GO or X1, X2, X3 are not; expected the system of its axes, 0 for global axes')
-            if (offset >= 0) call card%error('OCID', 'expected blank or -1: the spring has no offset')
+            call read_bush(card, bulk)
             return
          end if
-         if (card%name == 'CELAS1') call card%field('PID', spring%property)
-         if (card%name == 'CELAS2') call card%field('K', spring%stiffness, not_negative)
-         call card%field('G1', spring%nodes(1), default=0)
-         call card%field('C1', spring%components(1), default=0)
-         call card%field('G2', spring%nodes(2), default=0)
-         call card%field('C2', spring%components(2), default=0)
+         if (any(card%name == ['CELAS1', 'CELAS3'])) call card%field('PID', spring%property)
+         if (any(card%name == ['CELAS2', 'CELAS4'])) call card%field('K', spring%stiffness, not_negative)
+         call read_ends(card, spring%is_scalar, spring%nodes, spring%components)
          if (card%name == 'CELAS2') then
             call card%field('GE', spring%damping, not_negative, default=0.0_wp)
             call card%skip(['S'])
          end if
          call card%finish(spring%line)
          if (spring%damping > 0.0_wp) call bulk%ignored%wait('GE of CELAS2', card%line, needs_response=.false.)
-         if (card%is_faulty()) return
-         if (all(spring%nodes == 0)) call card%error('G1', 'blank, as is G2; expected a node at one end or at both')
-         if (all(spring%nodes == 0)) return
-         do k = 1, 2 ! every node needs a component
-            field = 'C'//integer_text(k)
-            c = spring%components(k)
-            if (c < 0 .or. c > 6) then
-               call card%error(field, 'there is no component '//integer_text(c)//'; expected 1 to 6, blank or 0 at the ground')
-            else if (spring%nodes(k) > 0 .and. c == 0) then
-               call card%error(field, 'blank or 0, expected the component at G'//integer_text(k))
-            else if (k == 1 .and. all([spring%nodes(1), spring%components] > 0) .and. (c > 3 .neqv. spring%components(2) > 3)) then
-               call card%error(field, 'a displacement at one end and a rotation at the other; expected two '// &
-                               'displacements or two rotations')
-            end if
-         end do
       end associate
    end subroutine read_spring
 
+   !> The ends of a spring or mass: NODES G1 and G2 with COMPONENTS C1 and C2, or scalar points S1 and S2. Blank: the ground.
+   subroutine read_ends(card, is_scalar, nodes, components)
+      type(card_fields_type), intent(inout) :: card
+      logical, intent(in)  :: is_scalar
+      integer, intent(out) :: nodes(2), components(2)
+      character(2) :: field
+      integer :: k
+
+      components = 1
+      if (is_scalar) call card%field(['S1', 'S2'], nodes, default=0, least=0)
+      do k = 1, 2
+         if (is_scalar) exit
+         field = 'C'//integer_text(k)
+         call card%field('G'//integer_text(k), nodes(k), default=0, least=0)
+         call card%field(field, components(k), default=0, least=-huge(1))
+         if (components(k) < 0 .or. components(k) > 6) call card%error(field, 'there is no component '// &
+            integer_text(components(k))//'; expected 1 to 6, blank or 0 at the ground and of scalar points')
+      end do
+      if (all(nodes == 0) .and. .not. card%is_faulty()) call card%error(one_of(is_scalar, 'S1', 'G1'), 'blank, as is '// &
+         one_of(is_scalar, 'S2', 'G2')//'; expected a node at one end or at both')
+      where (nodes == 0) components = 0
+   end subroutine read_ends
+
+   !> CBUSH: springs along and about three axes, with a PBUSH, between GA and GB or the ground. The axes are those of system CID, or
+   !! follow from node GO or the vector X1, X2, X3. The bush stands at S on the line between the nodes, or at S1, S2, S3 in system OCID.
+   subroutine read_bush(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      logical :: ok
+
+      associate (bush => bulk%spring(card%i))
+         call card%field('PID', bush%property, default=bush%id)
+         call card%field('GA', bush%nodes(1))
+         call card%field('GB', bush%nodes(2), default=0, least=0)
+         call card%field('GO', bush%orientation(1), default=0.0_wp, whole=.true.)
+         call card%field(['X2', 'X3'], bush%orientation(2:), default=0.0_wp, whole=.true.)
+         call parse_integer(card%text_at(5), bush%other, ok)
+         if (.not. ok .or. any(card%given(['X2', 'X3']))) bush%other = 0
+         if (bush%other > 0) bush%orientation = 0.0_wp
+         call card%field('CID', bush%system, default=-1, least=0)
+         call card%field('S', bush%share, real_range(0.0_wp, 1.0_wp), default=0.5_wp, whole=.true.)
+         call card%field('OCID', bush%point_system, default=-1, least=-1)
+         call card%field(['S1', 'S2', 'S3'], bush%point, default=0.0_wp, whole=.true.)
+         call card%finish(bush%line)
+      end associate
+   end subroutine read_bush
+
+   !> SPOINT: scalar points, numbers and ranges.
+   subroutine read_scalar(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+
+      bulk%scalar(card%i)%line = card%line
+      call card%list_ranges(1, 'ID', 'a number', bulk%scalar(card%i)%id_ranges)
+   end subroutine read_scalar
+
    !> PELAS: the stiffnesses K of one or two springs. PBUSH: K1, K2, K3 of a CBUSH along its axes, K4, K5, K6 about them; lines of
-   !! damping (B, GE) and stress recovery (RCV) may follow. Mass (M) would change the answer and is an error. Stress factors have no
-   !! effect. Damping of a CBUSH is not supported and is an error in a stage with FREQUENCY.
+   !! damping (viscous B, structural GE), stress recovery (RCV, without effect) and mass (M) may follow.
    subroutine read_spring_property(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       type(spring_property_card) :: second
-      character(8) :: flag
-      integer :: k
 
       associate (first => bulk%spring_property(card%i))
          first%is_bush = card%name == 'PBUSH'
          if (first%is_bush) then
-            first%line = card%line
-            call card%field('PID', first%id)
-            call card%word('FLAG', '|K|', flag)
-            call card%field(['K1', 'K2', 'K3', 'K4', 'K5', 'K6'], first%stiffness, not_negative, default=0.0_wp)
-            do k = 10, card%n, 8
-               select case (card%text_at(k))
-               case ('B', 'GE')
-                  call bulk%ignored%wait(card%text_at(k)//' of PBUSH', card%line, needs_response=.true., &
-                                         refusal='expected none: damping of springs is GE of CELAS2 and PELAS')
-               case ('RCV', '')
-               case default
-                  call card%error_at(k, 'FLAG: '''//card%text_at(k)//''', expected B, GE or RCV after the line of K')
-               end select
-            end do
+            call read_bush_property(card, bulk)
             return
          end if
          call card%field('PID1', first%id)
          call card%field('K1', first%stiffness(1), not_negative)
-         call card%field('GE1', first%damping, not_negative, default=0.0_wp)
+         call card%field('GE1', first%damping(1), not_negative, default=0.0_wp)
          call card%skip(['S1'])
          call card%field('PID2', second%id, default=0)
          call card%field('K2', second%stiffness(1), not_negative, default=0.0_wp)
-         call card%field('GE2', second%damping, not_negative, default=0.0_wp)
+         call card%field('GE2', second%damping(1), not_negative, default=0.0_wp)
          call card%skip(['S2'])
          call card%finish(first%line)
-         if (first%damping > 0.0_wp) call bulk%ignored%wait('GE of PELAS', card%line, needs_response=.false.)
+         if (first%damping(1) > 0.0_wp) call bulk%ignored%wait('GE of PELAS', card%line, needs_response=.false.)
          if (card%given('PID2')) then
             second%line = card%line
             second%field = 5
             card%i = card%i + 1
             bulk%spring_property(card%i) = second
-            if (second%damping > 0.0_wp) call bulk%ignored%wait('GE of PELAS', card%line, needs_response=.false.)
+            if (second%damping(1) > 0.0_wp) call bulk%ignored%wait('GE of PELAS', card%line, needs_response=.false.)
          else if (card%given('K2')) then
             call card%error('PID2', 'blank, but K2 is not')
          end if
       end associate
    end subroutine read_spring_property
 
-   !> CONM2: mass M at node G, beside it by X1 to X3, with moments of inertia about its centre. CMASS2: mass M that resists the component
-   !! C1 of node G1 alone, of a rotation a moment of inertia.
+   !> PBUSH: a line of six values for each flag.
+   subroutine read_bush_property(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      character(:), allocatable :: flag
+      real(wp) :: value
+      integer  :: i, k
+      logical  :: ok
+
+      associate (law => bulk%spring_property(card%i))
+         law%line = card%line
+         call card%field('PID', law%id)
+         flag = 'K'
+         do k = 2, max(2, card%n), 8
+            if (card%text_at(k) /= '') flag = card%text_at(k)
+            if (all(flag /= [character(8) :: 'K', 'B', 'GE', 'RCV', 'M'])) then
+               call card%error_at(k, 'FLAG: '''//card%text_at(k)//''', expected K, B, GE, RCV or M')
+               cycle
+            end if
+            do i = 1, merge(1, 6, flag == 'M')
+               if (card%text_at(k + i) == '' .or. flag == 'RCV') cycle
+               call card%real_at(k + i, flag//integer_text(i), value, ok, not_negative)
+               if (.not. ok .or. .not. value > 0.0_wp) cycle
+               if (flag == 'K') law%stiffness(i) = value
+               if (flag == 'GE') law%damping(i) = value
+               if (flag == 'M') law%mass = value
+               if (flag == 'GE') call bulk%ignored%wait('GE of PBUSH', card%line, needs_response=.false.)
+               if (flag == 'B') call bulk%ignored%wait('B of PBUSH', card%line, needs_response=.true., &
+                                                       refusal='expected GE; the viscous damping of springs is not available')
+            end do
+         end do
+      end associate
+   end subroutine read_bush_property
+
+   !> CONM2: mass M at node G, beside it by X1 to X3, with moments of inertia about its centre. CONM1: the mass matrix of the six
+   !! components of node G. CMASS2: mass M that resists component C1 of node G1 less component C2 of G2, of a rotation a moment of
+   !! inertia; CMASS1: with a PMASS; CMASS3, CMASS4: of scalar points.
    subroutine read_mass(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
+      integer :: components(2), i, j, nodes(2)
 
       associate (mass => bulk%mass(card%i))
          call card%field('EID', mass%id)
-         if (card%name == 'CMASS2') then
-            call card%field('M', mass%mass, not_negative)
-            call card%field('G1', mass%node)
-            call card%field('C1', mass%component, least=1, most=6)
-            call card%blank(['G2', 'C2'])
+         mass%is_directed = card%name(:5) == 'CMASS'
+         mass%is_scalar = any(card%name == ['CMASS3', 'CMASS4'])
+         if (mass%is_directed) then
+            if (any(card%name == ['CMASS1', 'CMASS3'])) call card%field('PID', mass%property)
+            if (any(card%name == ['CMASS2', 'CMASS4'])) call card%field('M', mass%mass, not_negative)
+            call read_ends(card, mass%is_scalar, nodes, components)
+            i = merge(2, 1, nodes(1) == 0) ! the first node that is not the ground
+            mass%node = nodes(i)
+            mass%node_2 = nodes(3 - i)
+            mass%component = components(i)
+            mass%component_2 = components(3 - i)
          else
             call card%field('G', mass%node)
-            call card%field('CID', mass%system, default=0, least=-1)
-            call card%field('M', mass%mass, not_negative)
-            call card%field(['X1', 'X2', 'X3'], mass%offset, default=0.0_wp)
-            call card%blank(['-'])
-            call card%field(['I11', 'I21', 'I22', 'I31', 'I32', 'I33'], mass%inertia, default=0.0_wp)
+            call card%field('CID', mass%system, default=0, least=merge(0, -1, card%name == 'CONM1'))
+            if (card%name == 'CONM1') then
+               allocate (mass%matrix(21))
+               do i = 1, 6
+                  do j = 1, i
+                     call card%field('M'//integer_text(10*i + j), mass%matrix(i*(i - 1)/2 + j), default=0.0_wp)
+                  end do
+               end do
+            else
+               call card%field('M', mass%mass, not_negative)
+               call card%field(['X1', 'X2', 'X3'], mass%offset, default=0.0_wp)
+               call card%blank(['-'])
+               call card%field(['I11', 'I21', 'I22', 'I31', 'I32', 'I33'], mass%inertia, default=0.0_wp)
+            end if
          end if
          call card%finish(mass%line)
       end associate
    end subroutine read_mass
+
+   !> PMASS: up to four masses of CMASS1 and CMASS3.
+   subroutine read_pmass(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      type(pmass_card) :: mass
+      integer :: k
+
+      do k = 1, 4
+         if (k > 1 .and. card%text_at(2*k - 1) == '') exit
+         call card%field('PID'//integer_text(k), mass%id)
+         call card%field('M'//integer_text(k), mass%mass, not_negative)
+         if (k > 1) card%i = card%i + 1
+         mass%line = card%line
+         bulk%pmass(card%i) = mass
+      end do
+      call card%finish(k)
+   end subroutine read_pmass
 
 end module support_cards

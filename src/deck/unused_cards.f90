@@ -17,7 +17,7 @@ contains
       associate (properties => [bulk%block%property, bulk%element%property, bulk%edge%property], &
                  springs => bulk%spring_property, is_bush => bulk%spring%is_bush, system => bulk%system)
          call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%beam_property%id], properties, &
-            [spread('PSHELL', 1, size(bulk%pshell)), spread('PAXIS ', 1, size(bulk%paxis)), &
+            [bulk%pshell%name, spread('PAXIS ', 1, size(bulk%paxis)), &
              spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod)), bulk%beam_property%name])
          call count_unnamed(pack(springs%id, .not. springs%is_bush), pack(bulk%spring%property, .not. is_bush), &
                             spread('PELAS ', 1, count(.not. springs%is_bush)))
@@ -25,7 +25,7 @@ contains
                             spread('PBUSH ', 1, count(springs%is_bush)))
          if (size(system) == 0) return
          call count_unnamed(system%id, [system%reference, bulk%force%system, bulk%pressure%system, bulk%gravity%system, &
-            bulk%spring%system, bulk%mass%system, bulk%grid%cp, bulk%grid%cd], &
+            bulk%spring%system, bulk%spring%point_system, bulk%mass%system, bulk%grid%cp, bulk%grid%cd], &
             system_names(system%kind + merge(0, 3, system%nodes(1) > 0)))
       end associate
 

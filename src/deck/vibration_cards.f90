@@ -34,7 +34,7 @@ contains
          call card%field(of//'2', eigrl%highest, positive, default=0.0_wp)
          estimate = 0
          if (of == 'F') call card%field('NE', estimate, default=0, least=0)
-         call card%field('ND', eigrl%most, default=0, least=0)
+         call card%field('ND', eigrl%most, default=0)
          if (of == 'V') call card%skip(['MSGLVL', 'MAXSET', 'SHFSCL'])
          if (of == 'F') call card%skip(['blank', 'blank'])
          call card%word('NORM', one_of(of == 'V', '|MASS|MAX|', '|MASS|MAX|POINT|'), norm)

@@ -18,26 +18,29 @@
 !! the size of the bending stiffness: a larger one would lock curved shells, a smaller one would make twisted shells too flexible.
 module shell_membrane
    use elasticity, only: plane_stress
-   use element_kinds, only: centre_point, kind_quad4, kind_tria3, max_nodes, node_point
+   use element_kinds, only: kind_quad4, kind_tria3, max_nodes
    use element_mapping, only: element_law, element_map, map_element, map_point
    use kinds, only: wp
+   use laminate, only: ply_type
    use numbers, only: cross
-   use quadrature, only: body_rule, integration_rule
    use shape_functions, only: shape_values
    implicit none
    private
 
-   public :: corner_kind, flat_coordinates, shell_frame_of, thickness_at, add_membrane, add_thermal_membrane_forces, find_membrane
+   public :: corner_kind, drilling_stiffness, flat_coordinates, membrane_at, shell_frame_of, thickness_at
 
    !> Section and material of a shell element.
    type, public :: shell_law
-      real(wp) :: d(3, 3) = 0.0_wp            !! plane stress of the membrane: xx, yy, xy [pressure]
-      real(wp) :: bending(3, 3) = 0.0_wp      !! the same for bending, times 12 I/T**3 [pressure]
-      real(wp) :: shear = 0.0_wp              !! G TS/T of transverse shear; 0: rigid in transverse shear [pressure]
+      real(wp) :: d(3, 3) = 0.0_wp            !! plane stress of the membrane: xx, yy, xy; of a laminate A/t [pressure]
+      real(wp) :: bending(3, 3) = 0.0_wp      !! the same for bending, times 12 I/T**3; of a laminate 12 D/t^3 [pressure]
+      real(wp) :: coupling(3, 3) = 0.0_wp     !! between membrane and bending: B/t^2 [pressure]
+      real(wp) :: shear(2) = 0.0_wp           !! G TS/T of transverse shear xz, yz; 0: rigid in transverse shear [pressure]
+      real(wp) :: heat(3, 3) = 0.0_wp         !! columns: integrals of [Q] {alpha} (1, z/t, 12 z^2/t^2)/t [pressure/temperature]
       real(wp) :: thickness(4) = 0.0_wp       !! at the corners [length]
       real(wp) :: offset = 0.0_wp             !! of the mean plane from the nodes, along the normal (ZOFFS) [length]
-      real(wp) :: expansion = 0.0_wp          !! alpha [1/temperature]
+      real(wp) :: along(3) = 0.0_wp           !! projected: direction x of the material; zero: isotropic
       logical  :: bowed(3) = .false.          !! of a triangle: its edge from corner i to the next lies between triangles
+      type(ply_type), allocatable :: plies(:) !! of a laminate
    end type shell_law
 
    !> The geometry of a shell element.
@@ -53,24 +56,21 @@ module shell_membrane
    real(wp), parameter :: lumping = 1.5_wp  ! alpha_b, of the bow of an edge in the mean strains of a triangle; 3/2 is optimal
    real(wp), parameter :: higher = 0.004_wp ! beta_0, of the higher-order stiffness; (1 - 4 nu^2)/2 is optimal
 
-   ! extrapolation of strains from the integration points of a quadrilateral to its corners: TO_CORNERS(i, j) is the weight of the
-   ! point next to corner i at corner j
-   real(wp), parameter :: near = 1.0_wp + 0.5_wp*sqrt(3.0_wp), far = 1.0_wp - 0.5_wp*sqrt(3.0_wp)
-   real(wp), parameter :: to_corners(4, 4) = reshape([near, -0.5_wp, far, -0.5_wp, -0.5_wp, near, -0.5_wp, far, &
-                                                      far, -0.5_wp, near, -0.5_wp, -0.5_wp, far, -0.5_wp, near], [4, 4])
-
 contains
 
-   !> The frame of an element with corners X and an OFFSET. The normal of a quadrilateral is perpendicular to both diagonals.
-   pure type(shell_frame) function shell_frame_of(x, offset) result(frame)
-      real(wp), intent(in) :: x(:, :)         !! (3, corners) [length]
+   !> The frame of the corners of an element with nodes X and an OFFSET. The normal of a quadrilateral is perpendicular to both
+   !! diagonals. The first direction is that of MATERIAL, if any.
+   pure type(shell_frame) function shell_frame_of(x, offset, material) result(frame)
+      real(wp), intent(in) :: x(:, :)         !! (3, nodes) [length]
       real(wp), intent(in) :: offset          !! [length]
+      real(wp), intent(in), optional :: material(3)
       real(wp) :: from_centre(3), along(3), centre(3), normal(3)
       integer  :: i, n
 
       n = size(x, 2)
+      if (n > 4) n = n/2                      ! a second-order element: that of its corners
       frame%n = n
-      centre = sum(x, dim=2)/n
+      centre = sum(x(:, :n), dim=2)/n
       if (n == 4) then
          along = x(:, 2) + x(:, 3) - x(:, 1) - x(:, 4)
          normal = cross(x(:, 3) - x(:, 1), x(:, 4) - x(:, 2))
@@ -79,6 +79,9 @@ contains
          normal = cross(along, x(:, 3) - x(:, 1))
       end if
       normal = normal/max(norm2(normal), tiny(1.0_wp))
+      if (present(material)) then
+         if (norm2(material) > 0.0_wp) along = material
+      end if
       along = along - dot_product(along, normal)*normal
       along = along/max(norm2(along), tiny(1.0_wp))
       frame%axes(:, 1) = along
@@ -92,14 +95,18 @@ contains
       end do
    end function shell_frame_of
 
-   !> The corners X of an element projected onto its mean plane, in its axes.
+   !> The nodes X of an element projected onto its mean plane, in its axes.
    pure function flat_coordinates(x) result(flat)
-      real(wp), intent(in) :: x(:, :)         !! (3, corners) [length]
-      real(wp) :: flat(2, size(x, 2))
+      real(wp), intent(in) :: x(:, :)         !! (3, nodes) [length]
+      real(wp) :: flat(2, size(x, 2)), from_centre(3)
       type(shell_frame) :: frame
+      integer :: i
 
       frame = shell_frame_of(x, 0.0_wp)
-      flat = frame%x(:, :size(x, 2))
+      do i = 1, size(x, 2)
+         from_centre = x(:, i) - sum(x(:, :frame%n), dim=2)/frame%n
+         flat(:, i) = matmul(from_centre, frame%axes(:, :2))
+      end do
    end function flat_coordinates
 
    !> The linear kind of an element with N corners.
@@ -109,80 +116,48 @@ contains
       corner_kind = merge(kind_quad4, kind_tria3, n == 4)
    end function corner_kind
 
-   !> The thickness at a POINT, given in local coordinates [length].
-   pure real(wp) function thickness_at(law, frame, point) result(t)
+   !> The thickness at a POINT, given in local coordinates, of an element with this number of CORNERS [length].
+   pure real(wp) function thickness_at(law, corners, point) result(t)
+      type(shell_law), intent(in) :: law
+      integer, intent(in)         :: corners
+      real(wp), intent(in)        :: point(3)
+      real(wp) :: n(max_nodes)
+
+      call shape_values(corner_kind(corners), point, n)
+      t = dot_product(n(:corners), law%thickness(:corners))
+   end function thickness_at
+
+   !> Strains xx, yy, xy of the membrane at a POINT from u, v, theta_z of the corners and, of a quadrilateral, the four modes. TWIST
+   !! is the difference between the drilling rotation and the rotation of the membrane. VOLUME is the volume per unit of weight.
+   pure subroutine membrane_at(law, frame, point, b, twist, volume)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
       real(wp), intent(in)          :: point(3)
-      real(wp) :: n(max_nodes)
+      real(wp), intent(out)         :: b(3, 16), twist(16), volume
+      real(wp) :: at_corner(3, 9, 3), n(max_nodes), area
+      integer  :: i
 
-      call shape_values(corner_kind(frame%n), point, n)
-      t = dot_product(n(:frame%n), law%thickness(:frame%n))
-   end function thickness_at
-
-   !> Add the membrane to K_LOCAL, in the axes of the element.
-   pure subroutine add_membrane(law, frame, k_local)
-      type(shell_law), intent(in)   :: law
-      type(shell_frame), intent(in) :: frame
-      real(wp), intent(inout)       :: k_local(24, 24)
-      real(wp) :: at_corner(3, 9, 3), basic(3, 9), d(3, 3), e(3, 9), k(16, 16), f(16), area
-      integer  :: at(12), b, m
-
-      m = 3*frame%n
-      if (frame%n == 3) then
-         call membrane_strains(law, frame%x(:, :3), area, basic, at_corner)
-         d = area*sum(law%thickness(:3))/3.0_wp*law%d
-         k(:m, :m) = matmul(transpose(basic), matmul(d, basic))
-         do b = 1, 3                          ! the mid-edge points, each with a third of the area
-            e = 0.5_wp*(at_corner(:, :, b) + at_corner(:, :, modulo(b, 3) + 1))
-            k(:m, :m) = k(:m, :m) + matmul(transpose(e), matmul(d, e))/3.0_wp
-         end do
-      else
-         call condensed_quadrilateral(law, frame, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], k, f)
+      if (frame%n == 4) then
+         call mode_strains(frame, point, b, twist, volume)
+         return
       end if
-      at(:m) = [([6*b - 5, 6*b - 4, 6*b], b = 1, frame%n)]
-      do b = 1, m
-         k_local(at(:m), at(b)) = k(:m, b)
+      b = 0.0_wp
+      twist = 0.0_wp
+      call membrane_strains(law, frame%x(:, :3), area, b(:, :9), at_corner)
+      call shape_values(corner_kind(3), point, n)
+      do i = 1, 3
+         b(:, :9) = b(:, :9) + n(i)*at_corner(:, :, i)
       end do
-   end subroutine add_membrane
+      volume = 2.0_wp*area
+   end subroutine membrane_at
 
-   !> [K] between u, v, theta_z of the corners of a quadrilateral and the parameters of the four modes, and the thermal forces F on
-   !! them, with the modes condensed: the first twelve rows are the condensed ones; the rows of the modes keep what gives their
-   !! parameters. [K] is formed with the mean thickness, for which the modes are orthogonal to constant strain.
-   pure subroutine condensed_quadrilateral(law, frame, rise, k, f)
-      type(shell_law), intent(in)   :: law
-      type(shell_frame), intent(in) :: frame
-      real(wp), intent(in)          :: rise(:) !! (4) T - TREF [temperature]
-      real(wp), intent(out)         :: k(16, 16), f(16)
-      type(integration_rule) :: rule
-      real(wp) :: b(3, 16), n(max_nodes), r(16), g, t, volume
-      integer  :: i, j, p
+   !> The penalty of the drilling rotation of an element of this AREA and thickness T.
+   pure real(wp) function drilling_stiffness(law, t, area) result(g)
+      type(shell_law), intent(in) :: law
+      real(wp), intent(in)        :: t, area  !! [length], [length^2]
 
-      k = 0.0_wp
-      f = 0.0_wp
-      t = sum(law%thickness)/4.0_wp
-      associate (x => frame%x)
-         g = 0.5_wp*((x(1, 3) - x(1, 1))*(x(2, 4) - x(2, 2)) - (x(1, 4) - x(1, 2))*(x(2, 3) - x(2, 1))) ! area
-         g = law%d(3, 3)*min(1.0_wp, drilling*t**2/g)
-      end associate
-      call body_rule(kind_quad4, .false., rule)
-      do p = 1, rule%n
-         call mode_strains(frame, rule%point(:, p), b, r, volume)
-         do i = 1, 16
-            k(:, i) = k(:, i) + rule%weight(p)*volume*t*(matmul(matmul(law%d, b(:, i)), b) + g*r*r(i))
-         end do
-         if (all(abs(rise) <= 0.0_wp)) cycle
-         call shape_values(kind_quad4, rule%point(:, p), n)
-         f = f + rule%weight(p)*volume*sum(law%thickness)/4.0_wp*dot_product(n(:4), rise)*law%expansion* &
-             matmul(law%d(:, 1) + law%d(:, 2), b)
-      end do
-      do i = 16, 13, -1
-         f(:i - 1) = f(:i - 1) - k(:i - 1, i)*f(i)/k(i, i)
-         do j = 1, i - 1
-            k(:i - 1, j) = k(:i - 1, j) - k(:i - 1, i)*k(i, j)/k(i, i)
-         end do
-      end do
-   end subroutine condensed_quadrilateral
+      g = law%d(3, 3)*min(1.0_wp, drilling*t**2/area)
+   end function drilling_stiffness
 
    !> Strains xx, yy, xy at a POINT of a quadrilateral from u, v, theta_z of the corners and the four modes. TWIST is the difference
    !! between the drilling rotation and the rotation of the membrane.
@@ -269,56 +244,5 @@ contains
          at_corner(:, :, k) = 1.5_wp*sqrt(higher)*matmul(natural, matmul(q, to_hierarchical))
       end do
    end subroutine membrane_strains
-
-   !> Strains of the mean plane at the corners and at the centre from U_LOCAL, the values u, v, w and rotations of every corner in the
-   !! axes of the element. Only a thermal load acts on the modes of a quadrilateral.
-   pure subroutine find_membrane(law, frame, rise, u_local, strain)
-      type(shell_law), intent(in)   :: law
-      type(shell_frame), intent(in) :: frame
-      real(wp), intent(in)          :: rise(:)   !! (corners) [temperature]
-      real(wp), intent(in)          :: u_local(6, 4)
-      real(wp), intent(out)         :: strain(3, 5)
-      real(wp) :: at_corner(3, 9, 3), b(3, 16), basic(3, 9), f(16), k(16, 16), q(16), r(16), area, volume
-      integer  :: i
-
-      if (frame%n == 3) then
-         q(:9) = pack(u_local([1, 2, 6], :3), .true.)
-         call membrane_strains(law, frame%x(:, :3), area, basic, at_corner)
-         strain(:, 4) = matmul(basic, q(:9))
-         do i = 1, 3
-            strain(:, i) = strain(:, 4) + matmul(at_corner(:, :, i), q(:9))
-         end do
-         return
-      end if
-      q(:12) = pack(u_local([1, 2, 6], :), .true.)
-      call condensed_quadrilateral(law, frame, rise, k, f)
-      do i = 13, 16
-         q(i) = (f(i) - dot_product(k(:i - 1, i), q(:i - 1)))/k(i, i)
-      end do
-      do i = 1, 5
-         if (i <= 4) call mode_strains(frame, node_point(:, i, kind_quad4)/sqrt(3.0_wp), b, r, volume)
-         if (i == 5) call mode_strains(frame, centre_point(:, kind_quad4), b, r, volume)
-         strain(:, i) = matmul(b, q)
-      end do
-      ! bilinear extrapolation from the integration points to the corners
-      strain(:, :4) = matmul(strain(:, :4), to_corners)
-   end subroutine find_membrane
-
-   !> Add to F the thermal nodal forces of a membrane; RISE is T - TREF at its corners.
-   pure subroutine add_thermal_membrane_forces(law, frame, rise, f)
-      type(shell_law), intent(in)   :: law
-      type(shell_frame), intent(in) :: frame
-      real(wp), intent(in)          :: rise(:) !! (corners) [temperature]
-      real(wp), intent(inout)       :: f(6, 4)
-      real(wp) :: at_corner(3, 9, 3), basic(3, 9), k(16, 16), q(16), area
-
-      if (frame%n == 3) then
-         call membrane_strains(law, frame%x(:, :3), area, basic, at_corner)
-         q(:9) = area*sum(law%thickness(:3))*sum(rise)/9.0_wp*law%expansion*matmul(transpose(basic), law%d(:, 1) + law%d(:, 2))
-      else
-         call condensed_quadrilateral(law, frame, rise, k, q)
-      end if
-      f([1, 2, 6], :frame%n) = f([1, 2, 6], :frame%n) + reshape(q(:3*frame%n), [3, frame%n])
-   end subroutine add_thermal_membrane_forces
 
 end module shell_membrane

@@ -115,8 +115,8 @@ contains
       character(:), allocatable :: words
       integer :: i, j, k
 
-      before = differences(data, search%first)
-      after = differences(data, search%best)
+      before = differences(data, search%first%value)
+      after = differences(data, search%best%value)
       if (interrupt_so_far() /= 0) call out%put('$ INTERRUPTED: THE BEST VALUES SO FAR')
       call out%put('$          '//command%structure%name//' fitted by jointfit '//version//' to '//command%measured%name)
       call out%put('$ search   '//plural(search%n_runs, 'run')//'; sum of squares '//real_text(sum(before**2))// &

@@ -9,7 +9,7 @@ module law_search
    use kinds, only: wp
    use measured_data, only: a_phase, measured_type, sought_parameter
    use runs_together, only: run_all
-   use structure_answers, only: answer_type, structure_type
+   use structure_answers, only: answer_type, is_of_modes, is_predicted, structure_type
    use terminal, only: show_line
    use text_tools, only: integer_text, real_text
    use tolerances, only: at_bound, search_difference, search_settled, undetermined
@@ -18,7 +18,9 @@ module law_search
 
    public :: seek, differences, inner_value, outer_value, unknown_of, y_of
 
-   integer, parameter  :: most_runs = 100          ! of a search, without those for derivatives
+   integer, parameter  :: most_runs = 100          ! of a round, without those for derivatives
+   real(wp), parameter :: coarsely_settled = 0.03_wp ! of the sum of squares: change in the last step of a round
+   integer, parameter  :: most_rounds = 12, most_backs = 4
    real(wp), parameter :: failed = 1.0e8_wp        ! times the deviation: the difference of a run that has failed
    real(wp), parameter :: first_step = 0.7_wp      ! of an unknown
    real(wp), parameter :: small = 0.01_wp          ! step of z for dy/dz
@@ -41,10 +43,10 @@ module law_search
       type(structure_type)  :: structure
       type(search_type)     :: search
       integer :: cores = 1
-      real(wp), allocatable :: from(:)             ! the unknowns of all parameters at the start of this search
-      real(wp), allocatable :: y(:)                ! of the last run that has not failed
-      type(answer_type)     :: last                ! its answer
-      real(wp) :: square = huge(1.0_wp)            ! least sum of squares of this search
+      real(wp), allocatable :: from(:)             ! the unknowns of all parameters at the start of this round
+      type(answer_type)     :: near, last          ! the answer there in full; of the last run that has not failed
+      real(wp) :: square = huge(1.0_wp)            ! least sum of squares from this start
+      logical  :: is_predicted = .false.           ! there are frequencies that the modes of a run nearby predict
    end type task_type
    type(task_type), pointer :: task => null()      ! for MINPACK, whose routines have no place for data
 
@@ -112,13 +114,13 @@ contains
       end associate
    end function y_of
 
-   !> The differences of ANSWER from the values of DATA, over their deviations.
-   pure function differences(data, answer) result(d)
+   !> The differences of the VALUE of each row from that of DATA, over its deviation.
+   pure function differences(data, value) result(d)
       type(measured_type), intent(in) :: data
-      type(answer_type), intent(in)   :: answer
+      real(wp), intent(in)            :: value(:)
       real(wp) :: d(size(data%rows))
 
-      d = answer%value - data%rows%value
+      d = value - data%rows%value
       where (data%rows%kind == a_phase) d = d - 360.0_wp*anint(d/360.0_wp)
       d = d/data%rows%deviation
    end function differences
@@ -137,6 +139,8 @@ contains
       task%data = data
       task%structure = structure
       task%cores = cores
+      task%is_predicted = any([(is_predicted(data, i, structure%plan), i = 1, size(structure%plan%stages))] .and. &
+         [(any(is_of_modes(data%rows) .and. data%rows%stage == structure%plan%stages(i)%id), i = 1, size(structure%plan%stages))])
       task%search%free = [(i, i = 1, size(y))]
       allocate (task%search%is_held(size(y)), task%search%is_at_bound(size(y)), source=.false.)
       do k = 1, n_starts
@@ -151,7 +155,7 @@ contains
          task%structure%by_number = .false.
          call minimise(y)
          if (allocated(task%search%best%mode)) then ! modes have changed places: a number may be that at the end
-            task%structure%by_number = any(task%search%best%mode /= data%rows%mode .and. data%rows%mode > 0)
+            task%structure%by_number = any(task%search%best%mode /= task%search%first%mode .and. data%rows%mode > 0)
             if (task%structure%by_number) call minimise(y)
          end if
          task%search%n_starts = k
@@ -177,25 +181,72 @@ contains
       deallocate (task)
    end subroutine seek
 
-   !> Go from the unknowns Y to the least sum of squares over those that are free.
+   !> Go from the unknowns Y to the least sum of squares over those that are free. Where runs near another one predict frequencies,
+   !! lmder has these, and each round begins with a run in full where the last one has ended; a worse one goes half the way back.
    subroutine minimise(y)
       real(wp), intent(in) :: y(:)
       real(wp), dimension(size(task%search%free)) :: diag, qtf, wa1, wa2, wa3, x
-      real(wp) :: fjac(size(task%data%rows), size(x)), fvec(size(task%data%rows)), wa4(size(task%data%rows))
-      integer  :: info, ipvt(size(x)), m, n, nfev, njev
+      real(wp) :: fjac(size(task%data%rows), size(x)), fvec(size(task%data%rows)), wa4(size(task%data%rows)), best, now, z(size(y))
+      integer  :: backs, info, ipvt(size(x)), n, nfev, njev, round
 
-      task%from = y
-      task%square = huge(1.0_wp)
-      x = unknown_of(task%data%parameters(task%search%free), y(task%search%free))
-      m = size(fvec)
       n = size(x)
-      info = 1
-      diag = 1.0_wp
-      if (n == 0) call ask(m, n, x, fvec, fjac, m, info)
-      if (n > 0) call lmder(ask, m, n, x, fvec, fjac, m, search_settled, 1.0e-2_wp*search_settled, 0.0_wp, most_runs, diag, 2, &
-         first_step*sqrt(real(n, wp))/merge(norm2(x), 1.0_wp, norm2(x) > 0.0_wp), 0, info, nfev, njev, ipvt, qtf, wa1, wa2, &
-         wa3, wa4)
+      z = y
+      best = huge(best)
+      backs = 0
+      task%square = huge(best)
+      associate (parameters => task%data%parameters(task%search%free), free => task%search%free)
+         do round = 1, most_rounds
+            call run_at(z, now)
+            if (now >= best) then
+               if (round == 1 .or. backs == most_backs .or. interrupt_so_far() /= 0) exit
+               backs = backs + 1
+               z = 0.5_wp*(z + task%from)
+               cycle
+            end if
+            task%from = z
+            task%near = task%last
+            if (n == 0 .or. best - now <= search_settled*best) exit
+            best = now
+            diag = 1.0_wp
+            x = unknown_of(parameters, z(free))
+            call lmder(ask, size(fvec), n, x, fvec, fjac, size(fvec), merge(coarsely_settled, search_settled, task%is_predicted), &
+               1.0e-2_wp*search_settled, 0.0_wp, most_runs, &
+               diag, 2, first_step*sqrt(real(n, wp))/merge(norm2(x), 1.0_wp, norm2(x) > 0.0_wp), 0, info, nfev, njev, ipvt, qtf, &
+               wa1, wa2, wa3, wa4)
+            z(free) = y_of(parameters, x)
+            if (.not. task%is_predicted .or. info < 0) exit
+         end do
+      end associate
    end subroutine minimise
+
+   !> Run in full at the unknowns Y. SQUARE is the sum of squares, huge where the run fails.
+   subroutine run_at(y, square)
+      real(wp), intent(in)  :: y(:)
+      real(wp), intent(out) :: square
+      type(answer_type), allocatable :: answers(:)
+
+      square = huge(square)
+      associate (search => task%search)
+         call run_all(task%data, task%structure, reshape(outer_value(task%data%parameters, y), [size(y), 1]), task%cores, answers)
+         search%n_runs = search%n_runs + 1
+         if (interrupt_so_far() /= 0) return
+         if (.not. allocated(search%y)) search%fault = answers(1)%fault
+         if (answers(1)%fault /= '') return
+         if (.not. allocated(search%y)) search%first = answers(1)
+         if (.not. allocated(search%y)) task%structure%shapes = answers(1)%shapes
+         task%last = answers(1)
+         square = sum(differences(task%data, task%last%value)**2)
+         task%square = min(task%square, square)
+         if (square < search%square .or. .not. allocated(search%y)) then
+            search%y = y
+            search%best = task%last
+            search%by_number = task%structure%by_number
+            search%square = square
+         end if
+         call show_line('run '//integer_text(search%n_runs)//', least sum of squares '//real_text(search%square), at_once=.true., &
+                        is_logged=.true.)
+      end associate
+   end subroutine run_at
 
    !> For lmder: at X the differences FVEC (IFLAG 1) or their derivatives FJAC (IFLAG 2); IFLAG below zero ends the search.
    subroutine ask(m, n, x, fvec, fjac, ldfjac, iflag)
@@ -204,54 +255,42 @@ contains
       real(wp), intent(inout) :: fvec(m), fjac(ldfjac, n)
       integer, intent(inout)  :: iflag
       type(answer_type), allocatable :: answers(:)
-      real(wp) :: y(size(task%data%parameters))
+      real(wp) :: square, y(size(task%data%parameters))
 
       y = task%from
-      associate (search => task%search, parameters => task%data%parameters)
-         y(search%free) = y_of(parameters(search%free), x)
-         if (iflag == 1) then
-            call run_all(task%data, task%structure, reshape(outer_value(parameters, y), [size(y), 1]), task%cores, answers)
-            search%n_runs = search%n_runs + 1
-            fvec = failed
-            if (interrupt_so_far() /= 0 .or. (answers(1)%fault /= '' .and. .not. allocated(search%y))) then
-               search%fault = answers(1)%fault
-               if (allocated(search%y)) search%fault = ''
-               iflag = -1
-            else if (answers(1)%fault == '') then
-               fvec = differences(task%data, answers(1))
-               task%y = y
-               task%last = answers(1)
-               if (.not. allocated(search%y)) search%first = answers(1)
-               if (.not. allocated(search%y)) task%structure%shapes = answers(1)%shapes
-               task%square = min(task%square, sum(fvec**2))
-               if (sum(fvec**2) < search%square .or. .not. allocated(search%y)) then
-                  search%y = y
-                  search%best = answers(1)
-                  search%by_number = task%structure%by_number
-                  search%square = sum(fvec**2)
-               end if
-            end if
-            call show_line('run '//integer_text(search%n_runs)//', least sum of squares '//real_text(search%square), &
-                           at_once=.true., is_logged=.true.)
-         else if (any(abs(y - task%y) > 0.0_wp)) then ! the first run of this start has failed
-            iflag = -1
+      associate (parameters => task%data%parameters, free => task%search%free)
+         y(free) = y_of(parameters(free), x)
+         if (iflag == 2) then
+            call differentiate(task%last%value, y, .false., fjac(:m, :))
+            fjac = fjac*spread((y_of(parameters(free), x + small) - y_of(parameters(free), x - small))/(2.0_wp*small), 1, m)
          else
-            call differentiate(task%last, y, .false., fjac(:m, :))
-            fjac = fjac*spread((y_of(parameters(search%free), x + small) - y_of(parameters(search%free), x - small))/ &
-                               (2.0_wp*small), 1, m)
-            if (interrupt_so_far() /= 0) iflag = -1
+            square = 0.0_wp
+            if (norm2(y - task%from) <= 16.0_wp*epsilon(y)*norm2(y)) then
+               task%last = task%near
+            else if (task%is_predicted) then
+               call run_all(task%data, task%structure, reshape(outer_value(parameters, y), [size(y), 1]), task%cores, answers, &
+                            task%near)
+               task%search%n_runs = task%search%n_runs + 1
+               if (answers(1)%fault /= '') square = huge(square)
+               if (answers(1)%fault == '') task%last = answers(1)
+            else
+               call run_at(y, square)
+               if (square < huge(square)) task%near = task%last
+            end if
+            fvec = failed
+            if (square < huge(square)) fvec = differences(task%data, task%last%value)
          end if
+         if (interrupt_so_far() /= 0) iflag = -1
       end associate
    end subroutine ask
 
-   !> The derivatives of the differences by the free unknowns at Y, where the answer is NEAR; IS_CENTRAL: by steps to both sides.
-   subroutine differentiate(near, y, is_central, derivatives)
-      type(answer_type), intent(in) :: near
-      real(wp), intent(in)          :: y(:)
-      logical, intent(in)           :: is_central
-      real(wp), intent(out)         :: derivatives(:, :)
+   !> The derivatives of the differences by the free unknowns at Y, where the rows have VALUE; IS_CENTRAL: by steps to both sides.
+   subroutine differentiate(value, y, is_central, derivatives)
+      real(wp), intent(in)  :: value(:), y(:)
+      logical, intent(in)   :: is_central
+      real(wp), intent(out) :: derivatives(:, :)
       type(answer_type), allocatable :: answers(:)
-      real(wp) :: ends(2), points(size(y), 2*size(task%search%free)), step
+      real(wp) :: before(size(value)), ends(2), points(size(y), 2*size(task%search%free)), step
       integer  :: j, k, sides
 
       associate (free => task%search%free, parameters => task%data%parameters)
@@ -269,36 +308,24 @@ contains
             end associate
          end do
          call run_all(task%data, task%structure, outer_value(spread(parameters, 2, sides*size(free)), &
-                      points(:, :sides*size(free))), task%cores, answers, near)
+                      points(:, :sides*size(free))), task%cores, answers, task%near)
          task%search%n_runs = task%search%n_runs + size(answers)
          derivatives = 0.0_wp
          do j = 1, size(free)
             do k = j, size(answers), size(free)
-               if (answers(k)%fault /= '') answers(k) = near
-               if (answers(k)%fault == '' .and. all(abs(answers(k)%value - near%value) <= 0.0_wp)) points(free(j), k) = y(free(j))
+               if (answers(k)%fault == '') cycle
+               answers(k)%value = value
+               points(free(j), k) = y(free(j))
             end do
-            k = merge(size(free) + j, j, is_central)
-            if (is_central) then
-               step = points(free(j), j) - points(free(j), k)
-               if (abs(step) > 0.0_wp) derivatives(:, j) = differences_of(answers(j), answers(k))/step
-            else
-               step = points(free(j), j) - y(free(j))
-               if (abs(step) > 0.0_wp) derivatives(:, j) = differences_of(answers(j), near)/step
-            end if
+            k = size(free) + j
+            ends = [points(free(j), j), y(free(j))]
+            before = value
+            if (is_central) ends(2) = points(free(j), k)
+            if (is_central) before = answers(k)%value
+            if (abs(ends(1) - ends(2)) > 0.0_wp) derivatives(:, j) = &
+               differences(task%data, task%data%rows%value + answers(j)%value - before)/(ends(1) - ends(2))
          end do
       end associate
-
-   contains
-
-      function differences_of(a, b) result(d)
-         type(answer_type), intent(in) :: a, b
-         real(wp) :: d(size(task%data%rows))
-
-         d = a%value - b%value
-         where (task%data%rows%kind == a_phase) d = d - 360.0_wp*anint(d/360.0_wp)
-         d = d/task%data%rows%deviation
-      end function differences_of
-
    end subroutine differentiate
 
    !> Judge the free unknowns at the best values: K is one at its bound, or one that the rows do not determine; 0: there is none,
@@ -313,7 +340,8 @@ contains
          if (k > 0) k = free(k)
          if (k > 0) search%is_at_bound(k) = .true.
          if (k > 0) return
-         call differentiate(search%best, search%y, .true., jacobian)
+         task%near = search%best
+         call differentiate(search%best%value, search%y, .true., jacobian)
          if (interrupt_so_far() /= 0) return
          call weigh(jacobian, search%statistics)
          if (search%statistics%least < max(1.0_wp, undetermined*search%statistics%largest)) k = free(search%statistics%weakest)

@@ -59,6 +59,7 @@ contains
          if (interrupt_so_far() /= 0) started = size(child)
       end do
       do k = 1, size(answers)
+         answers(k)%set = values(:, k)
          if (.not. allocated(answers(k)%fault)) answers(k)%fault = 'interrupted'
       end do
    end subroutine run_all
@@ -71,8 +72,8 @@ contains
 
       open (newunit=unit, file=streams_at//integer_text(stream), access='stream', action='write', status='old')
       write (unit) len(answer%fault), answer%fault
-      if (answer%fault == '') write (unit) shape(answer%k), shape(answer%shapes), answer%value, answer%mac, answer%mode, &
-         answer%lambda, answer%k, answer%moved, answer%shapes
+      if (answer%fault == '') write (unit) shape(answer%moved), shape(answer%shapes), answer%value, answer%mac, answer%mode, &
+         answer%n_modes, answer%lambda, answer%k, answer%moved, answer%shapes
       close (unit)
    end subroutine send
 
@@ -80,7 +81,7 @@ contains
    subroutine receive(stream, answer)
       integer, intent(in)              :: stream
       type(answer_type), intent(inout) :: answer
-      integer :: components(2), length, n(2), status, unit
+      integer :: components(2), length, n(3), status, unit
       logical :: ok
 
       open (newunit=unit, file=streams_at//integer_text(stream), access='stream', action='read', status='old')
@@ -93,10 +94,10 @@ contains
          if (length == 0) then
             read (unit) n, components
             associate (rows => components(2))
-               allocate (answer%value(rows), answer%mac(rows), answer%mode(rows), answer%lambda(rows), answer%k(n(1), n(2)), &
-                         answer%moved(n(1), rows), answer%shapes(components(1), rows))
+               allocate (answer%value(rows), answer%mac(rows), answer%mode(rows), answer%n_modes(n(3)), answer%lambda(n(2), n(3)), &
+                         answer%k(n(1), n(3)), answer%moved(n(1), n(2), n(3)), answer%shapes(components(1), rows))
             end associate
-            read (unit) answer%value, answer%mac, answer%mode, answer%lambda, answer%k, answer%moved, answer%shapes
+            read (unit) answer%value, answer%mac, answer%mode, answer%n_modes, answer%lambda, answer%k, answer%moved, answer%shapes
          end if
       end if
       close (unit)

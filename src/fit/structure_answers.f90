@@ -1,12 +1,13 @@
 !> The answers of a structure to the rows of a measured file, at the end of a stage. Near a run with modes, their frequencies follow
-!! from the change of the joint stiffness alone, exact in the first order:
+!! from the change of the joint stiffness alone: they are those of the structure in the space of these modes, exact in the first order,
 !!
-!!      d lambda = phi^T [dk] phi/(phi^T [m] phi), the sum over interface elements of their stiffness times movement^2
+!!      [lambda + Phi^T dk Phi] {x} = mu {x},  Phi the movements of the interface elements in the modes, of generalised mass 1
 !!
 !! A mode is followed by its shape: that of the largest MAC (x^T y)^2/(x^T x y^T y) with the shape given, or of its number at the
 !! start. BY_NUMBER a number is that of the mode at any values.
 module structure_answers
    use analysis_state, only: analysis_type
+   use blas_lapack, only: dsygv
    use backbone, only: backbone_type, find_loop, start_backbone
    use bolt_locking, only: bar_tension, section_tension
    use deck_input, only: deck_type
@@ -29,7 +30,7 @@ module structure_answers
    implicit none
    private
 
-   public :: take_stage, is_of_modes, mac_of
+   public :: take_stage, is_of_modes, is_predicted, mac_of
 
    !> What the runs share.
    type, public :: structure_type
@@ -45,13 +46,15 @@ module structure_answers
    end type structure_type
 
    type, public :: answer_type
+      real(wp), allocatable :: set(:)                !! (parameters) their values
       character(:), allocatable :: fault             !! why the run failed, '': it did not
       real(wp), allocatable :: value(:)              !! (rows)
       real(wp), allocatable :: mac(:)                !! (rows) of modes, else 1
-      integer, allocatable  :: mode(:)               !! (rows) number of the mode, 0: none
-      real(wp), allocatable :: lambda(:)             !! (rows) of frequencies, omega^2 [1/time^2]
+      integer, allocatable  :: mode(:)               !! (rows) place of the mode among those found, 0: none
+      integer, allocatable  :: n_modes(:)            !! (stages)
+      real(wp), allocatable :: lambda(:, :)          !! (modes, stages) omega^2 [1/time^2]
       real(wp), allocatable :: k(:, :)               !! (3 n, stages) k_sx, k_sy, k_n of the interface elements under oscillation
-      real(wp), allocatable :: moved(:, :)           !! (3 n, rows) square of their movement in the mode, of generalised mass 1
+      real(wp), allocatable :: moved(:, :, :)        !! (3 n, modes, stages) their movement in a mode of generalised mass 1
       real(wp), allocatable :: shapes(:, :)          !! (components, rows) of the modes
    end type answer_type
 
@@ -91,6 +94,11 @@ contains
       integer :: i, k
 
       associate (model => structure%model, plan => structure%plan)
+         of_modes = is_of_modes(data%rows) .and. data%rows%stage == plan%stages(s)%id
+         if (present(near) .and. all(of_modes .eqv. data%rows%stage == plan%stages(s)%id) .and. is_predicted(data, s, plan)) then
+            if (any(of_modes)) call predict(data, s, of_modes, structure, analysis, near, answer)
+            return
+         end if
          allocate (whole, source=analysis)
          call recover_bodies(model, structure%system, whole)
          if (allocated(plan%stages(s)%watched)) &
@@ -118,22 +126,59 @@ contains
                end select
             end associate
          end do
-         of_modes = is_of_modes(data%rows) .and. data%rows%stage == plan%stages(s)%id
          if (.not. any(of_modes)) return
-         allocate (loose, source=model)
-         if (plan%stages(s)%vibration%free) call release_supports(loose)
-         if (.not. present(near) .or. any(of_modes .and. (data%rows%kind /= a_frequency .or. data%rows%amplitude > 0.0_wp))) then
-            call take_modes(data, s, of_modes, structure, loose, whole, answer, failure)
+         if (present(near) .and. is_predicted(data, s, plan)) then
+            call predict(data, s, of_modes, structure, whole, near, answer)
             return
          end if
-         answer%k(:, s) = stiffness_of(loose, whole, plan%stages(s)%vibration%on_loading)
-         do i = 1, merge(size(of_modes), 0, present(near))
-            if (.not. of_modes(i)) cycle
-            answer%lambda(i) = near%lambda(i) + sum((answer%k(:, s) - near%k(:, s))*near%moved(:, i))
-            answer%value(i) = sqrt(max(0.0_wp, answer%lambda(i)))/two_pi
-         end do
+         allocate (loose, source=model)
+         if (plan%stages(s)%vibration%free) call release_supports(loose)
+         call take_modes(data, s, of_modes, structure, loose, whole, answer, failure)
       end associate
    end subroutine take_stage
+
+   !> Whether all that the rows want of the modes of stage S of PLAN are frequencies of small oscillation.
+   pure logical function is_predicted(data, s, plan)
+      type(measured_type), intent(in)   :: data
+      integer, intent(in)               :: s
+      type(stage_plan_type), intent(in) :: plan
+
+      is_predicted = all(data%rows%stage /= plan%stages(s)%id .or. .not. is_of_modes(data%rows) .or. &
+                         (data%rows%kind == a_frequency .and. data%rows%amplitude <= 0.0_wp))
+   end function is_predicted
+
+   !> The frequencies of the rows OF_MODES of stage S from the modes of the run NEAR.
+   subroutine predict(data, s, of_modes, structure, analysis, near, answer)
+      type(measured_type), intent(in)  :: data
+      integer, intent(in)              :: s
+      logical, intent(in)              :: of_modes(:)
+      type(structure_type), intent(in) :: structure
+      type(analysis_type), intent(in)  :: analysis
+      type(answer_type), intent(in)    :: near
+      type(answer_type), intent(inout) :: answer
+      real(wp) :: a(near%n_modes(s), near%n_modes(s)), unit(near%n_modes(s), near%n_modes(s)), mu(near%n_modes(s)), &
+                  work(10*near%n_modes(s))
+      integer  :: i, info, m, n
+
+      n = size(mu)
+      answer%k(:, s) = stiffness_of(structure%model, analysis, structure%plan%stages(s)%vibration%on_loading)
+      associate (phi => near%moved(:, :n, s))
+         a = matmul(transpose(phi), spread(answer%k(:, s) - near%k(:, s), 2, n)*phi)
+      end associate
+      unit = 0.0_wp
+      do i = 1, n
+         a(i, i) = a(i, i) + near%lambda(i, s)
+         unit(i, i) = 1.0_wp
+      end do
+      call dsygv(1, 'V', 'U', n, a, n, unit, n, mu, work, size(work), info)
+      do i = 1, size(of_modes)
+         if (.not. of_modes(i)) cycle
+         m = near%mode(i)
+         if (.not. structure%by_number .or. size(data%rows(i)%shape) > 0) m = maxloc(abs(a(m, :)), dim=1)
+         answer%mode(i) = m
+         answer%value(i) = sqrt(max(0.0_wp, mu(m)))/two_pi
+      end do
+   end subroutine predict
 
    !> The stiffness of the interface elements under oscillation.
    pure function stiffness_of(model, analysis, on_loading) result(k)
@@ -180,6 +225,7 @@ contains
             vibration%response%nodes = [(max(1, nodes%find(rows(i)%nodes(1))), i = 1, size(rows))]
          end if
          call start_oscillation(loose, analysis, structure%system, vibration%on_loading, oscillating, failure)
+         oscillating%is_counted = .false.
          call find_natural_modes(loose, oscillating, vibration, spectrum, shifted, failure)
          if (failure%raised) return
          allocate (modes)
@@ -188,6 +234,13 @@ contains
             call find_response(loose, oscillating, vibration%response, spectrum, modes, shifted, response, failure)
          if (failure%raised) return
          answer%k(:, s) = stiffness_of(loose, analysis, vibration%on_loading)
+         answer%n_modes(s) = min(size(modes%modes), size(answer%lambda, 1))
+         do i = 1, answer%n_modes(s)
+            answer%lambda(i, s) = modes%modes(i)%lambda
+            do k = 1, size(loose%joints%element)
+               answer%moved(3*k - 2:3*k, i, s) = joint_movement(loose%joints%element(k), modes%modes(i)%u)/sqrt(modes%modes(i)%mass)
+            end do
+         end do
          m = 0
          do i = 1, size(rows)
             if (.not. of_modes(i)) cycle
@@ -200,14 +253,10 @@ contains
             call match_mode(rows(i), i, structure, modes, m(i), answer%mac(i))
             if (m(i) == 0) call failure%raise('mode '//integer_text(rows(i)%mode)//' is not among those found')
             if (failure%raised) return
-            answer%mode(i) = modes%n_before + m(i)
+            answer%mode(i) = m(i)
             associate (mode => modes%modes(m(i)))
-               answer%lambda(i) = mode%lambda
                answer%value(i) = merge(mode%frequency, mode%loss, rows(i)%kind == a_frequency)
                answer%shapes(:, i) = reshape(mode%u, [size(mode%u)])
-               do k = 1, size(loose%joints%element)
-                  answer%moved(3*k - 2:3*k, i) = joint_movement(loose%joints%element(k), mode%u)**2/mode%mass
-               end do
             end associate
          end do
       end associate

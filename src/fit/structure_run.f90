@@ -30,6 +30,8 @@ module structure_run
    character(*), parameter :: of_laws = & ! cards on which no body depends
       ' JNORM JSHEAR JIWAN PJOINT BOLT FORCE FORCEM MOMENT PLOAD PLOAD2 PLOAD4 PLOADE PLOADM GRAV LOAD '
 
+   integer, parameter :: most_modes = 30 ! that serve the runs nearby
+
 contains
 
    !> The parameters with their VALUES as the deck is to be filled with.
@@ -167,21 +169,24 @@ contains
       type(failure_type)    :: failure
       type(analysis_type)   :: analysis
       logical, allocatable  :: locked(:)
-      logical :: readable
+      logical :: is_near, readable
       integer :: from, i, s
 
       call set_parameters(structure, data, values, parameters)
       call read_deck(structure%path, structure%deck, errors, readable, parameters, structure%watched)
       if (.not. errors%any()) call build_model(structure%deck, structure%model, structure%plan, errors)
+      is_near = present(near)
+      if (is_near) is_near = all(abs(values - near%set) <= 0.0_wp .or. structure%keeps_bodies)
       answer%fault = ''
       if (errors%any()) answer%fault = errors%items(1)%message
       if (answer%fault /= '') return
       associate (deck => structure%deck, model => structure%model, plan => structure%plan, system => structure%system, &
                  n => size(data%rows))
-         allocate (answer%value(n), answer%lambda(n), answer%k(3*size(model%joints%element), size(plan%stages)), &
-                   answer%moved(3*size(model%joints%element), n), answer%shapes(size(model%freedoms%held), n), source=0.0_wp)
+         allocate (answer%value(n), answer%k(3*size(model%joints%element), size(plan%stages)), answer%lambda(most_modes, &
+                   size(plan%stages)), answer%moved(3*size(model%joints%element), most_modes, size(plan%stages)), &
+                   answer%shapes(size(model%freedoms%held), n), source=0.0_wp)
          allocate (answer%mac(n), source=1.0_wp)
-         allocate (answer%mode(n), source=0)
+         allocate (answer%mode(n), answer%n_modes(size(plan%stages)), source=0)
          allocate (kept(size(plan%stages)), ends(0:size(plan%stages)))
          if (any(abs(values - data%parameters%start) > 0.0_wp .and. .not. structure%keeps_bodies)) &
             call form(deck, model, plan, system, failure)
@@ -206,7 +211,8 @@ contains
                if (.not. failure%raised) call go_an_increment(deck, model, plan, system, analysis, failure)
             end do
             if (failure%raised) exit
-            call take_stage(data, s, structure, analysis, ends(from), answer, failure, near)
+            if (is_near) call take_stage(data, s, structure, analysis, ends(from), answer, failure, near)
+            if (.not. is_near) call take_stage(data, s, structure, analysis, ends(from), answer, failure)
             if (failure%raised) exit
             ends(s) = state_at_end(model, analysis)
             if (any(model%history%stages(s + 1:)%from == s)) then

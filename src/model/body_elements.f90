@@ -11,7 +11,7 @@ module body_elements
    use model_data, only: mesh_type, model_type, temperature_type
    use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, section_node
    use shape_functions, only: shape_values
-   use shell_element, only: shell_stiffness, shell_thermal_forces
+   use shell_element, only: most_shell_nodes, shell_stiffness, shell_thermal_forces
    use stress_recovery, only: centre_stress, nodal_stress
    use structural_elements, only: between_own, most_own, onto_own, structural_stress
    use temperatures, only: element_rise, element_slope
@@ -84,7 +84,7 @@ contains
       real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
       type(temperature_type), intent(in) :: temperature
       real(wp) :: stress(n_stresses(model%mesh%properties(model%mesh%element_property(e))%state))
-      real(wp) :: at_corners(max_stresses, 5, 1) ! of a shell in its mean plane, and at its centre
+      real(wp) :: at_corners(max_stresses, most_shell_nodes + 1, 1) ! of a shell in its mean plane, and at its centre
 
       if (is_beam(model%mesh, e)) then
          stress = 0.0_wp
@@ -212,7 +212,7 @@ contains
 
       f = 0.0_wp
       ! 8: with rotations
-      allocate (p(model%mesh%dimension, max(8, size(model%mesh%element_nodes, 1)) + 1, min(block, model%mesh%n_elements)))
+      allocate (p(model%mesh%dimension, max(most_own, size(model%mesh%element_nodes, 1)) + 1, min(block, model%mesh%n_elements)))
       do first = 1, model%mesh%n_elements, block
          last = min(model%mesh%n_elements, first + block - 1)
          !$omp parallel do schedule(dynamic, 128) default(shared) if(last - first > few)

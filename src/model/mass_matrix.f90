@@ -13,7 +13,7 @@ module mass_matrix
    use model_data, only: bar_nodes, mesh_type, model_type, n_bars, point_mass_type
    use node_coupling, only: between_unknowns, extend_stiffness, onto_unknowns, section_node
    use numbers, only: identity
-   use shell_element, only: shell_products
+   use shell_element, only: node_thickness, shell_products
    use structural_elements, only: between_own
    use unknowns, only: rotation_at
    implicit none
@@ -30,7 +30,7 @@ module mass_matrix
       integer, allocatable  :: column(:)
       real(wp), allocatable :: value(:)      !! [force time^2/length]
       integer, allocatable  :: whole(:)      !! elements with matrices of their own: beams, and elements behind sections
-      integer, allocatable  :: turning(:)    !! masses at nodes with rotations, and CMASS2: positions in model%mesh%masses
+      integer, allocatable  :: turning(:)    !! masses at nodes with rotations, CMASS and CONM1: positions in model%mesh%masses
    end type mass_matrix_type
 
 contains
@@ -54,10 +54,10 @@ contains
       n = element_table(mesh%element_kind(e))%n_nodes
       associate (corners => element_points(mesh, e), property => mesh%properties(mesh%element_property(e)))
          if (is_shell(mesh, e)) then
-            associate (x => mesh%x(:, corners), t => mesh%structural%shells(mesh%structural%place(e))%thickness)
+            associate (x => mesh%x(:, corners), t => node_thickness(mesh%structural%shells(mesh%structural%place(e)), n))
                m(:2*n, :2*n) = 0.0_wp
-               call shell_products(x, property%rho*t(:n) + property%extra_mass, m(:n, :n))
-               if (.not. mesh%lumped) call shell_products(x, property%rho*t(:n)**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
+               call shell_products(x, property%rho*t + property%extra_mass, m(:n, :n))
+               if (.not. mesh%lumped) call shell_products(x, property%rho*t**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
             end associate
             do i = n + 1, 2*n
                associate (arm => mesh%rotations(mesh%rotation_of(corners(i - n)))%arm)
@@ -147,6 +147,8 @@ contains
       type(point_mass_type), intent(in) :: mass
       integer, allocatable :: nodes(:)
 
+      if (allocated(mass%nodes)) nodes = mass%nodes
+      if (allocated(mass%nodes)) return
       nodes = [mass%node]
       if (rotation_at(model%mesh, mass%node) > 0) nodes = [nodes, model%mesh%rotations(rotation_at(model%mesh, mass%node))%node]
    end function mass_nodes
@@ -176,6 +178,10 @@ contains
       real(wp) :: of_components(2*model%mesh%dimension, 2*model%mesh%dimension)
       integer  :: d
 
+      if (allocated(mass%matrix)) then
+         m = between_unknowns(model, mass%nodes, mass%matrix)
+         return
+      end if
       d = model%mesh%dimension
       of_components = 0.0_wp
       of_components(:d, :d) = mass%directed(:d, :d) + mass%mass*identity(:d, :d)
@@ -208,7 +214,8 @@ contains
       do i = 1, n_masses(model)
          associate (node => model%mesh%masses(i)%node)
             call add([node], reshape([model%mesh%masses(i)%mass], [1, 1]))
-            if (rotation_at(model%mesh, node) > 0 .or. any(model%mesh%masses(i)%directed > 0.0_wp)) mass%turning = [mass%turning, i]
+            if (rotation_at(model%mesh, node) > 0 .or. any(model%mesh%masses(i)%directed > 0.0_wp) .or. &
+                allocated(model%mesh%masses(i)%matrix)) mass%turning = [mass%turning, i]
          end associate
       end do
 
@@ -319,6 +326,11 @@ contains
       end do
       do i = 1, size(mass%turning)
          associate (point => model%mesh%masses(mass%turning(i)))
+            if (allocated(point%matrix)) then
+               f(:, point%nodes) = f(:, point%nodes) + reshape(matmul(point%matrix, pack(a(:, point%nodes), .true.)), &
+                                                               [model%mesh%dimension, size(point%nodes)])
+               cycle
+            end if
             f(:, point%node) = f(:, point%node) + matmul(point%directed(:size(a, 1), :size(a, 1)), a(:, point%node))
             if (rotation_at(model%mesh, point%node) == 0) cycle
             associate (node => model%mesh%rotations(rotation_at(model%mesh, point%node))%node)
@@ -345,6 +357,7 @@ contains
       x(:, :n_points(model%mesh)) = model%mesh%x(:, :n_points(model%mesh))
       a = 0.0_wp
       a(1, :n_points(model%mesh)) = 1.0_wp
+      where (model%mesh%is_scalar) a(1, :size(model%mesh%is_scalar)) = 0.0_wp
       call mass_times(model, mass, a, f)
       total = sum(f(1, :n_points(model%mesh)))
       centre = 0.0_wp
@@ -356,6 +369,7 @@ contains
       do c = 1, model%mesh%dimension
          a = 0.0_wp
          a(1, :n_points(model%mesh)) = x(c, :n_points(model%mesh)) - centre(c)
+         where (model%mesh%is_scalar) a(1, :size(model%mesh%is_scalar)) = 0.0_wp
          call mass_times(model, mass, a, f)
          second(:, c) = matmul(x, f(1, :)) - centre*sum(f(1, :))
       end do

@@ -7,7 +7,8 @@ module mesh_queries
    private
 
    public :: start_mesh, start_freedoms, start_parts, open_left_out, shown_number
-   public :: n_points, n_rotations, node_kind, place_in_kind, point_of, element_points, is_shell, is_beam, is_face_node
+   public :: n_points, n_rotations, node_kind, place_in_kind, point_of, element_points, is_shell, is_beam, is_face_node, &
+             is_scalar_point
 
 contains
 
@@ -29,7 +30,8 @@ contains
       allocate (mesh%properties(0), mesh%bars(0), mesh%masses(0), mesh%sections(0), mesh%rotations(0), mesh%faces(0), &
                 mesh%placed(0))
       allocate (mesh%structural%place(0), mesh%structural%shells(0), mesh%structural%beams(0))
-      allocate (mesh%duplicate(0), mesh%node_system(0), mesh%face_of(0), mesh%rotation_of(0), mesh%node_section(0), &
+      allocate (mesh%duplicate(0), mesh%node_system(0), mesh%is_scalar(0), mesh%face_of(0), mesh%rotation_of(0), &
+                mesh%node_section(0), &
                 mesh%element_section(0))
    end subroutine start_mesh
 
@@ -134,5 +136,14 @@ contains
       is_face_node = .false.
       if (node <= size(mesh%face_of)) is_face_node = mesh%face_of(node) > 0
    end function is_face_node
+
+   !> Whether NODE is a scalar point, whose first component alone exists.
+   pure logical function is_scalar_point(mesh, node)
+      type(mesh_type), intent(in) :: mesh
+      integer, intent(in)          :: node
+
+      is_scalar_point = .false.
+      if (node <= size(mesh%is_scalar)) is_scalar_point = mesh%is_scalar(node)
+   end function is_scalar_point
 
 end module mesh_queries

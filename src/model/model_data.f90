@@ -9,6 +9,7 @@ module model_data
    use joint_laws, only: joint_law
    use kinds, only: wp
    use lists, only: id_table_type
+   use shell_element, only: most_shell_nodes
    use shell_membrane, only: shell_law
    use text_tools, only: text_item
    implicit none
@@ -110,10 +111,12 @@ module model_data
 
    !> Temperatures of the model. T - TREF of a material is AT - REFERENCE_SHARE TREF. The share is 1 where the deck gives
    !! temperatures and 0 where it gives none (the structure is at TREF then); it varies linearly over a stage between the two.
+   integer, parameter, public :: slope_row = most_shell_nodes + 1 !! of the temperatures of shells
+
    type, public :: temperature_type
       real(wp), allocatable :: at(:)         !! (n_nodes) [temperature]; not allocated: none are given
       real(wp) :: reference_share = 0.0_wp   !! [-]
-      real(wp), allocatable :: plate(:, :)   !! (5, shells) corner temperatures relative to AT [temperature], and gradient over the
+      real(wp), allocatable :: plate(:, :)   !! (slope_row, shells) temperatures of nodes relative to AT [temperature], and gradient over the
                                              !! thickness [temperature/length]; not allocated: no shell has temperatures of its own
    end type temperature_type
 
@@ -130,7 +133,7 @@ module model_data
    end type stage_load_type
 
    integer, parameter, public :: a_point = 1, a_rotation = 2, an_overlap = 3 !! kinds of nodes
-   integer, parameter, public :: a_bar = 1, a_spring = 2                     !! kinds of bars; a bolt is a bar with a BOLT card
+   integer, parameter, public :: a_bar = 1, a_spring = 2, a_matrix = 3       !! kinds of bars; a bolt is a bar with a BOLT card
 
    !> A bar (a bolt is a bar with a BOLT card) or a spring. Its elongation is direction 2 . u_2 - direction 1 . u_1.
    type, public :: bar_type
@@ -151,14 +154,18 @@ module model_data
       real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
       real(wp) :: reference = 0.0_wp         !! TREF [temperature]
       real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
+      integer, allocatable  :: of_matrix(:)  !! K2GG: nodes with a MATRIX between their components, components of node 1
+      real(wp), allocatable :: matrix(:, :)  !! first; not allocated: the terms above [force/length]
    end type bar_type
 
-   !> CONM2: a mass at a node. CMASS2: a mass that resists along one direction.
+   !> CONM2: a mass at a node. CMASS2: a mass that resists along one direction. CONM1, and a CMASS between two components: a MATRIX.
    type, public :: point_mass_type
       integer  :: node = 0
       real(wp) :: mass = 0.0_wp              !! [force x time^2/length]
       real(wp) :: directed(3, 3) = 0.0_wp    !! resists along some directions only [force x time^2/length]
       real(wp) :: inertia(3, 3) = 0.0_wp     !! about the node, in global axes; acts on rotations [force x time^2 x length]
+      integer, allocatable  :: nodes(:)      !! with a MATRIX between their components, components of node 1 first; not
+      real(wp), allocatable :: matrix(:, :)  !! allocated: the terms above [force x time^2/length]
    end type point_mass_type
 
    !> A pretension section, at which a solid bolt is cut. The nodes of the section move with the marked side. Elements behind the
@@ -187,7 +194,7 @@ module model_data
       logical  :: of_rods = .false.          !! to rods alone
    end type rotation_type
 
-   !> A node on the face of shells, at a rigid LEVER from POINT, a node of the shells.
+   !> A node on the face of shells, at a rigid LEVER from POINT, a node of the shells; or the end of a CBUSH at its point.
    type, public :: face_node_type
       integer  :: point = 0
       integer  :: node = 0
@@ -260,6 +267,7 @@ module model_data
       type(section_type), allocatable      :: sections(:)
       type(rotation_type), allocatable     :: rotations(:)
       type(face_node_type), allocatable    :: faces(:)
+      logical, allocatable  :: is_scalar(:)          !! (points of the deck) SPOINT, which has one component; empty: there are none
       integer, allocatable  :: face_of(:)            !! (points) position of a node in faces, 0: none; empty: there are none
       integer, allocatable  :: rotation_of(:)        !! (points) position of a node in rotations, 0: none; empty: there are none
       integer, allocatable  :: node_section(:)       !! (n_nodes) the section that contains a node, 0: none; empty: there are none
@@ -346,6 +354,7 @@ contains
       integer, allocatable :: nodes(:)
 
       nodes = pack(bar%nodes, bar%nodes > 0)
+      if (allocated(bar%of_matrix)) nodes = bar%of_matrix
    end function bar_nodes
 
    !> The number of pretension sections.

@@ -3,7 +3,7 @@ module temperatures
    use element_kinds, only: element_table
    use kinds, only: wp
    use mesh_queries, only: element_points, is_shell
-   use model_data, only: model_type, temperature_type
+   use model_data, only: model_type, slope_row, temperature_type
    implicit none
    private
 
@@ -33,7 +33,7 @@ contains
       type(temperature_type), intent(in) :: temperature
 
       slope = 0.0_wp
-      if (allocated(temperature%plate)) slope = temperature%plate(5, model%mesh%structural%place(e))
+      if (allocated(temperature%plate)) slope = temperature%plate(slope_row, model%mesh%structural%place(e))
    end function element_slope
 
    !> Whether any stage of MODEL has temperatures.

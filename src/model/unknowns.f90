@@ -4,7 +4,7 @@
 module unknowns
    use coordinate_systems, only: directions_at
    use kinds, only: wp
-   use mesh_queries, only: node_kind, place_in_kind, point_of
+   use mesh_queries, only: is_scalar_point, node_kind, place_in_kind, point_of
    use model_data, only: a_point, a_rotation, an_overlap, mesh_type, model_type
    use numbers, only: cross, identity
    use text_tools, only: integer_text, one_of
@@ -113,6 +113,7 @@ contains
       q = 0.0_wp
       select case (node_kind(model%mesh, node))
       case (a_point)
+         if (is_scalar_point(model%mesh, node)) return
          axes = node_axes(model%mesh, node)
          q = matmul(transpose(axes(:d, :d)), motions_at(model%mesh%x(:d, node)))
       case (a_rotation)
@@ -145,15 +146,19 @@ contains
       if (mesh%dimension == 2) d = merge(1, 0, digit == 6)
    end function rotation_component
 
-   !> The place of component DIGIT, 1 to 6, of POINT.
+   !> The place of component DIGIT, 1 to 6, of POINT; of a scalar point 0 or 1.
    pure function place_of_component(mesh, point, digit) result(place)
       type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: point, digit
       type(component_place) :: place
       integer :: rotation
 
+      if (is_scalar_point(mesh, point)) then
+         if (digit <= 1) place = component_place(point, 1, 1.0_wp)
+         return
+      end if
       if (digit <= 3) then
-         if (digit <= mesh%dimension) place = component_place(point, digit, 1.0_wp)
+         if (digit <= mesh%dimension .and. digit > 0) place = component_place(point, digit, 1.0_wp)
          return
       end if
       rotation = rotation_at(mesh, point)

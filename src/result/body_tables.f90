@@ -12,6 +12,7 @@ module body_tables
    use model_data, only: model_type, supported
    use output_file, only: output_file_type
    use page_lines, only: axes, heading, in_units
+   use ply_tables, only: list_plies
    use result_page, only: page_type, shows
    use stage_entries, only: output_request
    use structural_results, only: list_beams, list_shells
@@ -62,6 +63,7 @@ contains
       if (has_bodies) call list_stresses(page, asked%stress, model, analysis)
       if (size(model%mesh%structural%place) > 0) then
          call list_shells(page, asked%forces, model, analysis)
+         call list_plies(page, model, analysis)
          call list_beams(page, model, analysis)
       end if
       if (asked%stress .and. any(is_second_order(model%mesh%element_kind))) then ! stresses at nodes, averaged over their elements

@@ -1,4 +1,4 @@
-!> The cases of a deck with FROM in one table, a row a case, with the worst of each column and its stage.
+!> The cases of a deck with FROM, or without a history, in one table, a row a case, with the worst of each column and its stage.
 !! A case is a stage that starts from a state from which several stages start, or that follows such a stage.
 module case_table
    use analysis_state, only: analysis_type
@@ -12,6 +12,7 @@ module case_table
    use stage_plan, only: stage_plan_type
    use table_column, only: column_type, csv
    use table_writer, only: table_type
+   use text_tools, only: one_of
    use tolerances, only: symmetric_tie
    use watched_nodes, only: watch_answer, watched_node
    implicit none
@@ -110,14 +111,17 @@ contains
       end do
       columns = table_columns(cases_table, page%labels, model)
       do i = 1, size(columns) ! the listing leaves out columns without a value
-         if (any(case_names == columns(i)%name .and. worst == 0)) columns(i) = csv(columns(i)%name)
+         if (any(case_names == columns(i)%name .and. worst == 0) .or. (columns(i)%name == 'from' .and. plan%is_independent)) &
+            columns(i) = csv(columns(i)%name)
       end do
       before = page%screen%used
-      call table%start('CASES: STAGES THAT START FROM ONE STATE, AND THE WORST OF EACH COLUMN', columns, page%screen)
+      call table%start('CASES: STAGES THAT START FROM '//one_of(plan%is_independent, 'REST', 'ONE STATE')// &
+                       ', AND THE WORST OF EACH COLUMN', columns, page%screen)
       do i = 1, size(rows)
          associate (row => rows(i), stage => plan%stages(rows(i)%stage))
             call table%put('stage', stage%id)
-            call table%put('from', plan%stages(model%history%stages(row%stage)%from)%id)
+            if (stage%begins_at > 0) call table%put('from', plan%stages(stage%begins_at)%id)
+            if (stage%begins_at == 0) call table%put('from', 0)
             call table%put(case_names, row%values, where=abs(row%values) < none)
             call table%put('LABEL', '   '//stage%label)
          end associate

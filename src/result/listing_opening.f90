@@ -14,7 +14,7 @@ module listing_opening
    use normal_curve, only: normal_tangent
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
    use output_file, only: output_file_type
-   use page_lines, only: axes, cut, in_form, page_width
+   use page_lines, only: axes, cut, in_form, page_width, put_lines
    use result_page, only: has_gaps, page_type
    use shear_loops, only: loop_closure, worst_closure
    use shear_stiffness, only: cubic_of
@@ -22,7 +22,7 @@ module listing_opening
    use table_column, only: column
    use table_writer, only: table_type
    use terminal, only: standard_input, version
-   use text_tools, only: integer_text, one_of
+   use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: page_zero, pressure_floor
    implicit none
    private
@@ -41,7 +41,7 @@ contains
       character(:), allocatable :: words
       type(table_type) :: table
       real(wp) :: total(3), largest
-      integer  :: s
+      integer  :: i, s
 
       words = 'FROM THE STANDARD INPUT'
       associate (path => deck%text%files(1)%path) ! without its folder
@@ -77,6 +77,18 @@ contains
             call table%put('LABEL', '   '//cut(stage%label, 33))
             call table%print_row(page%file)
          end associate
+      end do
+      if (plan%is_independent) call page%file%put('  THE DECK IS LINEAR: EVERY STAGE IS A CASE BY ITSELF, WHICH STARTS FROM REST')
+      if (size(plan%first_with) > 1) call page%file%put('  SUPPORTS OR CONSTRAINT EQUATIONS DIFFER: '// &
+                                                        integer_text(size(plan%first_with))//' SETS')
+      do s = 1, size(plan%stages)
+         if (.not. allocated(plan%stages(s)%parts)) cycle
+         words = '  STAGE '//integer_text(plan%stages(s)%id)//' ='
+         do i = 1, size(plan%stages(s)%parts)
+            words = words//one_of(i > 1, ' +', '')//' '//real_text(plan%stages(s)%factors(i))//' STAGE '// &
+                    integer_text(plan%stages(plan%stages(s)%parts(i))%id)
+         end do
+         call put_lines(page%file, words(3:), ' ')
       end do
    end subroutine write_opening
 

@@ -3,6 +3,7 @@
 module structural_results
    use analysis_state, only: analysis_type
    use beam_element, only: beam_end_forces, beam_law, beam_thermal_load
+   use body_elements, only: element_centre
    use bolt_locking, only: bar_tension
    use elasticity, only: max_stresses, von_mises
    use element_unknowns, only: displaced_nodes
@@ -12,8 +13,9 @@ module structural_results
    use model_data, only: a_bar, model_type, temperature_type
    use page_lines, only: in_units
    use result_page, only: page_type, shell_table, shows, table_columns, xyz
-   use shell_element, only: shell_forces
+   use shell_element, only: most_shell_nodes
    use shell_membrane, only: shell_frame, shell_frame_of
+   use shell_recovery, only: shell_forces
    use structural_elements, only: nodal_values, structural_stress
    use table_column, only: column
    use table_writer, only: table_type
@@ -35,7 +37,7 @@ contains
       integer, intent(in)                :: e
       real(wp), intent(in)               :: u(:, :) !! (3, n_nodes) [length]
       type(temperature_type), intent(in) :: temperature
-      real(wp), intent(out)              :: stress(max_stresses, 5, 2) !! (component, corner, face) [pressure]
+      real(wp), intent(out)              :: stress(max_stresses, most_shell_nodes + 1, 2) !! (component, corner, face) [pressure]
 
       stress = 0.0_wp
       associate (n => size(element_points(model%mesh, e)) + 1)
@@ -117,7 +119,9 @@ contains
       at_node = 0.0_wp
       at_centre = 0.0_wp
       if (size(model%mesh%structural%place) == 0) return
-      allocate (stress(max_stresses, 5, 2, size(model%mesh%structural%shells)), normal(3, size(model%mesh%structural%shells)))
+      associate (n => size(model%mesh%structural%shells))
+         allocate (stress(max_stresses, most_shell_nodes + 1, 2, n), normal(3, n))
+      end associate
       do e = 1, model%mesh%n_elements
          if (is_shell(model%mesh, e)) then
             associate (of_face => stress(:, :, :, model%mesh%structural%place(e)), n => size(element_points(model%mesh, e)))
@@ -182,7 +186,7 @@ contains
                                                 'VON MISES']
       type(table_type) :: table
       real(wp), allocatable :: centre(:, :, :)
-      real(wp) :: stress(max_stresses, 5, 2), floor
+      real(wp) :: stress(max_stresses, most_shell_nodes + 1, 2), floor
       integer  :: e, f
 
       if (size(model%mesh%structural%shells) == 0) return
@@ -226,7 +230,7 @@ contains
 
       if (size(model%mesh%structural%place) == 0) return
       thickness = 0.0_wp
-      allocate (force(8, 5, size(model%mesh%structural%shells)), source=0.0_wp)
+      allocate (force(8, most_shell_nodes + 1, size(model%mesh%structural%shells)), source=0.0_wp)
       do e = 1, model%mesh%n_elements
          if (.not. is_shell(model%mesh, e)) cycle
          associate (nodes => element_points(model%mesh, e))
@@ -251,7 +255,7 @@ contains
             if (.not. shows(page, nodes)) cycle
             do i = 1, n + 1
                node = 0
-               x = sum(model%mesh%x(:, nodes), dim=2)/n
+               x = element_centre(model, e)
                if (i <= n) node = model%mesh%node_id(nodes(i))
                if (i <= n) x = model%mesh%x(:, nodes(i))
                associate (of_corner => force(:, i, model%mesh%structural%place(e)))

@@ -14,6 +14,7 @@ module vtu_grids
    use mesh_queries, only: element_points, is_shell
    use model_data, only: joint_type, model_type, surface_type, temperature_type
    use result_page, only: label_type
+   use shell_element, only: most_shell_nodes
    use structural_results, only: face_stresses, node_peaks
    use surface_sides, only: nodes_of
    use temperatures, only: node_temperatures
@@ -48,7 +49,7 @@ contains
       type(temperature_type), intent(in) :: temperature
       real(wp), allocatable :: moved(:, :), at_node(:, :), at_centre(:, :), principal(:, :), peaks(:), at_ends(:)
       real(wp), allocatable :: thickness(:), at_face(:, :)
-      real(wp) :: stress(max_stresses, 5, 2)
+      real(wp) :: stress(max_stresses, most_shell_nodes + 1, 2)
       integer  :: f, i, k, m, n
 
       m = shown%n_points
@@ -85,6 +86,7 @@ contains
          k = size(element_points(model%mesh, shown%elements(i)))
          call face_stresses(model, shown%elements(i), u, temperature, stress)
          at_face(i, :) = [(von_mises(stress(:, k + 1, f)), f = 1, 2)]
+         k = element_table(model%mesh%element_kind(shown%elements(i)))%n_corners
          thickness(i) = sum(model%mesh%structural%shells(model%mesh%structural%place(shown%elements(i)))%thickness(:k))/k
       end do
       call file%add(cell_data, named('thickness', labels%length), thickness)

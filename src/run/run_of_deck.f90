@@ -205,7 +205,7 @@ contains
             call tell(run, distance_words(watch%farthest))
          end associate
          call tell(run, tetra_words(model))
-         call say_of_deck(run, deck, model)
+         call say_of_deck(run, deck, model, plan)
          if (ok) then
             call show_answers(run%results, shown)
             if (.not. shown) call miss_output(run)
@@ -236,10 +236,11 @@ contains
 
    !> Report the kind of the model where the deck leaves a choice, the entries without effect, and how NASTRAN would read the deck
    !! differently.
-   subroutine say_of_deck(run, deck, model)
+   subroutine say_of_deck(run, deck, model, plan)
       type(run_type), intent(in)   :: run
       type(deck_type), intent(in)  :: deck
       type(model_type), intent(in) :: model
+      type(stage_plan_type), intent(in) :: plan
       integer :: i
 
       if (allocated(model%mesh%kind_words)) call tell(run, model%mesh%kind_words)
@@ -249,8 +250,9 @@ contains
             call tell(run, deck%bulk%told(i)%words)
          end do
       end if
-      if (deck%control%of_nastran .and. size(deck%control%stages) > 1) call tell(run, plural(size(deck%control%stages), &
-         'SUBCASE')//' are stages of one history: each starts from the end of the previous one, or of the one that FROM names')
+      if (deck%control%of_nastran .and. size(plan%stages) > 1 .and. .not. plan%is_independent) call tell(run, &
+         plural(size(plan%stages), 'SUBCASE')//' are stages of one history: each starts from the end of the previous one, '// &
+         'or of the one that FROM names')
    end subroutine say_of_deck
 
    !> Report the error, or that a deck is in order. A run that did not finish leaves no result.
@@ -278,14 +280,14 @@ contains
             if (allocated(model%mesh%kind_words)) call tell(run, model%mesh%kind_words)
             call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, run%errors)
          case (was_checked)
-            call say_of_deck(run, deck, model)
+            call say_of_deck(run, deck, model, plan)
             call write_bytes(1, name//': no errors; '//plural(n_points(model%mesh), 'node')//', '// &
                              plural(model%mesh%n_elements, 'body element')//', '// &
                              plural(size(model%joints%element), 'interface element')//', '//plural(size(plan%stages), 'stage')// &
                              new_line('a'), ok)
             if (.not. ok) call miss_output(run)
          case (was_searched)
-            call say_of_deck(run, deck, model)
+            call say_of_deck(run, deck, model, plan)
             call run%suggestions%finish(ok)
             if (.not. ok) call miss_output(run)
          case (is_unsolved)

@@ -19,7 +19,7 @@ module modal_path
    use model_data, only: model_type
    use newton_method, only: newton_increment
    use node_coupling, only: displacements, forces_on_unknowns
-   use normal_stiffness, only: branch_load, branch_open, branch_unload
+   use normal_stiffness, only: branch_open, normal_state
    use stage_plan, only: stage_plan_type
    use text_tools, only: real_text
    use tolerances, only: closing_step, exact_tol, finest_step, finest_tol, rounding_of_forces, rounding_of_sums
@@ -223,9 +223,8 @@ contains
    !> Go from alpha = ENDS(1) to ENDS(2). As one increment, the joints take the work and q grows by what WHOLE says. The increment
    !! is halved until halving has no effect on the work of the elements and on the growth of q: the error of q at the start of an
    !! increment is not that of the increment. Two errors do not show in this way: where an element closes, its shear deflection
-   !! counts from the start of the increment, and where an element turns from loading to unloading, because another one opens or slips, the
-   !! straight way misses its largest pressure. Such increments are halved to CLOSING_STEP; at the beginning of a path all elements
-   !! turn at once. The remaining error of the work falls by four in each halving; a third of the last difference is subtracted.
+   !! counts from the start of the increment, and where an element turns from closing to opening, because another one opens or slips, the
+   !! straight way misses its largest pressure. Such increments are halved to CLOSING_STEP. The remaining error of the work falls by four in each halving; a third of the last difference is subtracted.
    recursive subroutine refine_increment(model, modal, ends, whole, now, path, failure)
       type(model_type), intent(in)         :: model
       type(modal_load_type), intent(inout) :: modal
@@ -250,10 +249,8 @@ contains
       second(n + 1) = coordinate(modal, end, ends(2)) - coordinate(modal, half, middle)
       difference = first + second - whole
       share = abs(ends(2) - ends(1))/modal%largest
-      associate (before => now%states%normal%branch, after => end%states%normal%branch)
-         hides = any(before == branch_open .and. after /= branch_open) .or. &
-                 (abs(ends(1) - modal%begins) > 0.0_wp .and. any(before == branch_load .and. after == branch_unload))
-      end associate
+      hides = any(now%states%normal%branch == branch_open .and. end%states%normal%branch /= branch_open) .or. &
+              missed_work(model%joints%element%area, now%states%normal, half%states%normal, end%states%normal) > modal%finest_work
       coarsest = merge(closing_step, coarsest_step, hides)
       if (share <= coarsest .and. (share <= finest_step .or. (sum(abs(difference(:n))) <= modal%finest_work &
                                                               .and. abs(difference(n + 1)) <= modal%finest_q))) then
@@ -266,6 +263,19 @@ contains
          if (.not. failure%raised) call refine_increment(model, modal, [middle, ends(2)], second, now, path, failure)
       end if
    end subroutine refine_increment
+
+   !> The largest work of elements of these AREAS on their loading curves that two straight ways, A to B to C, may miss: the largest
+   !! deflection is that where one of the ways goes on a little further before the element turns.
+   pure real(wp) function missed_work(areas, a, b, c) result(work)
+      real(wp), intent(in)           :: areas(:) !! [length^2]
+      type(normal_state), intent(in) :: a(:), b(:), c(:)
+      real(wp) :: first(size(a)), second(size(a))
+
+      first = b%lambda - a%lambda
+      second = c%lambda - b%lambda
+      work = sum(areas*c%p_a*max(0.0_wp, max(a%lambda + first - second, b%lambda + max(0.0_wp, first)) - c%lambda_a), &
+                 mask=first > second)
+   end function missed_work
 
    !> Begin PATH at ALPHA and Q.
    pure subroutine begin_path(model, alpha, q, path)

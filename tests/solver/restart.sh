@@ -73,7 +73,23 @@ mv iwan.new decks/iwan.bdf
 sed -i 's/^JAMPL .*/JAMPL,6,1,0.1,2,0.01,0,2/; s/^+ *1\.0-6 *$/+,1.0-3/' decks/backbone.bdf decks/iwan.bdf # two amplitudes will do
 # the factor of an increment serves others: 1,300 unknowns of joints
 "$make_deck" hex8_18x18x6 TREE NONE | sed 's/^SPC = .*/&\nRESTART = 3/' > decks/factors.bdf
-decks='step skyline steps newton back friction cycles gaps warm bolts spiders sector solid cases bodies hand apart backbone iwan factors'
+# supports, held anew and released, and an equation that comes and goes
+tr ';' '\n' > decks/supports.bdf <<'DECK'
+METHOD = NEWTON;INCR = 2;RESTART = 1
+SUBCASE 1;SPC = 1;LOAD = 12
+SUBCASE 2;SPC = 2;LOAD = 20
+SUBCASE 3;SPC = 1;LOAD = 20
+SUBCASE 4;SPC = 2;LOAD = 4
+SUBCASE 5;SPC = 1;MPC = 5;LOAD = 25
+SUBCASE 6;FROM = 2;SPC = 1;LOAD = 12
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;+,5
+PSHELL,1,1,2.0;MAT1,1,9500.0,,0.0
+PMARK,5;JOINT,1,1,5;PJOINT,1,1;JNORM,1,8.0-3,0.5,1000.0
+SPC1,1,1,1,2,3,4;SPC1,3,2,2,4;SPCADD,2,1,3;JINCR,2,4;MPC,5,2,2,1.0,4,2,-1.0
+FORCE,1,2,,0.75,0.0,-1.0;FORCE,1,4,,0.25,0.0,-1.0
+LOAD,12,1.0,12.0,1;LOAD,20,1.0,20.0,1;LOAD,25,1.0,25.,1;SPCD,4,2,2,-0.001;SPCD,4,4,2,-0.001;ENDDATA
+DECK
+decks='step skyline steps newton back friction cycles gaps warm bolts spiders sector solid cases bodies hand apart backbone iwan factors supports'
 
 # whole NAME: the run in peace, in NAME.whole, what it says in NAME.said, and how many calls it makes
 whole() {

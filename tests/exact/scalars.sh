@@ -1,0 +1,79 @@
+# Scalar points, springs and masses alone, without bodies, against closed forms.
+# ---- A chain of n springs k and masses m, held at one end: omega = 2 sqrt(k/m) sin((2j - 1) pi/(4n + 2)); the last mass pulled by F
+# moves by n F/k. On scalar points (CELAS4, CMASS4; CELAS3, CMASS3 with PELAS, PMASS) and along components of nodes in space, whose
+# other components nothing holds (CELAS2, CONM2)
+scalar_chain() { # NAME KIND N
+   awk -v kind="$2" -v n="$3" 'BEGIN {
+      print "METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 10;  MODES = 5;  OUTPUT = ALL;BEGIN BULK;EIGRL,5,,," n
+      if (kind == "grid") print "MODEL = SPACE"
+      if (kind == 3) print "SPOINT,101,THRU," 100 + n ";PELAS,7,400.0;PMASS,8,3.0,9,0.04"
+      for (i = 1; i <= n; i++) {
+         before = i > 1 ? 100 + i - 1 : ""
+         if (kind == 4) print "CELAS4," i ",400.0," (i > 1 ? before : 0) "," 100 + i ";CMASS4," 50 + i ",0.04," 100 + i
+         if (kind == 3) print "CELAS3," i ",7," 100 + i "," before ";CMASS3," 50 + i ",9,," 100 + i
+         if (kind == "grid") print "GRID," 100 + i ",," i ".0,1.0,2.0;CELAS2," i ",400.0," 100 + i ",2," before "," (i > 1 ? 2 : "") ";CONM2," 50 + i "," 100 + i ",,0.04"
+      }
+      print kind == "grid" ? "FORCE,10," 100 + n ",,8.0,0.0,1.0" : "SLOAD,10," 100 + n ",8.0"
+      print "GRID,1,,0.0,0.0,0.0;SPC1,1,123456,1;CELAS2,99,1.0,1,1;ENDDATA"
+   }' | awk -v RS=';|\n' '$0 == "MODEL = SPACE" { space = 1; next } { line[++k] = $0 } END { if (space) print "MODEL = SPACE"; for (i = 1; i <= k; i++) print line[i] }' > "$work/$1.bdf"
+   run "$1"
+}
+for kind in 4 3 grid; do
+   scalar_chain scalar_chain $kind 5 && {
+      for j in 1 2 3 4 5; do near "scalar chain, $kind, mode $j" "$(mode scalar_chain $j omega)" "2*sqrt(400/0.04)*sin((2*$j-1)*$pi/22)" 1e-9; done
+      component=1; [ $kind = grid ] && component=2
+      near "scalar chain, $kind: last mass" "$(moved scalar_chain 105 $component)" 5*8/400 2e-6
+   }
+done
+says 'scalar chain: held components are named' "$work/scalar_chain.log" '10 components of nodes without stiffness are held (PARAM AUTOSPC), with no load on them; node: components: 101: 1 3; 102: 1 3;'
+
+# ---- A mass that resists the difference of two components: two masses 3 and 5 on springs 700 and 400 to the ground, 2 between them:
+# [m] = [3 + 2, -2; -2, 5 + 2]. As scalar points; along two components of one node; as CMASS1 between components 1 and 2 of two nodes
+scalar_pair() { cards scalar_pair && run scalar_pair && for j in 1 2; do
+   near "mass between two components, $1, mode $j" "$(mode scalar_pair $j omega)^2" \
+      "(700*7+400*5 $([ $j = 1 ] && echo - || echo +) sqrt((700*7+400*5)^2 - 4*31*700*400))/(2*31)" 1e-9; done; }
+scalar_pair 'scalar points' <<'DECK'
+SUBCASE 1;  MODES = 5;BEGIN BULK;EIGRL,5,,,2;CELAS4,1,700.0,11;CELAS4,2,400.0,0,12;CMASS4,3,3.0,11;CMASS4,4,5.0,12;CMASS4,5,2.0,11,12;ENDDATA
+DECK
+scalar_pair 'one node' <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;  MODES = 5;BEGIN BULK;EIGRL,5,,,2;GRID,1,,1.0,2.0,3.0;CELAS2,1,700.0,1,1;CELAS2,2,400.0,1,3;SPC1,1,2,1
+CMASS2,3,3.0,1,1;CMASS2,4,5.0,,,1,3;CMASS2,5,2.0,1,1,1,3;ENDDATA
+DECK
+scalar_pair 'two nodes' <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;  MODES = 5;BEGIN BULK;EIGRL,5,,,2;GRID,1,,1.0,2.0,3.0;GRID,2,,4.0,0.0,0.0;CELAS2,1,700.0,1,1;CELAS2,2,400.0,2,5
+SPC1,1,23,1;CMASS2,3,3.0,1,1;CMASS2,4,5.0,2,5;CMASS1,5,7,1,1,2,5;PMASS,6,9.0,7,2.0;ENDDATA
+DECK
+
+# ---- CONM1 with the matrix of a body, mass 0.3 at (0.4, -0.2, 0.5) from the node, is CONM2 with this offset and inertia, in system 4:
+# the same six frequencies of the body on a CBUSH
+scalar_body() { cards "$1" <<DECK
+MODEL = SPACE;SPC = 1;SUBCASE 1;  MODES = 5;BEGIN BULK;EIGRL,5,,,6;GRID,1,,1.0,2.0,3.0;GRID,2,,4.0,0.0,1.0;SPC1,1,123456,1
+CORD2R,4,,0.0,0.0,0.0,0.0,1.0,1.0;+,2.0,0.0,1.0;CBUSH,1,7,1,2,0.0,0.0,1.0;PBUSH,7,K,500.0,300.0,200.0,4000.0,2500.0,1500.0
+$2;ENDDATA
+DECK
+   run "$1"; }
+# m = 0.3; c = (0.4, -0.2, 0.5); I about the centre 0.05, 0.06, 0.07 with I21 0.01; about the node: I + m (c^2 1 - c c^T)
+scalar_body conm2_body 'CONM2,9,2,4,0.3,0.4,-0.2,0.5;+,0.05,0.01,0.06,0.0,0.0,0.07' && \
+scalar_body conm1_body 'CONM1,9,2,4,0.3,0.0,0.3,0.0,0.0;+,0.3,0.0,-0.15,-0.06,0.137,0.15,0.0,-0.12;+,0.014,0.183,0.06,0.12,0.0,-0.06,0.03,0.13' && \
+for j in 1 2 3 4 5 6; do near "CONM1 as CONM2, mode $j" "$(mode conm1_body $j omega)" "$(mode conm2_body $j omega)" 1e-9; done
+
+# ---- M of a PBUSH: half of it at each end. GE: the loss factor of a mode is the mean of GE by strain energy: K1 500 with 0.02 along x,
+# K2 500 with 0.06 along y; one GE of all PBUSH holds for all components
+bush_losses() { cards bush_losses <<DECK
+MODEL = SPACE;SPC = 1;SUBCASE 1;  MODES = 5;BEGIN BULK;EIGRL,5,,,2;GRID,1,,1.0,2.0,3.0;GRID,2,,1.0,2.0,3.0;SPC1,1,123456,1;SPC1,1,3456,2
+CBUSH,1,7,1,2,,,,0;PBUSH,7,K,500.0,600.0,,1.0;+,,GE,$1;+,,RCV,1.0;+,,M,0.4;CONM2,2,2,,0.1;ENDDATA
+DECK
+   run bush_losses; }
+bush_losses 0.02,0.06 && for j in 1 2; do
+   near "mass of a bush, mode $j" "$(mode bush_losses $j omega)^2" "(400+100*$j)/0.3" 1e-9
+   near "GE of a bush, mode $j" "$(mode bush_losses $j loss_factor)" "0.04*$j-0.02" 1e-9
+done
+bush_losses 0.03 && for j in 1 2; do near "one GE of a bush, mode $j" "$(mode bush_losses $j loss_factor)" 0.03 1e-9; done
+
+# ---- Gravity acts on the masses of nodes, not on scalar points: CONM1, CMASS between two nodes, M of a PBUSH
+cards scalar_weight <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;  LOAD = 10;  OUTPUT = ALL;BEGIN BULK;GRID,1,,1.0,2.0,3.0;GRID,2,,1.0,2.0,3.0;SPC1,1,123456,1
+CBUSH,1,7,1,2,,,,0;PBUSH,7,K,500.0,600.0,700.0,1.0,1.0,1.0;+,,M,0.4;CONM1,3,2,,0.3,,0.3,,;+,0.3;CMASS2,5,9.0,1,3,2,3;GRAV,10,,10.0,0.0,0.0,-1.0
+CELAS4,11,50.0,5;CMASS4,12,7.0,5;ENDDATA
+DECK
+run scalar_weight && near 'weight on a bush' "$(moved scalar_weight 2 3)" '-10*(0.2+0.3)/700' 2e-6
