@@ -68,6 +68,7 @@ help:
 	@echo 'make figures DATA=file   test data and their fit'
 	@echo 'make fuzz MINUTES=60 SEED=7  decks made at random, through the program, with run-time checks and sanitizers'
 	@echo 'make pairs N=5000 SEED=7  decks in which every pair of features meets: other solver, renumbered, mirrored, turned, other units'
+	@echo 'make structures  known laws of 50 random structures, by jointfit --structure: FIRST=1 LAST=50'
 	@echo 'make clean'
 
 include tests/runner/compile.mk
@@ -201,6 +202,11 @@ $(BUILD)/compare/%.o: tests/compare/%.f90 $(RELEASE_STAMP)
 test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE) $(QUERY) $(UNIT_PROGRAM)
 	@if pkg-config --exists petsc 2> /dev/null && command -v mpirun > /dev/null; then $(MAKE) --no-print-directory mpi; fi
 	@MAKE='$(MAKE)' tests/run_all.sh bin/jointfem $(BUILD)/checked/jointfem $(COMPARE) $(QUERY) $(BUILD) bin/jointfem_mpi
+
+# Known laws of random structures from values with noise
+.PHONY: structures
+structures: bin/jointfem bin/jointfit
+	@tests/fit/structure.sh bin/jointfit bin/jointfem $(or $(FIRST),1) $(or $(LAST),50)
 
 .PHONY: check
 check: bin/jointfem $(COMPARE)

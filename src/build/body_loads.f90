@@ -2,7 +2,7 @@
 !! GRAV, ACCEL1 and RFORCE act on masses, PLOAD1 along beams.
 module body_loads
    use property_cards, only: load_types
-   use beam_element, only: beam_axes, beam_length, beam_line_load, beam_nodal_forces, beam_point_load
+   use beam_element, only: beam_axes, beam_length, beam_line_load, beam_nodal_forces, beam_point_load, beam_section_at
    use body_elements, only: law_of
    use bulk_data, only: beam_load_card, gravity_card
    use deck_check, only: checked_deck
@@ -18,6 +18,7 @@ module body_loads
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity
    use structural_elements, only: onto_own
+   use tapered_beam, only: beam_station
    use text_tools, only: integer_text, one_of
    use tolerances, only: past_the_end, zero_component
    implicit none
@@ -176,6 +177,9 @@ contains
       type(stage_load_type), intent(inout) :: loads
       real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes)
       real(wp) :: a(3, 2*max_nodes), f(mesh%dimension, 2*max_nodes), m(2*max_nodes, 2*max_nodes), q(6, 2), x(3, 2)
+      real(wp) :: load(12)
+      real(wp), allocatable :: at(:)
+      type(beam_station) :: section
       integer  :: e, end, i, k
 
       do e = 1, mesh%n_elements
@@ -199,11 +203,19 @@ contains
          if (.not. is_beam(mesh, e)) cycle
          x = mesh%x(:, element_points(mesh, e))
          associate (law => mesh%structural%beams(mesh%structural%place(e)))
-            q = 0.0_wp
-            do end = 1, 2
-               q(:3, end) = (law%rho*law%area + law%extra_mass)*acceleration_at(field, x(:, end) + law%offset(:, end))
+            at = [0.0_wp, 1.0_wp]
+            if (allocated(law%stations)) at = law%stations%at
+            load = 0.0_wp
+            do k = 1, size(at) - 1
+               q = 0.0_wp
+               do end = 1, 2
+                  section = beam_section_at(law, at(k - 1 + end))
+                  q(:3, end) = (law%rho*section%area + section%extra_mass)*acceleration_at(field, (1.0_wp - at(k - 1 + end))* &
+                     (x(:, 1) + law%offset(:, 1)) + at(k - 1 + end)*(x(:, 2) + law%offset(:, 2)))
+               end do
+               load = load + beam_line_load(law, x, q, at(k), at(k + 1))
             end do
-            call add_to_beam(mesh, freedoms, e, beam_line_load(law, x, q, 0.0_wp, 1.0_wp), loads, force)
+            call add_to_beam(mesh, freedoms, e, load, loads, force)
          end associate
       end do
       do k = 1, size(mesh%bars)

@@ -6,12 +6,13 @@ module free_structure
    use deck_check, only: checked_deck
    use interface_operator, only: named_node
    use kinds, only: wp
-   use mesh_queries, only: element_points, is_face_node, node_kind, place_in_kind
-   use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, mesh_type, n_sections, support_group
+   use mesh_queries, only: element_points, is_face_node, n_points, node_kind, place_in_kind, point_of
+   use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, mesh_type, n_sections, rotation_type, &
+                         support_group
    use numbers, only: cross, first_largest
    use support_build, only: hold
    use tolerances, only: balanced
-   use unknowns, only: rotation_at
+   use unknowns, only: component_place, motions_at, n_motions, node_axes, place_of_component, rotation_at
    implicit none
    private
 
@@ -19,8 +20,9 @@ module free_structure
 
 contains
 
-   !> Support the structure if it has no supports and some stage has MODES(FREE) or METHOD = set: all components of a node with rotations,
-   !! else 3, 2 and 1 components of three distant nodes of the largest body. Dependent nodes and nodes with CD are skipped.
+   !> Support the structure if it has no supports and some stage has MODES(FREE) or METHOD = set: all components of a node with
+   !! rotations, else 3, 2 and 1 components of three distant nodes of the largest body. Dependent nodes and nodes with CD are skipped.
+   !! With METHOD = set supports that leave rigid-body motions are completed.
    subroutine hold_free_structure(deck, mesh, joints, freedoms)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(in) :: mesh
@@ -30,13 +32,14 @@ contains
       integer, allocatable :: dependent(:)
       logical  :: may_be(mesh%n_nodes)
       real(wp) :: along(3), off(mesh%n_nodes), turn(3)
-      logical  :: are_free(size(deck%control%stages))
+      logical  :: are_free(size(deck%control%stages)), is_held
 
       associate (asked => deck%control%stages%vibration)
          are_free = asked%free .or. asked%by_method
-         if (.not. any(are_free .and. deck%shares([(i, i = 1, size(asked))])) .or. &
-             any(freedoms%held(:, :mesh%n_nodes - n_sections(mesh)))) return
-         if (any(asked%modes%id > 0 .and. .not. are_free .and. deck%shares([(i, i = 1, size(asked))]))) return
+         is_held = any(freedoms%held(:, :mesh%n_nodes - n_sections(mesh)))
+         if (is_held) are_free = asked%by_method .and. size(deck%bulk%suport) == 0 .and. .not. mesh%axisymmetric
+         if (.not. any(are_free .and. deck%shares([(i, i = 1, size(asked))]))) return
+         if (any(asked%modes%id /= 0 .and. .not. are_free .and. deck%shares([(i, i = 1, size(asked))]))) return
       end associate
       if (any(deck%bulk%spring%nodes(1) == 0 .or. deck%bulk%spring%nodes(2) == 0)) return ! a grounded spring
       do i = 1, size(joints%element)
@@ -60,6 +63,10 @@ contains
       do i = 1, size(may_be)
          may_be(i) = may_be(i) .and. .not. is_face_node(mesh, i) .and. mesh%duplicate(i) == 0
       end do
+      if (is_held) then
+         call hold_rest(mesh, may_be, freedoms)
+         return
+      end if
       a = findloc(may_be, .true., dim=1)
       if (a == 0) return
       freedoms%floats = .true.
@@ -90,6 +97,93 @@ contains
       turn = cross(along, mesh%x(:, c) - mesh%x(:, a))
       call hold(mesh, freedoms, c, first_largest(abs(turn)))
    end subroutine hold_free_structure
+
+   !> Hold the rigid-body motions of the structure that its supports leave, at nodes that MAY BE held: each by the component that moves
+   !! most in those that are left.
+   subroutine hold_rest(mesh, may_be, freedoms)
+      type(mesh_type), intent(in) :: mesh
+      logical, intent(in)         :: may_be(:) !! (n_nodes)
+      type(freedoms_type), intent(inout) :: freedoms
+      type(component_place) :: place
+      real(wp) :: basis(n_motions(mesh%dimension), n_motions(mesh%dimension)) ! of the motions that are held, columns
+      real(wp) :: centre(3), extent, most, moves
+      integer  :: best(2), d, digit, node, rank
+
+      centre = sum(mesh%x(:, :n_points(mesh)), dim=2)/n_points(mesh)
+      extent = maxval(abs(mesh%x(:, :n_points(mesh)) - spread(centre, 2, n_points(mesh))))
+      rank = 0
+      do node = 1, mesh%n_nodes - n_sections(mesh)
+         if (node_kind(mesh, node) == a_rotation) then
+            if (.not. turns(mesh%rotations(place_in_kind(mesh, node)))) cycle
+         end if
+         do d = 1, mesh%dimension
+            if (freedoms%held(d, node)) call add(left_of(node, d))
+         end do
+      end do
+      if (rank < size(basis, 1)) freedoms%support_groups = [freedoms%support_groups, support_group('FREE')]
+      do while (rank < size(basis, 1))
+         most = 0.0_wp
+         do node = 1, size(may_be)
+            if (.not. may_be(node)) cycle
+            do digit = 1, 6
+               place = place_of_component(mesh, node, digit)
+               if (place%node == 0) cycle
+               if (freedoms%held(place%d, place%node)) cycle
+               if (digit > 3) then
+                  if (.not. turns(mesh%rotations(rotation_at(mesh, node)))) cycle
+               end if
+               moves = norm2(left_of(place%node, place%d))
+               if (moves <= (1.0_wp + balanced)*most) cycle
+               most = moves
+               best = [node, digit]
+            end do
+         end do
+         if (most <= balanced) return
+         place = place_of_component(mesh, best(1), best(2))
+         call add(left_of(place%node, place%d))
+         call hold(mesh, freedoms, best(1), best(2))
+      end do
+
+   contains
+
+      !> Whether the structure turns with ROTATION.
+      pure logical function turns(rotation)
+         type(rotation_type), intent(in) :: rotation
+
+         turns = rotation%of_element .and. .not. rotation%of_rods
+      end function turns
+
+      !> How component D of NODE moves in the motions that are not held yet.
+      function left_of(node, d) result(left)
+         integer, intent(in) :: node, d
+         real(wp) :: left(size(basis, 1)), axes(3, 3)
+         integer  :: k
+
+         axes = node_axes(mesh, point_of(mesh, node))
+         left = 0.0_wp
+         if (node_kind(mesh, node) == a_point) then
+            left = matmul(axes(:mesh%dimension, d), motions_at((mesh%x(:mesh%dimension, node) - centre(:mesh%dimension))/extent))
+         else if (mesh%dimension == 3) then
+            left(4:) = axes(:, d)
+         else
+            left(3) = merge(1.0_wp, 0.0_wp, d == 1)
+         end if
+         do k = 1, 2*rank ! twice against rounding
+            associate (b => basis(:, 1 + modulo(k - 1, rank)))
+               left = left - dot_product(left, b)*b
+            end associate
+         end do
+      end function left_of
+
+      subroutine add(left)
+         real(wp), intent(in) :: left(:)
+
+         if (norm2(left) <= balanced) return
+         rank = rank + 1
+         basis(:, rank) = left/norm2(left)
+      end subroutine add
+
+   end subroutine hold_rest
 
    !> Error: a load of a stage that is not self-equilibrated, in a structure without supports.
    subroutine check_balance(deck, mesh, freedoms, history)

@@ -112,35 +112,26 @@ contains
       end subroutine add_displacement
 
       !> Add FACTOR times a component to the row, or what it depends on.
-      subroutine add_component(node, d, factor)
+      recursive subroutine add_component(node, d, factor)
          integer, intent(in)  :: node, d
          real(wp), intent(in) :: factor
          integer :: m
 
-         if (equation(d, node) == 0) then
-            call add_to_row(component_place(node, d, 1.0_wp), factor)
-            return
-         end if
-         associate (item => list%item(equation(d, node)))
-            do m = 1, item%n
-               call add_to_row(item%on(m), factor*item%on(m)%scale)
-            end do
-         end associate
-      end subroutine add_component
-
-      subroutine add_to_row(place, factor)
-         type(component_place), intent(in) :: place
-         real(wp), intent(in)              :: factor
-
-         if (abs(factor) <= 0.0_wp) return
-         if (.not. is_there(place%d, place%node)) then
-            is_there(place%d, place%node) = .true.
+         if (equation(d, node) > 0) then
+            associate (item => list%item(equation(d, node)))
+               do m = 1, item%n
+                  call add_component(item%on(m)%node, item%on(m)%d, factor*item%on(m)%scale)
+               end do
+            end associate
+         else if (abs(factor) > 0.0_wp) then
+            row(d, node) = row(d, node) + factor
+            if (is_there(d, node)) return
+            is_there(d, node) = .true.
             if (n == size(terms)) terms = [terms, terms]
             n = n + 1
-            terms(n) = place
+            terms(n) = component_place(node, d, 1.0_wp)
          end if
-         row(place%d, place%node) = row(place%d, place%node) + factor
-      end subroutine add_to_row
+      end subroutine add_component
 
       !> Note the terms of equation I.
       subroutine note_terms(i)

@@ -77,7 +77,7 @@ contains
             associate (i11 => card%inertia(1), i21 => card%inertia(2), i22 => card%inertia(3), i31 => card%inertia(4), &
                        i32 => card%inertia(5), i33 => card%inertia(6), inertia => mesh%masses(n)%inertia)
                inertia = deck%bulk%parameters%mass_factor*reshape([i11, -i21, -i31, -i21, i22, -i32, -i31, -i32, i33], [3, 3])
-               if (any(deck%control%stages%vibration%modes%id > 0) .and. .not. is_inertia(inertia)) call deck%field_error( &
+               if (any(deck%control%stages%vibration%modes%id /= 0) .and. .not. is_inertia(inertia)) call deck%field_error( &
                   card%line, 'I11', 'not a possible inertia tensor: it must be positive semidefinite')
                call find_system(deck, card%line, 'CID', max(card%system, 0), mesh%systems, system)
                ok = system > 0 .and. any(abs(card%inertia) > 0.0_wp)
@@ -231,7 +231,7 @@ contains
       logical, allocatable :: has_mass(:)     ! (parts)
       integer :: e, i, line
 
-      i = findloc(deck%control%stages%vibration%modes%id > 0, .true., dim=1)
+      i = findloc(deck%control%stages%vibration%modes%id /= 0, .true., dim=1)
       if (i == 0) return
       line = deck%control%stages(i)%vibration%modes%line
       allocate (has_mass(freedoms%n_parts), source=.false.)

@@ -194,11 +194,11 @@ contains
       type(tie_type), intent(in)        :: ties(:)
       type(freedoms_type), allocatable, intent(out)   :: sets(:)
       type(history_type), intent(out)                 :: history
-      type(planned_wave), allocatable, intent(out) :: waves(:)
+      type(planned_wave), allocatable, intent(out)    :: waves(:)
       type(expansion_type), allocatable  :: expansions(:)
       type(history_type) :: other
       type(planned_wave), allocatable :: other_waves(:)
-      integer :: i, k, s
+      integer :: k, s
 
       allocate (sets(size(plan%first_with)))
       deck%keeps_distances = .not. plan%is_independent .and. &
@@ -219,8 +219,8 @@ contains
             if (plan%stages(s)%supports /= k) cycle
             history%stages(s) = other%stages(s)
          end do
-         do i = 1, size(waves)
-            if (plan%stages(waves(i)%stage)%supports == k) waves(i) = other_waves(i)
+         do s = 1, size(waves)
+            if (plan%stages(waves(s)%stage)%supports == k) waves(s) = other_waves(s)
          end do
       end do
       if (.not. deck%errors%any()) call sum_cases(plan, history)

@@ -2,6 +2,7 @@
 module pretension_section
    use bulk_data, only: bolt_card
    use deck_check, only: checked_deck
+   use displacement_systems, only: find_directions
    use element_kinds, only: max_side_nodes
    use kinds, only: wp
    use model_data, only: mesh_type, section_type
@@ -80,13 +81,14 @@ contains
       else
          call orient_as_first_side(mesh, s, mesh%sections(k))
          if (mesh%sections(k)%area <= 0.0_wp) return ! a body without property: reported already
+         if (card%axis > 0) call take_axis(deck, card, mesh, s, mesh%sections(k))
          mesh%sections(k)%strength = mesh%properties(mesh%element_property(mesh%surfaces(s)%element(1)))%strength
          call surface_nodes(mesh, mesh%surfaces(s), list)
          allocate (centroid, source=matmul(mesh%x(:, list%node), list%area)/sum(list%area))
          ! the surface must be plane, and in an axisymmetric model across the axis
          if (mesh%axisymmetric .and. abs(mesh%sections(k)%direction(1)) > parallel_in_mesh) then
             fault = 'is not across the axis: in an axisymmetric model a bolt is cut at a plane y = constant'
-         else
+         else if (card%axis == 0) then ! along a given axis the sides of any surface overlap as those of a plane
             extent = maxval([(norm2(mesh%x(:, list%node(i)) - centroid), i = 1, list%n)])
             i = findloc([(abs(dot_product(mesh%x(:, list%node(i)) - centroid, mesh%sections(k)%direction)) > in_section*extent, &
                           i = 1, list%n)], .true., dim=1)
@@ -119,6 +121,29 @@ contains
       end do
       section%direction = -total/max(norm2(total), tiny(1.0_wp))
    end subroutine orient_as_first_side
+
+   !> The direction of SECTION at surface S is the axis that a CARD of NX gives, its area that across this axis.
+   subroutine take_axis(deck, card, mesh, s, section)
+      type(checked_deck), intent(in)    :: deck
+      type(bolt_card), intent(in)       :: card
+      type(mesh_type), intent(in)       :: mesh
+      integer, intent(in)               :: s
+      type(section_type), intent(inout) :: section
+      real(wp) :: area(max_side_nodes), axes(3, 3), normal(3, max_side_nodes)
+      integer  :: i
+      logical  :: ok
+
+      call find_directions(deck, mesh%systems, card%line, card%system, mesh%x(:, mesh%surfaces(s)%nodes(1, 1)), axes, ok, &
+                           ['CSID', 'G   '])
+      associate (axis => axes(:, card%axis))
+         section%direction = sign(1.0_wp, dot_product(axis, section%direction))*axis
+      end associate
+      section%area = 0.0_wp
+      do i = 1, mesh%surfaces(s)%n
+         call side_influence(mesh, mesh%surfaces(s), i, area, normal)
+         section%area = section%area - dot_product(section%direction, sum(normal, dim=2))
+      end do
+   end subroutine take_axis
 
    !> The elements behind section K, which is surface S: at each node the elements that are connected to the
    !! back of a side without crossing the surface.

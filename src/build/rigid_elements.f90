@@ -205,7 +205,7 @@ contains
       without = list%without
       do k = 1, size(card%node)
          call find_node(deck, card%line, card%at(k), card%node(k), mesh, freedoms, list, node)
-         if (node == 0 .or. card%component(k) == 0) cycle
+         if (node == 0 .or. (card%component(k) == 0 .and. deck%errors%any())) cycle ! reported
          place(k) = place_of_component(mesh, node, card%component(k))
          if (place(k)%node == 0) call deck%field_error(card%line, card%at(k) + 1, 'node '//integer_text(card%node(k))// &
             ' has no component '//integer_text(card%component(k)), called='C')

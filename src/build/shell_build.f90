@@ -12,6 +12,7 @@ module shell_build
    use shell_membrane, only: shell_frame, shell_frame_of, shell_law
    use structural_build, only: has_rotations
    use text_tools, only: integer_text, one_of
+   use tolerances, only: along_the_beam
    implicit none
    private
 
@@ -98,7 +99,7 @@ contains
          end if
          frame = shell_frame_of(x, 0.0_wp)
       end associate
-      if (norm2(matmul(along, frame%axes(:, :2))) < 1.0e-6_wp) call deck%field_error(mesh%element_line(e), 'THETA', &
+      if (norm2(matmul(along, frame%axes(:, :2))) <= along_the_beam) call deck%field_error(mesh%element_line(e), 'THETA', &
          'x of this system is normal to element '//integer_text(mesh%element_id(e))//' and gives no direction of its material', &
          called='MCID')
    end function material_direction

@@ -30,7 +30,7 @@ contains
 
       plan%measures_path = deck%control%method == method_newton
       associate (given => deck%control%stages, bulk => deck%bulk)
-         plan%is_independent = size(given) > 1 .and. size(bulk%joint) + size(bulk%cjoint) + size(bulk%bolt) == 0 .and. &
+         plan%is_independent = size(given) > 1 .and. all(bulk%joint%is_glued) .and. size(bulk%cjoint) + size(bulk%bolt) == 0 .and. &
                                all(given%increments%id == 0 .and. given%from%id == 0)
       end associate
       plan%first_with = [1]

@@ -227,6 +227,10 @@ contains
                     property => mesh%properties(mesh%element_property(e)))
             k = findloc(deck%bulk%beam_property%id, card%property, dim=1)
             law%beam_section = deck%bulk%beam_property(k)%section
+            if (allocated(deck%bulk%beam_property(k)%stations)) then
+               law%stations = deck%bulk%beam_property(k)%stations
+               law%stations%extra_mass = deck%bulk%parameters%mass_factor*law%stations%extra_mass
+            end if
             law%e = property%e
             law%g = deck%bulk%mat1(findloc(deck%bulk%mat1%id, deck%bulk%beam_property(k)%material, dim=1))%shear
             law%rho = property%rho
@@ -248,6 +252,8 @@ contains
                end if
                law%orientation = mesh%x(:, other) - x(:, 1)
             end if
+            if (law%is_cut .and. allocated(law%stations)) call deck%errors%add(card%line, 'beam '//integer_text(card%id)// &
+               ' is a bolt; expected a section constant along it')
             if (law%is_cut .and. (any(abs(law%offset) > 0.0_wp) .or. any(law%released([1, 7])))) call deck%errors%add(card%line, &
                'beam '//integer_text(card%id)//' is a bolt; expected no offsets, and no pin along it')
             if (.not. beam_length(law, x) > 0.0_wp) then

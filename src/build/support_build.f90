@@ -50,6 +50,13 @@ contains
             freedoms%used(mesh%rotations(rotation_at(mesh, face%point))%node) = .true.
          end associate
       end do
+      do i = 1, size(deck%bulk%force) ! rotations that nodes of springs have because of a moment
+         if (.not. deck%bulk%force(i)%is_moment) cycle
+         associate (id => deck%bulk%force(i)%node, node => mesh%node_table%find(deck%bulk%force(i)%node))
+            if (node == 0 .or. .not. any(deck%bulk%spring%nodes(1) == id .or. deck%bulk%spring%nodes(2) == id)) cycle
+            if (rotation_at(mesh, node) > 0) freedoms%used(mesh%rotations(rotation_at(mesh, node))%node) = .true.
+         end associate
+      end do
       do i = 1, n_sections(mesh)
          if (mesh%sections(i)%node > 0) freedoms%held(2:, mesh%sections(i)%node) = .true.
       end do

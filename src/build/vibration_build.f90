@@ -44,7 +44,7 @@ contains
          associate (asked => deck%control%stages(s)%vibration, vibration => plan%stages(s)%vibration, &
                     freedoms => sets(plan%stages(s)%supports))
             vibration%id = asked%modes%id
-            vibration%free = asked%free .or. (asked%by_method .and. (freedoms%floats .or. size(deck%bulk%suport) > 0))
+            vibration%free = asked%free .or. (asked%by_method .and. any(freedoms%support_groups%kind == 'FREE'))
             vibration%on_loading = asked%on_loading
             vibration%amplitude = asked%amplitude
             vibration%damping = deck%bulk%parameters%damping

@@ -13,6 +13,7 @@ module bulk_data
    use normal_curve, only: normal_law
    use iwan_law, only: iwan_type
    use shear_stiffness, only: shear_law
+   use tapered_beam, only: beam_station
    use text_tools, only: text_item
    implicit none
    private
@@ -48,7 +49,7 @@ module bulk_data
    type, extends(element_card), public :: edge_card
       real(wp) :: orientation(3) = 0.0_wp, offset(3, 2) = 0.0_wp ! X1, X2, X3 where there is no G0; WA, WB
       integer  :: pins(2) = 0                           ! PA, PB
-      logical  :: blank(4) = .false.                    ! X1, X2, X3, PID
+      logical  :: blank(5) = .false.                    ! X1, X2, X3, PID, OFFT
       logical  :: in_basic = .false.                    ! OFFT B: X1, X2, X3 are in basic axes
    end type edge_card
 
@@ -67,6 +68,7 @@ module bulk_data
       character(6) :: name = ''
       type(beam_section) :: section
       real(wp) :: extra_mass = 0.0_wp                   ! NSM, per length
+      type(beam_station), allocatable :: stations(:)    ! where the section changes
    end type beam_property_card
 
    !> PLOAD1: the load P at the positions X(1) and X(2).
@@ -287,24 +289,19 @@ module bulk_data
       integer  :: line = 0, id = 0, element = 0, stage = 0, surface = 0
       real(wp) :: preload = 0.0_wp
       type(thread_type) :: thread                       ! in mm and N
-      integer  :: kind = 0                              ! ETYPE of a BOLT of NX, 0: of this program
+      integer  :: kind = 0                              ! ETYPE of a BOLT of NX, 0: of this program; negative: a copy
       type(id_ranges) :: parts                          ! of NX: elements (1, 3) or nodes of its section (2)
       integer  :: system = 0, axis = 0, node = 0        ! of NX: CSID, IDIR, GP
    end type bolt_card
 
-   !> BSURF, BSURFS, BCPROP, BCPROPS: a region of contact or glue, which becomes the marked SURFACE.
+   !> BSURF, BSURFS, BCPROP, BCPROPS: a region of contact or glue, which becomes the marked SURFACE; BCRPARA: its side.
    type, public :: region_card
       integer :: line = 0, id = 0, surface = 0          ! SURFACE 0: no active pair has it
-      logical :: by_property = .false., is_bottom = .false. ! RANGES are properties; the faces of shells against their normals
+      logical :: by_property = .false.                  ! RANGES are properties
+      logical :: is_parameter = .false., is_bottom = .false. ! BCRPARA; the faces of shells against their normals
       type(id_ranges) :: ranges                         ! of elements
       integer, allocatable :: corners(:, :)             ! (3, ranges) of the face of a BSURFS; not allocated: all free faces
    end type region_card
-
-   !> BCRPARA.
-   type, public :: region_side_card
-      integer :: line = 0, id = 0
-      logical :: is_bottom = .false.
-   end type region_side_card
 
    !> BCTSET, BGSET: pairs of regions in contact or glued.
    type, public :: pair_card
@@ -314,18 +311,13 @@ module bulk_data
       real(wp), allocatable :: mu(:), reach(:)          ! FRIC; MAXD or SDIST, 0: blank
    end type pair_card
 
-   !> BOLTFOR: the preload of bolts of NX.
+   !> BOLTFOR: the preload of bolts of NX; BOLTSEQ: an order of sets of preloads.
    type, public :: preload_card
       integer  :: line = 0, set = 0
       real(wp) :: force = 0.0_wp
       type(id_ranges) :: bolts
+      integer, allocatable :: order(:), sets(:)         ! of BOLTSEQ; not allocated: BOLTFOR
    end type preload_card
-
-   !> BOLTSEQ: the order of sets of preloads.
-   type, public :: sequence_card
-      integer :: line = 0, set = 0
-      integer, allocatable :: order(:), sets(:)
-   end type sequence_card
 
    type, public :: load_card
       integer  :: line = 0, set = 0
@@ -483,11 +475,8 @@ module bulk_data
       type(load_card), allocatable         :: load(:), dload(:)
       type(bolt_card), allocatable         :: bolt(:)
       type(region_card), allocatable       :: region(:)
-      type(region_side_card), allocatable  :: region_side(:)
       type(pair_card), allocatable         :: pair(:)
-      integer, allocatable                 :: touching(:)  !! sets of contact whose faces touch, by BCTPARM; 0: no set
       type(preload_card), allocatable      :: preload(:)
-      type(sequence_card), allocatable     :: sequence(:)
       type(text_item), allocatable         :: told(:)      !! what contact and bolts of NX have become; not allocated: there are none
       type(block_card), allocatable        :: block(:)
       type(pmark_card), allocatable        :: pmark(:)

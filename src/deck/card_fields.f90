@@ -8,6 +8,7 @@ module card_fields
                           largest_size, list_of, number_of, parse_integer, parse_real, real_fault, real_range, &
                           real_words, smallest_size
    use kinds, only: wp
+   use nastran_words, only: is_own_card
    use text_tools, only: integer_text, one_of
    implicit none
    private
@@ -58,7 +59,7 @@ contains
    end subroutine go_on
 
    !> Take the integer VALUE from the next field, an id of at least 1 unless LEAST and MOST are present. It is required without DEFAULT;
-   !! 0 passes for blank where it is the DEFAULT.
+   !! 0 passes for blank where it is the DEFAULT of a card of NASTRAN.
    subroutine integer_field(self, name, value, default, least, most)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: name !! as in the card manual
@@ -71,7 +72,9 @@ contains
       bounds = at_least_1
       if (present(least)) bounds(1) = least
       if (present(most)) bounds(2) = most
-      if (present(default) .and. is_given) is_given = default /= 0 .or. self%fields(self%k)%text /= '0'
+      if (present(default) .and. is_given) then
+         if (default == 0 .and. self%fields(self%k)%text == '0') is_given = is_own_card(self%name)
+      end if
       if (present(default) .and. .not. is_given) then
          value = default
       else
@@ -106,7 +109,8 @@ contains
       call go_on(self, name, is_given)
       ok = .false.
       if (is_given .and. present(default) .and. present(range)) then
-         if (range%above) is_given = abs(default) > 0.0_wp .or. .not. is_zero(self%text_at(self%k))
+         if (range%above .and. .not. abs(default) > 0.0_wp) is_given = is_own_card(self%name) .or. &
+                                                                     .not. is_zero(self%text_at(self%k))
       end if
       if (is_given .and. present(whole)) then
          call parse_integer(self%fields(self%k)%text, number, ok)

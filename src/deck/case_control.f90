@@ -39,11 +39,11 @@ module case_control
       logical :: echo  = .true.
       logical :: echo_asked = .false.                    !! by ECHO: for any number of cards
       logical :: of_nastran = .false.                    !! SOL or CEND: the deck was written for NASTRAN
+      logical :: refused = .false.                       !! a kind of analysis that is not available: the only error
+      logical :: is_static = .false.                     !! SOL of statics: METHOD = set has no effect
       logical :: is_direct = .false.                     !! SOL 108: its response needs no MODES
       character(8) :: matrices(2) = ''                   !! K2GG, M2GG: names of DMIG
       integer :: matrix_lines(2) = 0
-      logical :: refused = .false.                       !! a kind of analysis that is not available: the only error
-      logical :: is_static = .false.                     !! SOL of statics: METHOD = set has no effect
       logical :: lumped = .false.                        !! MASS = LUMPED: the mass of elements is lumped at their nodes
       logical :: mass_is_given = .false.                 !! MASS is given
       integer :: model = 0, model_line = 0               !! MODEL, 0: not given
@@ -75,8 +75,8 @@ contains
       type(entry_type) :: entry
       character(:), allocatable :: keys_seen ! in this place: above the stages, or in one stage
       character(:), allocatable :: line
-      type(number_set) :: whole
       character(:), allocatable :: refusal, warning
+      type(number_set) :: whole
       logical :: goes_on, in_dmap, in_plots, past_cend
       integer :: n_shown
 

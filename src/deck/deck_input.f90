@@ -11,19 +11,19 @@ module deck_input
    use, intrinsic :: iso_fortran_env, only: int16
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
-   use matrix_cards, only: read_dmig, read_retained
    use laminate_cards, only: read_laminate, read_plate_material
+   use matrix_cards, only: read_dmig, read_retained
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
                          read_temperature
    use mesh_cards, only: complete_remedy, fill_defaults, read_block, read_edge, read_edge_defaults, read_element, read_grid, &
                          read_pmark, read_grid_defaults, read_system, system_names
-   use nastran_compatibility, only: take_idle_card
+   use nastran_compatibility, only: not_reduced, take_idle_card
    use nastran_defaults, only: find_first_card, take_initial_temperature, take_only_sets
-   use nx_cards, only: read_contact_parameter, read_pair, read_preload, read_region, read_sequence, read_side_of_region
+   use nx_cards, only: read_pair, read_preload, read_region
    use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
    use response_cards, only: read_darea, read_dload, read_lseq, read_rload, read_tabled
-   use rigid_cards, only: count_idle_rotations, read_equation, read_place, read_rigid, read_tie
+   use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
    use support_cards, only: read_displacement, read_mass, read_pmass, read_scalar, read_spring, read_spring_property, &
                             read_sum, read_suport, read_support
    use text_tools, only: plural, upper
@@ -50,7 +50,6 @@ module deck_input
       type(bulk_data_type)    :: bulk
       logical :: is_whole = .false. !! false: a part of the deck is missing, so that references to it cannot be checked
       type(card_kind), allocatable :: kinds(:) !! of card, with their field tables
-      integer :: default_law = 0               !! number of the JNORM and JSHEAR of contacts of NX without PJOINT, 0: none
    end type deck_type
 
    abstract interface
@@ -76,28 +75,26 @@ contains
       call add(['GRDSET'], read_grid_defaults)
       call add(system_names, read_system)
       call add(['CTRIA3', 'CTRIA6', 'CTRIAR', 'CQUAD4', 'CQUAD8', 'CQUADR', 'CTETRA', 'CPENTA', 'CHEXA ', 'CPYRAM'], read_element)
-      call add(['CBAR ', 'CBEAM', 'CROD '], read_edge)
+      call add(['CBAR ', 'CBEAM', 'CROD ', 'CTUBE'], read_edge)
       call add(['BAROR ', 'BEAMOR'], read_edge_defaults)
       call add(['BLOCK2', 'BLOCK3'], read_block)
       call add(['PMARK'], read_pmark)
       call add(['PSHELL'], read_pshell)
-      call add(['PCOMP ', 'PCOMPG'], read_laminate, joined='PSHELL')
+      call add(['PCOMP ', 'PCOMPG'], read_laminate, joins=.true.)
       call add(['PAXIS'], read_body_property)
       call add(['PSOLID'], read_body_property)
-      call add(['PROD'], read_rod)
+      call add(['PROD ', 'PTUBE'], read_rod)
       call add(['PBAR  ', 'PBARL ', 'PBEAM ', 'PBEAML'], read_beam_property)
       call add(['CONROD'], read_rod)
       call add(['NODEAT'], read_place)
       call add(['MAT1'], read_mat1)
-      call add(['BSURF  ', 'BSURFS ', 'BCPROP ', 'BCPROPS'], read_region)
-      call add(['MAT2', 'MAT8'], read_plate_material, joined='MAT1')
+      call add(['MAT2', 'MAT8'], read_plate_material, joins=.true.)
+      call add(['BSURF  ', 'BSURFS ', 'BCPROP ', 'BCPROPS', 'BCRPARA'], read_region)
       cards%of_mesh = .true.
-      call add(['BCRPARA'], read_side_of_region)
       call add(['BCTSET', 'BGSET '], read_pair)
-      call add(['BCTADD', 'BGADD '], read_sum)
-      call add(['BCTPARM'], read_contact_parameter)
-      call add(['BOLTFOR'], read_preload)
-      call add(['BOLTSEQ'], read_sequence)
+      call add(['BCTADD'], read_sum)
+      call add(['BGADD'], read_sum)
+      call add(['BOLTFOR', 'BOLTSEQ'], read_preload)
       call add(['CELAS1', 'CELAS2', 'CELAS3', 'CELAS4', 'CBUSH '], read_spring)
       call add(['PELAS', 'PBUSH'], read_spring_property)
       call add(['CONM2 ', 'CONM1 ', 'CMASS1', 'CMASS2', 'CMASS3', 'CMASS4'], read_mass)
@@ -143,16 +140,16 @@ contains
 
    contains
 
-      !> Add the kinds NAMES, which READ reads, into the array of the kind JOINED where it is present.
-      subroutine add(names, read, joined)
+      !> Add the kinds NAMES, which READ reads; where JOINS is present, into the array of the kind before.
+      subroutine add(names, read, joins)
          character(*), intent(in) :: names(:)
          procedure(read_one)      :: read
-         character(*), intent(in), optional :: joined
+         logical, intent(in), optional :: joins
          type(card_kind) :: kind
          integer :: k
 
          kind%routine = size(cards) + 1
-         if (present(joined)) kind%routine = cards(findloc(cards%name, joined, dim=1))%routine
+         if (present(joins)) kind%routine = cards(size(cards))%routine
          kind%read => read
          do k = 1, size(names)
             kind%name = names(k)
@@ -181,11 +178,11 @@ contains
          bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
          bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
          bulk%jiwan(n('JIWAN')), bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
-         bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')), bulk%dynamic%rload(n('RLOAD1')), bulk%dload(n('DLOAD')), &
+         bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')), bulk%region(n('BSURF')), &
+         bulk%pair(n('BCTSET')), bulk%contact_sum(n('BCTADD')), bulk%glue_sum(n('BGADD')), bulk%preload(n('BOLTFOR')), &
+         bulk%dynamic%rload(n('RLOAD1')), bulk%dload(n('DLOAD')), &
          bulk%dynamic%darea(2*n('DAREA')), bulk%dynamic%lseq(n('LSEQ')), bulk%dynamic%tabled(n('TABLED1')), &
-         bulk%matrices%dmig(n('DMIG')), bulk%matrices%retained(4*n('ASET')), bulk%region(n('BSURF')), &
-         bulk%region_side(n('BCRPARA')), bulk%pair(n('BCTSET')), bulk%contact_sum(n('BCTADD')), bulk%glue_sum(n('BGADD')), &
-         bulk%touching(n('BCTPARM')), bulk%preload(n('BOLTFOR')), bulk%sequence(n('BOLTSEQ')))
+         bulk%matrices%dmig(n('DMIG')), bulk%matrices%retained(4*n('ASET')))
 
    contains
 
@@ -237,7 +234,7 @@ contains
       type(deck_error_list), intent(inout), target :: errors
       integer(int16), allocatable :: kind_at(:) ! (lines) kind of the card that begins there, 0: none or unknown
       integer :: cursor, first_card
-      logical :: found_bulk, is_alone, is_idle, is_whole
+      logical :: found_bulk, is_alone, is_whole
 
       if (.not. deck%text%is_text) return
       is_whole = .not. errors%any()
@@ -256,6 +253,7 @@ contains
       deck%bulk%ignored = deck%control%ignored
       deck%bulk%parameters = deck%control%parameters
       call find_cards(deck%text, cursor, deck%kinds, kind_at, deck%bulk, errors)
+      if (deck%bulk%n_cards < 0) return
       call make_room(deck%kinds, deck%bulk)
       call read_all(deck%text, kind_at, deck%kinds, deck%bulk, errors)
       associate (bulk => deck%bulk, asked => deck%control%stages%vibration)
@@ -268,18 +266,17 @@ contains
          bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
          bulk%suport = bulk%suport(:count(bulk%suport%line > 0))
          bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
+         bulk%plate = bulk%plate(:bulk%n_plates)
          bulk%dynamic%darea = bulk%dynamic%darea(:count(bulk%dynamic%darea%line > 0))
          bulk%matrices%retained = bulk%matrices%retained(:count(bulk%matrices%retained%line > 0))
          do cursor = 1, merge(0, size(bulk%matrices%retained), any(deck%control%stages%output%dmig))
-            call take_idle_card('ASET', bulk%matrices%retained(cursor)%line, bulk%ignored, is_idle)
+            call bulk%ignored%wait('ASET', bulk%matrices%retained(cursor)%line, .false., warning=not_reduced)
          end do
          do cursor = 1, merge(size(bulk%matrices%dmig), 0, all(deck%control%matrices == ''))
             call bulk%ignored%add('DMIG')
          end do
-         bulk%plate = bulk%plate(:bulk%n_plates)
          call fill_defaults(bulk)
          call count_unused(bulk)
-         call count_idle_rotations(bulk)
          call bulk%ignored%settle(any(asked%modes%id /= 0), any(asked%modes%id /= 0 .and. asked%frequency%id > 0), &
                                   any(deck%control%stages%warms_materials), errors)
          if (is_alone) call take_only_sets(bulk, deck%control%stages(1), errors)
@@ -289,7 +286,7 @@ contains
    end subroutine read_lines
 
    !> Note where the cards from line CURSOR to ENDDATA begin. BULK counts all cards, also unknown ones and those without effect. Text
-   !! behind ENDDATA has no effect.
+   !! behind ENDDATA has no effect. A second BEGIN makes their number -1.
    subroutine find_cards(text, cursor, cards, kind_at, bulk, errors)
       type(deck_text_type), intent(in)     :: text
       integer, intent(inout)               :: cursor
@@ -331,7 +328,9 @@ contains
             if (card_name(line, comma) == 'ENDDATA') then
                ended_file = file
             else if (upper(line(:min(6, len(line)))) == 'BEGIN') then
-               call errors%add(at, 'a second BEGIN: there is one structure, without superelements; the rest is not read')
+               errors%n = 0
+               call errors%add(at, 'a second BEGIN: there is one structure, without superelements; nothing of this deck is read')
+               bulk%n_cards = -1
                return
             else
                is_open = .true.

@@ -8,6 +8,7 @@ module load_cards
    use field_rules, only: at_least_1, not_negative, positive, real_range
    use kinds, only: wp
    use nx_cards, only: is_nx_bolt, read_nx_bolt
+   use support_cards, only: read_scalar_load
    use text_tools, only: integer_text, one_of
    use tolerances, only: least_fraction
    implicit none
@@ -85,25 +86,6 @@ contains
          term = term*ratio
       end do
    end function geometric_sum
-
-   !> SLOAD: up to three forces F on scalar points S.
-   subroutine read_scalar_load(card, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(bulk_data_type), intent(inout)   :: bulk
-      integer :: k, set
-
-      call card%field('SID', set)
-      do k = 1, max(1, min(3, card%n/2))
-         if (k > 1) card%i = card%i + 1
-         associate (force => bulk%force(card%i))
-            force%line = card%line
-            force%set = set
-            call card%field('S'//integer_text(k), force%node)
-            call card%field('F'//integer_text(k), force%force(1))
-         end associate
-      end do
-      call card%finish(set)
-   end subroutine read_scalar_load
 
    !> FORCE: the vector F (N1, N2, N3) at one node in system CID; as in NASTRAN, the direction is not normalised. MOMENT likewise.
    !! FORCE1: F along the line from G1 to G2. FORCE2: F along the vector product of the lines G1-G2 and G3-G4.

@@ -112,7 +112,7 @@ contains
          call card%field('EID', element%id)
          call card%field('PID', element%property)
          call card%field(node_names(:corners), element%nodes(:corners))
-         call card%field(node_names(corners + 1:n), element%nodes(corners + 1:n), default=0, least=0)
+         call card%field(node_names(corners + 1:n), element%nodes(corners + 1:n), default=0)
          if (any(kind == [kind_tria3, kind_quad4, kind_tria6, kind_quad8])) call read_plate(card, kind, bulk)
          element%line = card%line
          complete = 0 ! nodes of complete second order, on faces and in the centre too, as Gmsh writes it
@@ -194,8 +194,9 @@ contains
             if (ok .and. any(card%given(['X2', 'X3']))) edge%nodes(3) = 0
             if (edge%nodes(3) > 0) edge%orientation = 0.0_wp
             if (edge%nodes(3) == 0) edge%blank(:3) = .not. card%given(['X1', 'X2', 'X3'])
-            edge%blank(4:) = .not. card%given(['PID'])
+            edge%blank(4) = .not. card%given('PID')
             call read_offset_kind(card, edge%in_basic, only_global)
+            edge%blank(5) = .not. card%given('OFFT')
             call card%components('PA', edge%pins(1), default=0)
             call card%components('PB', edge%pins(2), default=0)
             call card%field(['W1A', 'W2A', 'W3A'], edge%offset(:, 1), default=0.0_wp)
@@ -253,6 +254,7 @@ contains
       do i = 1, size(bulk%edge)
          associate (edge => bulk%edge(i), defaults => bulk%edge_defaults(merge(2, 1, bulk%edge(i)%kind == edge_cbeam)))
             if (edge%blank(4)) edge%property = merge(defaults%property, edge%id, defaults%property > 0)
+            if (edge%blank(5)) edge%in_basic = defaults%in_basic
             if (defaults%nodes(3) == 0) where (edge%blank(:3)) edge%orientation = defaults%orientation
             if (all(edge%blank(:3))) edge%nodes(3) = defaults%nodes(3)
          end associate

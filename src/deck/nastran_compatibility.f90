@@ -11,9 +11,10 @@ module nastran_compatibility
    implicit none
    private
 
-   public :: take_idle_card, take_parameter, read_habit, read_echo
+   public :: take_idle_card, take_parameter, read_habit, read_echo, not_reduced
 
    integer, parameter :: name_length = 40
+   character(*), parameter :: not_reduced = 'the modes are those of the whole model, which is not reduced'
    integer, parameter :: with_modes = 1, with_response = 2, with_materials = 3, always = 4 ! temperatures of materials
 
    !> An entry whose effect depends on the stages.
@@ -65,7 +66,7 @@ contains
       else if (any(of_response == name)) then
          call ignored%wait(name, line, .true., refusal='expected none: damping is that of GE, PARAM G and SDAMPING')
       else if (any(of_reduction == name)) then
-         call ignored%wait(name, line, .false., warning='the modes are those of the whole model, which is not reduced')
+         call ignored%wait(name, line, .false., warning=not_reduced)
       else if (index(name, 'MATT') == 1) then
          call ignored%wait(name, line, .false., need=with_materials, refusal='expected MAT1 at the temperature of the set, '// &
                            'and TEMPERATURE(LOAD)')

@@ -14,7 +14,7 @@ module nastran_solutions
 
    ! SOL in numbers and names: those of statics, modes and response
    character(*), parameter :: static = '|1|24|66|101|106|STATIC|STATICS|SESTATIC|SESTATICS|NLSTATIC|NLSTATICS|LINEAR|NONLINEAR|'
-   character(*), parameter :: solved = static//'3|103|MODES|MODE|SEMODES|NORMAL|8|11|26|30|108|111|SEDFREQ|SEMFREQ|'
+   character(*), parameter :: solved = static//'3|103|MODES|MODE|SEMODES|NORMAL|26|30|8|11|108|111|SEDFREQ|SEMFREQ|DFREQ|MFREQ|'
    character(*), parameter :: optimised = '|200|DESOPT|'
    ! APP and ANALYSIS
    character(*), parameter :: analysed = '|STATICS|STATIC|DISP|DISPLACEMENT|MODES|NLSTAT|NLSTATIC|NLSTATICS|MFREQ|DFREQ|'
@@ -74,11 +74,11 @@ contains
       is_statics = word_of(entry) /= '||' .and. index(static, word_of(entry)) > 0
    end function is_statics
 
-   !> Whether ENTRY, a SOL, asks for a direct response: it needs no METHOD.
+   !> Whether ENTRY, a SOL, asks for the direct response, which needs no modes in case control.
    pure logical function is_direct(entry)
       type(entry_type), intent(in) :: entry
 
-      is_direct = word_of(entry) /= '||' .and. index('|8|26|108|SEDFREQ|DFREQ|', word_of(entry)) > 0
+      is_direct = any(word_of(entry) == [character(9) :: '|8|', '|26|', '|108|', '|SEDFREQ|', '|DFREQ|'])
    end function is_direct
 
    !> The first word of the value of ENTRY between bars.

@@ -4,7 +4,7 @@ module nastran_words
    implicit none
    private
 
-   public :: control_habit, is_idle_card
+   public :: control_habit, is_idle_card, is_own_card
 
    ! of executive control and case control
    character(12), parameter :: control_words(124) = [character(12) :: &
@@ -23,8 +23,8 @@ module nastran_words
       'TRIM', 'FMETHOD', 'AESYMXZ', 'AESYMXY', 'AECONFIG', 'AEROF', 'APRESSURE', 'MONITOR', 'DIVERG', & ! air
       'CMETHOD', 'TSTEP', 'TSTEPNL', 'IC', 'RIGID', 'NLOPRM', 'BC', 'SEQDEP'] ! of other kinds of analysis
    ! of the bulk data: plots, and properties and materials of unsupported elements
-   character(8), parameter :: card_names(138) = [character(8) :: &
-      'MAT4', 'MAT5', 'DTI', 'BGPARM', &
+   character(8), parameter :: card_names(139) = [character(8) :: &
+      'MAT4', 'MAT5', 'DTI', 'BCTPARM', 'BGPARM', &
       'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBCOMP', &
       'PBEND', 'PBUSH1D', 'PCOMPS', 'PDAMP', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &
       'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PVISC', 'PWELD', 'MAT3', 'MAT9', &
@@ -44,11 +44,14 @@ module nastran_words
       'TLOAD1', 'TLOAD2', 'TSTEP', 'TSTEP1', 'TSTEPNL', 'TIC', 'EIGB', 'EIGC', 'EIGP', 'TF', 'NLPCI', 'NLSTEP', 'RANDT1', &
       'RANDPS', 'TABRND1', 'TABRNDG', 'DEFORM']
 
-   ! with an effect on a response: dashpots, springs that depend on the frequency, loads by LOADSET
+   ! with an effect on a response: dashpots, springs that depend on the frequency
    character(6), parameter, public :: of_response(6) = [character(6) :: 'CDAMP1', 'CDAMP2', 'CDAMP3', 'CDAMP4', 'CVISC', 'PELAST']
    ! with an effect on modes: reduction to some of the unknowns
-   character(6), parameter, public :: of_reduction(10) = [character(6) :: 'ASET', 'ASET1', 'BSET', 'BSET1', 'CSET', 'CSET1', &
-                                                          'QSET', 'QSET1', 'OMIT', 'OMIT1']
+   character(6), parameter, public :: of_reduction(4) = [character(6) :: 'CSET', 'CSET1', 'OMIT', 'OMIT1']
+
+   character(7), parameter :: own_cards(22) = [character(7) :: 'JOINT', 'CJOINT', 'PJOINT', 'JNORM', 'JSHEAR', 'JIWAN', 'JGAP', &
+      'JINCR', 'JAMPL', 'BOLT', 'BLOCK2', 'BLOCK3', 'PMARK', 'NODEAT', 'SHELLTO', 'PAXIS', 'PLOADE', 'PLOADM', 'FORCEM', 'SPCM', &
+      'RBE2M', 'RBE3M']
 
 contains
 
@@ -73,5 +76,12 @@ contains
 
       is_idle_card = any(card_names == name)
    end function is_idle_card
+
+   !> Whether a card with this NAME is one of the program's own, in which 0 is a number.
+   pure logical function is_own_card(name)
+      character(*), intent(in) :: name
+
+      is_own_card = any(own_cards == name)
+   end function is_own_card
 
 end module nastran_words

@@ -9,8 +9,7 @@ module nx_cards
    implicit none
    private
 
-   public :: is_nx_bolt, read_nx_bolt, read_region, read_side_of_region, read_pair, read_contact_parameter, read_preload, &
-             read_sequence
+   public :: is_nx_bolt, read_nx_bolt, read_region, read_pair, read_preload
 
 contains
 
@@ -35,18 +34,16 @@ contains
       bolt%line = card%line
       call card%field('BID', bolt%id)
       call card%integer_at(2, 'ETYPE', bolt%kind, ok, bounds=at_least_1)
-      if (bolt%kind == 1) then
-         call card%list_ranges(3, 'EID', 'an element number', bolt%parts)
-         return
+      if (bolt%kind > 1) then
+         if (card%text_at(3) /= '') call card%integer_at(3, 'CSID', bolt%system, ok, bounds=[0, huge(1)])
+         if (card%text_at(4) /= '' .or. bolt%kind == 3) call card%integer_at(4, 'IDIR', bolt%axis, ok, bounds=[1, 3])
+         if (bolt%kind == 3) call card%integer_at(5, 'GP', bolt%node, ok, bounds=at_least_1)
       end if
-      if (card%text_at(3) /= '') call card%integer_at(3, 'CSID', bolt%system, ok, bounds=[0, huge(1)])
-      if (card%text_at(4) /= '' .or. bolt%kind == 3) call card%integer_at(4, 'IDIR', bolt%axis, ok, bounds=[1, 3])
-      if (bolt%kind == 3) call card%integer_at(5, 'GP', bolt%node, ok, bounds=at_least_1)
-      call card%list_ranges(merge(5, 9, bolt%kind == 2), one_of(bolt%kind == 2, 'G', 'EID'), &
+      call card%list_ranges(3*bolt%kind - merge(1, 0, bolt%kind == 2), one_of(bolt%kind == 2, 'G', 'EID'), &
                             one_of(bolt%kind == 2, 'a node number', 'an element number'), bolt%parts)
    end subroutine read_nx_bolt
 
-   !> BSURF: elements; BCPROP, BCPROPS: properties; BSURFS: groups of an element and three corners of its face.
+   !> BSURF: elements; BCPROP, BCPROPS: properties; BSURFS: groups of an element and three corners of its face. BCRPARA: SURF.
    subroutine read_region(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -55,59 +52,46 @@ contains
 
       associate (region => bulk%region(card%i))
          region%line = card%line
-         region%by_property = card%name(:3) == 'BCP'
          call card%field('ID', region%id)
+         region%by_property = index(card%name, 'BCPROP') == 1
+         region%is_parameter = card%name == 'BCRPARA'
+         region%is_bottom = region%is_parameter .and. card%text_at(2) == 'BOT'
+         if (region%is_parameter .and. verify(card%text_at(3), '0.+-') > 0) &
+            call card%error_at(3, 'OFFSET: '//card%text_at(3)//', expected zero or blank')
+         if (region%is_parameter) return
          if (card%name /= 'BSURFS') then
             call card%list_ranges(2, 'ID', 'a number', region%ranges)
             return
          end if
          call card%must_be_blank(2, 4, '; the elements of BSURFS begin in field 6')
-         n = count([(card%text_at(k) /= '', k = 5, card%n, 4)])
-         allocate (region%corners(3, n), source=0)
-         allocate (region%ranges%first(n), region%ranges%at(n), source=0)
+         n = max(0, (card%n - 1)/4)
+         allocate (region%corners(3, n), region%ranges%first(n), source=0)
          n = 0
          do k = 5, card%n, 4
             if (card%text_at(k) == '') cycle
             n = n + 1
-            region%ranges%at(n) = k
             call card%integer_at(k, 'EID', region%ranges%first(n), ok, bounds=at_least_1)
             do i = 1, 3
                call card%integer_at(k + i, 'G', region%corners(i, n), ok, bounds=at_least_1)
             end do
          end do
          if (n == 0) call card%error_at(5, 'EID1: blank, expected an element and three corners of its face')
+         region%ranges%first = region%ranges%first(:n)
          region%ranges%last = region%ranges%first
       end associate
    end subroutine read_region
-
-   !> BCRPARA: the side of the shells of a region.
-   subroutine read_side_of_region(card, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(bulk_data_type), intent(inout)   :: bulk
-      character(8) :: word
-
-      associate (side => bulk%region_side(card%i))
-         call card%field('CRID', side%id)
-         call card%word('SURF', '|TOP|BOT|', word)
-         side%is_bottom = word == 'BOT'
-         call card%blank(['OFFSET'])
-         call card%word('TYPE', '|FLEX|', word)
-         call card%finish(side%line)
-      end associate
-   end subroutine read_side_of_region
 
    !> BCTSET: pairs SID, TID, FRIC, MIND, MAXD; BGSET: pairs SID, TID, SDIST.
    subroutine read_pair(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      integer :: d, k, n
+      integer :: at, k, n
       logical :: ok
 
       associate (pair => bulk%pair(card%i))
          pair%line = card%line
          pair%is_glue = card%name == 'BGSET'
-         d = merge(2, 4, pair%is_glue)
-         call card%field(merge('GSID', 'CSID', pair%is_glue), pair%set)
+         call card%field('SID', pair%set)
          n = (card%n + 6)/8
          allocate (pair%regions(2, n), source=0)
          allocate (pair%mu(n), pair%reach(n), source=0.0_wp)
@@ -115,62 +99,41 @@ contains
          do k = 2, card%n, 8
             if (card%text_at(k)//card%text_at(k + 1) == '') cycle
             n = n + 1
+            at = k + merge(2, 4, pair%is_glue)
             call card%integer_at(k, 'SID', pair%regions(1, n), ok, bounds=at_least_1)
             call card%integer_at(k + 1, 'TID', pair%regions(2, n), ok, bounds=at_least_1)
-            if (.not. pair%is_glue .and. card%text_at(k + 2) /= '') call card%real_at(k + 2, 'FRIC', pair%mu(n), ok, not_negative)
-            if (card%text_at(k + d) /= '') call card%real_at(k + d, 'distance', pair%reach(n), ok, not_negative)
+            if (at > k + 2 .and. card%text_at(k + 2) /= '') call card%real_at(k + 2, 'FRIC', pair%mu(n), ok, not_negative)
+            if (card%text_at(at) /= '') &
+               call card%real_at(at, one_of(pair%is_glue, 'SDIST', 'MAXD'), pair%reach(n), ok, not_negative)
          end do
          if (n == 0) call card%error_at(2, 'SID1: blank, expected the number of a region')
          pair%regions = pair%regions(:, :n)
       end associate
    end subroutine read_pair
 
-   !> BCTPARM: INIPENE 3 takes the faces as touching; other parameters control the iterations of NX.
-   subroutine read_contact_parameter(card, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(bulk_data_type), intent(inout)   :: bulk
-      integer :: k, value
-      logical :: ok
-
-      call card%field('CSID', bulk%touching(card%i))
-      do k = 2, card%n - 1
-         if (card%text_at(k) == 'INIPENE') call parse_integer(card%text_at(k + 1), value, ok)
-         if (card%text_at(k) == 'INIPENE' .and. ok .and. value == 3) return
-      end do
-      bulk%touching(card%i) = 0
-   end subroutine read_contact_parameter
-
-   !> BOLTFOR: the preload LOAD of bolts.
+   !> BOLTFOR: the preload LOAD of bolts. BOLTSEQ: a line for each step, its order and the set of its preloads.
    subroutine read_preload(card, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(bulk_data_type), intent(inout)   :: bulk
-
-      associate (preload => bulk%preload(card%i))
-         preload%line = card%line
-         call card%field('SID', preload%set)
-         call card%field('LOAD', preload%force, positive)
-         call card%list_ranges(3, 'B', 'a bolt number', preload%bolts)
-      end associate
-   end subroutine read_preload
-
-   !> BOLTSEQ: a line for each step, its order and the set of its preloads.
-   subroutine read_sequence(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: k, n
       logical :: ok
 
-      associate (sequence => bulk%sequence(card%i))
-         sequence%line = card%line
-         call card%field('SID', sequence%set)
+      associate (preload => bulk%preload(card%i))
+         preload%line = card%line
+         call card%field('SID', preload%set)
+         if (card%name == 'BOLTFOR') then
+            call card%field('LOAD', preload%force, positive)
+            call card%list_ranges(3, 'B', 'a bolt number', preload%bolts)
+            return
+         end if
          n = (card%n - 1)/8
-         allocate (sequence%order(n), sequence%sets(n), source=0)
+         allocate (preload%order(n), preload%sets(n), source=0)
          do k = 1, n
-            call card%integer_at(8*k + 1, 'S_NO', sequence%order(k), ok, bounds=at_least_1)
-            call card%integer_at(8*k + 2, 'B_ID', sequence%sets(k), ok, bounds=at_least_1)
+            call card%integer_at(8*k + 1, 'S_NO', preload%order(k), ok, bounds=at_least_1)
+            call card%integer_at(8*k + 2, 'B_ID', preload%sets(k), ok, bounds=at_least_1)
          end do
          if (n == 0) call card%error_at(9, 'S_NO1: blank, expected the order of a step')
       end associate
-   end subroutine read_sequence
+   end subroutine read_preload
 
 end module nx_cards

@@ -1,14 +1,15 @@
 !> Reads the cards of properties, materials, beam sections and beam loads, and PARAM.
-!! Properties and materials: PSHELL, PAXIS, PSOLID, PROD, CONROD, MAT1. Beams: PBAR, PBARL, PBEAM, PBEAML with sections constant
-!! along the beam, and the line load PLOAD1. The module mesh_cards reads CBAR and CBEAM.
+!! Properties and materials: PSHELL, PAXIS, PSOLID, PROD, CONROD, MAT1. Beams: PBAR, PBARL, PBEAM, PBEAML, and the line load
+!! PLOAD1. The module mesh_cards reads CBAR and CBEAM.
 module property_cards
    use beam_sections, only: section_dimensions, section_names, section_of
-   use bulk_data, only: beam_property_card, bulk_data_type, conrod_card, property_card
+   use bulk_data, only: beam_property_card, bulk_data_type, conrod_card, prod_card, property_card
    use card_fields, only: card_fields_type
    use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
-   use field_rules, only: not_negative, parse_real, positive, real_range
+   use field_rules, only: any_real, not_negative, parse_real, positive, real_range
    use kinds, only: wp
    use nastran_compatibility, only: take_parameter
+   use tapered_beam, only: beam_station
    use text_tools, only: integer_text, real_text
    use tolerances, only: equal_ends
    implicit none
@@ -18,7 +19,10 @@ module property_cards
 
    character(2), parameter :: point_names(8) = ['C1', 'C2', 'D1', 'D2', 'E1', 'E2', 'F1', 'F2']
    character(4), parameter :: dimension_names(6) = ['DIM1', 'DIM2', 'DIM3', 'DIM4', 'DIM5', 'DIM6']
-   integer, parameter      :: first_of_station = 17 ! first data field of a PBEAM station, and number of its fields
+   integer, parameter      :: first_of_station = 17 ! first data field of a PBEAM station
+   character(4), parameter :: station_names(7) = ['X/XB', 'A   ', 'I1  ', 'I2  ', 'I12 ', 'J   ', 'NSM ']
+   type(real_range), parameter :: share = real_range(0.0_wp, 1.0_wp)
+   type(real_range), parameter :: station_ranges(7) = [share, positive, positive, positive, any_real, not_negative, not_negative]
    character(3), parameter, public :: load_types(12) = [character(3) :: 'FX', 'FY', 'FZ', 'MX', 'MY', 'MZ', 'FXE', 'FYE', 'FZE', &
                                                         'MXE', 'MYE', 'MZE']
 
@@ -90,14 +94,17 @@ contains
       end if
    end subroutine read_body_property
 
-   !> PROD: a bar of cross-section A. J and C are for torsion, which this bar does not have. CONROD: a CROD and its PROD on one
-   !! card.
+   !> PROD: a bar of cross-section A with the torsion constant J; C has no effect. CONROD: a CROD and its PROD on one card. PTUBE: the
+   !! section of a tube.
    subroutine read_rod(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       type(conrod_card) :: rod
 
-      if (card%name == 'PROD') then
+      if (card%name == 'PTUBE') then
+         call read_tube(card, bulk%prod(card%i))
+         return
+      else if (card%name == 'PROD') then
          call card%field('PID', rod%id)
       else
          call card%field('EID', rod%id)
@@ -115,6 +122,33 @@ contains
          bulk%conrod(card%i) = rod
       end if
    end subroutine read_rod
+
+   !> PTUBE: outer diameter OD and wall T, 0 a solid rod. With another diameter OD2 at the second end a tube with the same wall and the
+   !! same axial stiffness, of the mean wall diameter (OD - OD2)/ln((OD - T)/(OD2 - T)).
+   subroutine read_tube(card, tube)
+      type(card_fields_type), intent(inout) :: card
+      type(prod_card), intent(inout)        :: tube
+      real(wp), parameter :: pi = acos(-1.0_wp)
+      real(wp) :: ends(2), mean, wall
+
+      call card%field('PID', tube%id)
+      call card%field('MID', tube%material)
+      call card%field('OD', ends(1), positive)
+      call card%field('T', wall, not_negative, default=0.0_wp)
+      call card%field('NSM', tube%extra_mass, not_negative, default=0.0_wp)
+      call card%field('OD2', ends(2), not_negative, default=ends(1))
+      call card%finish(tube%line)
+      if (card%is_faulty()) return
+      if (.not. ends(2) > 0.0_wp) ends(2) = ends(1)
+      if (2.0_wp*wall > minval(ends)) call card%error('T', 'more than half the diameter; expected the wall, or 0 for a solid rod')
+      if (.not. wall > 0.0_wp .and. abs(ends(1) - ends(2)) > 0.0_wp) call card%error('OD2', 'differs from OD; expected a wall T')
+      if (.not. wall > 0.0_wp) wall = 0.5_wp*minval(ends)
+      if (card%is_faulty()) return
+      mean = ends(1) - wall
+      if (abs(ends(1) - ends(2)) > equal_ends*ends(1)) mean = (ends(1) - ends(2))/log((ends(1) - wall)/(ends(2) - wall))
+      tube%area = pi*wall*mean
+      tube%torsion = 0.25_wp*tube%area*(mean**2 + wall**2)
+   end subroutine read_tube
 
    !> MAT1: two of E, G and NU suffice, with G = E/(2 (1 + NU)); E suffices for bars. Of all three, G
    !! holds for torsion and transverse shear, with a warning where they differ by more than one per cent. Of the
@@ -219,28 +253,43 @@ contains
       end associate
    end subroutine read_beam_property
 
-   !> The rest of a PBEAM: other stations must have the section of end A. The shear centre is the centroid: warping (CW), shear
-   !! relief (S1, S2), NSI and the offsets M and N of mass and neutral axis must be blank.
+   !> The rest of a PBEAM: its stations, in any order, and K1, K2. A blank at a station is the value between those of both ends, at end B
+   !! that of end A. The shear centre is the centroid: shear relief (S1, S2), NSI and the offsets M and N of mass and neutral axis
+   !! must be blank.
    subroutine read_stations(card, property)
       type(card_fields_type), intent(inout)   :: card
       type(beam_property_card), intent(inout) :: property
-      real(wp) :: at_end_a(3:8) ! fields 3 to 8 of a station
-      real(wp) :: value
-      integer  :: first, k
+      type(beam_station), allocatable :: stations(:)
+      real(wp), allocatable :: values(:, :)      ! x/L, A, I1, I2, I12, J, NSM of each station, end A first
+      logical, allocatable  :: given(:, :)
+      real(wp) :: points(8), value
+      integer  :: first, k, n
       logical  :: ok
 
       associate (section => property%section)
-         at_end_a = [section%area, section%inertia, section%torsion, property%extra_mass]
+         allocate (values(7, 1), source=0.0_wp)
+         values(2:, 1) = [section%area, section%inertia, section%torsion, property%extra_mass]
+         allocate (given(7, 1), source=.true.)
          section%shear = 1.0_wp
+         stations = [beam_station(section)]
          first = first_of_station
          do while (any(card%text_at(first) == ['YES ', 'YESA', 'NO  ']))
-            do k = 3, 8
-               if (card%text_at(first + k - 1) == '') cycle
-               call parse_real(card%text_at(first + k - 1), value, ok)
-               if (ok) ok = abs(value - at_end_a(k)) <= equal_ends*abs(at_end_a(k))
-               if (.not. ok) call card%error_at(first + k - 1, ''''//card%text_at(first + k - 1)//''' differs from the section '// &
-                  'at end A; expected a beam of constant section, or a chain of beams with sections of their own')
+            n = size(stations) + 1
+            values = reshape([values, spread(0.0_wp, 1, 7)], [7, n])
+            given = reshape([given, spread(.true., 1, 7)], [7, n])
+            do k = 1, 7
+               given(k, n) = card%text_at(first + k) /= ''
+               if (given(k, n)) call card%real_at(first + k, trim(station_names(k)), values(k, n), ok, station_ranges(k))
             end do
+            if (.not. given(1, n)) call card%error_at(first + 1, 'X/XB: blank, expected the position of the station, 0 to 1')
+            points = reshape(section%point, [8])
+            if (card%text_at(first) == 'YES') then
+               do k = 1, 8
+                  points(k) = 0.0_wp
+                  if (card%text_at(first + 7 + k) /= '') call card%real_at(first + 7 + k, point_names(k), points(k), ok, any_real)
+               end do
+            end if
+            stations = [stations, beam_station(point=reshape(points, [2, 4]))]
             first = first + merge(16, 8, card%text_at(first) == 'YES')
          end do
          do k = 1, 2
@@ -248,21 +297,83 @@ contains
             call card%real_at(first + k - 1, 'K'//integer_text(k), section%shear(k), ok, expected='a real number, 0 or more')
          end do
          do k = first + 2, card%n
+            if (k == first + 6 .or. k == first + 7) cycle ! CW, without effect where no SA or SB names a point that warps
             call parse_real(card%text_at(k), value, ok)
             if (card%text_at(k) == '' .or. (ok .and. .not. abs(value) > 0.0_wp)) cycle
-            call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank or zero: beams have no warping, no '// &
-               'taper and no offset of their axes')
+            call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank or zero: beams have no '// &
+               'shear relief and no offset of their axes')
          end do
+         if (card%is_faulty()) return
+         k = findloc(values(1, :), 1.0_wp, dim=1)
+         if (k == 0) k = 1                       ! no end B: the section of end A
+         do n = 2, size(stations)
+            associate (ends => (1.0_wp - values(1, n))*values(:, 1) + values(1, n)*values(:, k))
+               if (n /= k) where (.not. given(:, n)) values(:, n) = ends
+               if (n == k) where (.not. given(:, n)) values(:, n) = values(:, 1)
+            end associate
+         end do
+         stations%at = values(1, :)
+         stations%area = values(2, :)
+         do n = 1, size(stations)
+            stations(n)%inertia = values(3:5, n)
+            stations(n)%shear = section%shear
+         end do
+         stations%torsion = values(6, :)
+         stations%extra_mass = values(7, :)
       end associate
+      call keep_stations(card, property, stations)
    end subroutine read_stations
 
-   !> PBARL, PBEAML: TYPE and its dimensions, then NSM.
+   !> Keep STATIONS, the first one end A, in the order of their positions, if the section changes.
+   subroutine keep_stations(card, property, stations)
+      type(card_fields_type), intent(inout)   :: card
+      type(beam_property_card), intent(inout) :: property
+      type(beam_station), intent(in)          :: stations(:)
+      integer, allocatable :: order(:)
+      integer :: k
+
+      if (all([(same(stations(k)), k = 1, size(stations))])) return
+      order = [integer ::]
+      do while (size(order) < size(stations))
+         order = [order, minloc(stations%at, dim=1, mask=[(all(order /= k), k = 1, size(stations))])]
+      end do
+      property%stations = stations(order)
+      associate (s => property%stations, n => size(stations))
+         if (abs(s(n)%at - 1.0_wp) > 0.0_wp) property%stations = [s, beam_station(stations(1)%beam_section, 1.0_wp, &
+                                                                                  stations(1)%extra_mass)]
+      end associate
+      associate (s => property%stations)
+         if (any(s(2:)%at <= s(:size(s) - 1)%at)) call card%error_at(first_of_station, &
+            'two stations in one place; expected X/XB above 0, up to 1, different for each station')
+         if (any(s%area <= 0.0_wp) .or. any([(any(s(k)%inertia(:2) <= 0.0_wp), k = 1, size(s))])) call card%error_at( &
+            first_of_station, 'the section changes; expected A, I1 and I2 positive at every station')
+         if (any([(s(k)%inertia(3)**2 >= s(k)%inertia(1)*s(k)%inertia(2), k = 1, size(s))])) call card%error_at( &
+            first_of_station, 'no section has these moments; expected I12 squared below I1 I2 at every station')
+      end associate
+
+   contains
+
+      !> Whether STATION has the section of end A.
+      pure logical function same(station)
+         type(beam_station), intent(in) :: station
+
+         associate (a => [stations(1)%area, stations(1)%inertia, stations(1)%torsion, stations(1)%extra_mass], &
+                    b => [station%area, station%inertia, station%torsion, station%extra_mass])
+            same = all(abs(b - a) <= equal_ends*abs(a))
+         end associate
+      end function same
+
+   end subroutine keep_stations
+
+   !> PBARL, PBEAML: TYPE and its dimensions, then NSM; of a PBEAML those of other stations, whose blanks are the values before.
    subroutine read_dimensions(card, property)
       type(card_fields_type), intent(inout)   :: card
       type(beam_property_card), intent(inout) :: property
+      type(beam_station), allocatable :: stations(:)
+      type(beam_station) :: station
       character(:), allocatable :: expected, words
       real(wp) :: d(6)
-      integer  :: i, n
+      integer  :: first, i, k, n
       logical  :: ok
 
       call card%skip(['GROUP', 'TYPE ', '-    ', '-    ', '-    ', '-    '])
@@ -279,11 +390,29 @@ contains
       n = section_dimensions(i)
       call card%field(dimension_names(:n), d(:n), positive)
       call card%field('NSM', property%extra_mass, not_negative, default=0.0_wp)
-      call card%finish(property%line)
+      if (card%name == 'PBARL') call card%finish(property%line)
       if (card%is_faulty()) return
       call section_of(trim(section_names(i)), d(:n), property%section, expected)
-      ok = expected == ''
-      if (.not. ok) call card%error('DIM1', 'these dimensions give no valid '//trim(section_names(i))//'; expected '//expected)
+      if (expected /= '') call card%error('DIM1', 'these dimensions give no valid '//trim(section_names(i))// &
+                                          '; expected '//expected)
+      if (card%name == 'PBARL' .or. expected /= '') return
+      stations = [beam_station(property%section, 0.0_wp, property%extra_mass)]
+      do first = 10 + n, card%n, n + 3             ! SO, X/XB, dimensions, NSM of a station of a PBEAML
+         station = stations(1)
+         station%at = 1.0_wp
+         if (card%text_at(first + 1) /= '') call card%real_at(first + 1, 'X/XB', station%at, ok, station_ranges(1))
+         do k = 1, n
+            if (card%text_at(first + 1 + k) /= '') call card%real_at(first + 1 + k, dimension_names(k), d(k), ok, positive)
+         end do
+         if (card%text_at(first + n + 2) /= '') call card%real_at(first + n + 2, 'NSM', station%extra_mass, ok, not_negative)
+         if (card%is_faulty()) return
+         call section_of(trim(section_names(i)), d(:n), station%beam_section, expected)
+         if (expected /= '') call card%error_at(first + 2, 'DIM1: these dimensions give no valid '//trim(section_names(i))// &
+                                                '; expected '//expected)
+         if (expected /= '') return
+         stations = [stations, station]
+      end do
+      call keep_stations(card, property, stations)
    end subroutine read_dimensions
 
    !> PLOAD1: a force or moment along a beam, in global axes (FX ... MZ) or beam axes (FXE ... MZE), linear from P1 at X1 to P2 at X2; a

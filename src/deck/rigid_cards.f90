@@ -6,12 +6,11 @@ module rigid_cards
    use card_fields, only: card_fields_type
    use field_rules, only: at_least_1, component_words, has_component, parse_integer, positive
    use kinds, only: wp
-   use lists, only: id_table_type
    use text_tools, only: integer_text, one_of
    implicit none
    private
 
-   public :: count_idle_rotations, read_rigid, read_place, read_tie, read_equation
+   public :: read_rigid, read_place, read_tie, read_equation
 
    character(*), parameter :: a_node = 'a node number'
 
@@ -228,36 +227,6 @@ contains
       rigid%weight = [1.0_wp, 1.0_wp]
    end subroutine read_rigid_rod
 
-   !> Count the RBE3 and RBE3M whose rotations in C have no effect, because some of their nodes belong to no shell, beam or rigid
-   !! element.
-   subroutine count_idle_rotations(bulk)
-      type(bulk_data_type), intent(inout) :: bulk
-      type(id_table_type) :: turning
-      integer, allocatable :: nodes(:, :)
-      integer :: c, i, k
-
-      associate (edge => bulk%edge, plate => bulk%element, rigid => bulk%rigid)
-         if (.not. any(rigid%is_mean)) return
-         allocate (nodes(4, size(edge) + size(plate) + size(rigid)), source=0)
-         do i = 1, size(edge)
-            if (any(bulk%beam_property%id == edge(i)%property)) nodes(:2, i) = edge(i)%nodes(:2)
-         end do
-         do i = 1, size(plate)
-            if (any(bulk%pshell%id == plate(i)%property .and. bulk%pshell%bending > 0)) &
-               nodes(:, size(edge) + i) = plate(i)%nodes(:4)
-         end do
-         nodes(1, size(edge) + size(plate) + 1:) = rigid%node
-         call turning%build([nodes])
-         do i = 1, size(rigid)
-            if (.not. rigid(i)%is_mean .or. .not. any([(any(has_component(rigid(i)%directions, c)), c = 4, 6)])) cycle
-            if (rigid(i)%surface == 0) then
-               if (all([(turning%find(rigid(i)%nodes(k)) > 0, k = 1, size(rigid(i)%nodes))])) cycle
-            end if
-            call bulk%ignored%add('456 in C of '//merge('RBE3M', 'RBE3 ', rigid(i)%surface > 0))
-         end do
-      end associate
-   end subroutine count_idle_rotations
-
    !> ALPHA in data field K, and TREF after it unless that is beyond field LAST.
    subroutine read_expansion(card, k, last, rigid)
       type(card_fields_type), intent(inout) :: card
@@ -376,10 +345,10 @@ contains
          allocate (equation%node(2), equation%component(2), equation%factor(2))
          call card%field('SID', equation%set)
          call card%field('G1', equation%node(1))
-         call card%field('C1', equation%component(1), most=6)
+         call card%field('C1', equation%component(1), least=0, most=6)
          call card%field('A1', equation%factor(1))
          call card%field('G2', equation%node(2))
-         call card%field('C2', equation%component(2), most=6)
+         call card%field('C2', equation%component(2), least=0, most=6)
          call card%field('A2', equation%factor(2))
          if (.not. card%is_faulty() .and. abs(equation%factor(1)) <= 0.0_wp) &
             call card%error('A1', 'zero, expected a coefficient that is not zero: the first term is the dependent one')
@@ -392,7 +361,7 @@ contains
                cycle
             end if
             call card%integer_at(k, 'G', node, ok, expected=a_node)
-            call card%integer_at(k + 1, 'C', component, ok, bounds=[1, 6])
+            call card%integer_at(k + 1, 'C', component, ok, bounds=[0, 6])
             call card%real_at(k + 2, 'A', factor, ok)
             equation%node = [equation%node, node]
             equation%component = [equation%component, component]

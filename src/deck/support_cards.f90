@@ -1,6 +1,6 @@
 !> Reads the cards of supports, prescribed displacements, springs and nodal masses.
 !! Supports: SPC, SPC1, SPCM and their sum SPCADD, SUPORT; MPCADD combines constraint equations likewise. Prescribed displacements: SPCD.
-!! Springs: CELAS1 to 4, CBUSH, PELAS, PBUSH. Masses: CONM1, CONM2, CMASS1 to 4, PMASS. Scalar points: SPOINT.
+!! Springs: CELAS1 to 4, CBUSH, PELAS, PBUSH. Masses: CONM1, CONM2, CMASS1 to 4, PMASS. Scalar points: SPOINT, SLOAD.
 module support_cards
    use bulk_data, only: bulk_data_type, displacement_card, pmass_card, set_sum_card, spring_property_card, support_card
    use card_fields, only: card_fields_type
@@ -11,7 +11,7 @@ module support_cards
    private
 
    public :: read_support, read_suport, read_sum, read_displacement, read_spring, read_spring_property, read_mass, &
-             read_pmass, read_scalar
+             read_pmass, read_scalar, read_scalar_load
 
 contains
 
@@ -215,6 +215,25 @@ contains
       bulk%scalar(card%i)%line = card%line
       call card%list_ranges(1, 'ID', 'a number', bulk%scalar(card%i)%id_ranges)
    end subroutine read_scalar
+
+   !> SLOAD: up to three forces F on scalar points S.
+   subroutine read_scalar_load(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      integer :: k, set
+
+      call card%field('SID', set)
+      do k = 1, max(1, min(3, card%n/2))
+         if (k > 1) card%i = card%i + 1
+         associate (force => bulk%force(card%i))
+            force%line = card%line
+            force%set = set
+            call card%field('S'//integer_text(k), force%node)
+            call card%field('F'//integer_text(k), force%force(1))
+         end associate
+      end do
+      call card%finish(set)
+   end subroutine read_scalar_load
 
    !> PELAS: the stiffnesses K of one or two springs. PBUSH: K1, K2, K3 of a CBUSH along its axes, K4, K5, K6 about them; lines of
    !! damping (viscous B, structural GE), stress recovery (RCV, without effect) and mass (M) may follow.

@@ -1,6 +1,7 @@
-!> Finds properties and coordinate systems that nothing uses: they are read without effect.
+!> Finds properties, coordinate systems and rotations of RBE3 that nothing uses: they are read without effect.
 module unused_cards
    use bulk_data, only: bulk_data_type
+   use field_rules, only: has_component
    use lists, only: id_table_type
    use mesh_cards, only: system_names
    implicit none
@@ -14,6 +15,7 @@ contains
    subroutine count_unused(bulk)
       type(bulk_data_type), intent(inout) :: bulk
 
+      call count_idle_rotations(bulk)
       associate (properties => [bulk%block%property, bulk%element%property, bulk%edge%property], &
                  springs => bulk%spring_property, is_bush => bulk%spring%is_bush, system => bulk%system)
          call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%beam_property%id], properties, &
@@ -45,5 +47,35 @@ contains
       end subroutine count_unnamed
 
    end subroutine count_unused
+
+   !> Count the RBE3 and RBE3M whose rotations in C have no effect, because some of their nodes belong to no shell, beam or rigid
+   !! element.
+   subroutine count_idle_rotations(bulk)
+      type(bulk_data_type), intent(inout) :: bulk
+      type(id_table_type) :: turning
+      integer, allocatable :: nodes(:, :)
+      integer :: c, i, k
+
+      associate (edge => bulk%edge, plate => bulk%element, rigid => bulk%rigid)
+         if (.not. any(rigid%is_mean)) return
+         allocate (nodes(4, size(edge) + size(plate) + size(rigid)), source=0)
+         do i = 1, size(edge)
+            if (any(bulk%beam_property%id == edge(i)%property)) nodes(:2, i) = edge(i)%nodes(:2)
+         end do
+         do i = 1, size(plate)
+            if (any(bulk%pshell%id == plate(i)%property .and. bulk%pshell%bending > 0)) &
+               nodes(:, size(edge) + i) = plate(i)%nodes(:4)
+         end do
+         nodes(1, size(edge) + size(plate) + 1:) = rigid%node
+         call turning%build([nodes])
+         do i = 1, size(rigid)
+            if (.not. rigid(i)%is_mean .or. .not. any([(any(has_component(rigid(i)%directions, c)), c = 4, 6)])) cycle
+            if (rigid(i)%surface == 0) then
+               if (all([(turning%find(rigid(i)%nodes(k)) > 0, k = 1, size(rigid(i)%nodes))])) cycle
+            end if
+            call bulk%ignored%add('456 in C of '//merge('RBE3M', 'RBE3 ', rigid(i)%surface > 0))
+         end do
+      end associate
+   end subroutine count_idle_rotations
 
 end module unused_cards

@@ -41,7 +41,7 @@ contains
          eigrl%line = card%line
          if (of == 'V') call read_options(card, norm)
          eigrl%has_lowest = card%given(of//'1')
-         eigrl%has_highest = card%given(of//'2')
+         eigrl%has_highest = card%given(of//'2') .and. abs(eigrl%highest) > 0.0_wp
          eigrl%unit_mass = norm == 'MASS'
          eigrl%by_point = norm == 'POINT'
          if (of == 'F' .and. eigrl%most == 0 .and. index(method, 'INV') > 0) eigrl%most = 3*estimate

@@ -1,6 +1,6 @@
-!> Beams of constant section with 12 dofs: axial force, bending in two planes with shear (Timoshenko), torsion.
+!> Beams with 12 dofs: axial force, bending in two planes with shear (Timoshenko), torsion.
 !! Torsion is that of Saint-Venant. The shape functions are the deflections of a beam that is loaded at its ends alone; therefore
-!! the stiffness and the nodal forces of loads along the beam are exact.
+!! the stiffness and the nodal forces of loads along the beam are exact. A beam whose section changes has those of tapered_beam.
 !! Source: J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, sections 5.6 and 11.6.
 !!
 !! End values, in the axes of the beam: u, v, w, theta_x, theta_y, theta_z of end A, then of end B. Nodal values, (3, 4), in global
@@ -9,12 +9,13 @@ module beam_element
    use beam_sections, only: beam_section
    use kinds, only: wp
    use numbers, only: cross
+   use tapered_beam, only: beam_station, carried, flexibility, gauss_at, gauss_weight, section_between, tapered_stiffness
    use tolerances, only: along_the_beam, released_pivot
    implicit none
    private
 
    public :: beam_axes, beam_length, beam_stiffness, beam_mass, beam_line_load, beam_point_load, beam_end_forces, &
-             beam_nodal_forces, beam_thermal_load
+             beam_nodal_forces, beam_section_at, beam_thermal_load
 
    !> A beam: its section and its connection to its nodes. Plane 1 contains the axis and the direction y of the beam (ORIENTATION).
    type, extends(beam_section), public :: beam_law
@@ -26,12 +27,8 @@ module beam_element
       real(wp) :: rho = 0.0_wp                 !! mass density
       real(wp) :: extra_mass = 0.0_wp          !! NSM, mass per unit length
       real(wp) :: expansion = 0.0_wp           !! alpha [1/temperature]
+      type(beam_station), allocatable :: stations(:) !! where the section changes
    end type beam_law
-
-   real(wp), parameter :: gauss_at(4) = 0.5_wp + 0.5_wp*[-0.8611363115940526_wp, -0.3399810435848563_wp, &
-                                                         0.3399810435848563_wp, 0.8611363115940526_wp] ! exact to degree 7
-   real(wp), parameter :: gauss_weight(4) = 0.5_wp*[0.3478548451374538_wp, 0.6521451548625461_wp, &
-                                                    0.6521451548625461_wp, 0.3478548451374538_wp]
 
 contains
 
@@ -59,6 +56,19 @@ contains
       axes(:, 3) = across/norm2(across)
       axes(:, 2) = cross(axes(:, 3), along)
    end function beam_axes
+
+   !> The section of a beam at S = x/L.
+   pure type(beam_station) function beam_section_at(law, s) result(section)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: s
+
+      if (allocated(law%stations)) then
+         section = section_between(law%stations, s)
+      else
+         section%beam_section = law%beam_section
+         section%extra_mass = law%extra_mass
+      end if
+   end function beam_section_at
 
    !> 12 E I/(K A G L^2) of the planes 1 and 2: the ratio of shear flexibility to bending flexibility [-].
    pure function shear_softness(law, length) result(phi)
@@ -88,6 +98,14 @@ contains
       real(wp), intent(in)       :: length, s
       real(wp) :: m(6, 12), phi(2), r(4), v(4)
 
+      if (allocated(law%stations)) then
+         m(:, 7:) = matmul(flexibility(law%stations, law%e, law%g, length, s), &
+                           tapered_stiffness(law%stations, law%e, law%g, length))
+         m(:, :6) = transpose(carried(s*length)) - matmul(m(:, 7:), transpose(carried(length)))
+         if (all(law%stations%torsion > 0.0_wp)) return
+         m(4, [4, 10]) = [1.0_wp - s, s]
+         return
+      end if
       m = 0.0_wp
       phi = shear_softness(law, length)
       m(1, [1, 7]) = [1.0_wp - s, s]
@@ -107,6 +125,13 @@ contains
       real(wp) :: k(12, 12), bend(4, 4), phi(2), sign_of(4)
       integer  :: at(4, 2), plane
 
+      if (allocated(law%stations)) then
+         k(7:, 7:) = tapered_stiffness(law%stations, law%e, law%g, length)
+         k(7:, :6) = -matmul(k(7:, 7:), transpose(carried(length)))
+         k(:6, 7:) = transpose(k(7:, :6))
+         k(:6, :6) = -matmul(carried(length), k(7:, :6))
+         return
+      end if
       k = 0.0_wp
       if (.not. law%is_cut) k([1, 7], [1, 7]) = law%e*law%area/length*reshape([1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp], [2, 2])
       k([4, 10], [4, 10]) = law%g*law%torsion/length*reshape([1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp], [2, 2])
@@ -209,29 +234,41 @@ contains
       integer  :: i
 
       length = beam_length(law, x)
-      section_mass = 0.0_wp                    ! of the section per unit length
-      do i = 1, 3
-         section_mass(i, i) = law%rho*law%area + law%extra_mass
-      end do
-      section_mass(4, 4) = law%rho*(law%inertia(1) + law%inertia(2))
-      section_mass(5, 5) = law%rho*law%inertia(2)
-      section_mass(6, 6) = law%rho*law%inertia(1)
-      section_mass(5, 6) = -law%rho*law%inertia(3)
-      section_mass(6, 5) = section_mass(5, 6)
       m = 0.0_wp
-      if (lumped) then
-         m(:3, :3) = 0.5_wp*length*section_mass(:3, :3)
-         m(7:9, 7:9) = m(:3, :3)
-      else
-         do i = 1, size(gauss_at)
+      do i = 1, size(gauss_at)
+         section_mass = mass_of(beam_section_at(law, gauss_at(i)))
+         if (lumped) then
+            m(:3, :3) = m(:3, :3) + 0.5_wp*gauss_weight(i)*length*section_mass(:3, :3)
+            m(7:9, 7:9) = m(:3, :3)
+         else
             moved = movement_at(law, length, gauss_at(i))
             m = m + gauss_weight(i)*length*matmul(transpose(moved), matmul(section_mass, moved))
-         end do
-      end if
+         end if
+      end do
       k = end_stiffness(law, length)
       call release(law, k, m=m)
       t = from_nodes(law, x)
       m = matmul(transpose(t), matmul(m, t))
+
+   contains
+
+      !> The mass of SECTION per unit length, with its rotary inertia.
+      pure function mass_of(section) result(m)
+         type(beam_station), intent(in) :: section
+         real(wp) :: m(6, 6)
+         integer  :: i
+
+         m = 0.0_wp
+         do i = 1, 3
+            m(i, i) = law%rho*section%area + section%extra_mass
+         end do
+         m(4, 4) = law%rho*(section%inertia(1) + section%inertia(2))
+         m(5, 5) = law%rho*section%inertia(2)
+         m(6, 6) = law%rho*section%inertia(1)
+         m(5, 6) = -law%rho*section%inertia(3)
+         m(6, 5) = m(5, 6)
+      end function mass_of
+
    end function beam_mass
 
    !> End forces that are equivalent to a distributed force and moment: Q(:, 1) per unit length at S = FROM, Q(:, 2) at S = TO,
@@ -241,13 +278,18 @@ contains
       real(wp), intent(in)       :: x(3, 2)    !! [length]
       real(wp), intent(in)       :: q(6, 2)    !! [force/length], [force]
       real(wp), intent(in)       :: from, to   !! x/L
-      real(wp) :: f(12)
-      integer  :: i
+      real(wp) :: f(12), s
+      integer  :: i, k, n
 
       f = 0.0_wp
-      do i = 1, size(gauss_at)
-         f = f + gauss_weight(i)*(to - from)*beam_length(law, x)*beam_point_load(law, x, &
-             (1.0_wp - gauss_at(i))*q(:, 1) + gauss_at(i)*q(:, 2), from + gauss_at(i)*(to - from))
+      n = 1
+      if (allocated(law%stations)) n = 8 ! then the shape functions are no polynomials
+      do k = 1, n
+         do i = 1, size(gauss_at)
+            s = (real(k - 1, wp) + gauss_at(i))/n
+            f = f + gauss_weight(i)*(to - from)/n*beam_length(law, x)*beam_point_load(law, x, (1.0_wp - s)*q(:, 1) + s*q(:, 2), &
+                                                                                      from + s*(to - from))
+         end do
       end do
    end function beam_line_load
 
@@ -266,10 +308,15 @@ contains
    pure function beam_thermal_load(law, rise) result(f)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: rise       !! [temperature]
-      real(wp) :: f(12)
+      real(wp) :: f(12), unit(6, 6)
 
       f = 0.0_wp
-      if (.not. law%is_cut) f([1, 7]) = law%e*law%area*law%expansion*rise*[-1.0_wp, 1.0_wp]
+      if (allocated(law%stations)) then
+         unit = flexibility(law%stations, law%e, law%g, 1.0_wp, 1.0_wp)
+         f([1, 7]) = law%expansion*rise/unit(1, 1)*[-1.0_wp, 1.0_wp]
+      else if (.not. law%is_cut) then
+         f([1, 7]) = law%e*law%area*law%expansion*rise*[-1.0_wp, 1.0_wp]
+      end if
    end function beam_thermal_load
 
    !> The nodal forces (3, 4) that are equivalent to the end forces F.

@@ -12,9 +12,9 @@ module beam_sections
 
    public :: section_of
 
-   character(8), parameter, public :: section_names(9) = [character(8) :: 'ROD', 'TUBE', 'TUBE2', 'BAR', 'BOX', 'I', 'CHAN', &
-                                                                'T', 'L']
-   integer, parameter, public      :: section_dimensions(9) = [1, 2, 2, 2, 4, 6, 4, 4, 4] !! number of dimensions of each section
+   character(8), parameter, public :: section_names(18) = [character(8) :: 'ROD', 'TUBE', 'TUBE2', 'BAR', 'BOX', 'I', 'CHAN', &
+      'T', 'L', 'I1', 'T1', 'T2', 'CHAN1', 'CHAN2', 'BOX1', 'CROSS', 'H', 'HAT']
+   integer, parameter, public :: section_dimensions(18) = [1, 2, 2, 2, 4, 6, 4, 4, 4, 4, 4, 4, 4, 4, 6, 4, 4, 4] !! of each section
 
    type, public :: beam_section
       real(wp) :: area = 0.0_wp        !! [length^2]
@@ -34,7 +34,7 @@ contains
       real(wp), intent(in)                   :: d(:) !! [length], > 0
       type(beam_section), intent(out)        :: section
       character(:), allocatable, intent(out) :: expected
-      real(wp) :: inner, r(4, 3) ! r: rectangles: height (negative where one is subtracted), width along z, y and z of the centre
+      real(wp) :: inner, r(4, 5) ! r: rectangles: height (negative where one is subtracted), width along z, y and z of the centre
       integer  :: n
 
       expected = ''
@@ -102,11 +102,94 @@ contains
          r(:, 2) = [d(2) - d(3), d(4), 0.5_wp*(d(2) + d(3)), 0.5_wp*d(4)]
          section%torsion = (d(1)*d(3)**3 + (d(2) - d(3))*d(4)**3)/3.0_wp
          section%shear = [d(4)*d(2), d(3)*d(1)]*5.0_wp/6.0_wp
+      case default
+         call other_walls(name, d, r, n, section, expected)
       end select
       if (expected /= '') return
       call add_up(r(:, :n), section)
       if (name /= 'BAR') section%shear = section%shear/section%area
    end subroutine section_of
+
+   !> The N rectangles R of the walls of section NAME with dimensions D, as in section_of; torsion and shear areas of SECTION.
+   pure subroutine other_walls(name, d, r, n, section, expected)
+      character(*), intent(in)                 :: name
+      real(wp), intent(in)                     :: d(:)
+      real(wp), intent(inout)                  :: r(:, :)
+      integer, intent(out)                     :: n
+      type(beam_section), intent(inout)        :: section
+      character(:), allocatable, intent(inout) :: expected
+      real(wp) :: t
+
+      n = 3
+      t = 0.0_wp
+      select case (name)
+      case ('I1', 'CHAN1') ! flanges beside the web, web, height inside, outside
+         if (d(4) <= d(3)) expected = 'a height outside, DIM4, larger than that inside, DIM3'
+         t = 0.5_wp*(d(4) - d(3))
+         r(:, 1) = [t, d(1) + d(2), 0.5_wp*t, 0.0_wp]
+         r(:, 2) = [d(3), d(2), 0.5_wp*d(4), 0.0_wp]
+         r(:, 3) = [t, d(1) + d(2), d(4) - 0.5_wp*t, 0.0_wp]
+         if (name == 'CHAN1') r(4, :3) = 0.5_wp*[d(1), 0.0_wp, d(1)]
+         section%shear = [d(2)*d(4), 5.0_wp/6.0_wp*2.0_wp*t*(d(1) + d(2))]
+      case ('T1') ! height of the flange, length of the stem beside it, thickness of the flange, of the stem
+         n = 2
+         if (d(4) > d(1)) expected = 'a stem, DIM4, no thicker than the flange is high, DIM1'
+         r(:, 1) = [d(1), d(3), 0.0_wp, 0.5_wp*d(3)]
+         r(:, 2) = [d(4), d(2), 0.0_wp, d(3) + 0.5_wp*d(2)]
+         section%shear = [5.0_wp/6.0_wp*d(1)*d(3), d(4)*(d(2) + d(3))]
+      case ('T2') ! width of the flange, height, thickness of the flange, of the stem
+         n = 2
+         if (d(3) >= d(2) .or. d(4) > d(1)) expected = 'DIM3 below DIM2, and DIM4 at most DIM1'
+         r(:, 1) = [d(3), d(1), 0.5_wp*d(3), 0.0_wp]
+         r(:, 2) = [d(2) - d(3), d(4), 0.5_wp*(d(2) + d(3)), 0.0_wp]
+         section%shear = [d(4)*d(2), 5.0_wp/6.0_wp*d(1)*d(3)]
+      case ('CHAN2') ! thickness of the legs, of the base, height, width
+         if (d(2) >= d(3) .or. 2.0_wp*d(1) >= d(4)) expected = 'DIM2 below DIM3, and 2 DIM1 below DIM4'
+         r(:, 1) = [d(2), d(4), 0.5_wp*d(2), 0.0_wp]
+         r(:, 2) = [d(3) - d(2), d(1), 0.5_wp*(d(2) + d(3)), 0.5_wp*(d(4) - d(1))]
+         r(:, 3) = [r(1:3, 2), -r(4, 2)]
+         section%shear = [5.0_wp/6.0_wp*2.0_wp*d(1)*d(3), d(2)*d(4)]
+      case ('BOX1') ! width, height, thickness above, below, and of both sides
+         n = 4
+         t = d(2) - d(3) - d(4)
+         if (t <= 0.0_wp .or. d(5) + d(6) >= d(1)) &
+            expected = 'walls thinner than the box: DIM3 + DIM4 below DIM2, DIM5 + DIM6 below DIM1'
+         if (abs(d(3) - d(4)) > 0.0_wp .and. abs(d(5) - d(6)) > 0.0_wp) expected = 'DIM3 = DIM4 or DIM5 = DIM6'
+         r(:, 1) = [d(3), d(1), d(2) - 0.5_wp*d(3), 0.0_wp]
+         r(:, 2) = [d(4), d(1), 0.5_wp*d(4), 0.0_wp]
+         r(:, 3) = [t, d(5), d(4) + 0.5_wp*t, 0.5_wp*(d(5) - d(1))]
+         r(:, 4) = [t, d(6), d(4) + 0.5_wp*t, 0.5_wp*(d(1) - d(6))]
+         section%shear = [(d(5) + d(6))*d(2), (d(3) + d(4))*d(1)]
+      case ('CROSS', 'H') ! arms beside the uprights, or web between them; uprights together; height; thickness of the arms or web
+         if (d(4) > d(3)) expected = 'arms, DIM4, no thicker than the section is high, DIM3'
+         if (name == 'CROSS') then
+            r(:, 1) = [d(3), d(2), 0.0_wp, 0.0_wp]
+            r(:, 2) = [d(4), 0.5_wp*d(1), 0.0_wp, 0.25_wp*d(1) + 0.5_wp*d(2)]
+         else
+            r(:, 1) = [d(4), d(1), 0.0_wp, 0.0_wp]
+            r(:, 2) = [d(3), 0.5_wp*d(2), 0.0_wp, 0.5_wp*d(1) + 0.25_wp*d(2)]
+         end if
+         r(:, 3) = [r(1:3, 2), -r(4, 2)]
+         section%shear = [5.0_wp/6.0_wp*d(2)*d(3), d(4)*(d(1) + d(2))]
+         if (name == 'CROSS') section%shear(2) = 5.0_wp/6.0_wp*section%shear(2)
+      case ('HAT') ! height, thickness, width of the top, of a brim beside it
+         n = 5
+         if (2.0_wp*d(2) >= min(d(1), d(3))) expected = 'walls, 2 DIM2, thinner than the height DIM1 and the top DIM3'
+         r(:, 1) = [d(2), d(3), d(1) - 0.5_wp*d(2), 0.0_wp]
+         r(:, 2) = [d(1) - 2.0_wp*d(2), d(2), 0.5_wp*d(1), 0.5_wp*(d(3) - d(2))]
+         r(:, 3) = [r(1:3, 2), -r(4, 2)]
+         r(:, 4) = [d(2), d(4) + d(2), 0.5_wp*d(2), 0.5_wp*(d(3) + d(4) - d(2))]
+         r(:, 5) = [r(1:3, 4), -r(4, 4)]
+         section%shear = [2.0_wp*d(2)*d(1), 5.0_wp/6.0_wp*d(2)*(d(3) + 2.0_wp*(d(4) + d(2)))]
+      end select
+      associate (a => maxval(r(:2, :n), dim=1), b => minval(r(:2, :n), dim=1))
+         section%torsion = sum(a*b**3)/3.0_wp
+      end associate
+      if (name /= 'BOX1') return
+      associate (b => d(1) - 0.5_wp*(d(5) + d(6)), h => d(2) - 0.5_wp*(d(3) + d(4)))
+         section%torsion = 4.0_wp*(b*h)**2/(b/d(3) + b/d(4) + h/d(5) + h/d(6))
+      end associate
+   end subroutine other_walls
 
    !> Area, moments of inertia and stress points of rectangles R: height (negative: subtracted), width, y and z of the centre. C and
    !! E are the top and bottom corners of the outline at its largest z, D and F those at its smallest z.

@@ -21,7 +21,7 @@ module shell_curved
    integer, parameter, public :: most_columns = 54              !! of strains: 6 of each node, 6 of the bubble
    real(wp), parameter :: h = sqrt(0.6_wp)                      ! three Gauss points: -h, 0, h
    real(wp), parameter :: r1 = 0.5_wp - 0.5_wp*gauss, r2 = 0.5_wp + 0.5_wp*gauss
-   ! points of the strains along r, then along s, then of the third strain: rs, of triangles that along their third side; their centre
+   ! points of the strains along r, then along s, then of the third strain: rs, of triangles that along their third side; the centre
    real(wp), parameter :: tied_quad(2, 16) = reshape([-gauss, -h, gauss, -h, -gauss, 0.0_wp, gauss, 0.0_wp, -gauss, h, gauss, h, &
       -h, -gauss, -h, gauss, 0.0_wp, -gauss, 0.0_wp, gauss, h, -gauss, h, gauss, &
       -gauss, -gauss, gauss, -gauss, -gauss, gauss, gauss, gauss], [2, 16])

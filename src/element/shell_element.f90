@@ -23,6 +23,7 @@ module shell_element
 
    integer, parameter, public :: most_shell_nodes = 8
 
+   real(wp), parameter :: softer = 1000.0_wp ! the drilling rotation of a curved element than that of a flat one
    real(wp), parameter :: stiff = 1.0e3_wp  ! shear modulus of a curved shell rigid in transverse shear, times its bending modulus
 
    !> An element of one kind, mapped.
@@ -171,6 +172,7 @@ contains
       end do
       area = sum(map%rule%weight(:map%rule%n)*at%volume)
       g = drilling_stiffness(law, sum(law%thickness(:map%corners))/map%corners, area)
+      if (allocated(map%curved)) g = g/softer
       do p = 1, map%rule%n
          associate (b => at(p)%b(:, :m), w => map%rule%weight(p)*at(p)%volume, twist => at(p)%twist)
             c = section_stiffness(law, map, at(p))

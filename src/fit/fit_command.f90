@@ -26,6 +26,7 @@ module fit_command
       'examples:'//nl// &
       '   jointfit normal.dat > law.bdf                     a JNORM card from points `lambda p`'//nl// &
       '   jointfit --units mm,n --plot fit.gp shear.csv     cards in mm and N, and a picture of data and fit'//nl// &
+      '   jointfit --structure a.bdf --measured a.csv       parameters of a deck from what was measured on the structure'//nl// &
       ''//nl// &
       'Fits the laws of a joint to test data. The cards for a deck of jointfem go to standard output, with the'//nl// &
       'residuals as comments. Each file holds the data of one surface; `-` is standard input. One line of a file'//nl// &
@@ -99,8 +100,8 @@ module fit_command
       '   --version         print the version'//nl// &
       '   --help            print this text'//nl// &
       ''//nl// &
-      'exit status: 0 all cards written, 1 wrong usage or unreadable file, 2 errors in the data, 4 output could not be'//nl// &
-      'written; of several files the highest.'
+      'exit status: 0 all cards written, 1 wrong usage or unreadable file, 2 errors in the data, 3 the structure cannot be'//nl// &
+      'solved with the start values, or an interrupt, 4 output could not be written; of several files the highest.'
 
    type, public :: fit_command_type
       integer  :: id        = 1          !! --id: of the card of the first file

@@ -43,7 +43,7 @@ contains
          statistics%least = s(n)
          statistics%largest = s(1)
          statistics%weakest = maxloc(abs(vt(n, :)), dim=1)
-         s = max(s, epsilon(s)*s(1), tiny(1.0_wp)**0.25_wp)
+         s = max(s, tiny(1.0_wp)**0.25_wp)
          inverse = matmul(transpose(vt/spread(s, 2, n)), transpose(u))
          covariance = matmul(inverse, transpose(inverse))
          statistics%deviation = [(sqrt(covariance(k, k)), k = 1, n)]

@@ -77,7 +77,6 @@ contains
          if (command%plot /= '') call plot_rows(command, data, search, plot)
          if (interrupt_so_far() /= 0) write (error_unit, '(2a)') command%structure%name, ': interrupted, the best values so far'
       end if
-      call hold_interrupts(.false.)
    end subroutine identify
 
    !> Put the starts of the command into DATA.
@@ -149,7 +148,7 @@ contains
             words = '$ correlation of '//data%parameters(search%free(j))%name//':'
             do k = 1, j - 1
                words = words//'  '//data%parameters(search%free(k))%name//' '// &
-                       real_text(0.001_wp*nint(1000.0_wp*search%statistics%correlation(j, k)))
+                       real_text(nint(1000.0_wp*search%statistics%correlation(j, k))/1000.0_wp)
             end do
             call out%put(words)
          end do
@@ -159,9 +158,8 @@ contains
       do i = 1, size(data%rows)
          associate (row => data%rows(i))
             call out%put('$ '//adjusted(integer_text(i), 4)//cell(row%value)//cell(row%deviation)//cell(search%first%value(i))// &
-               cell(search%best%value(i))//cell(0.01_wp*nint(100.0_wp*min(1.0e6_wp, max(-1.0e6_wp, before(i)))))// &
-               adjusted(real_text(0.01_wp*nint(100.0_wp*min(1.0e6_wp, max(-1.0e6_wp, after(i))))), 10)// &
-               adjusted(real_text(0.001_wp*nint(1000.0_wp*search%best%mac(i))), 9)//'  '//row%words)
+               cell(search%best%value(i))//adjusted(hundredths(before(i)), 12)//adjusted(hundredths(after(i)), 10)// &
+               adjusted(real_text(nint(1000.0_wp*search%best%mac(i))/1000.0_wp), 9)//'  '//row%words)
          end associate
       end do
    end subroutine write_search
@@ -192,11 +190,19 @@ contains
       text = adjustr(repeat(' ', len(text) - len(words))//words)
    end function adjusted
 
+   pure function hundredths(value) result(text)
+      real(wp), intent(in)      :: value
+      character(:), allocatable :: text
+
+      text = real_text(nint(100.0_wp*min(1.0e6_wp, max(-1.0e6_wp, value)))/100.0_wp)
+   end function hundredths
+
    pure function cell(value) result(text)
       real(wp), intent(in) :: value
       character(13) :: text
 
-      text = adjusted(real_text(value), 13)
+      if (abs(value) >= 0.1_wp .and. abs(value) < 1.0e6_wp) write (text, '(f13.4)') value
+      if (abs(value) < 0.1_wp .or. abs(value) >= 1.0e6_wp) write (text, '(es13.5)') value
    end function cell
 
    !> Write the cards of the deck that have parameters, with the values in.
@@ -231,7 +237,8 @@ contains
       first = 1
       do i = 1, texts(1)%n
          if (scan(texts(1)%line(i)//' ', '+*, $') /= 1) first = i
-         if (index(texts(1)%line(i), '${') == 0) cycle
+         words = texts(1)%line(i)
+         if (index(words, '${') == 0 .or. index(words, '${') > index(words, '$')) cycle ! none, or in a comment
          do j = first, texts(1)%n ! the whole card
             words = texts(1)%line(j)//' '
             if (j > i .and. scan(words, '+*, ') /= 1) exit

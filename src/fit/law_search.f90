@@ -20,7 +20,8 @@ module law_search
 
    integer, parameter  :: most_runs = 100          ! of a round, without those for derivatives
    real(wp), parameter :: coarsely_settled = 0.03_wp ! of the sum of squares: change in the last step of a round
-   integer, parameter  :: most_rounds = 12, most_backs = 4
+   integer, parameter  :: few_runs = 3             ! ... of one with predicted frequencies
+   integer, parameter  :: most_rounds = 30, most_backs = 4
    real(wp), parameter :: failed = 1.0e8_wp        ! times the deviation: the difference of a run that has failed
    real(wp), parameter :: first_step = 0.7_wp      ! of an unknown
    real(wp), parameter :: small = 0.01_wp          ! step of z for dy/dz
@@ -44,6 +45,7 @@ module law_search
       type(search_type)     :: search
       integer :: cores = 1
       real(wp), allocatable :: from(:)             ! the unknowns of all parameters at the start of this round
+      real(wp), allocatable :: x_from(:)           ! those of lmder there
       type(answer_type)     :: near, last          ! the answer there in full; of the last run that has not failed
       real(wp) :: square = huge(1.0_wp)            ! least sum of squares from this start
       logical  :: is_predicted = .false.           ! there are frequencies that the modes of a run nearby predict
@@ -146,7 +148,7 @@ contains
       do k = 1, n_starts
          y = inner_value(data%parameters, data%parameters%start)
          do i = 1, merge(size(y), 0, k > 1)
-            associate (part => modulo(0.5_wp*(k - 1)*sqrt(real(4*i + 1, wp)), 1.0_wp))
+            associate (part => 0.05_wp + 0.9_wp*modulo((k - 1)*sqrt(i**2 + 1.0_wp), 1.0_wp))
                if (.not. data%parameters(i)%is_bounded) y(i) = y(i) + 2.0_wp*part - 1.0_wp
                if (data%parameters(i)%is_bounded) y(i) = y_of(data%parameters(i), asin(2.0_wp*part - 1.0_wp))
             end associate
@@ -205,12 +207,13 @@ contains
             end if
             task%from = z
             task%near = task%last
-            if (n == 0 .or. best - now <= search_settled*best) exit
+            if (n == 0 .or. best - now <= search_settled*max(1.0_wp, best)) exit ! far below one deviation
             best = now
             diag = 1.0_wp
             x = unknown_of(parameters, z(free))
+            task%x_from = x
             call lmder(ask, size(fvec), n, x, fvec, fjac, size(fvec), merge(coarsely_settled, search_settled, task%is_predicted), &
-               1.0e-2_wp*search_settled, 0.0_wp, most_runs, &
+               1.0e-2_wp*search_settled, 0.0_wp, merge(few_runs, most_runs, task%is_predicted), &
                diag, 2, first_step*sqrt(real(n, wp))/merge(norm2(x), 1.0_wp, norm2(x) > 0.0_wp), 0, info, nfev, njev, ipvt, qtf, &
                wa1, wa2, wa3, wa4)
             z(free) = y_of(parameters, x)
@@ -265,7 +268,7 @@ contains
             fjac = fjac*spread((y_of(parameters(free), x + small) - y_of(parameters(free), x - small))/(2.0_wp*small), 1, m)
          else
             square = 0.0_wp
-            if (norm2(y - task%from) <= 16.0_wp*epsilon(y)*norm2(y)) then
+            if (all(abs(x - task%x_from) <= 0.0_wp)) then
                task%last = task%near
             else if (task%is_predicted) then
                call run_all(task%data, task%structure, reshape(outer_value(parameters, y), [size(y), 1]), task%cores, answers, &

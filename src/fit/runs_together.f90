@@ -11,6 +11,7 @@ module runs_together
    use side_by_side, only: c_kill, c_memfd_create, streams_at
    use structure_answers, only: answer_type, structure_type
    use structure_run, only: run_structure
+   use terminal, only: open_line
    use text_tools, only: integer_text
    implicit none
    private
@@ -41,6 +42,7 @@ contains
             stream(k) = c_memfd_create('jointfit'//c_null_char, 0_c_int)
             child(k) = c_fork()
             if (child(k) == 0) then
+               call open_line('', quiet=.true., in_lines=.false.)
                call use_threads(max(1, cores/size(child)))
                call run_structure(data, values(:, k), structure, answers(k), near)
                call send(int(stream(k)), answers(k))

@@ -14,6 +14,7 @@ module structure_answers
    use deck_parameters, only: parameter_type
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system, failure_type
+   use equations, only: recover_displacements
    use interface_operator, only: joint_movement
    use kinds, only: wp
    use load_path, only: recover_bodies
@@ -22,6 +23,7 @@ module structure_answers
    use mode_values, only: evaluate_modes, modes_type
    use modal_response, only: find_response, response_type
    use model_data, only: model_type
+   use node_coupling, only: displacements, forces_on_unknowns
    use natural_modes, only: find_natural_modes, oscillating_type, release_supports, spectrum_type, start_oscillation
    use shear_loops, only: oscillation_stiffness
    use stage_plan, only: merged, stage_plan_type
@@ -90,6 +92,7 @@ contains
       type(analysis_type), allocatable :: whole ! a copy, as the increments go on from the original
       type(watch_answer) :: watched
       type(model_type), allocatable :: loose
+      real(wp), allocatable :: q(:, :)
       logical :: of_modes(size(data%rows))
       integer :: i, k
 
@@ -100,7 +103,14 @@ contains
             return
          end if
          allocate (whole, source=analysis)
-         call recover_bodies(model, structure%system, whole)
+         if (any(of_modes) .or. allocated(plan%stages(s)%watched) .or. any(data%rows%kind == a_bolt) .or. &
+             any(abs(whole%now%moved) > 0.0_wp)) then
+            call recover_bodies(model, structure%system, whole)
+         else ! the displacements alone: the forces of all elements cost as much as a factorisation
+            allocate (q, mold=whole%now%load)
+            call recover_displacements(structure%system, forces_on_unknowns(model, whole%now%load), whole%u, q)
+            whole%all_u = displacements(model, q)
+         end if
          if (allocated(plan%stages(s)%watched)) &
             call find_watched(model, whole, plan%stages(s)%watched, plan%stages(s)%pairs, before, watched)
          do i = 1, size(data%rows)

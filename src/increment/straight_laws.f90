@@ -30,7 +30,7 @@ module straight_laws
 
    integer, parameter  :: most_steps = 40
    real(wp), parameter :: right = 0.1_wp    !! of it: error up to which a straight law has crossed no kink
-   real(wp), parameter :: farthest = 1.0e30_wp  !! point of rest from the movement: powers of it are finite [length]
+   real(wp), parameter :: farthest = 1.0e30_wp  !! point of rest from the origin and the movement: powers of it are finite [length]
    real(wp), parameter :: most  = 3.0_wp    !! times the residual: limit of the force of a movement
    real(wp), parameter :: far = 1.0e3_wp    !! times the last direction: the body is not held
    integer, parameter, public :: direction_digits = 6 !! the next iteration corrects the direction
@@ -307,6 +307,10 @@ contains
             bounds(merge(2, 1, excess > 0.0_wp)) = point(i)
             point(i) = point(i) - excess/(rho(i) + slope)
             if (point(i) <= bounds(1) .or. point(i) >= bounds(2)) point(i) = 0.5_wp*sum(bounds)
+            if (abs(point(i)) > farthest) then ! no point of rest: the caller takes the law at the movement
+               point = huge(1.0_wp)
+               return
+            end if
             call shear_force(i, point(i), t(i), slope)
             excess = t(i) + rho(i)*point(i) - goal(i)
          end do

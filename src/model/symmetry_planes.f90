@@ -7,7 +7,7 @@ module symmetry_planes
    use kinds, only: wp
    use lists, only: distinct
    use mesh_queries, only: n_points
-   use model_data, only: model_type, supported
+   use model_data, only: freedoms_type, model_type, supported
    use numbers, only: cross
    use tolerances, only: on_symmetry_plane, one_direction, parallel_in_mesh
    use unknowns, only: node_axes
@@ -166,12 +166,27 @@ contains
          held = supported(model%mesh, model%freedoms, node)
          d = findloc([(held(k) .and. is_along(axes(:, k), plane%normal), k = 1, model%mesh%dimension)], .true., dim=1)
          if (d == 0) return
+         if (allocated(model%sets)) then ! of all stages
+            if (.not. all([(held_in(model%sets(s)), s = 1, size(model%sets))])) return
+         end if
          do s = 1, size(model%history%stages)
             if (.not. allocated(model%history%stages(s)%moved)) cycle
             if (abs(model%history%stages(s)%moved(d, node)) > 0.0_wp) return
          end do
       end do
       is_one = .true.
+
+   contains
+
+      !> Whether FREEDOMS hold component D of NODE.
+      pure logical function held_in(freedoms)
+         type(freedoms_type), intent(in) :: freedoms
+         logical :: held(model%mesh%dimension)
+
+         held = supported(model%mesh, freedoms, node)
+         held_in = held(d)
+      end function held_in
+
    end function is_held_plane
 
    !> Whether at least half of the nodes on PLANE are held along the normals of the PLANES through them only.

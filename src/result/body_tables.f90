@@ -44,7 +44,7 @@ contains
       integer, allocatable  :: list(:), shown(:)
       real(wp) :: floor
       logical  :: has_bodies
-      integer  :: m, node
+      integer  :: e, m, node
 
       list = pack([(node, node = 1, n_points(model%mesh))], [(model%freedoms%used(node) .and. shows(page, [node]), node = 1, &
          n_points(model%mesh))])
@@ -66,7 +66,9 @@ contains
          call list_plies(page, model, analysis)
          call list_beams(page, model, analysis)
       end if
-      if (asked%stress .and. any(is_second_order(model%mesh%element_kind))) then ! stresses at nodes, averaged over their elements
+      has_bodies = any(is_second_order(model%mesh%element_kind) .and. &
+                       [(.not. is_shell(model%mesh, e), e = 1, model%mesh%n_elements)])
+      if (asked%stress .and. has_bodies) then ! stresses at nodes, averaged over their elements
          allocate (stress(max_stresses, n_points(model%mesh)))
          call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
          floor = page_zero*maxval(abs(stress))

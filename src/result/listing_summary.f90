@@ -163,7 +163,7 @@ contains
          end select
          if (allocated(solver%reason)) call file%put('  '//solver%reason)
       end associate
-      if (any(deck%control%stages%vibration%modes%id > 0)) call file%put('  MASS '// &
+      if (any(deck%control%stages%vibration%modes%id /= 0)) call file%put('  MASS '// &
          one_of(model%mesh%lumped, 'LUMPED', 'CONSISTENT (DEFAULT OF NASTRAN: LUMPED)'))
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))

@@ -2,7 +2,8 @@
 !! and stresses of beams.
 module structural_results
    use analysis_state, only: analysis_type
-   use beam_element, only: beam_end_forces, beam_law, beam_thermal_load
+   use beam_element, only: beam_end_forces, beam_section_at, beam_thermal_load
+   use beam_sections, only: beam_section
    use body_elements, only: element_centre
    use bolt_locking, only: bar_tension
    use elasticity, only: max_stresses, von_mises
@@ -79,9 +80,9 @@ contains
 
    end function end_forces
 
-   !> Axial stress of a beam at C, D, E, F and at the centroid under its FORCES at an end, as end_forces has them [pressure].
+   !> Axial stress of a beam with the section LAW at C, D, E, F and at the centroid under its FORCES at an end, as end_forces has them [pressure].
    pure function section_stresses(law, forces) result(stress)
-      type(beam_law), intent(in) :: law
+      class(beam_section), intent(in) :: law
       real(wp), intent(in)       :: forces(6)
       real(wp) :: stress(5), bent(2), det
 
@@ -133,7 +134,9 @@ contains
          else if (is_beam(model%mesh, e) .and. present(analysis)) then
             forces = end_forces(model, analysis, e)
             do end = 1, 2
-               largest = maxval(abs(section_stresses(model%mesh%structural%beams(model%mesh%structural%place(e)), forces(:, end))))
+               associate (law => model%mesh%structural%beams(model%mesh%structural%place(e)))
+                  largest = maxval(abs(section_stresses(beam_section_at(law, end - 1.0_wp), forces(:, end))))
+               end associate
                at_centre(e) = max(at_centre(e), largest)
                node = model%mesh%element_nodes(end, e)
                at_node(node) = max(at_node(node), largest)
@@ -295,7 +298,9 @@ contains
          associate (place => model%mesh%structural%place(e))
             forces(:, :, place) = end_forces(model, analysis, e)
             do end = 1, 2
-               stress(:, end, place) = section_stresses(model%mesh%structural%beams(place), forces(:, end, place))
+               associate (section => beam_section_at(model%mesh%structural%beams(place), end - 1.0_wp))
+                  stress(:, end, place) = section_stresses(section, forces(:, end, place))
+               end associate
             end do
          end associate
       end do

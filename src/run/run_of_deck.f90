@@ -278,6 +278,11 @@ contains
             end do
          case (has_errors)
             if (allocated(model%mesh%kind_words)) call tell(run, model%mesh%kind_words)
+            if (allocated(run%errors%warnings)) then
+               do i = 1, size(run%errors%warnings)
+                  call tell(run, run%errors%warnings(i)%words)
+               end do
+            end if
             call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, run%errors)
          case (was_checked)
             call say_of_deck(run, deck, model, plan)

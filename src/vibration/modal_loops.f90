@@ -88,7 +88,8 @@ contains
    !> 0 -> ALPHA -> -ALPHA -> ALPHA, then the same loop repeated until it has settled, at most for the cycles of WANTED. FINE, the
    !! loop of about this load that coarse increments have found: increments are halved to the tolerance of WANTED. FAILURE where
    !! the structure does not carry ALPHA. The change of q passes through zero while the loop still moves: it must close to the same
-   !! tolerance, or its gap must be steady, twice: the ratio of changes is that of the first loops before it is that of the drift.
+   !! tolerance, or its gap must be steady, twice: the ratio of changes is that of the first loops before it is that of the drift. A gap
+   !! that is small against q may be as large as a small loss.
    subroutine run_loops(model, modal, wanted, alpha, loop, failure, fine)
       type(model_type), intent(in)          :: model
       type(modal_load_type), intent(inout)  :: modal
@@ -130,7 +131,8 @@ contains
          is_steady = all(left(change, change_before) <= [max(settled*[loop%q, abs(loop%lost)], [0.0_wp, minor_area*alpha*loop%q]), &
                                                          merge(steady*abs(loop%gap)*loop%q, huge(1.0_wp), &
                                                                abs(loop%gap) > settled(1))])
-         if (is_steady .and. (was_steady .or. .not. present(fine) .or. abs(loop%gap) <= settled(1))) exit
+         if (is_steady .and. (was_steady .or. .not. present(fine) .or. &
+                              abs(loop%gap) <= settled(1)*min(1.0_wp, loop%lost/(alpha*loop%q)))) exit
       end do
       if (present(fine) .and. loop%n_loops > 1 .and. .not. is_steady) loop%unsettled = 2.0_wp*change(2)/(two_pi*loop%alpha*loop%q)
    end subroutine run_loops

@@ -31,6 +31,7 @@ module modal_path
 
    real(wp), parameter :: coarsest_step = 0.125_wp   ! likewise: a larger one is, for elements may slip and stick within it
    real(wp), parameter :: margin = 10.0_wp           ! of rounding errors
+   real(wp), parameter :: slowed = 0.9_wp            ! of the closing before: an element that closes less may have turned back
 
    !> The initial data of the paths of one mode.
    type, public :: modal_load_type
@@ -264,8 +265,8 @@ contains
       end if
    end subroutine refine_increment
 
-   !> The largest work of elements of these AREAS on their loading curves that two straight ways, A to B to C, may miss: the largest
-   !! deflection is that where one of the ways goes on a little further before the element turns.
+   !> The largest work of elements of these AREAS on their loading curves that two straight ways, A to B to C, may miss, where an
+   !! element turns back in one of them: it may have gone on, as it did before, to the end of that way.
    pure real(wp) function missed_work(areas, a, b, c) result(work)
       real(wp), intent(in)           :: areas(:) !! [length^2]
       type(normal_state), intent(in) :: a(:), b(:), c(:)
@@ -274,7 +275,7 @@ contains
       first = b%lambda - a%lambda
       second = c%lambda - b%lambda
       work = sum(areas*c%p_a*max(0.0_wp, max(a%lambda + first - second, b%lambda + max(0.0_wp, first)) - c%lambda_a), &
-                 mask=first > second)
+                 mask=second < max(0.0_wp, slowed*first))
    end function missed_work
 
    !> Begin PATH at ALPHA and Q.

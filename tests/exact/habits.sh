@@ -58,3 +58,108 @@ if run habits_nastran; then
    same 'SUBCASEs are stages: said once' "$(grep -c '2 SUBCASEs are stages of one history' "$work/habits_nastran.log")" 1
    same 'SUBCASEs are stages: not said of a deck of our own' "$(grep -c 'stages of one history' "$work/habits_own.log")" 0
 fi
+
+# One cube under tension, as several programs write it: 10 on E = 1000, a side of 1, no Poisson's ratio: the top rises by 0.01
+habits_grid='GRID,1,,0.,0.,0.;GRID,2,,1.,0.,0.;GRID,3,,1.,1.,0.;GRID,4,,0.,1.,0.;GRID,5,,0.,0.,1.;GRID,6,,1.,0.,1.;GRID,7,,1.,1.,1.;GRID,8,,0.,1.,1.'
+habits_cube='CHEXA,1,1,1,2,3,4,5,6;,7,8'
+habits_load='SPC1,1,123,1,2,3,4;FORCE,2,5,,2.5,0.,0.,1.;FORCE,2,6,,2.5,0.,0.,1.;FORCE,2,7,,2.5,0.,0.,1.;FORCE,2,8,,2.5,0.,0.,1.'
+habits_rest="PSOLID,1,1;MAT1,1,1000.,,0.;$habits_load"
+habits_sol='SOL 101;CEND;SPC = 1;LOAD = 2'
+# habit NAME [WARNING]: the deck on the standard input stretches as it should, and says WARNING
+habit() {
+   cards "habit_$1"
+   run "habit_$1" || return
+   near "the habit $1" "$(moved "habit_$1" 7 3)" 0.01 1e-4
+   [ "${2:-}" = '' ] || says "the habit $1: said" "$work/habit_$1.log" "$2"
+}
+habit plain <<< "$habits_sol;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;ENDDATA"
+# long names and short ones, requests without effect, a comment behind a card; a key given twice: the last one counts
+habit long_words 'SPC: given twice in the same place; the last one counts' << END
+ID CUBE,TENSION;APP DISP;SOL SESTATIC;CEND;TITL = cube;ECHO = SORTED;DISPLACEMENTS = ALL;STRESSES(PLOT,CORNER) = ALL;SPC = 7
+SPC = 1;SUBCASE 1;ANALYSIS = STATICS;SUPER = ALL;LABE = tension;LOAD = 2;MPFACTOR = ALL;ELDATA(8,PRINT) = ALL;EQUILIBRIUM = YES;LOADSET = 9
+OUTPUT(XYPLOT);XTITLE = FORCE;XYPLOT DISP /5(T3)
+BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;ENDDATA
+END
+# small fields with marks of letters, and text in columns 73 to 80 and behind; the name of a part in a comment
+habit text_behind 'text in columns 73 to 80 that is no continuation mark is not read: 2 lines' << END
+$habits_sol;BEGIN BULK;\$HMNAME COMP 1 "cube";$habits_grid
+CHEXA          1       1       1       2       3       4       5       6+E000001
++E000001       7       8
+PSOLID         1       1                                                SOLID
+MAT1           1   1000.              0.                                STEEL
+$habits_load;ENDDATA
+END
+habit past_80 'text past column 80 is not read: 1 line' << END
+$habits_sol;BEGIN BULK;$habits_grid;$habits_cube
+PSOLID         1       1                                                        a, b
+MAT1,1,1000.,,0.;$habits_load;ENDDATA
+END
+# large fields, fields that touch, exponents without a letter or with D
+habit large_fields << END
+$habits_sol;BEGIN BULK;${habits_grid#*;GRID,2,,1.,0.,0.;}
+GRID*                  1                            0.+0 0.0000000000D+00
+*       0.0000000000E+00
+GRID*                  2                1.0000000000D+000.0000000000D+00
+*                     0.
+$habits_cube;PSOLID*                1               1               0
+MAT1*                  1           1.0+3                              0.
+*
+$habits_load;ENDDATA
+END
+# a tab to each field; more entries than fields on one long line; blanks around commas
+habits_tab=$'\t'
+habit tabs 'tabs are read as blanks up to the next column of eight: .*habit_tabs.bdf, line 3 (one of 10)' << END
+SOL 101;CEND;SPC$habits_tab= 1;LOAD = 2;BEGIN BULK;${habits_grid//,/$habits_tab};$habits_cube;PSOLID${habits_tab}1${habits_tab}1
+MAT1,1,1000.,,0.;$habits_load;ENDDATA
+END
+habit one_long_line << END
+$habits_sol;BEGIN BULK;$habits_grid;CHEXA,1,1,1,2,3,4,5,6,7,8;$habits_rest;ENDDATA
+END
+habit blanks_and_commas << END
+$habits_sol;BEGIN BULK;$habits_grid;CHEXA   ,       1,       1,       1,       2,       3,       4,       5,       6, +,
++       ,       7,       8;$habits_rest;ENDDATA
+END
+# zeros for blanks: absent mid-side nodes, PS, CID, fields behind the last one, the ground of a spring; components with a blank
+habit zeros << END
+$habits_sol;BEGIN BULK;${habits_grid/GRID,8,,0.,1.,1./GRID,8,0,0.,1.,1.,0,0,0};CHEXA,1,1,1,2,3,4,5,6;,7,8,0,0,0,0,0,0;,0,0,0,0,0,0
+GRID,9,,5.,5.,5.;GRID,10,,6.,5.,5.;CONROD,2,9,10,1,1.,0.,0.,0.;SPC1,1,12 3,9,10;PBARL,7,1,,BAR;,.01,.1,0.,0.;CELAS2,3,1.-9,5,3,0,0,0.
+${habits_rest//,,2.5/,0,2.5};ENDDATA
+END
+# temperatures of a set for all purposes, a node twice with one value, initial ones in place of TREF: a rise by 5 with A = 2.-3
+habit temperatures << END
+SOL 101;CEND;SPC = 1;TEMPERATURE = 3;TEMP(INIT) = 4;BEGIN BULK;$habits_grid;$habits_cube;PSOLID,1,1;MAT1,1,1000.,,0.,,2.-3,99.
+SPC1,1,3,1,THRU,4;SPC1,1,12,1,THRU,8;TEMPD,3,25.,4,20.;TEMP,3,7,25.;TEMP,3,7,25.;ENDDATA
+END
+# cards alone, without case control and ENDDATA; cards without BEGIN BULK
+habit cards_alone 'the only sets of their kinds are taken: SPC = 1, LOAD = 2' <<< "$habits_grid;$habits_cube;$habits_rest"
+habit no_begin 'no BEGIN BULK: the cards begin in .*habit_no_begin.bdf, line 5' <<< "$habits_sol;$habits_grid;$habits_cube;$habits_rest;ENDDATA"
+# other kinds of analysis: their cards have no effect on statics; SOL 200 analyses the design of the cards; DMAP is not followed
+habit others 'SOL 200: the design of the property cards is analysed once' << END
+SOL 200;CEND;DESOBJ = 1;DESSUB = 2;ANALYSIS = STATICS;SPC = 1;LOAD = 2;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;DEBUG,192,2;USET,U2,1,123
+DESVAR,1,T,1.;DVPREL1,1,PSHELL,1,T;+,1,1.;DCONSTR,1,2,3.;AEROS,,,1.,1.,1.;CAERO1,1,1;SET1,1,1,THRU,8;SNORM,1,,0.,0.,1.;TABRND1,1;+,0.,1.,ENDT
+ASET1,123,1,THRU,8;MATT1,1,7;TABLEM1,7;+,0.,1.,1.,1.,ENDT;CDAMP2,91,5.,5,3;LSEQ,9,8,2;PARAM,SOLLIB,IntMKL,0,1,1.-6;PARAM,LGDISP,1;ENDDATA
+END
+says 'large displacements: said' "$work/habit_others.log" 'PARAM LGDISP: displacements are small here'
+habit dmap 'COMPILE (.*line 2): the DMAP up to CEND is not followed' << END
+SOL 101;COMPILE SEMG;ALTER 'KJJZ'(,-1);MATPRN KJJZ// \$;SPC = 9 \$;CEND;SPC = 1;LOAD = 2;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;ENDDATA
+END
+# an INCLUDE over two lines; the file of another, beside the deck although another folder has the INCLUDE
+mkdir -p "$work/habit_parts/deeper"
+cards habit_grid <<< "$habits_grid"
+printf '%s\n' "INCLUDE 'habit_" "  grid.bdf'" > "$work/habit_parts/deeper/all.inc"
+habit include << END
+$habits_sol;BEGIN BULK;INCLUDE 'habit_parts/
+   deeper/all.inc';$habits_cube;$habits_rest;ENDDATA
+END
+
+# E, G and NU that do not agree: G is that of torsion, E that of bending. With BGG the vector of the bar is in basic axes, beside a system
+# CD that is turned; MOMENT1 acts along the line of two nodes
+cards habits_bar << 'END'
+SOL 101;CEND;SPC = 1;LOAD = 1;BEGIN BULK;CORD2C,5,,0.,0.,0.,0.,0.,1.;+,1.,0.,0.;GRID,1,,0.,1.,0.,5;GRID,2,,0.,3.,0.,5;GRID,3,,0.,9.,0.
+CBAR,1,1,1,2,1.,0.,0.,BGG;PBAR,1,1,1.,2.,3.,4.;MAT1,1,9.+5,5.+5,.3;SPC1,1,123456,1;MOMENT1,1,2,3.,1,3;FORCE,1,2,,3.,1.,0.,0.;ENDDATA
+END
+if run habits_bar; then
+   says 'E, G and NU' "$work/habits_bar.log" 'MAT1 1: G = 500000 does not agree with E and NU, which give G = 346153.85'
+   near 'torsion by G' "$(table habits_bar 'ROTATIONS OF REFERENCE NODES' | awk '$1 == 2 { print $3 }')" '3*2/(5e5*4)' 1e-4
+   near 'bending about the axis that a basic vector gives' "$(moved habits_bar 2 1)" '3*2^3/(3*9e5*2)' 1e-3
+fi

@@ -1,4 +1,4 @@
-# Decks of plates and shells: awk -v case=NAME -v n=ELEMENTS -v tri=0|1 -v load=... -f plates.awk. The problems of R. H. MacNeal and
+# Decks of plates and shells: awk -v case=NAME -v n=ELEMENTS -v tri=0|1 -v second=0|1 -v load=... -f plates.awk. The problems of R. H. MacNeal and
 # R. L. Harder, A proposed standard set of problems to test finite element accuracy, Finite Elements in Analysis and Design 1 (1985)
 # 3-20: straight (shape: regular, trapezoid, parallel; `rows` of elements, regular), curved, twisted, plate (edges s or c, load p or f, aspect 1 or 5), roof,
 # sphere, cylinder. The first line is a comment: the node and the component whose displacement is the answer.
@@ -8,7 +8,19 @@ function quad(a, b, c, d) {
    else { printf "CTRIA3,%d,1,%d,%d,%d\n", ++elements, a, b, c; printf "CTRIA3,%d,1,%d,%d,%d\n", ++elements, a, c, d }
 }
 function mesh(nx, ny,   i, j) {
-   for (i = 0; i <= nx; i++) for (j = 0; j <= ny; j++) { place(i/nx, j/ny); at[i, j] = grid(x, y, z) }
+   for (i = 0; i <= nx; i++) for (j = 0; j <= ny; j++) {
+      if (second && !tri && i % 2 && j % 2) continue # the centre of a CQUAD8
+      place(i/nx, j/ny); at[i, j] = grid(x, y, z)
+   }
+   if (second) { # nx and ny even: elements of 2 x 2 intervals
+      for (i = 0; i < nx; i += 2) for (j = 0; j < ny; j += 2) {
+         if (!tri) printf "CQUAD8,%d,1,%d,%d,%d,%d,%d,%d\n+,%d,%d\n", ++elements, at[i, j], at[i + 2, j], at[i + 2, j + 2], at[i, j + 2], at[i + 1, j], \
+            at[i + 2, j + 1], at[i + 1, j + 2], at[i, j + 1]
+         else printf "CTRIA6,%d,1,%d,%d,%d,%d,%d,%d\nCTRIA6,%d,1,%d,%d,%d,%d,%d,%d\n", ++elements, at[i, j], at[i + 2, j], at[i + 2, j + 2], at[i + 1, j], \
+            at[i + 2, j + 1], at[i + 1, j + 1], ++elements, at[i, j], at[i + 2, j + 2], at[i, j + 2], at[i + 1, j + 1], at[i + 1, j + 2], at[i, j + 1]
+      }
+      return
+   }
    for (i = 0; i < nx; i++) for (j = 0; j < ny; j++) quad(at[i, j], at[i + 1, j], at[i + 1, j + 1], at[i, j + 1])
 }
 # where the point (a, b) of the unit square lies
@@ -31,7 +43,7 @@ function place(a, b,   r, f, t) {
       x = 300*sin(b*pi/2); y = 300*a; z = 300*cos(b*pi/2)
    }
 }
-function hold(node, components) { printf "SPC1,1,%s,%d\n", components, node }
+function hold(node, components) { if (node) printf "SPC1,1,%s,%d\n", components, node }
 function force(node, fx, fy, fz) { printf "FORCE,1,%d,,1.0,%.12f,%.12f,%.12f\n", node, fx, fy, fz }
 function head(e, nu, t, rho) { printf "MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  OUTPUT = LAST\nBEGIN BULK\nMAT1,1,%.6f,,%s,%s\nPSHELL,1,1,%s,1,,1\n", e, nu, rho, t }
 function answer(node, component) { printf "$ %d %d\n", node, component }

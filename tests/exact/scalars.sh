@@ -77,3 +77,18 @@ CBUSH,1,7,1,2,,,,0;PBUSH,7,K,500.0,600.0,700.0,1.0,1.0,1.0;+,,M,0.4;CONM1,3,2,,0
 CELAS4,11,50.0,5;CMASS4,12,7.0,5;ENDDATA
 DECK
 run scalar_weight && near 'weight on a bush' "$(moved scalar_weight 2 3)" '-10*(0.2+0.3)/700' 2e-6
+
+# ---- CTUBE: A and J of a tube and of a solid rod; the tapered tube as a hundred pieces in a row
+scalar_tube() { # NAME PTUBE A J
+   cards "$1" <<DECK
+MODEL = SPACE;SPC = 1;SUBCASE 1;  LOAD = 10;  OUTPUT = ALL;BEGIN BULK;MAT1,1,2.0+5,,0.25;GRID,1,,0.0,0.0,0.0;GRID,2,,0.0,50.0,0.0;SPC1,1,123456,1
+CTUBE,1,5,1,2;PTUBE,5,1,$2;FORCE,10,2,,900.0,0.0,1.0;MOMENT,10,2,,700.0,0.0,1.0;ENDDATA
+DECK
+   run "$1" && near "$1: stretch" "$(moved "$1" 2 2)" "900*50/(2e5*$3)" 2e-6 && near "$1: twist" \
+      "$(table "$1" 'ROTATIONS OF REFERENCE NODES' | awk '$1 == 2 { v = $(NF - 1) } END { print v }')" "700*50/(0.8e5*($4))" 6e-6
+}
+scalar_tube tube 30.0,2.5 "$pi/4*(30^2-25^2)" "$pi/32*(30^4-25^4)"
+scalar_tube solid_rod 30.0 "$pi/4*30^2" "$pi/32*30^4"
+tapered=$(awk -v pi="$pi" 'BEGIN { n = 1e5; for (i = 1; i <= n; i++) { d = 30 - 10*(i - 0.5)/n; s += 1/(pi/4*(d*d - (d - 5)^2))/n } printf "%.12g", 1/s }')
+wall_diameter=$(awk 'BEGIN { printf "%.15g", 10/log(27.5/17.5) }')
+scalar_tube tapered_tube 30.0,2.5,,20.0 "$tapered" "$pi*2.5*$wall_diameter*($wall_diameter^2+2.5^2)/4"

@@ -147,6 +147,19 @@ same 'EIGR: the range' "$(support_modes support_point)" "$(support_modes support
 says '... and what NORM = POINT does' "$work/support_point.log" 'EIGR 1: NORM = POINT, but the shapes are scaled as by MAX'
 support_free support_static 'SOL 101;CEND;SPC = 1;METHOD = 1' 'EIGRL,1,,,9;SPC1,1,123456,1'
 same 'METHOD in statics has no effect' "$(ls "$work"/support_static.modes.csv 2>/dev/null; grep -c 'without effect.*METHOD' "$work/support_static.log")" 1
+# supports of all nodes that leave the motions in a plane, as GRDSET gives them: the plane structure, free
+for support_model in SPACE PLANE; do
+   support_control='SOL 103;CEND;MODEL = SPACE;METHOD = 1' support_ps=345
+   [ $support_model = PLANE ] && support_control='MODEL = PLANE;SUBCASE 1;MODES(FREE) = 1' support_ps=
+   cards support_in_$support_model <<END
+$support_control;BEGIN BULK;GRDSET,,,,,,,$support_ps;EIGRL,1,,,7
+GRID,1,,0.,0.,0.;GRID,2,,1.,0.,0.;GRID,3,,2.,.5,0.;CBAR,1,1,1,2,0.,1.,0.;CBAR,2,1,2,3,0.,1.,0.
+PBAR,1,1,1.,1.,1.,1.;MAT1,1,1000.,,.3,1.-3;ENDDATA
+END
+   run support_in_$support_model
+done
+same 'METHOD: supports that leave rigid-body motions' "$(awk -F, 'NR > 1 { printf "%.7g ", $3 }' "$work/support_in_SPACE.modes.csv")" \
+   "$(awk -F, 'NR > 1 { printf "%.7g ", $3 }' "$work/support_in_PLANE.modes.csv")"
 # two cases of modes, one of them free
 support_free support_two 'SOL 103;CEND;METHOD = 1;SUBCASE 1;SPC = 1;SUBCASE 2;LABEL = FREE' 'EIGRL,1,,,9;SPC1,1,123456,1'
 same 'a case with supports and one without' "$(awk -F, '$1 == 2 { printf "%.9g ", $3 }' "$work/support_two.modes.csv")" "$(support_modes support_own)"

@@ -2,18 +2,19 @@
 # Decks made at random in which every pair of features meets; each as it is, by the other solver, renumbered, mirrored, turned, in other
 # units, and cut and resumed. README.md says what must hold.
 #
-#     pairs.sh [-s SEED] [-n DECKS] [-f FROM] [-x] PROGRAM FOLDER
+#     pairs.sh [-s SEED] [-n DECKS] [-f FROM] [-x] [-p] PROGRAM FOLDER
 #
+# -p: decks of NEWTON that divide their increments themselves, with PATHTOL.
 # -x: decks in space whose top is a plate of shells or, every second one, bears a wall of shells tied by SHELLTO.
 # FROM: the first deck, or several with commas, DECKS from each. What fails is kept in FOLDER/failed with how it is made again. Ends with
 # "N passed, N failed"; exit status 1 if anything failed.
 set -u
 export LC_ALL=C
 here=$(cd "$(dirname "$0")" && pwd)
-seed=1 decks=100 from=1 size=10 shell=''
-while getopts 's:n:f:x' option; do
+seed=1 decks=100 from=1 size=10 shell='' path=''
+while getopts 's:n:f:xp' option; do
    case $option in
-   s) seed=$OPTARG ;; n) decks=$OPTARG ;; f) from=$OPTARG ;; x) shell=1 ;;
+   s) seed=$OPTARG ;; n) decks=$OPTARG ;; f) from=$OPTARG ;; x) shell=1 ;; p) path=1 ;;
    *) exit 2 ;;
    esac
 done
@@ -49,7 +50,7 @@ one_by_one() {
 # keep NUMBER
 keep() {
    cp "$work"/d"$1"?.bdf "$folder/failed"
-   echo "        again: tests/random/pairs.sh ${shell:+-x }-s $seed -f $1 -n 1 $program $folder; decks: $folder/failed/d$1?.bdf"
+   echo "        again: tests/random/pairs.sh ${shell:+-x }${path:+-p }-s $seed -f $1 -n 1 $program $folder; decks: $folder/failed/d$1?.bdf"
 }
 
 # cut NUMBER SHARE: the deck as it is, killed when SHARE per cent of its calls are made, goes on to the same bytes
@@ -93,7 +94,7 @@ for start in ${from//,/ }; do for ((first = start; first < start + decks; first 
    rm -rf "$work"
    mkdir -p "$work/results"
    cd "$work" || exit 2
-   awk -v seed="$seed" -v shell="$shell" -v from=$first -v to=$last -v folder=. -f "$here/random.awk" -f "$here/pairs_features.awk" -f "$here/pairs_model.awk" \
+   awk -v seed="$seed" -v shell="$shell" -v path="$path" -v from=$first -v to=$last -v folder=. -f "$here/random.awk" -f "$here/pairs_features.awk" -f "$here/pairs_model.awk" \
       -f "$here/pairs_write.awk" > list || { echo "FAILED: no decks $first to $last"; failures=$((failures + 1)); continue; }
    run d*.bdf 2> /dev/null
    [ $? -lt 5 ] || one_by_one d*.bdf

@@ -34,11 +34,13 @@ function choose_features(copy,   k, p, first) {
    first = random(n_features)
    if (random(2)) take("newton")
    for (k = 1; k <= n_features; k++) if (random(4) == 0) take(feature[1 + (first + k) % n_features])
+   on["path"] = path != ""
+   if (on["path"]) { on["newton"] = 1; on["back"] = on["carry"] = 0 }
    on["shell"] = shell != "" && copy % 2
    on["wall"] = shell != "" && !on["shell"]
    if (shell) { on["space"] = 1; on["axi"] = on["order2"] = on["split"] = on["mpc"] = 0 }
    if (on["wall"]) on["rbe2"] = 0
-   features = on["shell"] ? "shell" : on["wall"] ? "wall" : ""
-   for (k = 1; k <= n_features; k++) if (on[feature[k]]) features = features (features == "" ? "" : " ") feature[k]
+   features = (on["path"] ? "path " : "") (on["shell"] ? "shell" : on["wall"] ? "wall" : "")
+   for (k = 1; k <= n_features; k++) if (on[feature[k]]) features = features (features == "" || features == "path " ? "" : " ") feature[k]
    return pair_1[p] "+" pair_2[p]
 }

@@ -28,6 +28,7 @@ END {
       else if (w[1] == "CELLS") cells = w[2]
       else if (w[1] == "PUSHED_AWAY") tolerance = 1e-3
       else if (w[1] == "DROPS") drops = 1
+      else if (w[1] == "PATH") { path_tol = w[2]; if (tolerance < path_tol) tolerance = path_tol } # where another number of parts is within PATHTOL
       else if (w[1] == "VARIANT") {
          n_variants++
          variant[n_variants] = w[2]
@@ -85,6 +86,7 @@ function judge(   v, n, text) {
          if (drops && has_opened()) break
          n_rows[v] = 0
          read_joints(v)
+         if (variant[v] == "p") { finer_path(v); continue }
          same_joints(v)
          answers(v)
          energies(v)
@@ -272,6 +274,21 @@ function same_joints(v,   r, b, k, names, n, stress, s, f, spinning, q, scale) {
           abs(sqrt(value[1, b, "tau_x"] ^ 2 + value[1, b, "tau_y"] ^ 2) - mu * value[1, b, "pressure"]) < 1e-5 * mu * largest(1, "pressure")) tied = 1
       else if (value[v, r, "slip"] != value[1, b, "slip"]) { failed(sprintf("%s: slip %s for %s, row %d", variant[v], value[v, r, "slip"], value[1, b, "slip"], b)); break }
       if (!spinning && value[v, r, "branch_x"] != value[1, b, "branch_x"]) { failed(sprintf("%s: branch_x %s for %s, row %d", variant[v], value[v, r, "branch_x"], value[1, b, "branch_x"], b)); break }
+   }
+}
+
+# Both are within their PATHTOL of the path of many increments, as the halves of their parts say: an estimate, twice as far in places
+function finer_path(v,   at, b, k, names, r, most, x) {
+   if (n_rows[v] != n_rows[1] || per[v] != per[1]) { failed("variant p has " n_rows[v] " rows, the model " n_rows[1]); return }
+   match_rows(v)
+   for (k = split("lambda pressure", names, " "); k; k--) {
+      most = 0
+      for (r = 1; r <= n_rows[v]; r++) {
+         b = row_of[1 + (r - 1) % per[v]] + int((r - 1) / per[v]) * per[v]
+         x = abs(value[v, r, names[k]] - value[1, b, names[k]])
+         if (x > most) { most = x; at = b }
+      }
+      measure(names[k] " on a finer path, of PATHTOL", most / (largest(1, names[k]) * path_tol), 3, at)
    }
 }
 

@@ -1,4 +1,5 @@
-# Writes the model of pairs_model.awk as a deck: as it is, by the other solver, renumbered, mirrored, turned, in other units.
+# Writes the model of pairs_model.awk as a deck: as it is, by the other solver, renumbered, mirrored, turned, in other units; with `path`
+# also p, by a tenth of PATHTOL.
 #
 #     awk -v seed=S -v from=A -v to=B -v folder=F -f random.awk -f pairs_features.awk -f pairs_model.awk -f pairs_write.awk
 #
@@ -11,7 +12,7 @@ BEGIN {
       pair = choose_features(copy)
       make_model()
       describe()
-      n_variants = split("a t r m q u", variant, " ")
+      n_variants = split("a t r m q u" (on["path"] ? " p" : ""), variant, " ")
       solver = random(2) ? "SKYLINE" : "TREE"
       other = solver == "TREE" ? "SKYLINE" : "TREE"
       gap_table()
@@ -34,6 +35,7 @@ function describe(   j, s, n) {
    print "CELLS", n
    if (on["gap"] && !on["moved"] && !(gap_kind == "CONST" && g0 > 0) && gap_kind != "TRUE") print "PUSHED_AWAY"
    if (sheared && !rough && on["newton"]) print "DROPS"
+   if (on["path"]) print "PATH", path_tol = copy % 3 ? 1e-3 : 1e-2
    for (s = 1; s <= n_stages; s++) {
       printf "LOADS %d %.17g %.17g %.17g\n", s, total_x[s], total_y[s], total_z[s]
       # what each joint carries where nothing else holds what stands on it
@@ -224,7 +226,8 @@ function write_variant(name,   i, k, s, j, file, n, text, f, set, e, kept, t, cd
       else if (l_kind[i] == "SPCD") put("SPCD," l_set[i] "," id[l_where[i]] "," l_1[i] "," real(l_2[i] * s_l * sign(l_where[i], l_1[i])))
    }
    for (s = 1; s <= n_stages; s++) {
-      if (progression[s] == "LIST") { text = "JINCR," 50 + s ",,LIST"; for (k = 1; k <= parts[s]; k++) text = text "," real(2 * k / (parts[s] * (parts[s] + 1))); card(text) }
+      if (on["path"]) ;
+      else if (progression[s] == "LIST") { text = "JINCR," 50 + s ",,LIST"; for (k = 1; k <= parts[s]; k++) text = text "," real(2 * k / (parts[s] * (parts[s] + 1))); card(text) }
       else put("JINCR," 50 + s "," parts[s] "," progression[s] (progression[s] == "GEOM" && parts[s] > 1 ? "," real(0.7 / parts[s]) : ",.1"))
       if (warm[s]) for (i = 1; i <= nn; i++) put("TEMP," 70 + s "," id[i] "," real(20 + warm[s] * temp_of[i]))
       if (warm[s] && shell_thickness) for (e = 1; e <= ne; e++) if (e_pid[e] == n_blocks && e % 3)
@@ -236,13 +239,14 @@ function write_variant(name,   i, k, s, j, file, n, text, f, set, e, kept, t, cd
    printf "METHOD = %s\nSOLVER = %s\nECHO = NO\n", method, name == "t" ? other : solver > file
    if (n_spc) print "SPC = 1" > file
    if (on["carry"]) print "CARRY = YES" > file
+   if (on["path"]) print "PATHTOL = " real(name == "p" ? path_tol / 10 : path_tol) > file
    if (on["mpc"] && n_mpc) print "MPC = 1" > file
    if (on["restart"]) print "RESTART = 1" > file
    if (on["modes"]) printf "MODES = 4\nSTIFFNESS = %s\n", copy % 2 ? "LOAD" : "UNLOAD" > file
    print on["vtu"] ? "OUTPUT = LAST, VTU, STATE" : "OUTPUT = LAST" > file
    for (s = 1; s <= n_stages; s++) {
       printf "SUBCASE %d\n  LOAD = %d\n", s, 10 * s > file
-      if (method != "BACK") printf "  INCR = %d\n", 50 + s > file
+      if (method != "BACK" && !on["path"]) printf "  INCR = %d\n", 50 + s > file
       if (warm[s]) printf "  TEMPERATURE(LOAD) = %d\n", 70 + s > file
    }
    print "BEGIN BULK" > file

@@ -1,0 +1,228 @@
+#!/usr/bin/env bash
+# jointfit --structure: laws of structures from measured values. Known laws come back from values with noise, from values that a closed
+# form gives, and from many random structures; parameters that no row determines, bounds, bad data, failing runs, an interrupt.
+#
+#    structure.sh JOINTFIT JOINTFEM [FIRST LAST]
+#
+# FIRST LAST: the random structures of these numbers (default: 1 to 4; `make structures` runs 1 to 50).
+set -u
+export LC_ALL=C
+
+if [ $# -lt 2 ] || [ ! -x "$1" ] || [ ! -x "$2" ]; then
+   echo 'usage: structure.sh JOINTFIT JOINTFEM [FIRST LAST]' >&2
+   exit 2
+fi
+jointfit=$(realpath "$1") jointfem=$(realpath "$2") first=${3:-1} last=${4:-4}
+here=$(cd "$(dirname "$0")" && pwd)
+input=$(cd "$here/../../input" && pwd)
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 2
+passed=0 failed=0
+
+pass() { passed=$((passed + 1)); }
+fail() { failed=$((failed + 1)); echo "FAILED: $1"; [ -s stderr ] && head -n 8 stderr | cut -c 1-160; }
+holds() { local title=$1; shift; if "$@"; then pass; else fail "$title"; fi; }
+says() { # TITLE FILE FRAGMENT...
+   local title=$1 file=$2 fragment
+   shift 2
+   for fragment in "$@"; do
+      if ! grep -q -F -e "$fragment" "$file"; then fail "$title: nowhere '$fragment'"; return; fi
+   done
+   pass
+}
+# seek ARGUMENTS: sets STATUS, leaves `found` and `stderr`
+seek() { timeout 300 "$jointfit" --structure "$@" > found 2> stderr; status=$?; }
+# near TITLE NAME VALUE TOLERANCE: the value found, relative
+near() {
+   holds "$1" awk -v name="$2" -v value="$3" -v tolerance="$4" \
+      '$1 == "$" && $2 == name { off = $4 / value - 1; ok = off < tolerance && off > -tolerance } END { exit !ok }' found
+}
+
+# ---- one element in closed form: lambda = c (F/a)^m, F = 50, 200, 800 on 100: exact values, and their deviations by hand ----
+cat > one.bdf << 'END'
+METHOD = NEWTON
+OUTPUT = NONE
+SPC = 1
+INCR = 5
+SUBCASE 1
+  LOAD = 1
+SUBCASE 2
+  LOAD = 2
+SUBCASE 3
+  LOAD = 3
+BEGIN BULK
+GRID    1               0.0     0.0
+CJOINT  1       1       1               100.0   0.0     -1.0
+PJOINT  1       1
+JNORM   1       ${C}    ${M}    1.+6
+SPC1    1       13      1
+FORCE   1       1               50.0    0.0     -1.0
+FORCE   2       1               200.0   0.0     -1.0
+FORCE   3       1               800.0   0.0     -1.0
+JINCR   5       5
+ENDDATA
+END
+{ echo 'parameter,C,1.0E-3'; echo 'parameter,M,0.7,0.1,1.0'
+  for s in 1 2 3; do awk -v s=$s 'BEGIN { printf "displacement,%.17g,1%%,stage=%d,node=1,direction=y\n", -8e-3*(0.125*4^s)^0.45, s }'; done; } > one.csv
+seek one.bdf --measured one.csv
+holds 'one element: status 0' [ $status -eq 0 ]
+near 'one element: C' C 8e-3 1e-5
+near 'one element: M' M 0.45 1e-5
+# ln lambda = ln c + m ln p with deviations of 1 % at ln p = ln 0.5, ln 2, ln 8: sd(m) = 0.01/sqrt(sum (ln p - mean)^2)
+sd=$(awk 'BEGIN { print 0.01/sqrt(2*log(4)^2) }')
+holds "one element: deviation of M $sd" awk -v sd="$sd" '$2 == "M" { off = $5 / sd - 1; exit !(off < 1e-3 && off > -1e-3) }' found
+says 'one element: the card' found 'JNORM   1       '
+seek one.bdf --measured one.csv --start C=0.1 --starts 3
+near 'one element: from three starts' C 8e-3 1e-4
+says 'one element: from three starts' found '3 of 3 have led to these values'
+grep -v stage=2 one.csv | grep -v stage=3 > less.csv
+seek one.bdf --measured less.csv
+says 'fewer rows than parameters' stderr '2 parameters and 1 row'
+{ cat less.csv; sed -n '$p' less.csv; } > twice.csv
+seek one.bdf --measured twice.csv
+says 'one pressure does not determine C and M' found 'HELD: the rows do not determine it'
+holds 'one pressure: status 0' [ $status -eq 0 ]
+sed 's/^parameter,M.*/parameter,M,0.8,0.6,1.0/' one.csv > bound.csv
+seek one.bdf --measured bound.csv
+says 'a bound' found 'AT ITS BOUND'
+
+# ---- bad data ----
+bad() { # TITLE LINE FRAGMENT...: LINE behind one.csv
+   local title=$1
+   { cat one.csv; echo "$2"; } > bad.csv
+   shift 2
+   seek one.bdf --measured bad.csv
+   holds "$title: status 2" [ $status -eq 2 ]
+   says "$title" stderr 'bad.csv, line 6' "$@"
+}
+bad 'an unknown kind' 'weight,1,1%,stage=1' "'WEIGHT': expected parameter, frequency, loss"
+bad 'no number' 'displacement,abc,1%,stage=1,node=1,direction=y' "'abc': expected a number"
+bad 'no deviation' 'displacement,1.0,0,stage=1,node=1,direction=y' 'a standard deviation above 0'
+bad 'no such node' 'displacement,1.0,1%,stage=1,node=7,direction=y' 'node=7: the model has no such node'
+bad 'no such stage' 'displacement,1.0,1%,stage=4,node=1,direction=y' 'stage=4: the deck has no such SUBCASE'
+bad 'no place' 'displacement,1.0,1%,stage=1,node=1' 'expected DIRECTION='
+bad 'no MODES' 'frequency,1.0,1%,stage=1,mode=1' 'SUBCASE 1 has no MODES'
+bad 'a key without meaning' 'displacement,1.0,1%,stage=1,node=1,direction=y,bolt=1' 'BOLT= has no meaning in this row'
+bad 'no such bolt' 'bolt,1.0,1%,stage=1,bolt=1' 'the deck has no such BOLT'
+bad 'a start beyond its bounds' 'parameter,K,0.5,1.0,2.0' 'a start between its bounds'
+{ cat one.csv; echo 'parameter,K,1.0'; } > bad.csv
+seek one.bdf --measured bad.csv
+says 'a parameter that the deck has not' stderr 'there is no ${K} in the deck'
+seek one.bdf
+says 'no measured file' stderr '--structure DECK and --measured FILE go together'
+seek one.bdf --measured none.csv
+holds 'no such file: status 1' [ $status -eq 1 ]
+
+# ---- failing runs: MU too small holds no block; the search goes on ----
+cat > slide.bdf << 'END'
+METHOD = NEWTON
+OUTPUT = NONE
+SPC = 1
+INCR = 5
+SUBCASE 1
+  LOAD = 1
+SUBCASE 2
+  LOAD = 2
+BEGIN BULK
+GRID    1               0.0     0.0
+CJOINT  1       1       1               100.0   0.0     -1.0
+PJOINT  1       1       1               ${MU}   -1
+JNORM   1       1.0-2   0.5     1.+6
+JSHEAR  1       50.0            -500.0
+SPC1    1       3       1
+FORCE   1       1               500.0   0.0     -1.0
+FORCE   2       1               500.0   0.0     -1.0
+FORCE   2       1               90.0    1.0     0.0
+CELAS2  2       10.0    1       1
+JINCR   5       5
+ENDDATA
+END
+"$jointfem" -q --set MU=0.1 --watch 1 slide.bdf > log 2>&1
+u=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "u_x" || $i == "ux") k = i } END { print $k }' slide.watch.csv)
+printf 'parameter,MU,0.15\ndisplacement,%s,1%%,stage=2,node=1,direction=x\n' "$u" > slide.csv
+seek slide.bdf --measured slide.csv
+near 'friction: MU' MU 0.1 1e-3
+
+# ---- the column of the manual: known laws within two deviations, modes that change places ----
+seek "$input/measured/column.bdf" --measured "$input/measured/column.csv"
+holds 'the column: laws within two deviations' awk 'BEGIN { truth["C"] = 4.5e-3; truth["M"] = 0.5; truth["K0"] = 50; truth["K1"] = 100 }
+   $1 == "$" && $2 in truth && $5 > 0 { n++; off = ($4 - truth[$2]) / $5; if (off > 2 || off < -2) bad = 1 } END { exit bad || n != 4 }' found
+says 'the column: modes' found 'have changed places'
+awk '/^\*A column\.\*/ { on = 1 } on && /^```/ { n++ } on && n == 1 && /^\$/ { print } n == 2 { exit }' "$input/README.md" > manual
+holds 'the column: the table of the manual' awk '$1 != "$" || $3 + 0 == 0 { next } NR == FNR { value[$2] = $4; deviation[$2] = $5; n++; next }
+   $2 in value { m++; if ($4 / value[$2] > 1.002 || $4 / value[$2] < 0.998 || $5 / deviation[$2] > 1.01 || $5 / deviation[$2] < 0.99) bad = 1 }
+   END { exit bad || n != 4 || m != 4 }' manual found
+
+# ---- every kind of row, against the tables of jointfem: bolts, pairs, loss factors, responses, shapes, a backbone ----
+sed 's/ 8000\.0 / ${P}   /' "$input/column_modes_08.bdf" > kinds.bdf
+cp -R "$input/vibration" .
+"$jointfem" -q --set P=8000.0 --watch 2315,2315-2300 kinds.bdf > log 2>&1
+value() { # TABLE COLUMN KEY=ENTRY...: the number in the column of the row with these entries
+   awk -F, -v column="$2" -v keys="${*:3}" '
+      NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; n = split(keys, key, " "); next }
+      { for (i = 1; i <= n; i++) { split(key[i], part, "="); entry = $at[part[1]]
+           if (entry != part[2] && !(entry ~ /E/ && entry + 0 == part[2] + 0)) next } print $at[column]; exit }' "kinds.$1.csv"
+}
+{ echo 'parameter,P,8000.0'
+  row() { echo "$1,$2,0.1%,$3"; }
+  row bolt "$(value bolt force stage=2 bolt=3)" stage=2,bolt=3
+  row displacement "$(value watch u_z stage=1 node=2315)" stage=1,node=2315,direction=z
+  row displacement "$(value between movement stage=1 along=LINE)" stage=1,node=2315-2300,direction=line
+  row frequency "$(value modes frequency stage=2 mode=2)" stage=2,mode=2
+  row loss "$(value modes loss_factor stage=1 mode=3)" stage=1,mode=3
+  row amplitude "$(value response amplitude stage=1 node=2315 component=y frequency=280)" stage=1,node=2315,direction=y,frequency=280.0
+  row phase "$(value response phase stage=2 node=2315 component=x frequency=300)" stage=2,node=2315,direction=x,frequency=300.0
+} > kinds.csv
+holds 'every kind of row: the tables have it' [ "$(grep -c ',,' kinds.csv)" -eq 0 ]
+seek kinds.bdf --measured kinds.csv
+holds 'every kind of row: status 0' [ $status -eq 0 ]
+holds 'every kind of row: as in the tables' awk '/^\$ +[0-9]+ / { n++; if ($7 > 0.01 || $7 < -0.01) bad = 1 } END { exit bad || n != 7 }' found
+says 'every kind of row: the cards' found 'BOLT    1       901     8000.0' 'BOLT    4       904     8000.0'
+
+# ---- an interrupt leaves the best values so far ----
+cat > slow.csv << 'END'
+parameter,C,8.0E-3,1.0E-3,5.0E-2
+parameter,M,0.6,0.3,0.9
+parameter,K0,20.0
+parameter,K1,200.0
+frequency,280.0,0.01%,stage=1,mode=1
+frequency,1320.0,0.01%,stage=1,mode=2
+frequency,308.0,0.01%,stage=2,mode=1
+frequency,332.0,0.01%,stage=3,mode=1
+displacement,1.0E-3,0.01%,stage=3,node=413,direction=y
+END
+"$jointfit" --structure "$input/measured/column.bdf" --measured slow.csv --starts 100000 > found 2> stderr &
+search=$!
+sleep 12
+kill -TERM $search
+wait $search
+holds 'an interrupt: status 3' [ $? -eq 3 ]
+says 'an interrupt' found 'INTERRUPTED: THE BEST VALUES SO FAR' 'JNORM   1       '
+
+# ---- known laws of random structures come back from values with 1 % noise ----
+inside=0 all=0 lost=0
+for n in $(seq "$first" "$last"); do
+   mkdir -p r && cd r && rm -f -- *
+   made() { awk -v seed="$n" "$@" -f "$here/../random/random.awk" -f "$here/structures.awk"; }
+   made -v form=deck > s.bdf
+   made -v form=truth > truth
+   # shellcheck disable=SC2046
+   "$jointfem" -q --watch "$(awk -F, '/^BLOCK/ { print $($1 == "BLOCK3" ? 6 : 5) + 1; exit }' s.bdf)" \
+      $(awk '{ printf " --set %s=%s", $1, $2 }' truth) s.bdf > log 2>&1 || { cd ..; fail "random structure $n: no answer at the truth"; continue; }
+   made -v form=data -v modes=s.modes.csv -v watch=s.watch.csv > s.csv
+   seek s.bdf --measured s.csv
+   if [ $status -ne 0 ]; then cp stderr ..; cd ..; fail "random structure $n"; continue; fi
+   read -r in of < <(awk 'NR == FNR { truth[$2 == "" ? "" : $1] = $2; next }
+      $1 == "$" && ($2 in truth) && $5 + 0 > 0 { n++; off = ($4 - truth[$2]) / $5; if (off < 0) off = -off; if (off <= 2) k++ }
+      END { print k + 0, n + 0 }' truth found)
+   inside=$((inside + in)) all=$((all + of)) lost=$((lost + $(wc -l < truth) - of))
+   cd ..
+done
+echo "random structures $first to $last: $inside of $all laws within two deviations, $lost not determined"
+holds 'random structures: 95 % of the laws within two deviations' awk -v k=$inside -v n=$all -v number=$((last - first)) \
+   'BEGIN { exit !(k >= (number > 20 ? 0.93 : 0.8) * n && n > 0) }'
+holds 'random structures: the rows determine most of their laws' [ $((10*lost)) -le $all ]
+
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ] && [ $passed -gt 0 ]
