@@ -3,7 +3,7 @@
 module connected_bodies
    use lists, only: join, root_of
    use mesh_queries, only: n_rotations
-   use model_data, only: freedoms_type, mesh_type, n_bars, n_sections
+   use model_data, only: bar_nodes, freedoms_type, mesh_type, n_bars, n_sections
    use node_coupling, only: coupling_parts, section_node
    implicit none
    private
@@ -61,6 +61,11 @@ contains
       allocate (parent, source=[(node, node = 1, mesh%n_nodes)])
       call join_elements(mesh, with_bolts, parent)
       do k = 1, n_bars(mesh)
+         associate (nodes => bar_nodes(mesh%bars(k)))
+            do node = 2, merge(size(nodes), 0, allocated(mesh%bars(k)%matrix))
+               call join(parent, nodes(1), nodes(node))
+            end do
+         end associate
          if (mesh%bars(k)%nodes(2) == 0) cycle ! the ground
          if (with_bolts .or. mesh%bars(k)%bolt == 0) call join(parent, mesh%bars(k)%nodes(1), mesh%bars(k)%nodes(2))
       end do

@@ -14,6 +14,7 @@ module idle_components
    use text_tools, only: integer_text, plural, one_of
    use tolerances, only: idle_stiffness
    use unknowns, only: rotation_at
+   use wave_build, only: planned_wave
    implicit none
    private
 
@@ -25,7 +26,7 @@ contains
 
    !> Hold the idle components of MODEL that no load of a stage or OSCILLATING load moves. WORDS: a warning that names them, or ''.
    subroutine hold_idle(oscillating, model, words)
-      type(stage_load_type), intent(in) :: oscillating(:) !! (stages)
+      type(planned_wave), intent(in)    :: oscillating(:)
       type(model_type), intent(inout)   :: model
       character(:), allocatable, intent(out) :: words
       real(wp), allocatable :: k(:, :, :), f(:, :, :)
@@ -161,7 +162,7 @@ contains
    !> F: the loads at the end of each stage, and those that oscillate, on each of the N nodes that are examined, at its PLACE.
    subroutine add_loads(model, oscillating, place, n, f)
       type(model_type), intent(in)      :: model
-      type(stage_load_type), intent(in) :: oscillating(:)
+      type(planned_wave), intent(in)    :: oscillating(:)
       integer, intent(in)               :: place(:), n
       real(wp), allocatable, intent(out) :: f(:, :, :) !! (dimension, loads, n) [force]
       integer :: s
@@ -171,7 +172,7 @@ contains
          call add(model%history%stages(s), s)
       end do
       do s = 1, size(oscillating)
-         call add(oscillating(s), size(model%history%stages) + s)
+         call add(oscillating(s)%load, size(model%history%stages) + s)
       end do
 
    contains

@@ -21,6 +21,7 @@ module model_build
    use joint_sides, only: find_frame
    use load_build, only: build_loads
    use mass_build, only: build_masses, check_mass, check_masses
+   use matrix_build, only: build_matrices
    use mesh_build, only: build_mesh, check_named_nodes
    use mesh_queries, only: start_freedoms, start_mesh
    use mesh_watch, only: crack_words, repeated_words
@@ -121,13 +122,13 @@ contains
       character(:), allocatable :: words, first
       integer :: k
 
-      call hold_idle([(waves(k)%load, k = 1, size(waves))], model, first)
+      call hold_idle(waves, model, first)
       call errors%warn(first)
       if (.not. allocated(model%sets)) return
       model%sets(1) = model%freedoms
       do k = 2, size(model%sets)
          model%freedoms = model%sets(k)
-         call hold_idle([(waves(k)%load, k = 1, size(waves))], model, words)
+         call hold_idle(waves, model, words)
          if (words /= first) call errors%warn(words)
          model%sets(k) = model%freedoms
       end do
@@ -170,6 +171,7 @@ contains
       call build_springs(deck, bushes, mesh)
       call add_torsion(mesh)
       call build_masses(deck, bushes, mesh)
+      call build_matrices(deck, mesh)
    end subroutine make_mesh
 
    !> Make the JOINTS and their interface elements, with their gaps.

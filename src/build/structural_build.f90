@@ -44,7 +44,8 @@ contains
       logical  :: turns
 
       if (mesh%axisymmetric) return
-      if (size(deck%rigid) + size(bushes) + size(deck%bulk%mass) == 0 .and. all(mesh%properties%state < shell) .and. &
+      if (size(deck%rigid) + size(bushes) + size(deck%bulk%mass) + size(deck%bulk%matrices%dmig) == 0 .and. &
+          all(mesh%properties%state < shell) .and. &
           all(mesh%bars%torsion <= 0.0_wp)) return
       allocate (rotations(size(deck%rigid) + mesh%n_nodes))
       mesh%rotation_of = spread(0, 1, mesh%n_nodes)
@@ -89,6 +90,15 @@ contains
       do i = 1, size(deck%bulk%mass)
          if (deck%bulk%mass(i)%component > 3 .or. allocated(deck%bulk%mass(i)%matrix)) call turn(deck%bulk%mass(i)%node, 1.0_wp)
          if (deck%bulk%mass(i)%component_2 > 3) call turn(deck%bulk%mass(i)%node_2, 1.0_wp)
+      end do
+      do i = 1, size(deck%bulk%matrices%dmig)
+         associate (card => deck%bulk%matrices%dmig(i))
+            if (all(deck%control%matrices /= card%name) .or. .not. allocated(card%nodes)) cycle
+            if (card%component > 3) call turn(card%node, 1.0_wp)
+            do k = 1, size(card%nodes)
+               if (card%components(k) > 3) call turn(card%nodes(k), 1.0_wp)
+            end do
+         end associate
       end do
       ! nodes of shells and beams; their arm is the root mean square of the distances to the other nodes of their elements
       square = 0.0_wp

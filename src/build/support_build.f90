@@ -9,7 +9,7 @@ module support_build
    use kinds, only: wp
    use lists, only: first_not_below
    use mesh_queries, only: is_face_node, is_scalar_point, n_points
-   use model_data, only: freedoms_type, joints_type, mesh_type, n_bars, n_sections, stage_load_type, support_group
+   use model_data, only: bar_nodes, freedoms_type, joints_type, mesh_type, n_bars, n_sections, stage_load_type, support_group
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
@@ -41,7 +41,7 @@ contains
          freedoms%used(joints%element(i)%node) = .true.
       end do
       do i = 1, n_bars(mesh)
-         freedoms%used(pack(mesh%bars(i)%nodes, mesh%bars(i)%nodes > 0)) = .true.
+         freedoms%used(bar_nodes(mesh%bars(i))) = .true.
       end do
       do i = 1, size(mesh%faces) ! those of bushes: the nodes behind their arms
          associate (face => mesh%faces(i))

@@ -8,7 +8,7 @@ module deck_input
    use deck_parameters, only: parameter_type
    use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
    use include_lines, only: is_include
-   use, intrinsic :: iso_fortran_env, only: int8
+   use, intrinsic :: iso_fortran_env, only: int16
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
    use laminate_cards, only: read_laminate, read_plate_material
@@ -232,7 +232,7 @@ contains
    subroutine read_lines(deck, errors)
       type(deck_type), intent(inout), target       :: deck
       type(deck_error_list), intent(inout), target :: errors
-      integer(int8), allocatable :: kind_at(:) ! (lines) kind of the card that begins there, 0: none or unknown
+      integer(int16), allocatable :: kind_at(:) ! (lines) kind of the card that begins there, 0: none or unknown
       integer :: cursor, first_card
       logical :: found_bulk, is_alone, is_whole
 
@@ -249,7 +249,7 @@ contains
          call errors%add(0, 'no BEGIN BULK: expected it between case control and the cards')
          return
       end if
-      allocate (kind_at(deck%text%n), source=0_int8)
+      allocate (kind_at(deck%text%n), source=0_int16)
       deck%bulk%ignored = deck%control%ignored
       deck%bulk%parameters = deck%control%parameters
       call find_cards(deck%text, cursor, deck%kinds, kind_at, deck%bulk, errors)
@@ -291,7 +291,7 @@ contains
       type(deck_text_type), intent(in)     :: text
       integer, intent(inout)               :: cursor
       type(card_kind), intent(inout)       :: cards(:)   !! the number of each kind
-      integer(int8), intent(inout)         :: kind_at(:) !! (lines) kind of the card that begins there
+      integer(int16), intent(inout)         :: kind_at(:) !! (lines) kind of the card that begins there
       type(bulk_data_type), intent(inout)  :: bulk
       type(deck_error_list), intent(inout) :: errors
       integer(long) :: first, last
@@ -380,7 +380,7 @@ contains
             if (cards(kind)%name == name) exit
          end do
          if (kind <= size(cards) .and. .not. faults%any()) then
-            kind_at(at) = int(kind, int8)
+            kind_at(at) = int(kind, int16)
             cards(kind)%n = cards(kind)%n + 1
          else
             is_idle = .false.
@@ -404,7 +404,7 @@ contains
    !! a serial run.
    subroutine read_all(text, kind_at, cards, bulk, errors)
       type(deck_text_type), intent(in)             :: text
-      integer(int8), intent(in)                    :: kind_at(:)
+      integer(int16), intent(in)                    :: kind_at(:)
       type(card_kind), intent(inout)               :: cards(:)
       type(bulk_data_type), intent(inout)          :: bulk
       type(deck_error_list), intent(inout), target :: errors

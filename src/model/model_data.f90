@@ -133,7 +133,7 @@ module model_data
    end type stage_load_type
 
    integer, parameter, public :: a_point = 1, a_rotation = 2, an_overlap = 3 !! kinds of nodes
-   integer, parameter, public :: a_bar = 1, a_spring = 2                     !! kinds of bars; a bolt is a bar with a BOLT card
+   integer, parameter, public :: a_bar = 1, a_spring = 2, a_matrix = 3       !! kinds of bars; a bolt is a bar with a BOLT card
 
    !> A bar (a bolt is a bar with a BOLT card) or a spring. Its elongation is direction 2 . u_2 - direction 1 . u_1.
    type, public :: bar_type
@@ -154,6 +154,8 @@ module model_data
       real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
       real(wp) :: reference = 0.0_wp         !! TREF [temperature]
       real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
+      integer, allocatable  :: of_matrix(:)  !! K2GG: nodes with a MATRIX between their components, components of node 1
+      real(wp), allocatable :: matrix(:, :)  !! first; not allocated: the terms above [force/length]
    end type bar_type
 
    !> CONM2: a mass at a node. CMASS2: a mass that resists along one direction. CONM1, and a CMASS between two components: a MATRIX.
@@ -352,6 +354,7 @@ contains
       integer, allocatable :: nodes(:)
 
       nodes = pack(bar%nodes, bar%nodes > 0)
+      if (allocated(bar%of_matrix)) nodes = bar%of_matrix
    end function bar_nodes
 
    !> The number of pretension sections.

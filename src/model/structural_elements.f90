@@ -12,7 +12,7 @@ module structural_elements
    private
 
    public :: structural_stress, nodal_values, between_own, onto_own
-   public :: bar_elongation, thermal_tension, add_axial_force, add_bar_forces, bar_stiffness
+   public :: bar_elongation, thermal_tension, add_axial_force, add_bar_forces, bar_stiffness, matrix_forces
 
    integer, parameter, public :: most_own = 16 !! own nodes of an element: its nodes and their rotations
 
@@ -101,6 +101,8 @@ contains
 
       associate (d => size(u, 1))
          second = 0.0_wp
+         elongation = 0.0_wp
+         if (allocated(bar%matrix)) return
          if (size(u, 2) == 2) second = u(:, 2)
          elongation = dot_product(second - u(:, 1), bar%direction(:d, 2)) + &
                       dot_product(u(:, 1), bar%direction(:d, 2) - bar%direction(:d, 1))
@@ -142,6 +144,7 @@ contains
 
       do i = 1, size(is_elastic)
          associate (bar => model%mesh%bars(i))
+            if (allocated(bar%matrix)) f(:, bar%of_matrix) = f(:, bar%of_matrix) + matrix_forces(bar, u)
             if (is_elastic(i)) call add_axial_force(model, i, -bar%stiffness*bar_elongation(bar, u(:, bar_nodes(bar))), f)
          end associate
       end do
@@ -151,13 +154,31 @@ contains
    pure function bar_stiffness(model, i) result(k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i
-      real(wp) :: k(2*model%mesh%dimension, 2*model%mesh%dimension), between(2*model%mesh%dimension)
+      real(wp), allocatable :: k(:, :)
+      real(wp) :: between(2*model%mesh%dimension)
 
       associate (bar => model%mesh%bars(i), d => model%mesh%dimension)
          between = [-bar%direction(:d, 1), bar%direction(:d, 2)]
          if (bar%nodes(2) == 0) between(d + 1:) = 0.0_wp
          k = spread(bar%stiffness*between, 2, 2*d)*spread(between, 1, 2*d)
+         if (allocated(bar%matrix)) k = bar%matrix
       end associate
    end function bar_stiffness
+
+   !> The internal forces of a BAR with a matrix on its nodes under the displacements U.
+   pure function matrix_forces(bar, u) result(f)
+      type(bar_type), intent(in) :: bar
+      real(wp), intent(in)       :: u(:, :) !! (dimension, n_nodes) [length]
+      real(wp) :: f(size(u, 1), size(bar%of_matrix))
+      integer  :: d, i, j
+
+      d = size(u, 1)
+      f = 0.0_wp
+      do j = 1, size(f, 2)
+         do i = 1, size(f, 2)
+            f(:, i) = f(:, i) + matmul(bar%matrix(d*(i - 1) + 1:d*i, d*(j - 1) + 1:d*j), u(:, bar%of_matrix(j)))
+         end do
+      end do
+   end function matrix_forces
 
 end module structural_elements

@@ -9,7 +9,7 @@ module listing_summary
    use equation_solver, only: equation_system
    use kinds, only: long
    use mesh_queries, only: n_points, n_rotations
-   use model_data, only: a_spring, model_type, n_bars, n_sections, supported
+   use model_data, only: a_bar, a_matrix, a_spring, model_type, n_bars, n_sections, supported
    use output_file, only: output_file_type
    use page_lines, only: cut, heading, page_width, put_lines
    use range_watch, only: tetra_words
@@ -127,7 +127,9 @@ contains
          end associate
       end do
       associate (n_springs => count(model%mesh%bars%kind == a_spring, kind=long))
-         if (n_bars(model%mesh) > n_springs) call count_line(file, 'BARS, BOLTS INCLUDED', n_bars(model%mesh) - n_springs)
+         if (any(model%mesh%bars%kind == a_bar)) call count_line(file, 'BARS, BOLTS INCLUDED', &
+                                                                 count(model%mesh%bars%kind == a_bar, kind=long))
+         if (any(model%mesh%bars%kind == a_matrix)) call count_line(file, 'MATRICES OF STIFFNESS (K2GG)', 1_long)
          if (n_springs > 0) call count_line(file, 'SPRINGS, ONE A DIRECTION', n_springs)
       end associate
       if (n_sections(model%mesh) > 0) call count_line(file, 'SOLID BOLTS', size(model%mesh%sections, kind=long))

@@ -7,7 +7,7 @@ module stage_tables
    use joint_values, only: joint_values_type
    use kinds, only: wp
    use mesh_queries, only: point_of
-   use model_data, only: a_spring, bar_nodes, joint_node_id, model_type, n_bars, n_sections
+   use model_data, only: a_matrix, a_spring, bar_nodes, joint_node_id, model_type, n_bars, n_sections
    use page_lines, only: axes
    use result_page, only: page_type
    use step_method, only: reanalyses_shown
@@ -307,6 +307,7 @@ contains
       do i = 1, n_bars(model%mesh)
          associate (bar => model%mesh%bars(i), &
                     values => clean([bar_tension(model, analysis, i), elongation_now(model, analysis, i)], floors))
+            if (bar%kind == a_matrix) cycle
             if (bar%kind == a_spring) then
                id = 0
                do k = 1, size(bar_nodes(bar))

@@ -33,7 +33,7 @@ module mode_values
    use normal_stiffness, only: branch_open
    use shear_loops, only: loss_of_element
    use stage_plan, only: vibration_plan_type
-   use structural_elements, only: add_axial_force, bar_elongation
+   use structural_elements, only: add_axial_force, bar_elongation, matrix_forces
    use tolerances, only: equal_eigenvalues, undamped, weak_participation
    implicit none
    private
@@ -324,6 +324,7 @@ contains
       real(wp), intent(in)               :: u(:, :, :)  !! (dimension, n_nodes, modes) [length]
       type(energy_type), intent(out)     :: energies(:) !! (modes)
       real(wp), intent(out)              :: f(:, :, :)  !! as U [force]
+      real(wp), allocatable :: forces(:, :)
       real(wp) :: k(max_section_dofs, max_section_dofs), q(max_section_dofs, size(energies))
       real(wp) :: p(max_section_dofs, size(energies)), energy
       real(wp) :: elongation, movement(3), tension
@@ -355,6 +356,12 @@ contains
          do i = 1, n_bars(model%mesh)
             if (.not. structure%is_elastic(i)) cycle
             associate (bar => model%mesh%bars(i))
+               if (allocated(bar%matrix)) then
+                  forces = matrix_forces(bar, u(:, :, m))
+                  energies(m)%bar(i) = 0.5_wp*sum(u(:, bar%of_matrix, m)*forces)
+                  f(:, bar%of_matrix, m) = f(:, bar%of_matrix, m) + forces
+                  cycle
+               end if
                elongation = bar_elongation(bar, u(:, bar_nodes(bar), m))
                tension = bar%stiffness*elongation
                energies(m)%bar(i) = 0.5_wp*tension*elongation

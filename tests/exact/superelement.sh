@@ -1,0 +1,86 @@
+# Structures condensed on some of their nodes, as DMIG cards: closed forms, rigid-body motions, and the matrices read back in place of the
+# structure.
+
+# superelement_matrix NAME MATRIX: the terms of a matrix of NAME.dmig, symmetric ones both, as 'row component column component value'
+superelement_matrix() { awk -v name="$2" '/^DMIG\*/ { split(substr($0, 9), f, " "); on = f[1] == name; g = substr($0, 25, 16) + 0; c = substr($0, 41, 16) + 0; next }
+   /^DMIG / { on = 0; next } /^\*/ && on { v = substr($0, 41, 16); sub(/D/, "E", v); r = substr($0, 9, 16) + 0; q = substr($0, 25, 16) + 0
+      print r, q, g, c, v + 0 ; if (r != g || q != c) print g, c, r, q, v + 0 }' OFMT=%.17g CONVFMT=%.17g "$work/$1.dmig"; }
+superelement_term() { superelement_matrix "$1" "$2" | awk -v a="$3 $4 $5 $6 " 'index($0 " ", a) == 1 { print $5 }'; }
+
+# ---- a cantilever of four beams condensed on two nodes: stiffness of two beams of length 200, no shear
+superelement_beams() { # NAME CASE CARDS
+   printf '%b\n' "$2\nBEGIN BULK" 'GRID,1,,0.0,0.0,0.0\nGRID,2,,100.0,0.0,0.0\nGRID,3,,200.0,0.0,0.0\nGRID,4,,300.0,0.0,0.0\nGRID,5,,400.0,0.0,0.0' \
+      'CBAR,1,1,1,2,0.0,0.0,1.0\nCBAR,2,1,2,3,0.0,0.0,1.0\nCBAR,3,1,3,4,0.0,0.0,1.0\nCBAR,4,1,4,5,0.0,0.0,1.0' \
+      'PBAR,1,1,100.0,800.0,900.0,1500.0\nMAT1,1,2.1E5,,0.3,7.85E-9\nSPC1,1,123456,1' "$3" 'ENDDATA' > "$work/$1.bdf"
+   run "$1" "${4:-0}"
+}
+superelement_beams guyan 'SPC = 1\nOUTPUT = LAST, DMIG\nLOAD = 10' 'FORCE,10,5,,10.0,1.0,2.0,3.0\nASET1,123456,3,5' && {
+   near 'axial' "$(superelement_term guyan KAAX 3 1 3 1)" '2*2.1E5*100/200' 1e-12
+   near 'bending' "$(superelement_term guyan KAAX 5 3 5 3)" '12*2.1E5*800/200^3' 1e-10
+   near 'bending, coupled' "$(superelement_term guyan KAAX 5 3 5 5)" '6*2.1E5*800/200^2' 1e-10
+   near 'torsion' "$(superelement_term guyan KAAX 5 4 3 4)" '-2.1E5/2.6*1500/200' 1e-10
+   near 'no rotary inertia lost: mass along x of a linear displacement' "$(superelement_term guyan MAAX 5 1 5 1)" '7.85E-9*100*200/3' 1e-10
+   says 'the listing' "$work/guyan.out" 'STIFFNESS KAAX AND MASS MAAX, CONDENSED ON 12 COMPONENTS OF NODES: DMIG CARDS'
+   same 'the header: symmetric, real double precision' "$(grep -c '^DMIG    [KM]AAX           0       6       2       0$' "$work/guyan.dmig")" 2
+}
+
+# ---- a free block, with a joint or a rigid foot of rotations: no force under rigid-body motions, the mass of the whole
+# superelement_block NAME CASE CARDS: 3 x 2 x 2 bricks, 30 x 20 x 20; node 1 + ix + 4 iy + 12 iz
+superelement_block() {
+   {
+      printf '%b\n' "MODEL = SPACE\n$2\nBEGIN BULK"
+      awk 'BEGIN { for (z = 0; z < 3; z++) for (y = 0; y < 3; y++) for (x = 0; x < 4; x++) print "GRID," 1 + x + 4*y + 12*z ",," 10.0*x "," 10.0*y "," 10.0*z
+         for (z = 0; z < 2; z++) for (y = 0; y < 2; y++) for (x = 0; x < 3; x++) { n = 1 + x + 4*y + 12*z
+            print "CHEXA," 1 + x + 3*y + 6*z ",1," n "," n + 1 "," n + 5 "," n + 4 "," n + 12 "," n + 13; print "+," n + 17 "," n + 16 } }'
+      printf '%b\n' 'PSOLID,1,1\nMAT1,1,2.1E5,,0.3,7.85E-9' "$3" ENDDATA
+   } > "$work/$1.bdf"
+   run "$1" "${4:-0}"
+}
+superelement_corners='ASET1,123,1,4,9,12,25,28\nASET1,123,33,36'
+superelement_rigid() { # NAME MASS: forces and mass of unit translations
+   local c
+   superelement_matrix "$1" KAAX > "$work/$1.k"
+   superelement_matrix "$1" MAAX > "$work/$1.m"
+   for c in 1 2 3; do
+      near "$1: force of translation $c" "$(awk -v c=$c '{ f[$1 " " $2] += $4 == c ? $5 : 0; k = k > $5 ? k : $5 }
+         END { for (i in f) w = f[i]^2 > w ? f[i]^2 : w; print sqrt(w)/k }' "$work/$1.k")" 0 0 1e-9
+      near "$1: mass along $c" "$(awk -v c=$c '$2 == c && $4 == c { m += $5 } END { printf "%.17g", m }' "$work/$1.m")" "$2" 1e-9
+   done
+}
+superelement_block free 'METHOD = 5\nOUTPUT = NONE, DMIG' "EIGRL,5,,,12\n$superelement_corners" && {
+   superelement_rigid free '7.85E-9*30*20*20'
+   # a turn about z: u = (-y, x, 0)
+   near 'free: force of a turn' "$(awk 'function at(n) { n--; x = 10*(n % 4); y = 10*(int(n/4) % 3) }
+      { at($3); u = $4 == 1 ? -y : $4 == 2 ? x : 0; f[$1 " " $2] += $5*u; k = k > $5 ? k : $5 }
+      END { for (i in f) w = f[i]^2 > w ? f[i]^2 : w; print sqrt(w)/(30*k) }' "$work/free.k")" 0 0 1e-9
+   same 'free: coordinates of the modes behind the nodes' "$(grep SPOINT "$work/free.dmig" | tr -s ' ')" 'SPOINT 37 THRU 48'
+}
+
+# ---- read back: nodes and DMIG in place of the block, statics and modes as of the whole; held at four corners, loaded at the others
+superelement_held='SPC1,1,123,1,9,25,33'
+superelement_force='FORCE,10,28,,1.0,3.0,1.0,-2.0\nFORCE,10,4,,1.0,0.0,5.0,1.0'
+superelement_back() { # NAME CASE CARDS: the corners, the DMIG cards of free
+   {
+      printf '%b\n' "MODEL = SPACE\nK2GG = KAAX\nM2GG = MAAX\n$2\nBEGIN BULK"
+      awk 'BEGIN { for (z = 0; z < 3; z += 2) for (y = 0; y < 3; y += 2) for (x = 0; x < 4; x += 3)
+         print "GRID," 1 + x + 4*y + 12*z ",," 10.0*x "," 10.0*y "," 10.0*z }'
+      cat "$work/free.dmig"
+      printf '%b\n' "$3" ENDDATA
+   } > "$work/$1.bdf"
+   run "$1" "${4:-0}"
+}
+superelement_case='SPC = 1\nLOAD = 10\nSET 7 = 4,12,28,36\nWATCH = SET 7\nMETHOD = 6\nSUBCASE 1\n'
+superelement_moved() { awk -F, -v node=$2 -v c=$(($3 + 5)) 'NR > 1 && $2 == node { print $c }' "$work/$1.watch.csv"; } # NAME NODE COMPONENT
+superelement_block whole "$superelement_case" "$superelement_held\n$superelement_force\nEIGRL,6,,,4" &&
+   superelement_back back "$superelement_case" "$superelement_held\n$superelement_force\nEIGRL,6,,,4" && {
+   for node in 4 12 28 36; do
+      for c in 1 2 3; do near "read back: node $node along $c" "$(superelement_moved back $node $c)" "$(superelement_moved whole $node $c)" 1e-8; done
+   done
+   for j in 1 2 3 4; do near "read back: mode $j" "$(mode back $j frequency)" "$(mode whole $j frequency)" 1e-3; done
+}
+
+# ---- what cannot be
+superelement_beams bare 'SPC = 1\nOUTPUT = LAST, DMIG\nLOAD = 10' 'FORCE,10,5,,10.0,1.0,2.0,3.0' 2 && says 'no ASET' "$work/bare.log" 'DMIG needs ASET'
+superelement_beams held 'SPC = 1\nOUTPUT = LAST, DMIG\nLOAD = 10' 'FORCE,10,5,,10.0,1.0,2.0,3.0\nASET1,123456,1' 2 &&
+   says 'a supported node' "$work/held.log" 'component 1 of node 1 is supported'
+superelement_beams nameless 'SPC = 1\nK2GG = KBB\nLOAD = 10' 'FORCE,10,5,,10.0,1.0,2.0,3.0' 2 && says 'no DMIG' "$work/nameless.log" 'there is no DMIG KBB'
