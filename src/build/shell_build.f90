@@ -36,7 +36,8 @@ contains
          associate (card => deck%bulk%element(deck%bulk%plate(i)%element), plate => deck%bulk%plate(i))
             if (.not. abs(plate%offset) > 0.0_wp .and. .not. any(plate%thickness > 0.0_wp)) cycle
             if (all(mesh%properties%id /= card%property .or. mesh%properties%state /= shell)) call deck%field_error(card%line, &
-               'ZOFFS', 'this and thicknesses at corners are for shells in a model of space; expected blanks')
+               one_of(abs(plate%offset) > 0.0_wp, 'ZOFFS', 'T'//integer_text(findloc(plate%thickness > 0.0_wp, .true., dim=1))), &
+               'this and thicknesses at corners are for shells in a model of space; expected blanks')
          end associate
       end do
       if (.not. any([(has_rotations(mesh, e), e = 1, mesh%n_elements)])) return

@@ -92,7 +92,7 @@ contains
       do i = 1, size(deck%bulk%mat1)
          associate (card => deck%bulk%mat1(i))
             rho = deck%bulk%parameters%mass_factor*card%rho
-            if (card%e <= 0.0_wp) cycle
+            if (card%e <= 0.0_wp .or. card%name /= 'MAT1') cycle
             if (rho > 0.0_wp) then
                speed = sqrt(card%e/rho)
                fits = meant .and. speed*speed_factor >= slowest .and. speed*speed_factor <= fastest
