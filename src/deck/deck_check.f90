@@ -88,7 +88,10 @@ contains
       character(*), intent(in)           :: field, message
       character(*), intent(in), optional :: called !! name in the message, default: FIELD
 
-      associate (kind => self%kinds(self%kind_of_line(line)))
+      integer :: k
+
+      k = self%kind_of_line(line)
+      associate (kind => self%kinds(k))
          if (any(kind%name == of_nx) .and. all(kind%fields /= field)) then ! of the card that it stands for
             call self%errors%add(line, field//': '//message)
          else

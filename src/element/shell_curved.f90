@@ -61,11 +61,12 @@ contains
    pure function surface_normal(x, i) result(normal)
       real(wp), intent(in) :: x(:, :)             !! (3, 6 or 8) [length]
       integer, intent(in)  :: i
-      real(wp) :: normal(3)
+      real(wp) :: a(3, 2), normal(3)
+      integer  :: kind
 
-      associate (a => tangents(x, node_point(:, i, surface_kind(size(x, 2)))))
-         normal = cross(a(:, 1), a(:, 2))
-      end associate
+      kind = surface_kind(size(x, 2))
+      a = tangents(x, node_point(:, i, kind))
+      normal = cross(a(:, 1), a(:, 2))
       normal = normal/max(norm2(normal), tiny(1.0_wp))
    end function surface_normal
 

@@ -89,10 +89,12 @@ contains
    pure real(wp) function mean_rise(rise)
       real(wp), intent(in) :: rise(:)
       real(wp) :: n(max_nodes)
+      integer  :: kind
 
       mean_rise = sum(rise)/size(rise)
       if (size(rise) <= 4) return
-      call shape_values(kind_of(size(rise)), centre_point(:, kind_of(size(rise))), n)
+      kind = kind_of(size(rise))
+      call shape_values(kind, centre_point(:, kind), n)
       mean_rise = dot_product(n(:size(rise)), rise)
    end function mean_rise
 

@@ -70,7 +70,6 @@ contains
       character(:), allocatable :: name, words
 
       if (is_over(run) .or. .not. run%resumes) return
-      call run%restart%part('supports', 1)
       call run%restart%item('supports', analysis%supports)
       call take_supports(run, deck, plan, max(1, min(analysis%supports, size(plan%first_with))), 0, model, system)
       if (run%failure%raised) return
@@ -127,7 +126,6 @@ contains
       ok = descriptor >= 0
       if (ok) then
          call stream%start(descriptor, version, run%deck_sum)
-         call stream%part('supports', 1)
          call stream%item('supports', analysis%supports)
          call record_analysis(stream, analysis)
          call record_results(stream, run%results)

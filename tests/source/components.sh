@@ -8,6 +8,7 @@
 set -u
 left_out='
 analysis_type goes_on: true only while the run resumes
+analysis_type supports: stands before the analysis, whose sizes depend on it
 increment_record condensed: of one increment, the first prints it
 page_type labels date: from the deck, in the head of the listing
 table_type title last line: come with the next row
