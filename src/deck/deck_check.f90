@@ -108,11 +108,14 @@ contains
       character(*), intent(in), optional :: called !! name in the message; required beyond the table of fields
       character(*), intent(in), optional :: noun
       character(:), allocatable :: name
+      integer :: kind
 
       if (present(called)) then
          name = called
       else
-         name = trim(self%kinds(self%kind_of_line(line))%fields(k))
+         name = 'ID' ! of a card that is a list of numbers
+         kind = self%kind_of_line(line)
+         if (k <= size(self%kinds(kind)%fields)) name = trim(self%kinds(kind)%fields(k))
       end if
       if (present(noun)) name = noun//' '//name
       call add_field_error(self%text, line, k, name, message, self%errors)
