@@ -92,7 +92,7 @@ contains
             n = k + merge(1, 0, stride == 8)
             ply%id = size(plies) + 1
             if (stride == 8) call card%integer_at(k, 'GPLYID', ply%id, ok, at_least_1)
-            if (all([card%text_at(n), card%text_at(n + 1), card%text_at(n + 2)] == '')) cycle
+            if (card%text_at(n)//card%text_at(n + 1)//card%text_at(n + 2) == '') cycle
             if (card%text_at(n) /= '' .or. size(plies) == 0) call card%integer_at(n, 'MID', ply%material, ok, at_least_1)
             if (card%text_at(n + 1) /= '' .or. size(plies) == 0) call card%real_at(n + 1, 'T', ply%thickness, ok, positive)
             ply%at = n

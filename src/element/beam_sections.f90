@@ -145,8 +145,8 @@ contains
          section%shear = [d(4)*d(2), 5.0_wp/6.0_wp*d(1)*d(3)]
       case ('CHAN2') ! thickness of the legs, of the base, height, width
          if (d(2) >= d(3) .or. 2.0_wp*d(1) >= d(4)) expected = 'DIM2 below DIM3, and 2 DIM1 below DIM4'
-         r(:, 1) = [d(2), d(4), 0.5_wp*d(2), 0.0_wp]
-         r(:, 2) = [d(3) - d(2), d(1), 0.5_wp*(d(2) + d(3)), 0.5_wp*(d(4) - d(1))]
+         r(:, 1) = [d(2), d(4) - 2.0_wp*d(1), 0.5_wp*d(2), 0.0_wp] ! cut as that of CHAN, for the same torsion
+         r(:, 2) = [d(3), d(1), 0.5_wp*d(3), 0.5_wp*(d(4) - d(1))]
          r(:, 3) = [r(1:3, 2), -r(4, 2)]
          section%shear = [5.0_wp/6.0_wp*2.0_wp*d(1)*d(3), d(2)*d(4)]
       case ('BOX1') ! width, height, thickness above, below, and of both sides
