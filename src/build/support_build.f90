@@ -31,7 +31,7 @@ contains
       type(joints_type), intent(in) :: joints
       type(freedoms_type), intent(inout) :: freedoms
       integer, allocatable :: sets(:)
-      integer :: i, set
+      integer :: i, node, set
 
       allocate (freedoms%held(mesh%dimension, mesh%n_nodes), source=.false.)
       allocate (freedoms%support_of(mesh%dimension, mesh%n_nodes), source=0)
@@ -79,7 +79,8 @@ contains
       do i = 1, size(deck%bulk%suport)
          associate (card => deck%bulk%suport(i))
             call open_group(support_group('FREE', 0, card%line), freedoms)
-            call hold(mesh, freedoms, mesh%node_table%find(card%node), card%components)
+            node = mesh%node_table%find(card%node)
+            if (node > 0) call hold(mesh, freedoms, node, card%components)
          end associate
       end do
       call check_sums(deck, 'SPCADD', deck%bulk%support_sum, deck%bulk%support%set, 'SPC, SPC1 or SPCM')

@@ -67,6 +67,7 @@ contains
                   if (all(side%nodes(:side%corners) > 0)) call add_side(deck, side, mesh, marked) ! else reported already
                end associate
             end do
+            if (marked%n < room) call cut(marked)
             call check_repeated(deck, mesh, marked)
             if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! a number given twice is reported elsewhere
             words = 'surface '//integer_text(card%id)//' has no '// &
@@ -79,6 +80,21 @@ contains
          end associate
       end do
    end subroutine build_surfaces
+
+   !> Cut the arrays of SURFACE to its sides.
+   subroutine cut(surface)
+      type(surface_type), intent(inout) :: surface
+
+      associate (n => surface%n)
+         surface%nodes = surface%nodes(:, :n)
+         surface%strip = surface%strip(:n)
+         surface%element = surface%element(:n)
+         surface%other = surface%other(:n)
+         surface%line = surface%line(:n)
+         surface%corners = surface%corners(:n)
+         surface%n_nodes = surface%n_nodes(:n)
+      end associate
+   end subroutine cut
 
    !> The SURFACE of the model with this ID, in FIELD of the card on LINE; 0, and an error, for a missing surface.
    subroutine find_surface(deck, line, field, id, mesh, surface)

@@ -44,8 +44,9 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(inout)      :: k(:, :) !! dimension x displaced nodes rows and columns are set
-      real(wp) :: full(3*most_own, 3*most_own) ! between the nodal values of a shell or beam
+      real(wp), allocatable :: full(:, :) ! between the nodal values of a shell or beam
 
+      if (is_beam(model%mesh, e) .or. is_shell(model%mesh, e)) allocate (full(3*most_own, 3*most_own))
       if (is_beam(model%mesh, e)) then
          full(:12, :12) = beam_stiffness(model%mesh%structural%beams(model%mesh%structural%place(e)), &
                                          model%mesh%x(:, element_points(model%mesh, e)))
