@@ -108,8 +108,8 @@ contains
          property%damping = card%damping
          do i = 1, size(card%plies)
             k = materials%find(card%plies(i)%material)
-            if (k > 0) property%rho = property%rho + deck%bulk%parameters%mass_factor*deck%bulk%mat1(k)%rho* &
-                                      card%plies(i)%thickness/card%thickness
+            if (k > 0 .and. card%thickness > 0.0_wp) property%rho = property%rho + deck%bulk%parameters%mass_factor* &
+                                      deck%bulk%mat1(k)%rho*card%plies(i)%thickness/card%thickness
          end do
       end subroutine take_laminate
 
