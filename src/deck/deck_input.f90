@@ -245,14 +245,14 @@ contains
       call find_first_card(deck%text, deck%kinds%name, first_card, is_alone, errors)
       call read_case_control(deck%text, cursor, first_card, deck%control, found_bulk, errors)
       if (deck%control%refused) return
-      if (.not. found_bulk) then
+      if (.not. found_bulk .or. (first_card > 0 .and. .not. (is_alone .or. deck%control%of_nastran))) then
          call errors%add(0, 'no BEGIN BULK: expected it between case control and the cards')
          return
       end if
       allocate (kind_at(deck%text%n), source=0_int16)
       deck%bulk%ignored = deck%control%ignored
       deck%bulk%parameters = deck%control%parameters
-      call find_cards(deck%text, cursor, deck%kinds, kind_at, deck%bulk, errors)
+      call find_cards(deck%text, cursor, deck%kinds, deck%control%of_nastran .or. is_alone, kind_at, deck%bulk, errors)
       if (deck%bulk%n_cards < 0) return
       call make_room(deck%kinds, deck%bulk)
       call read_all(deck%text, kind_at, deck%kinds, deck%bulk, errors)
@@ -287,10 +287,11 @@ contains
 
    !> Note where the cards from line CURSOR to ENDDATA begin. BULK counts all cards, also unknown ones and those without effect. Text
    !! behind ENDDATA has no effect. A second BEGIN makes their number -1.
-   subroutine find_cards(text, cursor, cards, kind_at, bulk, errors)
+   subroutine find_cards(text, cursor, cards, may_be_open, kind_at, bulk, errors)
       type(deck_text_type), intent(in)     :: text
       integer, intent(inout)               :: cursor
       type(card_kind), intent(inout)       :: cards(:)   !! the number of each kind
+      logical, intent(in)                  :: may_be_open !! NASTRAN takes the deck without ENDDATA too
       integer(int16), intent(inout)         :: kind_at(:) !! (lines) kind of the card that begins there
       type(bulk_data_type), intent(inout)  :: bulk
       type(deck_error_list), intent(inout) :: errors
@@ -339,12 +340,11 @@ contains
             end if
          end associate
       end do
-      if (ended_file /= 1 .and. text%ends_whole) then
+      if (ended_file /= 1 .and. text%ends_whole .and. may_be_open) then
          call errors%warn('no ENDDATA: expected it after the last card; a deck that is cut off between two lines would look '// &
                           'the same')
       else if (ended_file /= 1) then
-         call errors%add(0, 'no ENDDATA, and the last line has no end: the deck may be truncated; expected ENDDATA after the '// &
-                         'last card')
+         call errors%add(0, 'no ENDDATA: the deck may be truncated; expected ENDDATA after the last card')
       end if
       if (n_loose(1) > 0) call errors%warn('text in columns 73 to 80 that is no continuation mark is not read: '// &
          plural(n_loose(1), 'line')//', the first '//text%place(loose(1)))
