@@ -371,8 +371,8 @@ fresh results
 long_line 'a line of 100 MB in case control' 'long.bdf, line 2'
 { printf 'PMARK   20      '; letters A; echo; } | around > long.bdf
 long_line 'a card of 100 MB' 'where the field must be blank'
-{ printf 'PMARK,20'; letters , | head -c 1000000; echo X; } | around > long.bdf
-long_line 'a card of a million commas' 'where the field must be blank'
+{ printf 'PMARK,20'; letters , | head -c 100000; echo X; } | around > long.bdf
+long_line 'a card of 100,000 commas' 'where the field must be blank'
 { printf 'PMARK   20\nINCLUDE '; letters A; echo; } | around > long.bdf
 long_line 'an INCLUDE of 100 MB' 'INCLUDE'
 letters A > long.bdf
