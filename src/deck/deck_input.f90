@@ -249,6 +249,7 @@ contains
          call errors%add(0, 'no BEGIN BULK: expected it between case control and the cards')
          return
       end if
+      if (first_card > 0 .and. .not. is_alone) call errors%warn('no BEGIN BULK: the cards begin in '//deck%text%place(first_card))
       allocate (kind_at(deck%text%n), source=0_int16)
       deck%bulk%ignored = deck%control%ignored
       deck%bulk%parameters = deck%control%parameters
@@ -292,7 +293,7 @@ contains
       integer, intent(inout)               :: cursor
       type(card_kind), intent(inout)       :: cards(:)   !! the number of each kind
       logical, intent(in)                  :: may_be_open !! NASTRAN takes the deck without ENDDATA too
-      integer(int16), intent(inout)         :: kind_at(:) !! (lines) kind of the card that begins there
+      integer(int16), intent(inout)        :: kind_at(:) !! (lines) kind of the card that begins there
       type(bulk_data_type), intent(inout)  :: bulk
       type(deck_error_list), intent(inout) :: errors
       integer(long) :: first, last

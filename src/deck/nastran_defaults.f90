@@ -48,7 +48,6 @@ contains
       end do
       if (first_card == 0) return
       if (alone) call errors%warn('no case control and no BEGIN BULK: all lines are cards, and one case is solved')
-      if (.not. alone) call errors%warn('no BEGIN BULK: the cards begin in '//text%place(first_card))
    end subroutine find_first_card
 
    !> Whether LINE with NAME in field 1 is a card and not a key of case control with its value.
