@@ -133,12 +133,20 @@ contains
       mesh%rotations%node = mesh%n_nodes + [(k, k = 1, n)]
       points = [(rotations(k)%point, k = 1, n)]
       associate (first => mesh%first_at)
-         n_elements = merge(first(points + 1) - first(points), 0, rotations(:n)%of_element)
-         elements = [(mesh%elements_at(first(points(k)):first(points(k)) + n_elements(k) - 1), k = 1, n)]
+         n_elements = [(count(is_turned(mesh%elements_at(first(points(k)):first(points(k) + 1) - 1))), k = 1, n)]
+         elements = [(mesh%elements_at(first(points(k)):first(points(k) + 1) - 1), k = 1, n)]
+         elements = pack(elements, is_turned(elements))
       end associate
       call append_unknowns(mesh, points, n_elements, elements)
 
    contains
+
+      !> Whether element E has rotations: solids at the node of a shell have no part in its rotation.
+      elemental logical function is_turned(e)
+         integer, intent(in) :: e
+
+         is_turned = has_rotations(mesh, e)
+      end function is_turned
 
       !> Give node ID rotations, unless it has rotations or belongs to a body.
       subroutine turn(id, arm)
