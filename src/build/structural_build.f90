@@ -2,7 +2,7 @@
 !! Nodes of shells and beams and reference nodes have rotations.
 module structural_build
    use beam_element, only: beam_axes, beam_length
-   use bulk_data, only: edge_card, edge_crod, rigid_card
+   use bulk_data, only: edge_card, edge_cbeam, edge_crod, rigid_card
    use bush_build, only: bush_type, stiffness_turns
    use deck_check, only: checked_deck
    use elasticity, only: beam, shell
@@ -242,6 +242,7 @@ contains
             law%e = property%e
             law%g = deck%bulk%mat1(findloc(deck%bulk%mat1%id, deck%bulk%beam_property(k)%material, dim=1))%shear
             law%rho = property%rho
+            law%is_cbeam = card%kind == edge_cbeam
             law%expansion = property%alpha
             law%is_cut = any(deck%bulk%bolt%element == card%id)
             law%extra_mass = deck%bulk%parameters%mass_factor*deck%bulk%beam_property(k)%extra_mass

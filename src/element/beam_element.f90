@@ -27,6 +27,7 @@ module beam_element
       real(wp) :: rho = 0.0_wp                 !! mass density
       real(wp) :: extra_mass = 0.0_wp          !! NSM, mass per unit length
       real(wp) :: expansion = 0.0_wp           !! alpha [1/temperature]
+      logical  :: is_cbeam = .false.           !! lumped mass keeps the inertia about the axis
       type(beam_station), allocatable :: stations(:) !! where the section changes
    end type beam_law
 
@@ -225,7 +226,7 @@ contains
    end function beam_stiffness
 
    !> [m] between the nodal values: from the shape functions and the rotary inertia of the section, or LUMPED: half of the mass at
-   !! each end, without rotary inertia, as in NASTRAN.
+   !! each end, without rotary inertia but that of a CBEAM about its axis, rho (I1 + I2) per unit length, as in NASTRAN.
    pure function beam_mass(law, x, lumped) result(m)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)    !! [length]
@@ -239,7 +240,8 @@ contains
          section_mass = mass_of(beam_section_at(law, gauss_at(i)))
          if (lumped) then
             m(:3, :3) = m(:3, :3) + 0.5_wp*gauss_weight(i)*length*section_mass(:3, :3)
-            m(7:9, 7:9) = m(:3, :3)
+            if (law%is_cbeam) m(4, 4) = m(4, 4) + 0.5_wp*gauss_weight(i)*length*section_mass(4, 4)
+            m(7:10, 7:10) = m(:4, :4)
          else
             moved = movement_at(law, length, gauss_at(i))
             m = m + gauss_weight(i)*length*matmul(transpose(moved), matmul(section_mass, moved))

@@ -169,6 +169,9 @@ DECK
       near "lumped beam, $word: along" "$(mode lumped_beam 2 frequency)" "sqrt(1000*1/2/(1e-3*2/2))/(2*$pi)" 3e-6
    }
 done
+# a CBEAM keeps the inertia about its axis, rho (I1 + I2): it twists first; f = sqrt(G J/L/(rho (I1 + I2) L/2))/(2 pi)
+sed 's/CBAR,/CBEAM,/; s/^PBAR,1,1,1.0,2.0,1.0,/PBEAM,1,1,1.0,2.0,1.0,,/; s/EIGRL,3,,,3/EIGRL,3,,,4/' "$work/lumped_beam.bdf" > "$work/lumped_cbeam.bdf"
+run lumped_cbeam && near 'lumped CBEAM: twist' "$(mode lumped_cbeam 1 frequency)" "sqrt(1000/2.6*1/2/(1e-3*3*2/2))/(2*$pi)" 3e-6
 
 # ---- T1 to T3 of CTRIA3, where NASTRAN has them: two triangles of a square pulled evenly, their mean thickness ----
 
