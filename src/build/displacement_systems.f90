@@ -109,7 +109,8 @@ contains
    end subroutine find_system
 
    !> The directions, columns, of the system CID of the card on LINE at the point X; global axes for CID 0. OK is false, with an
-   !! error, for a missing system, and on the axis of a cylindrical or spherical one.
+   !! error, for a missing system, and on the axis of a cylindrical or spherical one; but the directions of a node are then x, y and
+   !! z of that system, as in NASTRAN, with a warning.
    subroutine find_directions(deck, systems, line, cid, x, directions, ok, names)
       type(checked_deck), intent(in)      :: deck
       type(coordinate_system), intent(in) :: systems(:)
@@ -128,8 +129,14 @@ contains
       ok = system > 0 .or. cid <= 0
       if (system == 0) return
       call directions_at(systems(system), x, directions, ok)
-      if (.not. ok) call deck%field_error(line, trim(called(1)), trim(called(2))//' lies on the axis of system '// &
-                                          integer_text(cid)//', where its first two directions are not defined')
+      if (.not. ok .and. called(2) == 'the node') then
+         ok = .true.
+         call deck%errors%warn('a node lies on the axis of system '//integer_text(cid)//', where its first two directions are '// &
+                               'not defined; they are x and y of that system, as in NASTRAN')
+      else if (.not. ok) then
+         call deck%field_error(line, trim(called(1)), trim(called(2))//' lies on the axis of system '// &
+                               integer_text(cid)//', where its first two directions are not defined')
+      end if
    end subroutine find_directions
 
    !> The axes, columns, of the rectangular system CID of the card on LINE; global axes for CID 0. Errors: no such system; a system

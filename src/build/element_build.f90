@@ -70,7 +70,7 @@ contains
                property%e = deck%bulk%mat1(k)%e
                property%nu = deck%bulk%mat1(k)%nu
                if (deck%bulk%mat1(k)%bars_only) call deck%field_error(card%line, card%material_at, 'MAT1 '// &
-                  integer_text(card%material)//' has only E, which suffices for bars; expected two of E, G and NU')
+                  integer_text(card%material)//' is for bars alone; expected two of E, G and NU, with NU above -1 and below 0.5')
                property%rho = deck%bulk%parameters%mass_factor*deck%bulk%mat1(k)%rho
                if (property%state < axisymmetric .and. card%thickness > 0.0_wp) & ! a membrane
                   property%rho = property%rho + deck%bulk%parameters%mass_factor*card%extra_mass/card%thickness

@@ -146,7 +146,7 @@ contains
       !> Put the last equation in the place of its component in all others.
       subroutine put_in_place(d, node)
          integer, intent(in) :: d, node
-         type(component_place), allocatable :: on(:)
+         type(component_place) :: on(list%item(list%n)%n)
          integer :: j, m
 
          do j = 1, list%n - 1

@@ -66,6 +66,15 @@ contains
                call find_directions(deck, mesh%systems, card%line, card%system, mesh%x(:, node(i)), axes, ok)
                if (ok .and. card%system > 0) force(:, i) = matmul(axes, force(:, i))
             end if
+            if (node(i) > 0) then ! a node without elements that is held takes its load, as in NASTRAN
+               if (.not. freedoms%used(node(i)) .and. rotation_at(mesh, node(i)) == 0 .and. &
+                   all(freedoms%support_of(:, node(i)) > 0)) then
+                  call deck%errors%warn('node '//integer_text(card%node)//' belongs to no element and is held: its loads have '// &
+                                        'no effect')
+                  force(:, i) = 0.0_wp
+                  cycle
+               end if
+            end if
             if (card%is_moment) then
                if (node(i) > 0) call onto_rotations(deck, mesh, freedoms, card, node(i), force(:, i))
                cycle

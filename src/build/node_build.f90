@@ -7,11 +7,12 @@ module node_build
    use coordinate_systems, only: position_in
    use deck_check, only: checked_deck
    use displacement_systems, only: find_system
+   use elasticity, only: shell
    use element_kinds, only: element_table, is_second_order
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
    use model_data, only: mesh_type
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, plural
    use tolerances, only: zero_coordinate
    implicit none
    private
@@ -78,7 +79,9 @@ contains
       do i = 1, size(deck%bulk%scalar)
          associate (card => deck%bulk%scalar(i))
             do k = 1, size(card%first)
-               points = [points, (grid_card(line=card%line, id=id, is_scalar=.true.), id = card%first(k), card%last(k))]
+               do id = card%first(k), card%last(k)
+                  if (all(points%id /= id)) points = [points, grid_card(line=card%line, id=id, is_scalar=.true.)]
+               end do
             end do
          end associate
       end do
@@ -244,16 +247,19 @@ contains
       if (edges%place(i) > 0) node = mesh%element_nodes(edges%place(i), edges%element(i))
    end function node_at
 
-   !> Error: elements at an edge with different mid-side nodes, or with and without one; each element is reported once.
+   !> Error: elements at an edge with different mid-side nodes, or with and without one; each element is reported once. Warning:
+   !! such shells without one.
    subroutine check_orders(deck, mesh, edges)
       type(checked_deck), intent(in) :: deck
       type(mesh_type), intent(in) :: mesh
       type(edge_list), intent(in)    :: edges
-      integer :: i, last, node, other
-      character(:), allocatable :: edge, element
+      integer :: i, last, n_open, node, other
+      character(:), allocatable :: edge, element, first_open
 
       last = 0
+      n_open = 0
       element = ''
+      first_open = ''
       edge = ''
       do i = 1, edges%n
          other = edges%namer(edges%first(i))
@@ -267,7 +273,10 @@ contains
             edge = 'the edge between nodes '//integer_text(a)//' and '//integer_text(b)//' with element '// &
                    integer_text(mesh%element_id(edges%element(other)))
          end associate
-         if (edges%place(i) == 0) then
+         if (edges%place(i) == 0 .and. is_of_shell(mesh, last)) then
+            n_open = n_open + 1
+            if (n_open == 1) first_open = element//' at '//edge
+         else if (edges%place(i) == 0) then
             call deck%errors%add(mesh%element_line(last), element//' is linear, and shares '//edge// &
                ', which is of second order; expected both of one order, or '// &
                'bodies that do not share their nodes and a JOINT between them')
@@ -276,7 +285,18 @@ contains
                ' at the middle of '//edge//', which has node '//integer_text(mesh%node_id(node_at(mesh, edges, other)))//' there')
          end if
       end do
+      if (n_open > 0) call deck%errors%warn(plural(n_open, 'linear shell')//' beside shells of second order, whose nodes in '// &
+         'the middle of the common edges move by themselves, as in NASTRAN: '//first_open)
    end subroutine check_orders
+
+   !> Whether element E has the property of a shell.
+   pure logical function is_of_shell(mesh, e)
+      type(mesh_type), intent(in) :: mesh
+      integer, intent(in)          :: e
+
+      is_of_shell = mesh%element_property(e) > 0
+      if (is_of_shell) is_of_shell = mesh%properties(mesh%element_property(e))%state == shell
+   end function is_of_shell
 
    !> Append nodes for unknowns that are not displacements of points, one at each of POINTS: N_ELEMENTS of the ELEMENTS in turn
    !! belong to each node. The number of these nodes is 0.

@@ -126,8 +126,7 @@ contains
       end if
       bar%direction = spread(along/length, 2, 2)
       bar%stiffness = deck%bulk%mat1(material)%e*prod%area/length
-      if (.not. deck%bulk%mat1(material)%bars_only) &
-         bar%torsion = deck%bulk%mat1(material)%shear*prod%torsion/length
+      bar%torsion = deck%bulk%mat1(material)%shear*prod%torsion/length
       bar%area = prod%area
       bar%strength = deck%bulk%mat1(material)%strength
       bar%mass = deck%bulk%parameters%mass_factor*(deck%bulk%mat1(material)%rho*prod%area + prod%extra_mass)*length

@@ -5,7 +5,7 @@ module support_build
    use bulk_data, only: set_sum_card, support_card
    use deck_cards, only: card_name
    use deck_check, only: checked_deck
-   use field_rules, only: has_component
+   use field_rules, only: component_words, has_component
    use kinds, only: wp
    use lists, only: first_not_below
    use mesh_queries, only: is_face_node, is_scalar_point, n_points
@@ -122,8 +122,7 @@ contains
       end if
       do k = 1, size(support%first)
          if (support%first(k) == support%last(k)) then
-            node = mesh%node_table%find(support%first(k))
-            if (node > 0 .and. active) call hold(mesh, freedoms, node, support%components)
+            call apply_to(mesh%node_table%find(support%first(k)))
             cycle
          end if
          ! G1 THRU G2 means the nodes that exist, as in NASTRAN; at least one must exist
@@ -132,11 +131,26 @@ contains
             ! lower: the last node
             if (mesh%node_id(node) < support%first(k) .or. mesh%node_id(node) > support%last(k)) exit
             any_node = .true.
-            if (active) call hold(mesh, freedoms, node, support%components)
+            call apply_to(node)
          end do
          if (.not. any_node) call deck%field_error(support%line, support%at(k), 'there is no GRID from '// &
             integer_text(support%first(k))//' to '//integer_text(support%last(k)), called='G')
       end do
+
+   contains
+
+      !> Error: components are left out at a node that is no scalar point.
+      subroutine apply_to(node)
+         integer, intent(in) :: node
+
+         if (node == 0) return
+         if (support%components == 0 .and. .not. is_scalar_point(mesh, node)) then
+            call deck%field_error(support%line, 'C', 'blank or 0, expected '//component_words//'; blank is for scalar points')
+         else if (active) then
+            call hold(mesh, freedoms, node, support%components)
+         end if
+      end subroutine apply_to
+
    end subroutine apply_support
 
    !> Hold COMPONENTS of NODE, rotations if it has any. Components that a node does not have (3 to 5 in the plane) are held anyway.

@@ -163,7 +163,7 @@ module bulk_data
 
    type, public :: mat1_card
       integer  :: line = 0, id = 0
-      logical  :: bars_only = .false., reference_given = .false. ! only E is given; TREF is given
+      logical  :: bars_only = .false., reference_given = .false. ! no NU for bodies; TREF is given
       real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
       real(wp) :: shear = 0.0_wp                        ! G of torsion and transverse shear
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF

@@ -183,8 +183,9 @@ contains
             e = 2.0_wp*(1.0_wp + nu)*g
          else if (.not. has_nu) then
             nu = e/(2.0_wp*g) - 1.0_wp
-            if (nu <= -1.0_wp .or. nu >= 0.5_wp) call card%error('G', 'E and G give NU = E/(2G) - 1 = '//real_text(nu)// &
-                                                                 ', expected above -1 and below 0.5')
+            bars_only = nu <= -1.0_wp .or. nu >= 0.5_wp
+            if (bars_only) call card%errors%warn('MAT1 '//card%text_at(1)//': E and G give NU = E/(2G) - 1 = '//real_text(nu)// &
+                                                 ', not above -1 and below 0.5: the material is for bars and beams alone')
          else if (has_g) then
             if (abs(e/(2.0_wp*(1.0_wp + nu)) - g) > 0.01_wp*g) call card%errors%warn('MAT1 '//card%text_at(1)//': G = '// &
                real_text(g)//' does not agree with E and NU, which give G = '//real_text(e/(2.0_wp*(1.0_wp + nu)))// &

@@ -345,10 +345,10 @@ contains
          allocate (equation%node(2), equation%component(2), equation%factor(2))
          call card%field('SID', equation%set)
          call card%field('G1', equation%node(1))
-         call card%field('C1', equation%component(1), least=0, most=6)
+         call card%field('C1', equation%component(1), default=0, least=0, most=6)
          call card%field('A1', equation%factor(1))
          call card%field('G2', equation%node(2))
-         call card%field('C2', equation%component(2), least=0, most=6)
+         call card%field('C2', equation%component(2), default=0, least=0, most=6)
          call card%field('A2', equation%factor(2))
          if (.not. card%is_faulty() .and. abs(equation%factor(1)) <= 0.0_wp) &
             call card%error('A1', 'zero, expected a coefficient that is not zero: the first term is the dependent one')

@@ -28,10 +28,11 @@ contains
       associate (support => bulk%support(card%i))
          support%line = card%line
          call card%field('SID', support%set)
-         call card%components('C', support%components)
          if (card%name == 'SPC1') then
+            call card%components('C', support%components, default=0)
             call card%list_ranges(3, 'G', 'a node number', support%id_ranges)
          else
+            call card%components('C', support%components)
             call card%field('PID', support%surface)
             call card%finish(support%line)
             allocate (support%first(0), support%last(0), support%at(0))
@@ -105,10 +106,11 @@ contains
 
       call card%field('SID', moved(1)%set)
       call card%field('G1', moved(1)%node)
-      call card%components('C1', moved(1)%components)
       if (card%name == 'SPC') then
+         call card%components('C1', moved(1)%components, default=0)
          call card%field('D1', moved(1)%value, default=0.0_wp)
       else
+         call card%components('C1', moved(1)%components)
          call card%field('D1', moved(1)%value)
       end if
       call card%field('G2', moved(2)%node, default=0)
