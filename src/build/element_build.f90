@@ -69,8 +69,9 @@ contains
             if (k > 0) then
                property%e = deck%bulk%mat1(k)%e
                property%nu = deck%bulk%mat1(k)%nu
-               if (deck%bulk%mat1(k)%bars_only) call deck%field_error(card%line, card%material_at, 'MAT1 '// &
-                  integer_text(card%material)//' is for bars alone; expected two of E, G and NU, with NU above -1 and below 0.5')
+               if (deck%bulk%mat1(k)%bars_only .and. .not. (card%state == beam .and. deck%bulk%mat1(k)%shear > 0.0_wp)) &
+                  call deck%field_error(card%line, card%material_at, 'MAT1 '//integer_text(card%material)// &
+                                        ' is for bars alone; expected two of E, G and NU, with NU above -1 and below 0.5')
                property%rho = deck%bulk%parameters%mass_factor*deck%bulk%mat1(k)%rho
                if (property%state < axisymmetric .and. card%thickness > 0.0_wp) & ! a membrane
                   property%rho = property%rho + deck%bulk%parameters%mass_factor*card%extra_mass/card%thickness

@@ -247,25 +247,29 @@ contains
       if (edges%place(i) > 0) node = mesh%element_nodes(edges%place(i), edges%element(i))
    end function node_at
 
-   !> Error: elements at an edge with different mid-side nodes, or with and without one; each element is reported once. Warning:
-   !! such shells without one.
+   !> Error: elements at an edge with different mid-side nodes, or with and without one; each element is reported once. The
+   !! nodes at the middle of edges with linear shells are noted, with a warning.
    subroutine check_orders(deck, mesh, edges)
       type(checked_deck), intent(in) :: deck
-      type(mesh_type), intent(in) :: mesh
+      type(mesh_type), intent(inout) :: mesh
       type(edge_list), intent(in)    :: edges
-      integer :: i, last, n_open, node, other
-      character(:), allocatable :: edge, element, first_open
+      integer :: i, last, node, other
+      character(:), allocatable :: edge, element
 
       last = 0
-      n_open = 0
       element = ''
-      first_open = ''
       edge = ''
       do i = 1, edges%n
          other = edges%namer(edges%first(i))
          if (edges%element(i) == last .or. other == i) cycle
          node = node_at(mesh, edges, i)
          if (edges%place(i) == 0 .and. edges%place(other) == 0) cycle
+         if (edges%place(i) == 0 .and. is_of_shell(mesh, edges%element(i))) then
+            if (all(mesh%middles(1, :) /= edges%place(other) .or. mesh%middles(2, :) /= edges%element(other))) &
+               mesh%middles = reshape([mesh%middles, edges%place(other), edges%element(other), edges%ends(:, i), &
+                                       mesh%element_line(edges%element(i))], [5, size(mesh%middles, 2) + 1])
+            cycle
+         end if
          if (edges%place(i) > 0 .and. (node <= 0 .or. node == node_at(mesh, edges, other))) cycle
          last = edges%element(i)
          element = 'element '//integer_text(mesh%element_id(last))
@@ -273,10 +277,7 @@ contains
             edge = 'the edge between nodes '//integer_text(a)//' and '//integer_text(b)//' with element '// &
                    integer_text(mesh%element_id(edges%element(other)))
          end associate
-         if (edges%place(i) == 0 .and. is_of_shell(mesh, last)) then
-            n_open = n_open + 1
-            if (n_open == 1) first_open = element//' at '//edge
-         else if (edges%place(i) == 0) then
+         if (edges%place(i) == 0) then
             call deck%errors%add(mesh%element_line(last), element//' is linear, and shares '//edge// &
                ', which is of second order; expected both of one order, or '// &
                'bodies that do not share their nodes and a JOINT between them')
@@ -285,8 +286,8 @@ contains
                ' at the middle of '//edge//', which has node '//integer_text(mesh%node_id(node_at(mesh, edges, other)))//' there')
          end if
       end do
-      if (n_open > 0) call deck%errors%warn(plural(n_open, 'linear shell')//' beside shells of second order, whose nodes in '// &
-         'the middle of the common edges move by themselves, as in NASTRAN: '//first_open)
+      if (size(mesh%middles) > 0) call deck%errors%warn(plural(size(mesh%middles, 2), 'edge')//' between linear shells and '// &
+         'shells of second order: the nodes at their middle move with their ends; in NASTRAN they are free')
    end subroutine check_orders
 
    !> Whether element E has the property of a shell.

@@ -13,7 +13,7 @@ module rigid_elements
    use mesh_queries, only: n_rotations
    use model_data, only: freedoms_type, mesh_type
    use numbers, only: by_rotation
-   use shell_ties, only: add_ties, tie_type
+   use shell_ties, only: add_middles, add_ties, tie_type
    use support_build, only: check_sums, summed_sets
    use surface_build, only: find_surface, surface_node_list, surface_nodes
    use rigid_bars, only: add_rigid_body, add_rod
@@ -48,7 +48,7 @@ contains
          deck%control%stages(deck%stage)%equations%line, 'MPC: there is no MPC or MPCADD with set '//integer_text(set))
       call check_sums(deck, 'MPCADD', deck%bulk%equation_sum, deck%bulk%equation%set, 'MPC')
       allocate (active, source=summed_sets(deck%bulk%equation_sum, set))
-      if (size(deck%rigid) + size(deck%bulk%equation) + size(ties) + size(glue) == 0) return
+      if (size(deck%rigid) + size(deck%bulk%equation) + size(ties) + size(glue) + size(mesh%middles) == 0) return
       allocate (list%without(mesh%n_nodes), source=.false.)
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
@@ -67,6 +67,7 @@ contains
       end do
       first = list%n + 1
       call add_ties(mesh, ties, list)
+      call add_middles(mesh, freedoms%held, list)
       last = list%n
       do i = 1, size(deck%bulk%equation)
          call add_equation(deck, deck%bulk%equation(i), any(active == deck%bulk%equation(i)%set), mesh, freedoms, list)

@@ -3,7 +3,7 @@
 !! Each side of the edge gives its two nodes three points of the footprint of the shell on the face: half a thickness above and
 !! below the node, and as far along the edge. The shape functions of the face move these points; the node has the rigid-body motion
 !! that fits them best (mean_motion). Its rotations are therefore those of the face over the thickness, and its forces and moments
-!! act on the face in equilibrium.
+!! act on the face in equilibrium. Edges between linear shells and shells of second order are tied likewise.
 module shell_ties
    use constraint_equations, only: add_dependence, add_term, dependence_list
    use deck_check, only: checked_deck
@@ -21,7 +21,7 @@ module shell_ties
    implicit none
    private
 
-   public :: add_ties, find_ties
+   public :: add_middles, add_ties, find_ties
 
    integer, parameter :: most_points = 24 !! of a node: three for each side of the edge at it
 
@@ -190,5 +190,35 @@ contains
          end associate
       end do
    end subroutine add_ties
+
+   !> The nodes at the middle of edges between linear shells and shells of second order move as the linear shell does: by half of
+   !! both ends, displacements and rotations. Components that are held stay held.
+   subroutine add_middles(mesh, held, list)
+      type(mesh_type), intent(in)          :: mesh
+      logical, intent(in)                  :: held(:, :) !! (dimension, n_nodes)
+      type(dependence_list), intent(inout) :: list
+      type(component_place) :: at_end, place
+      real(wp) :: axes(3, 3), directions(3, 3)
+      integer  :: c, d, first, i, k, node
+
+      do i = 1, size(mesh%middles, 2)
+         node = mesh%element_nodes(mesh%middles(1, i), mesh%middles(2, i))
+         axes = node_axes(mesh, node)
+         do c = 1, 6
+            place = place_of_component(mesh, node, c)
+            if (held(place%d, place%node)) cycle
+            call add_dependence(list, place, mesh%middles(5, i), 1)
+            first = merge(0, 3, c <= 3)
+            do k = 3, 4
+               directions = node_axes(mesh, mesh%middles(k, i))
+               do d = 1, 3
+                  at_end = place_of_component(mesh, mesh%middles(k, i), first + d)
+                  call add_term(list, component_place(at_end%node, at_end%d), 0.5_wp*place%scale/at_end%scale* &
+                                dot_product(axes(:, c - first), directions(:, d)))
+               end do
+            end do
+         end do
+      end do
+   end subroutine add_middles
 
 end module shell_ties

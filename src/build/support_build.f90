@@ -144,8 +144,9 @@ contains
          integer, intent(in) :: node
 
          if (node == 0) return
-         if (support%components == 0 .and. .not. is_scalar_point(mesh, node)) then
-            call deck%field_error(support%line, 'C', 'blank or 0, expected '//component_words//'; blank is for scalar points')
+         if (support%components < 0 .and. .not. is_scalar_point(mesh, node)) then
+            call deck%field_error(support%line, merge(2, support%at(k) + 1, support%at(1) == 3), 'blank or 0, expected '// &
+                                  component_words//'; blank is for scalar points', called='C')
          else if (active) then
             call hold(mesh, freedoms, node, support%components)
          end if
@@ -162,7 +163,6 @@ contains
       integer :: k
 
       places = places_of(mesh, node, components)
-      if (is_scalar_point(mesh, node) .and. components == 0) places = places_of(mesh, node, 1)
       do k = 1, count(places%node > 0)
          freedoms%held(places(k)%d, places(k)%node) = .true.
          associate (group => freedoms%support_of(places(k)%d, places(k)%node))
@@ -269,7 +269,8 @@ contains
       end do
    end subroutine check_kept
 
-   !> The places of COMPONENTS of NODE, existing ones first, then places of node 0; for a split node also those of its duplicate.
+   !> The places of COMPONENTS of NODE, -1 that of a scalar point, existing ones first, then places of node 0; for a split node also
+   !! those of its duplicate.
    pure function places_of(mesh, node, components) result(places)
       type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: node, components
@@ -280,7 +281,7 @@ contains
       n = 0
       if (node == 0) return
       do d = 1, 6
-         if (.not. has_component(components, d)) cycle
+         if (.not. has_component(merge(1, components, components < 0 .and. is_scalar_point(mesh, node)), d)) cycle
          place = place_of_component(mesh, node, d)
          if (place%node == 0) cycle
          n = n + 1

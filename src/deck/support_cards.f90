@@ -29,7 +29,7 @@ contains
          support%line = card%line
          call card%field('SID', support%set)
          if (card%name == 'SPC1') then
-            call card%components('C', support%components, default=0)
+            call card%components('C', support%components, default=-1)
             call card%list_ranges(3, 'G', 'a node number', support%id_ranges)
          else
             call card%components('C', support%components)
@@ -107,7 +107,7 @@ contains
       call card%field('SID', moved(1)%set)
       call card%field('G1', moved(1)%node)
       if (card%name == 'SPC') then
-         call card%components('C1', moved(1)%components, default=0)
+         call card%components('C1', moved(1)%components, default=-1)
          call card%field('D1', moved(1)%value, default=0.0_wp)
       else
          call card%components('C1', moved(1)%components)

@@ -28,7 +28,7 @@ contains
       type(mesh_type), intent(inout) :: mesh
 
       allocate (mesh%properties(0), mesh%bars(0), mesh%masses(0), mesh%sections(0), mesh%rotations(0), mesh%faces(0), &
-                mesh%placed(0))
+                mesh%placed(0), mesh%middles(5, 0))
       allocate (mesh%structural%place(0), mesh%structural%shells(0), mesh%structural%beams(0))
       allocate (mesh%duplicate(0), mesh%node_system(0), mesh%is_scalar(0), mesh%face_of(0), mesh%rotation_of(0), &
                 mesh%node_section(0), &

@@ -243,6 +243,7 @@ module model_data
       integer :: n_nodes = 0
       integer :: n_filled = 0                !! number of mid-edge nodes that the program added, see node_build
       integer :: first_filled = 0            !! position of the first of these nodes
+      integer, allocatable :: middles(:, :)  !! (5, n) mid-side nodes beside linear shells: place and element, ends of the edge, line
       integer, allocatable  :: node_id(:)    !! ascending until the model is built; 0 for the nodes of rotations and of sections, which follow
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
       integer, allocatable  :: duplicate(:)  !! (n_nodes) the duplicate of a node on a split surface, 0: none; empty before

@@ -335,3 +335,19 @@ run lap && run lap_turned && run lap_metres && {
    ask 'lap of sheets, in metres' lap with "$work/lap_metres.joint.csv" \
       all 'stage = other.stage and increment = other.increment and branch = other.branch and abs(lambda - 1000*other.lambda) <= 1e-7*max(abs(lambda))'
 }
+
+# ---- A linear shell beside one of second order: constant stress, and constant curvature, pass their common edge ----
+cards plate_orders <<'DECK'
+SPC = 1;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 2;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,1.0,0.0,0.0;GRID,3,,1.0,1.0,0.0;GRID,4,,0.0,1.0,0.0
+GRID,5,,2.0,0.0,0.0;GRID,6,,2.0,1.0,0.0;GRID,7,,1.5,0.0,0.0;GRID,8,,2.0,0.5,0.0;GRID,9,,1.5,1.0,0.0;GRID,10,,1.0,0.5,0.0
+CQUAD4,1,1,1,2,3,4;CQUAD8,2,1,2,5,6,3,7,8;+,9,10;PSHELL,1,1,0.1,1;MAT1,1,1000.0,,0.0;SPC1,1,123456,1,4
+FORCE,1,5,,0.1,1.0,0.0,0.0;FORCE,1,6,,0.1,1.0,0.0,0.0;FORCE,1,8,,0.4,1.0,0.0,0.0
+MOMENT,2,5,,1.-4,0.0,-1.0,0.0;MOMENT,2,6,,1.-4,0.0,-1.0,0.0;MOMENT,2,8,,4.-4,0.0,-1.0,0.0;ENDDATA
+DECK
+run plate_orders && {
+   orders_moved() { table plate_orders "DISPLACEMENTS OF NODES, STAGE $1" | awk -v node="$2" -v c="$3" '$1 == node { print $(4 + c) }'; }
+   near 'linear beside second order: stress' "$(orders_moved 1 8 1)" '0.6*2/(1000*0.1)' 1e-5
+   near 'linear beside second order: middle of the edge' "$(orders_moved 1 10 1)" '0.6*1/(1000*0.1)' 1e-5
+   near 'linear beside second order: curvature' "$(orders_moved 2 8 3)" '6e-4*4/(2*1000*0.1^3/12)' 1e-5
+   says 'linear beside second order: said' "$work/plate_orders.log" '1 edge between linear shells and shells of second order'
+}

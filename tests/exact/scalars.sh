@@ -92,3 +92,20 @@ scalar_tube solid_rod 30.0 "$pi/4*30^2" "$pi/32*30^4"
 tapered=$(awk -v pi="$pi" 'BEGIN { n = 1e5; for (i = 1; i <= n; i++) { d = 30 - 10*(i - 0.5)/n; s += 1/(pi/4*(d*d - (d - 5)^2))/n } printf "%.12g", 1/s }')
 wall_diameter=$(awk 'BEGIN { printf "%.15g", 10/log(27.5/17.5) }')
 scalar_tube tapered_tube 30.0,2.5,,20.0 "$tapered" "$pi*2.5*$wall_diameter*($wall_diameter^2+2.5^2)/4"
+
+# ---- Blank components of scalar points, a point given twice: a chain of springs with a link between its halves, its end moved ----
+cards scalar_blank <<'DECK'
+SPC = 1;MPC = 3;BEGIN BULK;SPOINT,1,THRU,4;SPOINT,2;CELAS4,1,1000.0,1,2;CELAS4,2,500.0,3,4;SPC1,1,,4;SPC,1,1,,0.03;MPC,3,2,,1.0,3,,-1.0;ENDDATA
+DECK
+run scalar_blank && near 'blank components of scalar points' "$(moved scalar_blank 2 1)" '0.03*1000/1500' 2e-6
+
+# ---- A node on the axis of its cylindrical system has the axes of that system, turned by 30 degrees: springs along them. A held node
+# of no element takes its loads ----
+cards on_axis <<'DECK'
+MODEL = SPACE;SPC = 1;LOAD = 2;BEGIN BULK;CORD2C,7,,0.0,0.0,0.0,0.0,0.0,1.0;+,0.8660254037844386,0.5,0.0;GRID,1,,0.0,0.0,5.0,7;GRID,9,,1.0,0.0,0.0
+CELAS2,1,100.0,1,1;CELAS2,2,200.0,1,2;CELAS2,3,300.0,1,3;FORCE,2,1,,1.0,1.0,0.0,0.0;SPC1,1,123456,9;FORCE,2,9,,5.0,1.0,0.0,0.0
+MOMENT,2,9,,5.0,1.0,0.0,0.0;ENDDATA
+DECK
+run on_axis && near 'on the axis of a cylindrical system' "$(moved on_axis 1 1)" '0.75/100 + 0.25/200' 2e-6 &&
+   says 'on the axis: said' "$work/on_axis.log" 'a node lies on the axis of system 7' &&
+   says 'loads of a held node: said' "$work/on_axis.log" 'node 9 belongs to no element and is held: its loads have no effect'
