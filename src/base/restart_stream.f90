@@ -52,14 +52,12 @@ module restart_stream
       procedure :: complete
       procedure :: is_at_end
       procedure :: part
-      generic   :: item => integer_value, integer_row, integer_plane, long_value, real_value, real_row, real_plane, &
-                           logical_value, logical_row, logical_plane
+      generic   :: item => integer_item, long_item, real_item, logical_item
       procedure :: text
       procedure :: extent
       procedure :: file
       procedure :: fail
-      procedure, private :: integer_value, integer_row, integer_plane, long_value, real_value, real_row, real_plane
-      procedure, private :: logical_value, logical_row, logical_plane
+      procedure, private :: integer_item, long_item, real_item, logical_item
    end type restart_stream_type
 
 contains
@@ -155,87 +153,39 @@ contains
                                            ', this program reads '//integer_text(version))
    end subroutine part
 
-   ! ---- item: the value or values A of the component NAME ----
+   ! ---- item: the value of the component NAME, or its values A of any rank ----
 
-   subroutine integer_value(self, name, a)
+   subroutine integer_item(self, name, a)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: name
-      integer, intent(inout)                    :: a
-
-      call block(self, name, is_integer, 4_long, a)
-   end subroutine integer_value
-
-   subroutine integer_row(self, name, a)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: name
-      integer, intent(inout), contiguous        :: a(:)
+      integer, intent(inout), contiguous        :: a(..)
 
       call block(self, name, is_integer, 4*size(a, kind=long), a)
-   end subroutine integer_row
+   end subroutine integer_item
 
-   subroutine integer_plane(self, name, a)
+   subroutine long_item(self, name, a)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: name
-      integer, intent(inout), contiguous        :: a(:, :)
+      integer(long), intent(inout), contiguous  :: a(..)
 
-      call block(self, name, is_integer, 4*size(a, kind=long), a)
-   end subroutine integer_plane
+      call block(self, name, is_integer, 8*size(a, kind=long), a)
+   end subroutine long_item
 
-   subroutine long_value(self, name, a)
+   subroutine real_item(self, name, a)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: name
-      integer(long), intent(inout)              :: a
-
-      call block(self, name, is_integer, 8_long, a)
-   end subroutine long_value
-
-   subroutine real_value(self, name, a)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: name
-      real(wp), intent(inout)                   :: a
-
-      call block(self, name, is_real, 8_long, a)
-   end subroutine real_value
-
-   subroutine real_row(self, name, a)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: name
-      real(wp), intent(inout), contiguous       :: a(:)
+      real(wp), intent(inout), contiguous       :: a(..)
 
       call block(self, name, is_real, 8*size(a, kind=long), a)
-   end subroutine real_row
+   end subroutine real_item
 
-   subroutine real_plane(self, name, a)
+   subroutine logical_item(self, name, a)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: name
-      real(wp), intent(inout), contiguous       :: a(:, :)
-
-      call block(self, name, is_real, 8*size(a, kind=long), a)
-   end subroutine real_plane
-
-   subroutine logical_value(self, name, a)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: name
-      logical, intent(inout)                    :: a
-
-      call block(self, name, is_logical, 4_long, a)
-   end subroutine logical_value
-
-   subroutine logical_row(self, name, a)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: name
-      logical, intent(inout), contiguous        :: a(:)
+      logical, intent(inout), contiguous        :: a(..)
 
       call block(self, name, is_logical, 4*size(a, kind=long), a)
-   end subroutine logical_row
-
-   subroutine logical_plane(self, name, a)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: name
-      logical, intent(inout), contiguous        :: a(:, :)
-
-      call block(self, name, is_logical, 4*size(a, kind=long), a)
-   end subroutine logical_plane
+   end subroutine logical_item
 
    !> The N bytes of VALUES, which keep their values where they cannot be read.
    subroutine block(self, name, kind, n, values)
