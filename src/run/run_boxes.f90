@@ -31,7 +31,7 @@ module run_boxes
    use model_data, only: model_type
    use natural_modes, only: find_natural_modes, oscillating_type, spectrum_type, start_oscillation
    use newton_method, only: seat_joints
-   use openblas, only: prepare_openblas, tell_kernel
+   use openblas, only: prepare_libraries, tell_kernel
    use nx_translation, only: translate_contacts
    use range_watch, only: watch_drops
    use restart_file, only: open_restart_file, take_up, write_restart
@@ -162,7 +162,7 @@ contains
 
       call open_standard_outputs()
       call watch_ends()
-      call prepare_openblas()
+      call prepare_libraries()
       call join_processes(write_piece)
       call watch_interrupts()
       call read_command_line(command, status)
