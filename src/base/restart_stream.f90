@@ -18,7 +18,7 @@
 !! open_restart checks that a file is whole and of this layout, program and order of bytes. A length in the file is accepted only as
 !! far as there are bytes for it.
 module restart_stream
-   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc, c_ptr
    use c_library, only: read_all_bytes, write_bytes
    use checksum, only: add_to_checksum, no_bytes
    use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -52,14 +52,12 @@ module restart_stream
       procedure :: complete
       procedure :: is_at_end
       procedure :: part
-      generic   :: item => integer_value, integer_row, integer_plane, long_value, real_value, real_row, real_plane, &
-                           logical_value, logical_row, logical_plane
+      generic   :: item => integer_item, long_item, real_item, logical_item
       procedure :: text
       procedure :: extent
       procedure :: file
       procedure :: fail
-      procedure, private :: integer_value, integer_row, integer_plane, long_value, real_value, real_row, real_plane
-      procedure, private :: logical_value, logical_row, logical_plane
+      procedure, private :: integer_item, long_item, real_item, logical_item
    end type restart_stream_type
 
 contains
@@ -149,110 +147,71 @@ contains
 
       found = version
       self%name = ''
-      call block(self, name, is_part, 4_long, found)
+      call block(self, name, is_part, 4, found)
       self%name = name
       if (found /= version) call self%fail('its part '''//name//''' has version '//integer_text(found)// &
                                            ', this program reads '//integer_text(version))
    end subroutine part
 
-   ! ---- item: the value or values A of the component NAME ----
+   ! ---- item: the value of the component NAME, or its values A of any rank ----
 
-   subroutine integer_value(self, name, a)
+   subroutine integer_item(self, name, a)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: name
-      integer, intent(inout)                    :: a
+      integer, intent(inout), contiguous        :: a(..)
 
-      call block(self, name, is_integer, 4_long, a)
-   end subroutine integer_value
+      call block(self, name, is_integer, 4, a)
+   end subroutine integer_item
 
-   subroutine integer_row(self, name, a)
+   subroutine long_item(self, name, a)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: name
-      integer, intent(inout), contiguous        :: a(:)
+      integer(long), intent(inout), contiguous  :: a(..)
 
-      call block(self, name, is_integer, 4*size(a, kind=long), a)
-   end subroutine integer_row
+      call block(self, name, is_integer, 8, a)
+   end subroutine long_item
 
-   subroutine integer_plane(self, name, a)
+   subroutine real_item(self, name, a)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: name
-      integer, intent(inout), contiguous        :: a(:, :)
+      real(wp), intent(inout), contiguous       :: a(..)
 
-      call block(self, name, is_integer, 4*size(a, kind=long), a)
-   end subroutine integer_plane
+      call block(self, name, is_real, 8, a)
+   end subroutine real_item
 
-   subroutine long_value(self, name, a)
+   subroutine logical_item(self, name, a)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: name
-      integer(long), intent(inout)              :: a
+      logical, intent(inout), contiguous        :: a(..)
 
-      call block(self, name, is_integer, 8_long, a)
-   end subroutine long_value
+      call block(self, name, is_logical, 4, a)
+   end subroutine logical_item
 
-   subroutine real_value(self, name, a)
+   !> VALUES of so many BYTES_EACH, which keep their values where they cannot be read.
+   subroutine block(self, name, kind, bytes_each, values)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: name
-      real(wp), intent(inout)                   :: a
-
-      call block(self, name, is_real, 8_long, a)
-   end subroutine real_value
-
-   subroutine real_row(self, name, a)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: name
-      real(wp), intent(inout), contiguous       :: a(:)
-
-      call block(self, name, is_real, 8*size(a, kind=long), a)
-   end subroutine real_row
-
-   subroutine real_plane(self, name, a)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: name
-      real(wp), intent(inout), contiguous       :: a(:, :)
-
-      call block(self, name, is_real, 8*size(a, kind=long), a)
-   end subroutine real_plane
-
-   subroutine logical_value(self, name, a)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: name
-      logical, intent(inout)                    :: a
-
-      call block(self, name, is_logical, 4_long, a)
-   end subroutine logical_value
-
-   subroutine logical_row(self, name, a)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: name
-      logical, intent(inout), contiguous        :: a(:)
-
-      call block(self, name, is_logical, 4*size(a, kind=long), a)
-   end subroutine logical_row
-
-   subroutine logical_plane(self, name, a)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: name
-      logical, intent(inout), contiguous        :: a(:, :)
-
-      call block(self, name, is_logical, 4*size(a, kind=long), a)
-   end subroutine logical_plane
-
-   !> The N bytes of VALUES, which keep their values where they cannot be read.
-   subroutine block(self, name, kind, n, values)
-      class(restart_stream_type), intent(inout) :: self
-      character(*), intent(in)                  :: name
-      integer, intent(in)                       :: kind
-      integer(long), intent(in)                 :: n
+      integer, intent(in)                       :: kind, bytes_each
       type(*), intent(inout), target            :: values(..)
-      character(n), pointer :: bytes
-      integer(long) :: found
+      integer(long) :: found, n
 
+      n = bytes_each*product(max(0_long, shape(values, kind=long))) ! gfortran 12 gives an empty array that it has copied an extent of -1
       found = n
       call head(self, name, kind, found)
       if (n /= found) call self%fail(quoted(self, name)//' does not fit the model')
-      if (n == 0 .or. allocated(self%fault)) return
-      call c_f_pointer(c_loc(values), bytes)
-      call content(self, bytes)
+      if (n > 0 .and. .not. allocated(self%fault)) call move(c_loc(values), n)
+
+   contains
+
+      subroutine move(at, n)
+         type(c_ptr), intent(in)   :: at
+         integer(long), intent(in) :: n
+         character(n), pointer :: bytes
+
+         call c_f_pointer(at, bytes)
+         call content(self, bytes)
+      end subroutine move
+
    end subroutine block
 
    !> Write or read the head of the item NAME of this KIND and of N bytes. Reading gives 0 where it is another item.
@@ -339,7 +298,7 @@ contains
       integer, intent(inout)                    :: n
       integer, intent(in)                       :: bytes_each
 
-      call block(self, name, is_extent, 4_long, n)
+      call block(self, name, is_extent, 4, n)
       if (self%writes) return
       if (n < -1 .or. (n > 0 .and. int(n, long)*bytes_each > self%last - self%used)) &
          call self%fail('it ends within '//quoted(self, name))

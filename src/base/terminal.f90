@@ -30,7 +30,7 @@ module terminal
 
    integer, parameter :: width = 80 ! columns of the words in the progress line
    real, parameter    :: patience = 60.0 ! [s] until a run that is not on a terminal writes its progress unasked
-   logical :: shown = .false.
+   logical, protected, public :: line_is_shown = .false. !! the line of progress: standard error is a terminal
    logical :: logs = .false.
    integer(long) :: opened = 0, unasked = 0 ! clock at the start, and when the log begins
    character(:), allocatable :: name
@@ -129,9 +129,9 @@ contains
       logical, intent(in)      :: quiet, in_lines
       integer(long) :: rate
 
-      shown = .false.
-      if (.not. (quiet .or. in_lines)) shown = c_isatty(2_c_int) == 1
-      logs = in_lines .or. .not. (quiet .or. shown)
+      line_is_shown = .false.
+      if (.not. (quiet .or. in_lines)) line_is_shown = c_isatty(2_c_int) == 1
+      logs = in_lines .or. .not. (quiet .or. line_is_shown)
       call system_clock(opened, rate)
       unasked = opened
       if (.not. in_lines) unasked = opened + nint(patience*real(rate), long)
@@ -147,7 +147,7 @@ contains
       integer(long) :: now, rate
 
       if (present(is_logged)) call log_line(words)
-      if (.not. shown) return
+      if (.not. line_is_shown) return
       call system_clock(now, rate)
       if (.not. at_once .and. 5*(now - last) < rate) return
       last = now
@@ -170,7 +170,7 @@ contains
    !> Clear the line and show no more.
    subroutine clear_line()
       call empty_line()
-      shown = .false.
+      line_is_shown = .false.
    end subroutine clear_line
 
    !> Print a permanent line above the progress line.
@@ -183,7 +183,7 @@ contains
 
    !> Clear the progress line; the next words show it again.
    subroutine empty_line()
-      if (shown) write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', len(name) + width + 2)//achar(13)
+      if (line_is_shown) write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', len(name) + width + 2)//achar(13)
    end subroutine empty_line
 
 end module terminal

@@ -1,5 +1,5 @@
-!> Statically determinate supports for a structure without supports whose free modes are requested.
-!! The reference state of the modes needs them: as many components are held as the structure has rigid-body motions. A
+!> Supports of a structure whose free modes are requested: statically determinate ones where it has none, and none for its modes.
+!! The reference state of the modes needs determinate ones: as many components are held as the structure has rigid-body motions. A
 !! self-equilibrated load causes no reactions there.
 module free_structure
    use connected_bodies, only: find_bodies
@@ -7,8 +7,8 @@ module free_structure
    use interface_operator, only: named_node
    use kinds, only: wp
    use mesh_queries, only: element_points, is_face_node, n_points, node_kind, place_in_kind, point_of
-   use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, mesh_type, n_sections, rotation_type, &
-                         support_group
+   use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, mesh_type, model_type, n_sections, &
+                         rotation_type, support_group, supported
    use numbers, only: cross, first_largest
    use support_build, only: hold
    use tolerances, only: balanced
@@ -16,7 +16,7 @@ module free_structure
    implicit none
    private
 
-   public :: hold_free_structure, check_balance
+   public :: hold_free_structure, release_supports, check_balance
 
 contains
 
@@ -97,6 +97,25 @@ contains
       turn = cross(along, mesh%x(:, c) - mesh%x(:, a))
       call hold(mesh, freedoms, c, first_largest(abs(turn)))
    end subroutine hold_free_structure
+
+   !> MODEL without its supports, or those of SUPORT where it has any; the condition on the axis of a ring remains.
+   pure subroutine release_supports(model)
+      type(model_type), intent(inout) :: model
+      logical :: free(model%mesh%dimension), some
+      integer :: d, i
+
+      associate (groups => model%freedoms%support_groups, of => model%freedoms%support_of)
+         some = any(groups%kind == 'FREE')
+         do i = 1, model%mesh%n_nodes - n_sections(model%mesh)
+            free = supported(model%mesh, model%freedoms, i)
+            do d = 1, merge(size(free), 0, some)
+               if (free(d)) free(d) = groups(of(d, i))%kind == 'FREE'
+            end do
+            if (model%mesh%axisymmetric) free(1) = free(1) .and. abs(model%mesh%x(1, i)) > 0.0_wp
+            model%freedoms%held(:, i) = model%freedoms%held(:, i) .and. .not. free
+         end do
+      end associate
+   end subroutine release_supports
 
    !> Hold the rigid-body motions of the structure that its supports leave, at nodes that MAY BE held: each by the component that moves
    !! most in those that are left.

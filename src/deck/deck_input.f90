@@ -7,7 +7,7 @@ module deck_input
    use deck_errors, only: deck_error_list
    use deck_parameters, only: parameter_type
    use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
-   use include_lines, only: is_include
+   use deck_lines, only: is_include
    use, intrinsic :: iso_fortran_env, only: int16
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long

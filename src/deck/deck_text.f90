@@ -4,9 +4,8 @@ module deck_text
    use checksum, only: add_to_checksum, no_bytes
    use terminal, only: standard_input
    use deck_errors, only: deck_error_list
+   use deck_lines, only: file_named_by, is_include, is_open, line_place, scan_line
    use deck_parameters, only: fill_parameters, parameter_type
-   use include_lines, only: file_named_by, is_include, is_open
-   use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: long
    use lists, only: first_not_below
    use tab_columns, only: expand_tabs
@@ -14,25 +13,11 @@ module deck_text
    implicit none
    private
 
-   public :: read_deck_text, deck_text_of_bytes, checksum_of, scan_line
+   public :: read_deck_text, deck_text_of_bytes, checksum_of
 
    integer, parameter :: max_files = 500 ! a deck and its INCLUDE files
    integer, parameter :: max_depth = 20  ! depth of nested INCLUDE
    integer, parameter :: most_include = 8 ! continuations of an INCLUDE
-
-   !> Place of a line. Its card part is the line without its comment ($ to the end) and without trailing blanks.
-   type, public :: line_place
-      integer(long) :: start  = 0 !! byte of its file, from 1
-      integer       :: length = 0 !! of the card part
-      integer       :: comma  = 0 !! column of the first comma in the card part up to column 72, 0: none
-   end type line_place
-
-   ! classes of bytes
-   integer, parameter :: plain = 0, line_feed = 1, carriage_return = 2, dollar = 3, comma = 4, control = 5
-   integer :: code
-   integer(int8), parameter :: meaning(0:255) = int([(control, code = 0, 8), plain, line_feed, control, control, carriage_return, &
-      (control, code = 14, 31), (plain, code = 32, 35), dollar, (plain, code = 37, 43), comma, (plain, code = 45, 126), &
-      control, (plain, code = 128, 255)], int8)
 
    type :: source_file
       character(:), allocatable :: path      ! as the user wrote it
@@ -251,7 +236,6 @@ contains
       type(deck_text_type), intent(inout)  :: text
       integer, intent(in)                  :: me, depth
       type(deck_error_list), intent(inout) :: errors
-      type(line_place), allocatable :: wider(:)
       integer :: number, bad, opened
       integer(long) :: start, next, length
       character(:), allocatable :: statement ! an INCLUDE so far; empty: none
@@ -276,11 +260,7 @@ contains
             text%n_parts = text%n_parts + 1
             text%parts(text%n_parts) = part_type(text%n + 1, me, number)
          end if
-         if (text%n == size(text%lines)) then
-            allocate (wider(2*text%n))
-            wider(:text%n) = text%lines
-            call move_alloc(wider, text%lines)
-         end if
+         if (text%n == size(text%lines)) text%lines = [text%lines, text%lines]
          text%n = text%n + 1
          call scan_line(text%files(me)%bytes, start, text%lines(text%n), next, bad)
          if (bad >= 0) then
@@ -376,46 +356,5 @@ contains
       if (.not. followed) call errors%add(here, 'INCLUDE: '''//path(:min(len(path), 200))// &
                                           ''' cannot be read: no such file, or not a file')
    end subroutine follow_include
-
-   !> Scan the line of BYTES that begins at START; each byte is examined once.
-   pure subroutine scan_line(bytes, start, line, next, bad)
-      character(*), intent(in)      :: bytes
-      integer(long), intent(in)     :: start
-      type(line_place), intent(out) :: line
-      integer(long), intent(out)    :: next    !! start of the next line
-      integer, intent(out)          :: bad     !! code of the first byte that no text file holds (a control character other
-                                               !! than a tab), -1: none
-      integer(long) :: i, finish
-      logical :: in_card ! still in the card part
-
-      bad = -1
-      in_card = .true.
-      line%start = start
-      finish = len(bytes, long)
-      next = finish + 1
-      do i = start, len(bytes, long)
-         select case (meaning(iachar(bytes(i:i))))
-         case (plain)
-            cycle
-         case (comma)
-            if (in_card .and. line%comma == 0 .and. i < start + 72) line%comma = int(i - start + 1)
-         case (dollar)
-            if (in_card) finish = i - 1
-            in_card = .false.
-         case (carriage_return)
-            if (bad < 0 .and. i < len(bytes, long) .and. bytes(i + 1:min(i + 1, len(bytes, long))) /= achar(10)) &
-               bad = iachar(bytes(i:i)) ! it does not end its line
-            if (in_card) finish = i - 1
-            in_card = .false.
-         case (line_feed)
-            if (in_card) finish = i - 1
-            next = i + 1
-            exit
-         case default
-            if (bad < 0) bad = iachar(bytes(i:i))
-         end select
-      end do
-      line%length = len_trim(bytes(start:finish))
-   end subroutine scan_line
 
 end module deck_text

@@ -6,7 +6,7 @@ module nastran_defaults
    use deck_cards, only: card_name
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
-   use include_lines, only: is_include
+   use deck_lines, only: is_include
    use nastran_words, only: is_idle_card
    use stage_entries, only: stage_type
    use text_tools, only: integer_text, upper

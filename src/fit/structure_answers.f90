@@ -15,6 +15,7 @@ module structure_answers
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system, failure_type
    use equations, only: recover_displacements
+   use free_structure, only: release_supports
    use interface_operator, only: joint_movement
    use kinds, only: wp
    use load_path, only: recover_bodies
@@ -24,7 +25,7 @@ module structure_answers
    use modal_response, only: find_response, response_type
    use model_data, only: model_type
    use node_coupling, only: displacements, forces_on_unknowns
-   use natural_modes, only: find_natural_modes, oscillating_type, release_supports, spectrum_type, start_oscillation
+   use natural_modes, only: find_natural_modes, oscillating_type, spectrum_type, start_oscillation
    use shear_loops, only: oscillation_stiffness
    use stage_plan, only: merged, stage_plan_type
    use text_tools, only: integer_text

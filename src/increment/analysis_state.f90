@@ -13,7 +13,7 @@ module analysis_state
    use normal_curve, only: normal_secant
    use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin
    use numbers, only: is_measure
-   use terminal, only: show_line
+   use terminal, only: line_is_shown, show_line
    use text_tools, only: integer_text, real_text
    use tolerances, only: newton_tol, path_tol, rounding_of_forces
    implicit none
@@ -330,7 +330,8 @@ contains
          record%n_iterations = record%n_iterations + 1
          record%iterations(record%n_iterations) = iteration
       end associate
-      call show_line('stage '//integer_text(analysis%stage)//', increment '//integer_text(analysis%increment)//', iteration '// &
+      if (line_is_shown) & ! the words cost more than the record
+         call show_line('stage '//integer_text(analysis%stage)//', increment '//integer_text(analysis%increment)//', iteration '// &
                      integer_text(analysis%record%n_iterations)//': '//real_text(iteration%after)//' left, changes of branch: '// &
                      integer_text(iteration%changes), at_once=.false.)
    end subroutine record_iteration

@@ -329,10 +329,10 @@ contains
          real(wp), intent(in)  :: m
          real(wp), intent(out) :: t, slope
          type(shear_state) :: state
-         real(wp) :: by_p, work
+         real(wp) :: by_p
 
          call follow_shear(law%shear(i), before%shear(i), m - before%origin(i), [before%normal%pressure, normal%pressure], state, &
-                           slope, by_p, work)
+                           slope, by_p)
          t = area*state%tau
          slope = max(0.0_wp, area*slope)
       end subroutine shear_force

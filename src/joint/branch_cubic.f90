@@ -39,7 +39,9 @@ contains
       d = 0.0_wp
       a = at_pressure(curve, p)
       if (a(1) <= 0.0_wp .or. stress <= 0.0_wp) return
-      unit = stress/a(1)                                   ! x = d/unit: P/stress = x + q_2 x**2 + q_3 x**3
+      d = stress/a(1)
+      if (all(abs(a(2:)) <= 0.0_wp)) return
+      unit = d                                             ! x = d/unit: P/stress = x + q_2 x**2 + q_3 x**3
       q = [1.0_wp, a(2)*unit/a(1), a(3)*unit*unit/a(1)]
       ! the first zero of P', in the form without cancellation; a cubic that rises up to x = 4 reaches 1 before
       farthest = 4.0_wp
@@ -80,6 +82,7 @@ contains
       c = 0.0_wp
       power = first
       do k = 1, 3
+         if (all(abs(a(:, k:)) <= 0.0_wp)) exit
          c = c + times(power, [a(1, k) + a(2, k)*p(1), a(2, k)*p(2)])
          power = times(power, d)
       end do

@@ -262,7 +262,7 @@ contains
       end if
       do i = 1, 2
          call follow_shear(law%shear(i), before%shear(i), movement(i) - after%origin(i), &
-                           [before%normal%pressure, normal%pressure], after%shear(i), by_delta(i), by_p(i), work)
+                           [before%normal%pressure, normal%pressure], after%shear(i), by_delta(i), by_p(i))
          tangent(i, i) = area*by_delta(i)*share
          tangent(i, 3) = area*by_p(i)*slope + area*by_delta(i)*(movement(i) - before%origin(i))*share_by_lambda
       end do

@@ -40,7 +40,7 @@ contains
       type(shear_state), intent(out) :: after
       real(wp), intent(out)          :: by_delta !! d tau/d DELTA [pressure/length]
       real(wp), intent(out)          :: by_p     !! d tau/d P(2) [-]
-      real(wp), intent(out)          :: work     !! integral of tau d delta [pressure x length]
+      real(wp), intent(out), optional :: work    !! integral of tau d delta [pressure x length]
       type(piece_type) :: piece
       real(wp) :: way(2, 2) ! (delta - delta_0 and p; start and change): the place at the fraction f is start + f change
       real(wp) :: moved
@@ -51,7 +51,7 @@ contains
       after%tau_before = before%tau
       by_delta = 0.0_wp
       by_p = 0.0_wp
-      work = 0.0_wp
+      if (present(work)) work = 0.0_wp
       moved = delta - before%delta
       if (law%given) call leave_offset(law, p(1), after)
       after%delta = delta
@@ -207,13 +207,14 @@ contains
       type(piece_type), intent(in)     :: piece
       real(wp), intent(in)             :: way(2, 2)
       type(shear_state), intent(inout) :: state
-      real(wp), intent(inout)          :: by_delta, by_p, work
+      real(wp), intent(inout)          :: by_delta, by_p
+      real(wp), intent(inout), optional :: work
       real(wp) :: f, place(2), step, slope, slope_by_d, slope_by_p
       integer  :: i
 
       step = piece%to - piece%from
       if (step <= 0.0_wp) return
-      do i = 1, 3
+      do i = 1, merge(3, 0, present(work))
          work = work + weight_3(i)*step*way(1, 2)*(state%tau + stress_gain(piece%from + step*gauss_3(i)))
       end do
       do i = 1, 2

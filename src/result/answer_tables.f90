@@ -265,9 +265,7 @@ contains
       type(analysis_type), intent(in)    :: analysis
       type(bolt_answer_type), intent(in) :: bolt
       type(table_type), intent(inout)    :: table
-      logical :: clamps
 
-      clamps = bolt%joint > 0
       call table%put('stage', stage)
       call table%put('increment', analysis%increment)
       call table%put('load', analysis%fraction)
@@ -285,8 +283,8 @@ contains
       call table%put('stress', bolt%stress)
       call table%put('edge_stress', bolt%edge_stress, where=bolt%has_moment)
       call table%put('use', bolt%use, where=bolt%has_strength)
-      call table%put('joint', bolt%joint, where=clamps)
-      call table%put(['clamping', 'loss    '], [bolt%clamping, bolt%loss], where=[clamps, clamps])
+      call table%put('joint', bolt%joint, where=bolt%joint > 0)
+      call table%put(['clamping', 'loss    '], [bolt%clamping, bolt%loss], where=spread(bolt%joint > 0, 1, 2))
       call table%put('safety', bolt%safety, where=bolt%has_safety)
       if (has_parts(model)) then
          call table%put(part_names, bolt%by, where=spread(bolt%is_locked, 1, 4))

@@ -4,8 +4,11 @@
 !! a stage is in equilibrium and stays too.) The mark of a CSV file cannot stand in the file: NAME.early names the files that end
 !! early. A complete run removes NAME.early.
 module finished_stages
+   use body_values, only: body_values_type
+   use bolt_answers, only: bolt_answer_type
    use equation_solver, only: failure_type
    use incomplete_results, only: forget_kept, keep_at_ends, say_at_interrupts
+   use joint_answers, only: joint_answer
    use kinds, only: wp
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
@@ -16,8 +19,8 @@ module finished_stages
    implicit none
    private
 
-   public :: count_increment, count_frequencies, mark_finished, return_to_finished, name_companion, listing_end, record_finished, &
-             record_counts
+   public :: count_increment, count_stage, count_frequencies, mark_finished, return_to_finished, name_companion, listing_end, &
+             record_finished, record_counts
 
    !> The values of a run in a row of a batch.
    type, public :: digest_type
@@ -66,6 +69,26 @@ contains
       counts%digest%iterations = counts%digest%iterations + n_iterations
       counts%n_removed = counts%n_removed + n_removed
    end subroutine count_increment
+
+   !> Note what BODIES, JOINTS and BOLTS have at the end of a stage, which IS_COMPLETE or has ended early.
+   pure subroutine count_stage(is_complete, bodies, joints, bolts, counts)
+      logical, intent(in)                :: is_complete
+      type(body_values_type), intent(in) :: bodies
+      type(joint_answer), intent(in)     :: joints(:)
+      type(bolt_answer_type), intent(in) :: bolts(:)
+      type(count_type), intent(inout)    :: counts
+
+      associate (digest => counts%digest)
+         if (is_complete) digest%stages = digest%stages + 1
+         digest%u_max = max(digest%u_max, bodies%displacement%value)
+         digest%mises_max = max(digest%mises_max, bodies%at_node%value)
+         digest%strained = max(digest%strained, bodies%strained)
+         digest%contact = min(digest%contact, minval(joints%now%contact))
+         digest%safety = min(digest%safety, minval(joints%safety, mask=joints%has_safety))
+         digest%bolt_force = min(digest%bolt_force, minval(bolts%force, mask=bolts%is_locked))
+         digest%bolt_use = max(digest%bolt_use, maxval(bolts%use, mask=bolts%has_strength))
+      end associate
+   end subroutine count_stage
 
    !> Note the first natural FREQUENCIES of the stage that has been completed last.
    pure subroutine count_frequencies(frequencies, counts)

@@ -3,7 +3,7 @@ module listing_summary
    use control_words, only: method_newton, method_step, pressure_eq10
    use deck_cards, only: card_name
    use deck_input, only: deck_type
-   use include_lines, only: is_include
+   use deck_lines, only: is_include
    use element_kinds, only: element_table
    use element_mapping, only: has_modes
    use equation_solver, only: equation_system

@@ -27,7 +27,7 @@ module range_watch
    implicit none
    private
 
-   public :: start_watch, watch_increment, watch_stage, print_warnings, record_watch, tetra_words, warn
+   public :: start_watch, watch_drops, watch_increment, watch_stage, print_warnings, record_watch, tetra_words, warn
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: a smaller remainder gives no warning
 
@@ -108,6 +108,30 @@ contains
       if (any(watch%first_of < 0)) call watch_closures(model, watch)
       call watch_unloading(page%place, model, analysis, watch)
    end subroutine watch_increment
+
+   !> Warn once of an element with shear stiffness and without friction that is open, and was pressed or has no gap. WORDS are for the
+   !! screen, '' where there is nothing new to say.
+   subroutine watch_drops(model, analysis, watch, words)
+      type(model_type), intent(in)           :: model
+      type(analysis_type), intent(in)        :: analysis !! a state that NEWTON has iterated
+      type(range_watch_type), intent(inout)  :: watch
+      character(:), allocatable, intent(out) :: words
+      integer :: i
+
+      words = ''
+      do i = 1, merge(0, size(model%joints%element), watch%tells_drops)
+         associate (law => model%joints%list(model%joints%element(i)%joint)%law, state => analysis%states(i)%normal)
+            if (state%branch /= branch_open .or. law%has_friction .or. .not. any(law%shear%given)) cycle
+            if (state%gap > 0.0_wp .and. .not. state%p_a > 0.0_wp) cycle
+         end associate
+         watch%tells_drops = .true.
+         words = 'JOINT '//integer_text(model%joints%list(model%joints%element(i)%joint)%id)//', node '// &
+                 integer_text(joint_node_id(model, i, 1))//': an element with shear stiffness and without MU on '// &
+                 'PJOINT has opened; it drops its shear at once, and the equilibrium may be one of several that rounding chooses'
+         call warn(watch, '  WARNING: '//upper(words))
+         return
+      end do
+   end subroutine watch_drops
 
    !> Warn of the stage just completed: a line for each joint and bound of its shear law that elements have exceeded; the unbalanced
    !! force, and the remaining excess over the friction limits.

@@ -12,8 +12,8 @@ module results
    use distance_watch, only: default_slope_words
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system, failure_type
-   use finished_stages, only: count_frequencies, count_increment, count_type, finished_type, listing_end, mark_finished, &
-                              name_companion, record_counts, record_finished, return_to_finished
+   use finished_stages, only: count_frequencies, count_increment, count_stage, count_type, finished_type, listing_end, &
+                              mark_finished, name_companion, record_counts, record_finished, return_to_finished
    use incomplete_results, only: all_complete, give_up_parts, what_is_in_the_way
    use joint_answers, only: fault_of_joints, find_joint_answers, joint_answer
    use joint_tables, only: list_energy, list_joints, plot_joint, write_history
@@ -37,7 +37,7 @@ module results
    use symmetry_planes, only: cut_type, symmetry_plane
    use table_column, only: csv_titles
    use table_writer, only: table_type
-   use text_tools, only: integer_text, real_text, text_item, upper
+   use text_tools, only: integer_text, one_of, real_text, text_item, upper
    use unit_watch, only: stress_words
    use vibration_tables, only: list_modes
    use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, write_modes, write_vtu
@@ -95,8 +95,7 @@ contains
       allocate (results%cases(0), results%kept(size(plan%stages)))
       call start_watch(model, results%watch)
       associate (page => results%page, control => deck%control)
-         if (base == '') call page%file%start('')
-         if (base /= '') call page%file%start(base//listing_ending)
+         call page%file%start(one_of(base == '', '', base//listing_ending))
          if (control%length_unit /= '') call set_labels(trim(control%length_unit), trim(control%force_unit), page%labels)
          call write_opening(page, deck, model, plan, system)
          if (base /= '' .and. any(plan%stages%output%vtu)) call distribute_bodies(model, system, subdomains)
@@ -112,9 +111,8 @@ contains
       is_asked([backbone_table, loop_table]) = plan%has_backbones
       is_asked(bend_table) = plan%has_backbones .and. plan%has_responses
       is_asked([watch_table, split_table]) = plan%has_watched_nodes
-      is_asked(pair_table) = plan%has_pairs
-      is_asked(pair_modes_table) = plan%has_pairs .and. plan%has_modes
-      is_asked(pair_response_table) = plan%has_pairs .and. plan%has_responses
+      is_asked([pair_table, pair_modes_table, pair_response_table]) = plan%has_pairs .and. &
+                                                                      [.true., plan%has_modes, plan%has_responses]
       is_asked(dmig_table) = any(plan%stages%output%dmig)
       is_asked(shell_table) = any(plan%stages%output%forces)
       is_asked(cases_table) = any([(is_case(model%history, i), i = 1, size(plan%stages))])
@@ -147,10 +145,8 @@ contains
          page%now = ', '//upper(page%place)//stage%shown_words
          page%label = trim(stage%label)
          page%along_cd = stage%output%along_cd
-         if (analysis%increment == 1) then
-            if (allocated(page%shown)) deallocate (page%shown)
-            if (allocated(stage%shown)) page%shown = stage%shown
-         end if
+         if (allocated(page%shown)) deallocate (page%shown)
+         if (allocated(stage%shown)) page%shown = stage%shown
          page%largest_force = max(page%largest_force, maxval(abs(analysis%now%load(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &
             max(page%largest_force, maxval(abs(held_forces(model, analysis%all_unbalanced)))) ! forces that move the supports
@@ -246,16 +242,7 @@ contains
          end if
          call page%file%put_lines(page%screen%text_behind(before)) ! the answer is repeated in the listing
       end associate
-      associate (digest => results%counts%digest)
-         if (.not. analysis%record%ends_early) digest%stages = digest%stages + 1
-         digest%u_max = max(digest%u_max, bodies%displacement%value)
-         digest%mises_max = max(digest%mises_max, bodies%at_node%value)
-         digest%strained = max(digest%strained, bodies%strained)
-         digest%contact = min(digest%contact, minval(joints%now%contact))
-         digest%safety = min(digest%safety, minval(joints%safety, mask=joints%has_safety))
-         digest%bolt_force = min(digest%bolt_force, minval(results%bolts_now%force, mask=results%bolts_now%is_locked))
-         digest%bolt_use = max(digest%bolt_use, maxval(results%bolts_now%use, mask=results%bolts_now%has_strength))
-      end associate
+      call count_stage(.not. analysis%record%ends_early, bodies, joints, results%bolts_now, results%counts)
       call note_case(model, plan, analysis, bodies, joints, results%bolts_now, results%watched, results%cases)
       call end_bolts(analysis%stage, results%bolts_now, results%bolts)
       results%watched_before = state_at_end(model, analysis)
@@ -342,8 +329,7 @@ contains
 
       ok = .true.
       if (results%base == '') return ! the listing is already there
-      names = results%base//listing_ending//' (listing)'
-      names = names//', '//results%base//trim(table_endings(joint_table))
+      names = results%base//listing_ending//' (listing), '//results%base//trim(table_endings(joint_table))
       do i = joint_table + 1, size(table_endings)
          if (results%page%tables(i)%is_named) names = names//', '//trim(table_endings(i))
       end do

@@ -204,6 +204,7 @@ contains
             stream%used = 0
             call record_analysis(stream, analysis)
             call record_reference(stream, run%results)
+            if (allocated(stream%fault)) call run%failure%raise('FROM: the kept state cannot be read: '//stream%fault)
             analysis%next = next
          end if
          call release_bolts(model, next, analysis)

@@ -16,6 +16,7 @@ module run_boxes
    use equations, only: form_body_stiffness, start_equations
    use facing_bodies, only: loose_words
    use finite_state, only: check_state
+   use free_structure, only: release_supports
    use incomplete_results, only: say_at_interrupts, watch_ends, watch_interrupts
    use joint_suggestions, only: suggest_joints
    use kinds, only: wp
@@ -27,13 +28,12 @@ module run_boxes
    use modal_response, only: find_response, response_type
    use mode_values, only: evaluate_modes, modes_type
    use model_build, only: build_model
-   use model_data, only: joint_node_id, model_type
-   use natural_modes, only: find_natural_modes, release_supports, oscillating_type, spectrum_type, start_oscillation
+   use model_data, only: model_type
+   use natural_modes, only: find_natural_modes, oscillating_type, spectrum_type, start_oscillation
    use newton_method, only: seat_joints
-   use normal_stiffness, only: branch_open
    use openblas, only: prepare_libraries, tell_kernel
    use nx_translation, only: translate_contacts
-   use range_watch, only: warn
+   use range_watch, only: watch_drops
    use restart_file, only: open_restart_file, take_up, write_restart
    use result_names, only: remove_old_results
    use results, only: end_stage, list_results => print_increment, print_modes, print_stage, start_results
@@ -45,7 +45,6 @@ module run_boxes
    use response_tables, only: list_pair_response, list_response, list_uncovered
    use vibration_tables, only: list_backbone
    use vtu_grids, only: write_piece
-   use text_tools, only: integer_text, upper
    implicit none
    private
 
@@ -302,29 +301,16 @@ contains
       if (allocated(analysis%kept)) call go_on(run, deck, model, plan, system, analysis)
    end subroutine start_joints
 
-   !> Say it once where an element with shear stiffness and without friction is open that was pressed, or that has no gap, in a
-   !! state that NEWTON has iterated.
+   !> Say it once where an element has dropped its shear, in a state that NEWTON has iterated.
    subroutine note_drops(run, model, analysis)
       type(run_type), intent(inout)   :: run
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       character(:), allocatable :: words
-      integer :: i
 
-      if (run%results%watch%tells_drops .or. run%failure%raised) return
-      do i = 1, size(model%joints%element)
-         associate (law => model%joints%list(model%joints%element(i)%joint)%law, state => analysis%states(i)%normal)
-            if (state%branch /= branch_open .or. law%has_friction .or. .not. any(law%shear%given)) cycle
-            if (state%gap > 0.0_wp .and. .not. state%p_a > 0.0_wp) cycle
-         end associate
-         run%results%watch%tells_drops = .true.
-         words = 'JOINT '//integer_text(model%joints%list(model%joints%element(i)%joint)%id)//', node '// &
-                 integer_text(joint_node_id(model, i, 1))//': an element with shear stiffness and without MU on '// &
-                 'PJOINT has opened; it drops its shear at once, and the equilibrium may be one of several that rounding chooses'
-         call tell(run, words)
-         call warn(run%results%watch, '  WARNING: '//upper(words))
-         return
-      end do
+      if (run%failure%raised) return
+      call watch_drops(model, analysis, run%results%watch, words)
+      if (words /= '') call tell(run, words)
    end subroutine note_drops
 
    !> Whether a stage is left, or the rest of a stage that has been resumed.

@@ -18,7 +18,7 @@ module natural_modes
    use kinds, only: wp
    use mass_matrix, only: form_mass, mass_matrix_type
    use mesh_queries, only: n_points, node_kind
-   use model_data, only: a_point, model_type, n_bars, n_sections, supported
+   use model_data, only: a_point, model_type, n_bars, n_sections
    use shear_loops, only: oscillation_stiffness
    use stage_plan, only: vibration_plan_type
    use text_tools, only: integer_text
@@ -26,7 +26,7 @@ module natural_modes
    implicit none
    private
 
-   public :: release_supports, start_oscillation, factorise_at, find_natural_modes
+   public :: start_oscillation, factorise_at, find_natural_modes
 
    integer, parameter  :: beyond = 3              ! extra modes: the last wanted one may have equals
    integer, parameter  :: most_trials = 4
@@ -56,25 +56,6 @@ module natural_modes
    end type spectrum_type
 
 contains
-
-   !> MODEL without its supports, or those of SUPORT where it has any; the condition on the axis of a ring remains.
-   pure subroutine release_supports(model)
-      type(model_type), intent(inout) :: model
-      logical :: free(model%mesh%dimension), some
-      integer :: d, i
-
-      associate (groups => model%freedoms%support_groups, of => model%freedoms%support_of)
-         some = any(groups%kind == 'FREE')
-         do i = 1, model%mesh%n_nodes - n_sections(model%mesh)
-            free = supported(model%mesh, model%freedoms, i)
-            do d = 1, merge(size(free), 0, some)
-               if (free(d)) free(d) = groups(of(d, i))%kind == 'FREE'
-            end do
-            if (model%mesh%axisymmetric) free(1) = free(1) .and. abs(model%mesh%x(1, i)) > 0.0_wp
-            model%freedoms%held(:, i) = model%freedoms%held(:, i) .and. .not. free
-         end do
-      end associate
-   end subroutine release_supports
 
    !> Stiffness and mass about the state of ANALYSIS, and the order of the equations. The solver is SKYLINE if SYSTEM is
    !! SKYLINE, else TREE.

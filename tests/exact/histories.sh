@@ -201,3 +201,11 @@ for tip in 41.0 57.0; do
    sed "s/^FORCEM  19      20.0 /FORCEM  19      $tip /" input/two_leaves.bdf > "$work/leaves.bdf"
    run leaves && ask "leaves under $tip: every element stays on its loading curve" leaves all 'branch = "LOAD"'
 done
+# ... in one increment a stage, which NEWTON divides: listing and screen name the parts; under a constant limit the answer does not hang on
+# them
+sed 's/^  LOAD = .*/&\n  INCR = 77/; s/^ENDDATA/JINCR,77,1\nENDDATA/' "$work/leaves.bdf" > "$work/parts.bdf"
+run parts && {
+   says 'leaves in parts: the listing' "$work/parts.out" 'STAGE [234], INCREMENT 1: DIVIDED INTO [0-9]* PARTS,'
+   says 'leaves in parts: the screen' "$work/parts.log" 'divided into [0-9]* parts, '
+   ask 'leaves in parts: the answer' parts with "$work/leaves.joint.csv" all 'tau_x = other.tau_x within 1e-6*max(abs(tau_x))'
+}

@@ -23,6 +23,8 @@ superelement_beams guyan 'SPC = 1\nOUTPUT = LAST, DMIG\nLOAD = 10' 'FORCE,10,5,,
    says 'the listing' "$work/guyan.out" 'STIFFNESS KAAX AND MASS MAAX, CONDENSED ON 12 COMPONENTS OF NODES: DMIG CARDS'
    same 'the header: symmetric, real double precision' "$(grep -c '^DMIG    [KM]AAX           0       6       2       0$' "$work/guyan.dmig")" 2
 }
+superelement_beams of_four 'SPC = 1\nOUTPUT = LAST, DMIG\nLOAD = 10' 'FORCE,10,5,,10.0,1.0,2.0,3.0\nASET,3,123456,5,123,0,0,5,456' &&
+   same 'ASET, pairs of a node and components, as ASET1' "$(cmp "$work/guyan.dmig" "$work/of_four.dmig" && echo so)" so
 
 # ---- a free block, with a joint or a rigid foot of rotations: no force under rigid-body motions, the mass of the whole
 # superelement_block NAME CASE CARDS: 3 x 2 x 2 bricks, 30 x 20 x 20; node 1 + ix + 4 iy + 12 iz

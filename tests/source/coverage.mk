@@ -1,6 +1,9 @@
 # Which lines of src the tests run: make coverage. Included by the Makefile, which sets BUILD and the rules of the programs.
 #
-# The checked build is made anew under $(BUILD)/coverage with counters in place of checks, and takes the part of both programs.
+# The checked build is made anew under $(BUILD)/coverage with counters in place of checks, and takes the part of both programs. The parts
+# that run the decks of the manuals are left out: a third of the time, in which ten lines of 26,000 run that no other part reaches.
+
+COVERAGE_WITHOUT = other processors|run-time checks|benchmark|queries|itself|themselves|tools of make|tour|verification manual|of the manuals
 
 COVERAGE_FLAGS = -O0 --coverage -fprofile-update=atomic -fopenmp -fno-backtrace $(WARNINGS)
 
@@ -11,6 +14,6 @@ coverage: $(COMPARE) $(QUERY)
 
 coverage-run: $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(UNIT_PROGRAM)
 	@find $(BUILD) -name '*.gcda' -delete
-	@-MAKE='$(MAKE)' WITHOUT='other processors|run-time checks|benchmark|queries|itself|themselves|tools of make|tour' tests/run_all.sh $(BUILD)/checked/jointfem \
-	   $(BUILD)/checked/jointfem $(COMPARE) $(QUERY) $(BUILD) > $(BUILD)/tests.log 2>&1; tail -n 1 $(BUILD)/tests.log
+	@-MAKE='$(MAKE)' WITHOUT='$(COVERAGE_WITHOUT)' tests/run_all.sh $(BUILD)/checked/jointfem $(BUILD)/checked/jointfem \
+	   $(COMPARE) $(QUERY) $(BUILD) > $(BUILD)/tests.log 2>&1; tail -n 1 $(BUILD)/tests.log
 	@tests/source/coverage.sh $(BUILD)/checked src tests/source/unreached.txt

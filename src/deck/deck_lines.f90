@@ -1,0 +1,107 @@
+!> Scans a line of a deck for its end, its card part and its first comma; interprets an INCLUDE: recognises its line, finds whether its
+!! name goes on on the next line, and takes the name.
+module deck_lines
+   use, intrinsic :: iso_fortran_env, only: int8
+   use kinds, only: long
+   use text_tools, only: upper
+   implicit none
+   private
+
+   public :: scan_line, is_include, is_open, file_named_by
+
+   !> Place of a line. Its card part is the line without its comment ($ to the end) and without trailing blanks.
+   type, public :: line_place
+      integer(long) :: start  = 0 !! byte of its file, from 1
+      integer       :: length = 0 !! of the card part
+      integer       :: comma  = 0 !! column of the first comma in the card part up to column 72, 0: none
+   end type line_place
+
+   ! classes of bytes
+   integer, parameter :: plain = 0, line_feed = 1, carriage_return = 2, dollar = 3, comma = 4, control = 5
+   integer :: code
+   integer(int8), parameter :: meaning(0:255) = int([(control, code = 0, 8), plain, line_feed, control, control, carriage_return, &
+      (control, code = 14, 31), (plain, code = 32, 35), dollar, (plain, code = 37, 43), comma, (plain, code = 45, 126), &
+      control, (plain, code = 128, 255)], int8)
+
+contains
+
+   !> Scan the line of BYTES that begins at START; each byte is examined once.
+   pure subroutine scan_line(bytes, start, line, next, bad)
+      character(*), intent(in)      :: bytes
+      integer(long), intent(in)     :: start
+      type(line_place), intent(out) :: line
+      integer(long), intent(out)    :: next    !! start of the next line
+      integer, intent(out)          :: bad     !! code of the first byte that no text file holds (a control character other
+                                               !! than a tab), -1: none
+      integer(long) :: i, finish
+      logical :: in_card ! still in the card part
+
+      bad = -1
+      in_card = .true.
+      line%start = start
+      finish = len(bytes, long)
+      next = finish + 1
+      do i = start, len(bytes, long)
+         select case (meaning(iachar(bytes(i:i))))
+         case (plain)
+            cycle
+         case (comma)
+            if (in_card .and. line%comma == 0 .and. i < start + 72) line%comma = int(i - start + 1)
+         case (dollar)
+            if (in_card) finish = i - 1
+            in_card = .false.
+         case (carriage_return)
+            if (bad < 0 .and. i < len(bytes, long) .and. bytes(i + 1:min(i + 1, len(bytes, long))) /= achar(10)) &
+               bad = iachar(bytes(i:i)) ! it does not end its line
+            if (in_card) finish = i - 1
+            in_card = .false.
+         case (line_feed)
+            if (in_card) finish = i - 1
+            next = i + 1
+            exit
+         case default
+            if (bad < 0) bad = iachar(bytes(i:i))
+         end select
+      end do
+      line%length = len_trim(bytes(start:finish))
+   end subroutine scan_line
+
+   !> Whether LINE (its card part) is an INCLUDE: the word, followed by a blank, a quote or an equals sign.
+   pure logical function is_include(line)
+      character(*), intent(in) :: line
+      integer :: first
+
+      is_include = .false.
+      first = verify(line, ' ')
+      if (first == 0) return
+      if (line(first:first) /= 'I' .and. line(first:first) /= 'i') return ! the usual case
+      is_include = upper(line(first:min(first + 6, len(line)))) == 'INCLUDE'
+      if (is_include .and. len(line) > first + 6) is_include = scan(line(first + 7:first + 7), ' ''"=') == 1
+   end function is_include
+
+   !> Whether STATEMENT, an INCLUDE, ends within a name in quotes: the name goes on on the next line.
+   pure logical function is_open(statement)
+      character(*), intent(in) :: statement
+      integer :: quote
+
+      quote = scan(statement, '''"')
+      is_open = quote > 0
+      if (is_open) is_open = index(statement(quote + 1:), statement(quote:quote)) == 0
+   end function is_open
+
+   !> The name of the file in STATEMENT, an INCLUDE; empty where there is none.
+   pure function file_named_by(statement) result(path)
+      character(*), intent(in)  :: statement
+      character(:), allocatable :: path
+      integer :: closing
+
+      path = adjustl(statement)
+      path = trim(adjustl(path(8:)))
+      if (index(path, '=') == 1) path = trim(adjustl(path(2:)))
+      if (scan(path, '''"') == 1) then ! in quotes, the last character of the statement is the closing one
+         closing = index(path(2:), path(1:1))
+         path = path(2:merge(closing, 0, len(path) == closing + 1))
+      end if
+   end function file_named_by
+
+end module deck_lines
