@@ -12,9 +12,9 @@ module identification
    use incomplete_results, only: hold_interrupts, interrupt_so_far
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: wp
-   use law_search, only: differences, outer_value, search_type, seek
+   use law_search, only: search_type, seek
    use machine, only: use_threads
-   use measured_data, only: measured_type, read_measured
+   use measured_data, only: differences, measured_type, outer_value, read_measured
    use omp_lib, only: omp_get_max_threads
    use openblas, only: prepare_openblas
    use output_file, only: output_file_type
