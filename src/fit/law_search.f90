@@ -171,7 +171,8 @@ contains
          z = best_y
          numbers = task%data%rows%mode
          if (is_better .and. any(abs(task%found%off_number) > 0.0_wp)) cycle
-         call exchange_modes(task%data, task%structure, task%paired, numbers, is_tried)
+         call exchange_modes(task%data, task%structure, task%paired, &
+                             sqrt(max(1.0_wp, found/max(1, size(numbers) - size(task%search%free)))), numbers, is_tried)
          if (all(numbers == task%data%rows%mode)) exit
       end do
    end subroutine pair_modes

@@ -347,10 +347,12 @@ contains
    end subroutine match_mode
 
    !> Exchange the NUMBERS of a mode with rows and of one beside it that ANSWER has close to it; IS_TRIED (rows, below and above).
-   subroutine exchange_modes(data, structure, answer, numbers, is_tried)
+   !! OFF is the usual difference of a row over its deviation, 1 or more: so many times further may close modes be from each other.
+   subroutine exchange_modes(data, structure, answer, off, numbers, is_tried)
       type(measured_type), intent(in)  :: data
       type(structure_type), intent(in) :: structure
       type(answer_type), intent(in)    :: answer
+      real(wp), intent(in)             :: off
       integer, intent(inout)           :: numbers(:)
       logical, intent(inout)           :: is_tried(:, :)
       integer :: at, k, other, s, side
@@ -364,7 +366,7 @@ contains
                other = rows(k)%mode + 2*side - 3
                if (is_tried(k, side) .or. min(at, other) < 1 .or. at > answer%n_modes(s)) cycle
                associate (omega => sqrt(max(0.0_wp, answer%lambda([at, answer%mode(k)], s))))
-                  if (abs(omega(1) - omega(2)) > two_pi*close_modes*rows(k)%deviation) cycle
+                  if (abs(omega(1) - omega(2)) > two_pi*close_modes*off*rows(k)%deviation) cycle
                end associate
                where (rows%stage == rows(k)%stage .and. rows%mode == other)
                   numbers = rows(k)%mode
