@@ -213,7 +213,7 @@ contains
             task%from = z
             task%near = task%last
             if (n == 0 .or. best - now <= search_settled*max(1.0_wp, best)) exit ! far below one deviation
-            if (round > 1) then
+            if (round > 1 .and. task%is_predicted) then
                if (sum((differences(task%data, task%last%value) - fvec)**2) <= round_settled) exit ! as predicted
             end if
             best = now
@@ -227,7 +227,7 @@ contains
                diag, 2, first_step*sqrt(real(n, wp))/merge(norm2(x), 1.0_wp, norm2(x) > 0.0_wp), 0, info, nfev, njev, ipvt, qtf, &
                wa1, wa2, wa3, wa4)
             z(free) = y_of(parameters(free), x)
-            if (.not. task%is_predicted .or. info < 0) exit
+            if (info < 0) exit
          end do
       end associate
    end subroutine minimise

@@ -240,7 +240,7 @@ contains
          end if
          call start_oscillation(loose, analysis, structure%system, vibration%on_loading, oscillating, failure)
          oscillating%is_counted = .false.
-         if (vibration%most > 0) vibration%most = vibration%most + spare_modes
+         if (vibration%most > 0 .and. .not. allocated(vibration%response)) vibration%most = vibration%most + spare_modes
          call find_natural_modes(loose, oscillating, vibration, spectrum, shifted, failure)
          if (failure%raised) return
          allocate (modes)
