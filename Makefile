@@ -20,8 +20,9 @@ WARNINGS   = -std=f2018 -Wall -Wextra
 # FFLAGS of the user, from the command line or the environment, follow the flags of the project
 # -fcheck=mem reports a failed allocation that the compiler makes on its own
 FFLAGS_RELEASE = -O2 -fopenmp -fcheck=mem -fno-backtrace $(WARNINGS) $(FFLAGS)
+# -march=native: this processor multiplies and adds in one instruction, which may change no answer.
 # -fcheck=recursion would take a second thread in a routine for a recursion
-FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero $(FFLAGS)
+FFLAGS_CHECKED = -O1 -g -march=native -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero $(FFLAGS)
 LIBRARIES  = -larpack -lmetis -lminpack -lopenblas
 
 MANUAL     = $(BUILD)/manual/card_manual.f90

@@ -8,6 +8,7 @@
 # as there are cores (TOGETHER=n: n of them), each in a folder of its own. WITHOUT in the environment: a pattern of titles to skip.
 # A part names what it skips in lines `skipped: WHAT: WHY`; these lines and the time of each part are printed before the sum.
 set -u
+export GOMP_SPINCOUNT=${GOMP_SPINCOUNT:-1000} # what the program sets itself: saves each run a start
 program=$1 checked=$2 compare=$3 query=$4 build=$5 without=${WITHOUT:-}
 together=${TOGETHER:-$(nproc)}
 passed=0 failed=0 begun=0 shown=0
@@ -29,7 +30,11 @@ part() {
    titles[begun]=$1
    echo "$1" > "$log.title"
    shift
-   { local start=$SECONDS status; "$@" > "$log" 2>&1; status=$?; echo $((SECONDS - start)) > "$log.seconds"; echo $status > "$log.status"; } &
+   {
+      local TIMEFORMAT='%0R %0U %0S' status
+      { time { "$@" > "$log" 2>&1; status=$?; }; } 2> "$log.seconds"
+      echo $status > "$log.status"
+   } &
    begun=$((begun + 1))
 }
 
@@ -111,9 +116,10 @@ everything_so_far
 # several processes use all cores themselves
 part 'on several processes' tests/solver/mpi.sh "$program" "${6:-none}" "$query" "$build/mpi-test"
 everything_so_far
-echo '---- seconds of each part, in the order of their end'
+echo '---- seconds of each part, and of processor time, in the order of their end'
 ls -tr "$build"/test/logs/*.seconds | while read -r seconds; do
-   printf '%6d  %s\n' "$(cat "$seconds")" "$(cat "${seconds%.seconds}.title")"
+   read -r elapsed user system < "$seconds"
+   printf '%6d %6d  %s\n' "$elapsed" $((user + system)) "$(cat "${seconds%.seconds}.title")"
 done
 echo '---- skipped'
 [ ${#left_out[@]} -eq 0 ] && left_out=(nothing)

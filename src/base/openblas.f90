@@ -1,7 +1,10 @@
 !> Prepares OpenBLAS: takes a kernel that suits the processor, and measures the buffer that a thread needs at its first call.
 !! OpenBLAS compares the number of the processor with those that it knows; where it knows none, it takes a kernel without AVX2, two
-!! to three times slower. Environment variables choose a kernel only when the library is loaded: the program starts itself anew.
-!! Source: OpenBLAS, driver/others/dynamic.c (OPENBLAS_CORETYPE, openblas_get_corename), memory.c (one buffer a thread).
+!! to three times slower. Prepares OpenMP: a thread that waits for another one sleeps after a short while; libgomp alone lets it
+!! count to 300,000 first, on the processor that the other thread wants where other programs run: five to ten times slower.
+!! Environment variables are read only when a library is loaded: the program starts itself anew.
+!! Source: OpenBLAS, driver/others/dynamic.c (OPENBLAS_CORETYPE, openblas_get_corename), memory.c (one buffer a thread); GNU Offloading
+!! and Multi Processing Runtime Library, section 4.21 (GOMP_SPINCOUNT).
 module openblas
    use blas_lapack, only: dgemm, dpotrf, dsyrk, dtrsm
    use c_library, only: c_isatty
@@ -9,18 +12,21 @@ module openblas
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
    use machine, only: address_space_left, kernel_figure, no_figure, openblas_set_num_threads, reserve_for_threads
+   use omp_lib, only: omp_get_max_threads
    use terminal, only: argument_text
    use tolerances, only: rounding_of_sums
    implicit none
    private
 
-   public :: prepare_openblas, kernels_for, kernel_is_right, processor_flags, tell_kernel, kernel_words
+   public :: prepare_libraries, kernels_for, kernel_is_right, processor_flags, tell_kernel, kernel_words
    public :: c_fork, c_waitpid ! for side_by_side
 
    ! environment variables
    character(*), parameter :: choice = 'OPENBLAS_CORETYPE'      ! the kernel, of the user or of this program
    character(*), parameter :: mark = 'JOINTFEM_REPLACED_KERNEL' ! OpenBLAS's own kernel, for the program that is started anew
    character(*), parameter :: trial = 'JOINTFEM_TRIAL'          ! a process that only tries
+   character(*), parameter :: spins = 'GOMP_SPINCOUNT'          ! what a thread counts before it sleeps
+   character(*), parameter :: few_spins = '1000'                ! as libgomp where there are more threads than processors
    character(*), parameter :: space_trial = 'space', kernel_trial = 'kernel'
 
    character(*), parameter :: without_avx2 = ' Katmai Coppermine Northwood Prescott Banias Atom Core2 Penryn Dunnington '// &
@@ -85,8 +91,9 @@ module openblas
 
 contains
 
-   !> At the start of the program: measure the first call, choose the kernel, or be the trial of another process.
-   subroutine prepare_openblas()
+   !> At the start of the program: measure the first call, choose the kernel, let waiting threads sleep, or be the trial of another
+   !! process. What the user has set stays.
+   subroutine prepare_libraries()
       logical :: has_space
 
       select case (environment(trial))
@@ -95,12 +102,16 @@ contains
       case (kernel_trial)
          call c_exit(merge(0_c_int, 1_c_int, kernel_is_right()))
       end select
+      if (environment(spins)//environment('OMP_WAIT_POLICY') == '') then
+         call set(spins, few_spins)
+         if (omp_get_max_threads() > 1) call execute_this()
+      end if
       replaced = environment(mark)
       call unset(mark)
       call measure_buffer(has_space)
       if (environment(choice) /= '') return
       if (has_space) call choose_kernel()
-   end subroutine prepare_openblas
+   end subroutine prepare_libraries
 
    !> Run with a kernel that suits the processor: where OpenBLAS has chosen a kernel without AVX2 on a processor that has AVX2, start
    !! this program anew with the first of kernels_for that computes right.

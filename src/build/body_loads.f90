@@ -159,6 +159,21 @@ contains
       end do
    end subroutine add_gravity
 
+   !> The stations x/L of beam E: its ends and those of its PBEAM.
+   pure function stations_of(mesh, e) result(at)
+      type(mesh_type), intent(in) :: mesh
+      integer, intent(in)         :: e
+      real(wp), allocatable :: at(:)
+
+      associate (law => mesh%structural%beams(mesh%structural%place(e)))
+         if (allocated(law%stations)) then
+            at = law%stations%at
+         else
+            at = [0.0_wp, 1.0_wp]
+         end if
+      end associate
+   end function stations_of
+
    !> The acceleration of FIELD at X [length/time^2].
    pure function acceleration_at(field, x) result(a)
       type(acceleration_field), intent(in) :: field
@@ -178,7 +193,6 @@ contains
       real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes)
       real(wp) :: a(3, 2*max_nodes), f(mesh%dimension, 2*max_nodes), m(2*max_nodes, 2*max_nodes), q(6, 2), x(3, 2)
       real(wp) :: load(12)
-      real(wp), allocatable :: at(:)
       type(beam_station) :: section
       integer  :: e, end, i, k
 
@@ -202,9 +216,7 @@ contains
       do e = 1, mesh%n_elements
          if (.not. is_beam(mesh, e)) cycle
          x = mesh%x(:, element_points(mesh, e))
-         associate (law => mesh%structural%beams(mesh%structural%place(e)))
-            at = [0.0_wp, 1.0_wp]
-            if (allocated(law%stations)) at = law%stations%at
+         associate (law => mesh%structural%beams(mesh%structural%place(e)), at => stations_of(mesh, e))
             load = 0.0_wp
             do k = 1, size(at) - 1
                q = 0.0_wp

@@ -232,16 +232,19 @@ contains
       real(wp), allocatable :: t(:, :, :)
       logical, allocatable  :: is_used(:, :)
       integer, allocatable  :: masters(:), column(:) ! of a node, and their places among them
+      integer, allocatable  :: of(:, :) ! (dimension, n_nodes) the equation of a component, 0: none
       real(wp) :: axes(3, 3)
       logical  :: expands(3)
-      integer  :: d, i, k, n, node
+      integer  :: d, i, j, k, n, node
 
       d = mesh%dimension
       call open_left_out(mesh, freedoms)
       allocate (is_used(d, mesh%n_nodes), source=.false.)
       allocate (masters(mesh%n_nodes), column(mesh%n_nodes), source=0)
+      allocate (of(d, mesh%n_nodes), source=0)
       do i = 1, list%n
          associate (item => list%item(i))
+            of(item%d, item%node) = i
             freedoms%left_out(item%d, item%node) = .true.
             do k = 1, item%n
                is_used(item%on(k)%d, item%on(k)%node) = .true.
@@ -254,27 +257,29 @@ contains
          if (node_kind(mesh, node) == a_rotation .and. d == 2) axes = identity ! z in the first column
          n = 0
          expands = .false.
-         do i = 1, list%n
-            if (list%item(i)%node == node) expands(list%item(i)%d) = list%item(i)%expands
+         do j = 1, d
+            if (of(j, node) > 0) expands(j) = list%item(of(j, node))%expands
          end do
          if (any(expands(:d) .or. .not. freedoms%left_out(:, node))) call add_master(node)
-         do i = 1, list%n
-            if (list%item(i)%node /= node) cycle
-            do k = 1, list%item(i)%n
-               call add_master(list%item(i)%on(k)%node)
-            end do
+         do j = 1, d
+            if (of(j, node) == 0) cycle
+            associate (item => list%item(of(j, node)))
+               do k = 1, item%n
+                  call add_master(item%on(k)%node)
+               end do
+            end associate
          end do
          allocate (t(d, d, n), source=0.0_wp)
-         do k = 1, d
-            if (expands(k) .or. .not. freedoms%left_out(k, node)) t(:, k, 1) = axes(:d, k)
-         end do
-         do i = 1, list%n
-            if (list%item(i)%node /= node) cycle
-            do k = 1, list%item(i)%n
-               associate (on => list%item(i)%on(k))
-                  t(:, on%d, column(on%node)) = t(:, on%d, column(on%node)) + on%scale*axes(:d, list%item(i)%d)
-               end associate
-            end do
+         do j = 1, d
+            if (expands(j) .or. .not. freedoms%left_out(j, node)) t(:, j, 1) = axes(:d, j)
+            if (of(j, node) == 0) cycle
+            associate (item => list%item(of(j, node)))
+               do k = 1, item%n
+                  associate (on => item%on(k))
+                     t(:, on%d, column(on%node)) = t(:, on%d, column(on%node)) + on%scale*axes(:d, j)
+                  end associate
+               end do
+            end associate
          end do
          call couple_node(freedoms%coupling, mesh%n_nodes, node, masters(:n), t)
          column(masters(:n)) = 0

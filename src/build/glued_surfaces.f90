@@ -146,7 +146,6 @@ contains
       !> Put the last equation in the place of its component in all others.
       subroutine put_in_place(d, node)
          integer, intent(in) :: d, node
-         type(component_place), allocatable :: on(:)
          integer :: j, m
 
          do j = 1, list%n - 1
@@ -154,14 +153,20 @@ contains
                do ! a component may occur twice
                   m = findloc(item%on(:item%n)%node == node .and. item%on(:item%n)%d == d, .true., dim=1)
                   if (m == 0) exit
-                  on = last%on(:last%n)
-                  on%scale = on%scale*item%on(m)%scale
-                  item%on = [item%on(:m - 1), item%on(m + 1:item%n), on]
+                  item%on = [item%on(:m - 1), item%on(m + 1:item%n), scaled(last%on(:last%n), item%on(m)%scale)]
                   item%n = size(item%on)
                end do
             end associate
          end do
       end subroutine put_in_place
+
+      !> PLACE times FACTOR.
+      elemental type(component_place) function scaled(place, factor)
+         type(component_place), intent(in) :: place
+         real(wp), intent(in)              :: factor
+
+         scaled = component_place(place%node, place%d, place%scale*factor)
+      end function scaled
 
    end subroutine add_glue
 

@@ -16,7 +16,7 @@ module identification
    use machine, only: use_threads
    use measured_data, only: differences, measured_type, outer_value, read_measured
    use omp_lib, only: omp_get_max_threads
-   use openblas, only: prepare_openblas
+   use openblas, only: prepare_libraries
    use output_file, only: output_file_type
    use structure_answers, only: structure_type
    use structure_run, only: start_structure
@@ -44,7 +44,7 @@ contains
       integer :: cores
       logical :: readable
 
-      call prepare_openblas()
+      call prepare_libraries()
       cores = omp_get_max_threads()
       call use_threads(1)
       status = status_unreadable

@@ -31,7 +31,7 @@ module run_boxes
    use natural_modes, only: find_natural_modes, release_supports, oscillating_type, spectrum_type, start_oscillation
    use newton_method, only: seat_joints
    use normal_stiffness, only: branch_open
-   use openblas, only: prepare_openblas, tell_kernel
+   use openblas, only: prepare_libraries, tell_kernel
    use nx_translation, only: translate_contacts
    use range_watch, only: warn
    use restart_file, only: open_restart_file, take_up, write_restart
@@ -163,7 +163,7 @@ contains
 
       call open_standard_outputs()
       call watch_ends()
-      call prepare_openblas()
+      call prepare_libraries()
       call join_processes(write_piece)
       call watch_interrupts()
       call read_command_line(command, status)

@@ -5,7 +5,7 @@ program dgemm_rate
    use blas_lapack, only: dgemm
    use machine, only: use_threads
    use kinds, only: long, wp
-   use openblas, only: prepare_openblas
+   use openblas, only: prepare_libraries
    implicit none
    integer, parameter :: n = 2000, repeats = 5
 
@@ -26,7 +26,7 @@ program dgemm_rate
    integer(long) :: before, after, rate
    integer :: i
 
-   call prepare_openblas()
+   call prepare_libraries()
    call use_threads(1)
    allocate (a(n, n), b(n, n), c(n, n))
    call random_number(a)

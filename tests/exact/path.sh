@@ -1,5 +1,5 @@
 # NEWTON without INCR follows the path: its answer is that of many increments, for at most 2.5 times the iterations of one.
-# With INCR its error of path is printed, and is the true one; above 1 % it is warned of.
+# With INCR its error of path is printed, and is the true one; above 1 % it is warned of. ALL=yes in the environment: the bracket too.
 
 # iterations NAME; contact NAME: the smallest share of the last stage; off NAME COLUMN STAGE
 iterations() { awk '/^ CONVERGENCE HISTORY, STAGE / { on = 1; next } /^ [A-Z]/ { on = 0 } on && $1 + 0 > 0 && NF >= 6 { n++ } END { print n + 0 }' "$work/$1.out"; }
@@ -17,6 +17,7 @@ in_increments() {
 }
 
 while read -r deck many stages; do
+   [ "$deck" != bracket ] || [ "${ALL:-}" ] || continue # a minute
    in_increments $deck && in_increments $deck 1 && in_increments $deck $many || continue
    for stage in $(seq $stages); do
       for column in lambda pressure; do

@@ -5,6 +5,7 @@
 #    debian13.sh quick|whole WORK_FOLDER
 #
 # quick: the first command, the unit tests, the decks against their references. whole: both commands, with PETSC where it can be installed.
+# root: only the root folder, for a run of the other two behind it.
 # DEBIAN13_ROOT: the root folder; one that is there is used as it is, so that the next run need not make it. The last line is
 # `N passed, N failed`; a part that cannot run on this machine is named in a line `skipped: WHAT: WHY`.
 set -u
@@ -46,6 +47,7 @@ if [ ! -x "$root/usr/bin/apt-get" ]; then
    debootstrap --variant=minbase --include=ca-certificates trixie "$root" ${mirror:-http://deb.debian.org/debian} > "$work/debootstrap.log" 2>&1 ||
       skip "debootstrap has failed: $(tail -n 1 "$work/debootstrap.log")"
 fi
+[ "$how" != root ] || exit 0
 unshare --mount true 2> /dev/null || skip 'no file systems may be mounted here'
 rm -rf "$root/root/jointfem"
 mkdir -p "$root/root/jointfem"

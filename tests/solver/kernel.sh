@@ -64,5 +64,30 @@ env -u OPENBLAS_CORETYPE LD_PRELOAD="$PWD/$work/other.so" CORENAME=Prescott CPUI
 same 'arguments and standard input' 0 $?
 cmp -s <(tail -n +5 "$work/a b/it's *.out") <(tail -n +5 reference_output/prism05.out); same 'the listing below its heading' 0 $?
 grep -q 'PRISM ON A RIGID BASE, 3 INCREMENTS' "$work/said"; same 'the deck of the standard input' 0 $?
+
+# ------------------------------------------------------------------ a thread that waits sleeps soon, but where the user has said otherwise
+mkfifo "$work/deck"
+spins() { # NAME=VALUE...: GOMP_SPINCOUNT of the program that waits for its deck
+   local spins
+   env -u GOMP_SPINCOUNT -u OMP_WAIT_POLICY "$@" "$program" -q -o "$work" - < "$work/deck" > /dev/null 2>&1 &
+   exec 3> "$work/deck" # opens when the program reads
+   for ((i = 0; i < 100; i++)); do
+      spins=$(tr '\0' '\n' < "/proc/$!/environ" | sed -n 's/^GOMP_SPINCOUNT=//p')
+      [ -z "$spins" ] || break
+      sleep 0.02
+   done
+   cat input/prism05.bdf >&3
+   exec 3>&-
+   wait $! || spins="$spins, status $?"
+   echo "$spins"
+}
+if [ "$(nproc)" -gt 1 ]; then
+   same 'a thread that waits sleeps soon' 1000 "$(spins A=1)"
+else
+   echo 'skipped: threads that wait: one processor'
+fi
+same 'GOMP_SPINCOUNT of the user' 77 "$(spins GOMP_SPINCOUNT=77)"
+same 'OMP_WAIT_POLICY of the user' '' "$(spins OMP_WAIT_POLICY=active)"
+same 'one thread' '' "$(spins OMP_NUM_THREADS=1)"
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]

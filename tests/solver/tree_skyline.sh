@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every deck of input/ (three long ones by TREE alone), and the decks in this folder (moved supports, one large enough for several
+# Every deck of input/ (four long ones by TREE alone), and the decks in this folder (moved supports, one large enough for several
 # threads, one large enough for an ordering by a coarse graph), by SOLVER = TREE and by SOLVER = SKYLINE: the same results. TREE
 # with one thread and with two or three in turn, and for the decks of this folder 2, 3, 8 and 16, on whatever machine: the same bytes.
 # ALL=yes in the environment: two and three for every deck.
@@ -39,7 +39,7 @@ many=$work/many_cores.so
 echo 'int omp_get_num_procs_(void) { return 32; }' | ${CC:-cc} -shared -fPIC -x c -o "$many" - || exit 1
 
 # minutes by SKYLINE
-by_tree_alone='bracket brake_reuss flanged_column'
+by_tree_alone='bolted_lap bracket brake_reuss flanged_column'
 
 for deck in input/*.bdf $here/*.bdf; do
    name=$(basename "$deck" .bdf)
