@@ -188,6 +188,11 @@ module tolerances
    real(wp), parameter :: not_fixed = 1.0e-3_wp      !! of a derivative: no less fixes an unknown; of beta, of the largest d: counts as none
    real(wp), parameter :: search_difference = 1.0e-2_wp !! of an unknown of --structure: differences in place of derivatives; a run has three digits
    real(wp), parameter :: search_settled = 1.0e-4_wp !! of its sum of squares: change in the last step, far below one deviation
+   real(wp), parameter :: round_settled = 1.0e-2_wp  !! of the same in a round; of one: between rows predicted and in full, a tenth of a deviation
+   real(wp), parameter :: worth_a_round = 4.0e-2_wp  !! less in the sum of squares: the minimum is within a fifth of a deviation
+   real(wp), parameter :: far_better = 9.0_wp        !! less in a sum of squares, three deviations: numbers of modes are those at the start
+   real(wp), parameter :: close_modes = 2.0_wp       !! deviations between two frequencies: noise may have exchanged the modes
+   real(wp), parameter :: least_mac = 0.3_wp         !! MAC of a mode that is followed: two that mix have 0.5
    real(wp), parameter :: undetermined = 1.0e-3_wp   !! of the largest singular value: smaller ones are errors of these differences
    real(wp), parameter :: at_bound = 5.0e-2_wp       !! cosine of z: an unknown within a thousandth of its range from a bound
    real(wp), parameter :: m_at_one = 1.0e-9_wp       !! of m: the fit of a straight line gives 1 but for rounding

@@ -101,8 +101,8 @@ contains
       type(parameter_type), intent(inout)      :: parameters(:)
       character(:), allocatable, intent(inout) :: fault
       character(:), allocatable :: name, rest, value
-      integer :: at, blanks, closing, done, k, width
-      logical :: is_fixed
+      integer :: at, blanks, closing, done, k, room, width
+      logical :: is_fixed, is_last
 
       done = 0 ! characters of the line behind which parameters are searched
       is_fixed = index(line, ',') == 0
@@ -129,13 +129,16 @@ contains
          value = parameters(k)%value
          rest = line(at + closing:)
          width = max(closing, len(value))
-         if (len(value) > closing .and. verify(rest, ' '//achar(13)//achar(10)) > 0) then
-            blanks = verify(rest, ' ') - 1
-            if (is_fixed .and. blanks < len(value) - closing .and. parameters(k)%is_long) then
-               line = in_free_field(line)
-               call fill_line(line, n, card, parameters, fault)
-               return
-            end if
+         blanks = verify(rest//'x', ' ') - 1
+         is_last = verify(rest, ' '//achar(13)//achar(10)) == 0
+         room = closing + blanks
+         if (is_last) room = merge(8, huge(room), index(line, '=') == 0) ! of a card, or of a line of case control
+         if (is_fixed .and. parameters(k)%is_long .and. len(value) > room) then
+            line = in_free_field(line)
+            call fill_line(line, n, card, parameters, fault)
+            return
+         end if
+         if (len(value) > closing .and. .not. is_last) then
             if (is_fixed .and. blanks < len(value) - closing .and. fault == '') fault = 'line '//integer_text(n)//': '//value// &
                ' in the place of ${'//name//'} does not fit in front of what follows'
             rest = rest(1 + min(blanks, len(value) - closing):)

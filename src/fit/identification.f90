@@ -12,9 +12,9 @@ module identification
    use incomplete_results, only: hold_interrupts, interrupt_so_far
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: wp
-   use law_search, only: differences, outer_value, search_type, seek
+   use law_search, only: search_type, seek
    use machine, only: use_threads
-   use measured_data, only: measured_type, read_measured
+   use measured_data, only: differences, measured_type, outer_value, read_measured
    use omp_lib, only: omp_get_max_threads
    use openblas, only: prepare_libraries
    use output_file, only: output_file_type
@@ -111,6 +111,7 @@ contains
       type(search_type), intent(in)         :: search
       type(output_file_type), intent(inout) :: out
       real(wp) :: before(size(data%rows)), after(size(data%rows)), deviation
+      real(wp) :: interval(2)
       character(:), allocatable :: words
       integer :: i, j, k
 
@@ -122,10 +123,15 @@ contains
          ' at the start, '//real_text(search%square)//' now, expected '//integer_text(size(data%rows) - size(search%free))// &
          ' of '//plural(size(data%rows), 'row')//' and '//plural(size(search%free), 'free parameter'))
       if (search%n_starts > 1) call out%put('$ starts   '//integer_text(search%n_same)//' of '//integer_text(search%n_starts)// &
-                                            ' have led to these values')
+                                            ' have led to this sum of squares')
       if (search%by_number) call out%put('$ modes    have changed places: MODE counts at the values found, not at the start')
+      do i = 1, size(data%rows)
+         if (abs(search%best%off_number(i)) > 0.0_wp) call out%put('$ modes    row '//integer_text(i)// &
+            ': the mode is not that with the number of the row; SHAPE= of its points decides')
+      end do
+      call write_other(data, search, out)
       call out%put('$')
-      call out%put('$ parameter        start          now    deviation   determined by the rows')
+      call out%put('$ parameter        start          now    deviation       two deviations      determined by the rows')
       do i = 1, size(data%parameters)
          k = findloc(search%free, i, dim=1)
          if (.not. allocated(search%statistics%deviation)) k = 0
@@ -136,7 +142,8 @@ contains
             if (k > 0) then
                deviation = outer_value(p, search%y(i))*search%statistics%deviation(k)
                if (p%is_linear) deviation = outer_value(p, search%statistics%deviation(k))
-               words = cell(deviation)//'   '//leading(search%statistics%share(:, k))
+               interval = outer_value(p, search%y(i) + 2.0_wp*[-1, 1]*search%statistics%deviation(k))
+               words = cell(deviation)//cell(interval(1))//cell(interval(2))//'   '//leading(search%statistics%share(:, k))
             end if
             call out%put('$ '//p%name//repeat(' ', max(1, 10 - len(p%name)))//cell(p%start)// &
                          cell(outer_value(p, search%y(i)))//words)
@@ -163,6 +170,31 @@ contains
          end associate
       end do
    end subroutine write_search
+
+   !> Write the best other place where a search has ended: the data are within two deviations of it too, the parameters are not.
+   subroutine write_other(data, search, out)
+      type(measured_type), intent(in)       :: data
+      type(search_type), intent(in)         :: search
+      type(output_file_type), intent(inout) :: out
+      logical :: is_other(size(search%squares))
+      character(:), allocatable :: words
+      integer :: i, k
+
+      if (.not. allocated(search%statistics%deviation)) return
+      if (size(search%statistics%deviation) /= size(search%free)) return
+      do i = 1, size(is_other)
+         is_other(i) = search%squares(i) < search%square + 4.0_wp .and. &
+            any(abs(search%ends(search%free, i) - search%y(search%free)) > 2.0_wp*search%statistics%deviation)
+      end do
+      k = minloc(search%squares, dim=1, mask=is_other)
+      if (k == 0) return
+      words = '$ or       with other modes for the rows, or beyond a maximum: sum of squares '//real_text(search%squares(k))//' at'
+      do i = 1, size(data%parameters)
+         words = words//' '//data%parameters(i)%name//'='// &
+                 real_field_text(outer_value(data%parameters(i), search%ends(i, k)), 7)
+      end do
+      call out%put(words)
+   end subroutine write_other
 
    !> The rows with the largest SHARES of the variance of a parameter, as `1 (45 %), 3 (30 %)`.
    function leading(shares) result(words)

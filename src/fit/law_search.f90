@@ -2,30 +2,33 @@
 !! differences over the standard deviations, by MINPACK's lmder. An unknown y is the logarithm of a parameter, or of a LINEAR one
 !! its value over a scale; between bounds MINPACK sees z of y = (b + c)/2 + (c - b)/2 sin z. Derivatives are differences of runs.
 !! A run that fails is a rejected step. A parameter that the rows do not determine is held at its start, and the search goes on.
+!! A search follows modes by their shapes, so that its sum of squares is smooth. What is least in the end is the sum with MODE = i the
+!! i-th frequency there: where modes have changed places they are paired anew, and close neighbours are exchanged to see what is less.
 !! Source: J. J. More, The Levenberg-Marquardt algorithm, Lecture Notes in Mathematics 630 (1978) 105-116.
 module law_search
    use fit_statistics, only: statistics_type, weigh
    use incomplete_results, only: interrupt_so_far
    use kinds, only: wp
-   use measured_data, only: a_phase, measured_type, sought_parameter
+   use measured_data, only: differences, inner_value, measured_type, outer_value, unknown_of, y_of
    use runs_together, only: run_all
-   use structure_answers, only: answer_type, is_of_modes, is_predicted, structure_type
+   use structure_answers, only: answer_type, exchange_modes, is_of_modes, is_predicted, structure_type
    use terminal, only: show_line
    use text_tools, only: integer_text, real_text
-   use tolerances, only: at_bound, search_difference, search_settled, undetermined
+   use tolerances, only: at_bound, far_better, round_settled, search_difference, search_settled, &
+                         undetermined, worth_a_round
    implicit none
    private
 
-   public :: seek, differences, inner_value, outer_value, unknown_of, y_of
+   public :: seek
 
    integer, parameter  :: most_runs = 100          ! of a round, without those for derivatives
-   real(wp), parameter :: coarsely_settled = 0.03_wp ! of the sum of squares: change in the last step of a round
    integer, parameter  :: few_runs = 10            ! ... of one with predicted frequencies
-   integer, parameter  :: most_rounds = 30, most_backs = 4
+   integer, parameter  :: most_rounds = 30, most_backs = 4, most_again = 2
    real(wp), parameter :: failed = 1.0e8_wp        ! times the deviation: the difference of a run that has failed
    real(wp), parameter :: first_step = 0.7_wp      ! of an unknown
    real(wp), parameter :: small = 0.01_wp          ! step of z for dy/dz
    real(wp), parameter :: same_minimum = 0.01_wp   ! of a sum of squares
+   integer, parameter  :: most_pairings = 12       ! of modes with rows, from a start
 
    type, public :: search_type
       real(wp), allocatable :: y(:)                !! (parameters) the best unknowns found
@@ -35,6 +38,7 @@ module law_search
       type(statistics_type) :: statistics          !! of the unknowns that are free
       real(wp) :: square = huge(1.0_wp)            !! sum of squares
       integer  :: n_runs = 0, n_starts = 0, n_same = 0 !! N_SAME: starts that have led to the least sum
+      real(wp), allocatable :: ends(:, :), squares(:) !! (parameters, pairings) where each search has ended, and its least sum
       logical  :: by_number = .false.              !! numbers of modes are those at the values found, not at the start
       character(:), allocatable :: fault           !! why there is no answer; '': there is
    end type search_type
@@ -47,7 +51,11 @@ module law_search
       real(wp), allocatable :: from(:)             ! the unknowns of all parameters at the start of this round
       real(wp), allocatable :: x_from(:)           ! those of lmder there
       type(answer_type)     :: near, last          ! the answer there in full; of the last run that has not failed
-      real(wp) :: square = huge(1.0_wp)            ! least sum of squares from this start
+      type(answer_type)     :: found, paired       ! of the least sum of squares with one pairing of the modes; with the best one
+      real(wp), allocatable :: y(:)                ! the unknowns of FOUND
+      real(wp) :: square = huge(1.0_wp)            ! that sum
+      real(wp), allocatable :: jacobian(:, :), x(:), f(:) ! of lmder, and where it had the derivatives last
+      integer  :: n_steps = 0                      ! tried since then
       logical  :: is_predicted = .false.           ! there are frequencies that the modes of a run nearby predict
    end type task_type
    type(task_type), pointer :: task => null()      ! for MINPACK, whose routines have no place for data
@@ -67,66 +75,6 @@ module law_search
 
 contains
 
-   !> The unknown y of PARAMETER at VALUE, and the value at the unknown Y.
-   elemental real(wp) function inner_value(parameter, value) result(y)
-      type(sought_parameter), intent(in) :: parameter
-      real(wp), intent(in)               :: value
-
-      if (parameter%is_linear) y = value/scale_of(parameter)
-      if (.not. parameter%is_linear) y = log(value)
-   end function inner_value
-
-   elemental real(wp) function outer_value(parameter, y) result(value)
-      type(sought_parameter), intent(in) :: parameter
-      real(wp), intent(in)               :: y
-
-      if (parameter%is_linear) value = y*scale_of(parameter)
-      if (.not. parameter%is_linear) value = exp(y)
-   end function outer_value
-
-   !> The scale of a linear parameter: between its bounds, or its start.
-   elemental real(wp) function scale_of(parameter) result(scale)
-      type(sought_parameter), intent(in) :: parameter
-
-      scale = abs(parameter%start)
-      if (parameter%is_bounded) scale = parameter%high - parameter%low
-      if (.not. scale > 0.0_wp) scale = 1.0_wp
-   end function scale_of
-
-   !> z of PARAMETER at the unknown Y, and y at Z.
-   elemental real(wp) function unknown_of(parameter, y) result(z)
-      type(sought_parameter), intent(in) :: parameter
-      real(wp), intent(in)               :: y
-
-      z = y
-      if (.not. parameter%is_bounded) return
-      associate (b => inner_value(parameter, parameter%low), c => inner_value(parameter, parameter%high))
-         z = asin(max(-1.0_wp, min(1.0_wp, (2.0_wp*y - b - c)/(c - b))))
-      end associate
-   end function unknown_of
-
-   elemental real(wp) function y_of(parameter, z) result(y)
-      type(sought_parameter), intent(in) :: parameter
-      real(wp), intent(in)               :: z
-
-      y = z
-      if (.not. parameter%is_bounded) return
-      associate (b => inner_value(parameter, parameter%low), c => inner_value(parameter, parameter%high))
-         y = 0.5_wp*(b + c) + 0.5_wp*(c - b)*sin(z)
-      end associate
-   end function y_of
-
-   !> The differences of the VALUE of each row from that of DATA, over its deviation.
-   pure function differences(data, value) result(d)
-      type(measured_type), intent(in) :: data
-      real(wp), intent(in)            :: value(:)
-      real(wp) :: d(size(data%rows))
-
-      d = value - data%rows%value
-      where (data%rows%kind == a_phase) d = d - 360.0_wp*anint(d/360.0_wp)
-      d = d/data%rows%deviation
-   end function differences
-
    !> Seek the parameters of DATA from N_STARTS starts: the given one, and others between the bounds, or within a factor e of
    !! the start. An interrupt ends the search with the best values so far.
    subroutine seek(data, structure, n_starts, cores, search)
@@ -134,8 +82,8 @@ contains
       type(structure_type), intent(in) :: structure
       integer, intent(in)              :: n_starts, cores
       type(search_type), intent(out)   :: search
-      real(wp) :: least, y(size(data%parameters))
-      integer  :: i, k
+      real(wp) :: found, least, left, y(size(data%parameters))
+      integer  :: i, k, n_again
 
       allocate (task)
       task%data = data
@@ -145,6 +93,8 @@ contains
          [(any(is_of_modes(data%rows) .and. data%rows%stage == structure%plan%stages(i)%id), i = 1, size(structure%plan%stages))])
       task%search%free = [(i, i = 1, size(y))]
       allocate (task%search%is_held(size(y)), task%search%is_at_bound(size(y)), source=.false.)
+      allocate (task%search%ends(size(y), 0), task%search%squares(0))
+      least = huge(least)
       do k = 1, n_starts
          y = inner_value(data%parameters, data%parameters%start)
          do i = 1, merge(size(y), 0, k > 1)
@@ -153,35 +103,89 @@ contains
                if (data%parameters(i)%is_bounded) y(i) = y_of(data%parameters(i), asin(2.0_wp*part - 1.0_wp))
             end associate
          end do
-         least = task%search%square
-         task%structure%by_number = .false.
-         call minimise(y)
-         if (allocated(task%search%best%mode)) then ! modes have changed places: a number may be that at the end
-            task%structure%by_number = any(task%search%best%mode /= task%search%first%mode .and. data%rows%mode > 0)
-            if (task%structure%by_number) call minimise(y)
-         end if
+         call pair_modes(y, least, found)
          task%search%n_starts = k
-         associate (found => task%square, margin => same_minimum*(1.0_wp + task%square))
+         associate (margin => same_minimum*(1.0_wp + found))
             if (abs(found - least) <= margin) task%search%n_same = task%search%n_same + 1
             if (found < least - margin) task%search%n_same = 1
          end associate
+         least = min(least, found)
          if (task%search%fault /= '' .or. interrupt_so_far() /= 0) exit
       end do
-      task%structure%by_number = task%search%by_number
+      if (task%search%fault == '') task%structure%shapes = task%search%best%shapes
+      n_again = 0
       do while (task%search%fault == '' .and. interrupt_so_far() == 0 .and. size(task%search%free) > 0)
-         call judge(k)
-         if (k == 0) exit
+         call judge(k, left)
+         if (k == 0 .and. (left <= worth_a_round .or. n_again == most_again)) exit
+         if (k == 0) then
+            n_again = n_again + 1
+            call minimise(task%search%y)
+            call take_found(task%search%by_number)
+            cycle
+         end if
          task%search%free = pack(task%search%free, task%search%free /= k)
          if (task%search%is_at_bound(k)) cycle
          task%search%is_held(k) = .true.
          y = task%search%y
          y(k) = inner_value(data%parameters(k), data%parameters(k)%start)
-         task%search%square = huge(1.0_wp)
          call minimise(y)
+         call take_found(task%search%by_number)
       end do
       search = task%search
       deallocate (task)
    end subroutine seek
+
+   !> From the unknowns Y, with one pairing of modes and rows after another: first MODE counts there, then where the search has ended,
+   !! until it still does so where the next one ends; then close neighbours change places. The best answer is that with the least sum
+   !! of squares with MODE counting where a search ends, FOUND, unless that of the first pairing is far below. LEAST is that so far.
+   subroutine pair_modes(y, least, found)
+      real(wp), intent(in)  :: y(:), least
+      real(wp), intent(out) :: found
+      real(wp) :: best_y(size(y)), square, z(size(y))
+      integer  :: i, numbers(size(task%data%rows))
+      logical  :: is_better, is_tried(size(numbers), 2)
+
+      z = y
+      numbers = task%data%rows%mode
+      is_tried = .false.
+      found = huge(found)
+      do i = 1, most_pairings
+         task%structure%numbers = numbers
+         if (allocated(task%structure%shapes)) deallocate (task%structure%shapes)
+         call minimise(z)
+         is_better = .false.
+         if (task%square < huge(found)) then
+            square = sum(differences(task%data, task%found%value + task%found%off_number)**2)
+            if (i == 1) square = min(square, task%square + far_better)
+            task%search%ends = reshape([task%search%ends, task%y], shape(task%search%ends) + [0, 1])
+            task%search%squares = [task%search%squares, square]
+            is_better = square < found - same_minimum
+            if (is_better) then
+               found = square
+               best_y = task%y
+               task%paired = task%found
+               if (square < least) call take_found(i > 1)
+            end if
+         end if
+         if (found >= huge(found) .or. interrupt_so_far() /= 0) exit
+         z = best_y
+         numbers = task%data%rows%mode
+         if (is_better .and. any(abs(task%found%off_number) > 0.0_wp)) cycle
+         call exchange_modes(task%data, task%structure, task%paired, &
+                             sqrt(max(1.0_wp, found/max(1, size(numbers) - size(task%search%free)))), numbers, is_tried)
+         if (all(numbers == task%data%rows%mode)) exit
+      end do
+   end subroutine pair_modes
+
+   !> Take what has been found with one pairing of the modes as the best answer.
+   subroutine take_found(by_number)
+      logical, intent(in) :: by_number
+
+      task%search%y = task%y
+      task%search%best = task%found
+      task%search%square = task%square
+      task%search%by_number = by_number
+   end subroutine take_found
 
    !> Go from the unknowns Y to the least sum of squares over those that are free. Where runs near another one predict frequencies,
    !! lmder has these, and each round begins with a run in full where the last one has ended; a worse one goes half the way back.
@@ -196,6 +200,7 @@ contains
       best = huge(best)
       backs = 0
       task%square = huge(best)
+      task%y = y
       associate (parameters => task%data%parameters, free => task%search%free)
          do round = 1, most_rounds
             call run_at(z, now)
@@ -208,16 +213,21 @@ contains
             task%from = z
             task%near = task%last
             if (n == 0 .or. best - now <= search_settled*max(1.0_wp, best)) exit ! far below one deviation
+            if (round > 1 .and. task%is_predicted) then
+               if (sum((differences(task%data, task%last%value) - fvec)**2) <= round_settled) exit ! as predicted
+            end if
             best = now
             diag = 1.0_wp
             x = unknown_of(parameters(free), z(free))
             task%x_from = x
-            call lmder(ask, size(fvec), n, x, fvec, fjac, size(fvec), merge(coarsely_settled, search_settled, task%is_predicted), &
+            task%jacobian = fjac
+            task%n_steps = -1 ! the derivatives at the start are those of runs
+            call lmder(ask, size(fvec), n, x, fvec, fjac, size(fvec), merge(round_settled, search_settled, task%is_predicted), &
                1.0e-2_wp*search_settled, 0.0_wp, merge(few_runs, most_runs, task%is_predicted), &
                diag, 2, first_step*sqrt(real(n, wp))/merge(norm2(x), 1.0_wp, norm2(x) > 0.0_wp), 0, info, nfev, njev, ipvt, qtf, &
                wa1, wa2, wa3, wa4)
             z(free) = y_of(parameters(free), x)
-            if (.not. task%is_predicted .or. info < 0) exit
+            if (info < 0) exit
          end do
       end associate
    end subroutine minimise
@@ -227,27 +237,33 @@ contains
       real(wp), intent(in)  :: y(:)
       real(wp), intent(out) :: square
       type(answer_type), allocatable :: answers(:)
+      logical :: is_known
 
       square = huge(square)
       associate (search => task%search)
-         call run_all(task%data, task%structure, reshape(outer_value(task%data%parameters, y), [size(y), 1]), task%cores, answers)
-         search%n_runs = search%n_runs + 1
-         if (interrupt_so_far() /= 0) return
-         if (.not. allocated(search%y)) search%fault = answers(1)%fault
-         if (answers(1)%fault /= '') return
-         if (.not. allocated(search%y)) search%first = answers(1)
-         if (.not. allocated(search%y)) task%structure%shapes = answers(1)%shapes
-         task%last = answers(1)
-         square = sum(differences(task%data, task%last%value)**2)
-         task%square = min(task%square, square)
-         if (square < search%square .or. .not. allocated(search%y)) then
-            search%y = y
-            search%best = task%last
-            search%by_number = task%structure%by_number
-            search%square = square
+         is_known = allocated(search%y) .and. allocated(task%structure%shapes)
+         if (is_known) is_known = all(abs(y - search%y) <= 0.0_wp)
+         if (is_known) then
+            task%last = search%best
+         else
+            call run_all(task%data, task%structure, reshape(outer_value(task%data%parameters, y), [size(y), 1]), &
+                         task%cores, answers)
+            search%n_runs = search%n_runs + 1
+            if (interrupt_so_far() /= 0) return
+            if (.not. allocated(search%first%value)) search%fault = answers(1)%fault
+            if (answers(1)%fault /= '') return
+            if (.not. allocated(search%first%value)) search%first = answers(1)
+            if (.not. allocated(task%structure%shapes)) task%structure%shapes = answers(1)%shapes
+            task%last = answers(1)
          end if
-         call show_line('run '//integer_text(search%n_runs)//', least sum of squares '//real_text(search%square), at_once=.true., &
-                        is_logged=.true.)
+         square = sum(differences(task%data, task%last%value)**2)
+         if (square < task%square) then
+            task%y = y
+            task%found = task%last
+            task%square = square
+         end if
+         call show_line('run '//integer_text(search%n_runs)//', least sum of squares '// &
+                        real_text(min(search%square, task%square)), at_once=.true., is_logged=.true.)
       end associate
    end subroutine run_at
 
@@ -264,9 +280,21 @@ contains
       associate (parameters => task%data%parameters, free => task%search%free)
          y(free) = y_of(parameters(free), x)
          if (iflag == 2) then
-            call differentiate(task%last%value, y, .false., fjac(:m, :))
-            fjac = fjac*spread((y_of(parameters(free), x + small) - y_of(parameters(free), x - small))/(2.0_wp*small), 1, m)
+            if (task%n_steps == 1) then
+               associate (s => x - task%x)
+                  task%jacobian = task%jacobian + spread(fvec - task%f - matmul(task%jacobian, s), 2, n)*spread(s, 1, m)/sum(s**2)
+               end associate
+            else
+               call differentiate(task%last%value, y, .false., task%jacobian)
+               task%jacobian = task%jacobian* &
+                  spread((y_of(parameters(free), x + small) - y_of(parameters(free), x - small))/(2.0_wp*small), 1, m)
+            end if
+            fjac = task%jacobian
+            task%x = x
+            task%f = fvec
+            task%n_steps = 0
          else
+            task%n_steps = task%n_steps + 1
             square = 0.0_wp
             if (all(abs(x - task%x_from) <= 0.0_wp)) then
                task%last = task%near
@@ -332,22 +360,26 @@ contains
    end subroutine differentiate
 
    !> Judge the free unknowns at the best values: K is one at its bound, or one that the rows do not determine; 0: there is none,
-   !! and the statistics are those of all.
-   subroutine judge(k)
-      integer, intent(out) :: k
-      real(wp) :: jacobian(size(task%data%rows), size(task%search%free))
+   !! and the statistics are those of all. LEFT is what a step of Gauss and Newton would take from the sum of squares.
+   subroutine judge(k, left)
+      integer, intent(out)  :: k
+      real(wp), intent(out) :: left
+      real(wp) :: jacobian(size(task%data%rows), size(task%search%free)), slope(size(task%search%free))
 
       associate (search => task%search, free => task%search%free)
          k = findloc(abs(cos(unknown_of(task%data%parameters(free), search%y(free)))) < at_bound .and. &
                      task%data%parameters(free)%is_bounded, .true., dim=1)
          if (k > 0) k = free(k)
          if (k > 0) search%is_at_bound(k) = .true.
+         left = 0.0_wp
          if (k > 0) return
          task%near = search%best
          call differentiate(search%best%value, search%y, .true., jacobian)
          if (interrupt_so_far() /= 0) return
          call weigh(jacobian, search%statistics)
          if (search%statistics%least < max(1.0_wp, undetermined*search%statistics%largest)) k = free(search%statistics%weakest)
+         slope = search%statistics%deviation*matmul(differences(task%data, search%best%value), jacobian)
+         left = dot_product(slope, matmul(search%statistics%correlation, slope))
       end associate
    end subroutine judge
 

@@ -1,4 +1,5 @@
-!> Reads what was measured on a structure: the parameters that are sought, and rows of a value with its standard deviation.
+!> Reads what was measured on a structure: the parameters that are sought, and rows of a value with its standard deviation. Has the
+!! unknowns of the search in place of the parameters, and the differences of the rows.
 !!
 !!    parameter,   C1, 8.0E-3, 1.0E-3, 5.0E-2            name, start, and bounds; LINEAR: not in its logarithm
 !!    frequency,   112.4, 1%, stage=2, mode=1            value, deviation (or a share of the value), and the place
@@ -13,7 +14,7 @@ module measured_data
    implicit none
    private
 
-   public :: read_measured
+   public :: read_measured, differences, inner_value, outer_value, unknown_of, y_of
 
    integer, parameter, public :: a_frequency = 1, a_loss = 2, a_displacement = 3, a_stiffness = 4, a_bolt = 5, an_amplitude = 6, &
                                  a_phase = 7 !! kinds of rows
@@ -258,5 +259,65 @@ contains
          ok = row%at(2, size(row%shape)) > 0
       end select
    end subroutine take_key
+
+   !> The unknown y of PARAMETER at VALUE, and the value at the unknown Y.
+   elemental real(wp) function inner_value(parameter, value) result(y)
+      type(sought_parameter), intent(in) :: parameter
+      real(wp), intent(in)               :: value
+
+      if (parameter%is_linear) y = value/scale_of(parameter)
+      if (.not. parameter%is_linear) y = log(value)
+   end function inner_value
+
+   elemental real(wp) function outer_value(parameter, y) result(value)
+      type(sought_parameter), intent(in) :: parameter
+      real(wp), intent(in)               :: y
+
+      if (parameter%is_linear) value = y*scale_of(parameter)
+      if (.not. parameter%is_linear) value = exp(y)
+   end function outer_value
+
+   !> The scale of a linear parameter: between its bounds, or its start.
+   elemental real(wp) function scale_of(parameter) result(scale)
+      type(sought_parameter), intent(in) :: parameter
+
+      scale = abs(parameter%start)
+      if (parameter%is_bounded) scale = parameter%high - parameter%low
+      if (.not. scale > 0.0_wp) scale = 1.0_wp
+   end function scale_of
+
+   !> z of PARAMETER at the unknown Y, and y at Z.
+   elemental real(wp) function unknown_of(parameter, y) result(z)
+      type(sought_parameter), intent(in) :: parameter
+      real(wp), intent(in)               :: y
+
+      z = y
+      if (.not. parameter%is_bounded) return
+      associate (b => inner_value(parameter, parameter%low), c => inner_value(parameter, parameter%high))
+         z = asin(max(-1.0_wp, min(1.0_wp, (2.0_wp*y - b - c)/(c - b))))
+      end associate
+   end function unknown_of
+
+   elemental real(wp) function y_of(parameter, z) result(y)
+      type(sought_parameter), intent(in) :: parameter
+      real(wp), intent(in)               :: z
+
+      y = z
+      if (.not. parameter%is_bounded) return
+      associate (b => inner_value(parameter, parameter%low), c => inner_value(parameter, parameter%high))
+         y = 0.5_wp*(b + c) + 0.5_wp*(c - b)*sin(z)
+      end associate
+   end function y_of
+
+   !> The differences of the VALUE of each row from that of DATA, over its deviation.
+   pure function differences(data, value) result(d)
+      type(measured_type), intent(in) :: data
+      real(wp), intent(in)            :: value(:)
+      real(wp) :: d(size(data%rows))
+
+      d = value - data%rows%value
+      where (data%rows%kind == a_phase) d = d - 360.0_wp*anint(d/360.0_wp)
+      d = d/data%rows%deviation
+   end function differences
 
 end module measured_data

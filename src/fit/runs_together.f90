@@ -74,7 +74,8 @@ contains
 
       open (newunit=unit, file=streams_at//integer_text(stream), access='stream', action='write', status='old')
       write (unit) len(answer%fault), answer%fault
-      if (answer%fault == '') write (unit) shape(answer%moved), shape(answer%shapes), answer%value, answer%mac, answer%mode, &
+      if (answer%fault == '') write (unit) shape(answer%moved), shape(answer%shapes), answer%value, answer%off_number, &
+         answer%mac, answer%mode, &
          answer%n_modes, answer%lambda, answer%k, answer%moved, answer%shapes
       close (unit)
    end subroutine send
@@ -96,10 +97,12 @@ contains
          if (length == 0) then
             read (unit) n, components
             associate (rows => components(2))
-               allocate (answer%value(rows), answer%mac(rows), answer%mode(rows), answer%n_modes(n(3)), answer%lambda(n(2), n(3)), &
-                         answer%k(n(1), n(3)), answer%moved(n(1), n(2), n(3)), answer%shapes(components(1), rows))
+               allocate (answer%value(rows), answer%off_number(rows), answer%mac(rows), answer%mode(rows), &
+                         answer%n_modes(n(3)), answer%lambda(n(2), n(3)), answer%k(n(1), n(3)), answer%moved(n(1), n(2), n(3)), &
+                         answer%shapes(components(1), rows))
             end associate
-            read (unit) answer%value, answer%mac, answer%mode, answer%n_modes, answer%lambda, answer%k, answer%moved, answer%shapes
+            read (unit) answer%value, answer%off_number, answer%mac, answer%mode, answer%n_modes, answer%lambda, answer%k, &
+               answer%moved, answer%shapes
          end if
       end if
       close (unit)

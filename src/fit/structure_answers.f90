@@ -3,8 +3,8 @@
 !!
 !!      [lambda + Phi^T dk Phi] {x} = mu {x},  Phi the movements of the interface elements in the modes, of generalised mass 1
 !!
-!! A mode is followed by its shape: that of the largest MAC (x^T y)^2/(x^T x y^T y) with the shape given, or of its number at the
-!! start. BY_NUMBER a number is that of the mode at any values.
+!! A mode is followed by its shape: that of the largest MAC (x^T y)^2/(x^T x y^T y) with the shape given, or with that of a run
+!! before; without one, the mode is that of its number.
 module structure_answers
    use analysis_state, only: analysis_type
    use blas_lapack, only: dsygv
@@ -29,11 +29,14 @@ module structure_answers
    use shear_loops, only: oscillation_stiffness
    use stage_plan, only: merged, stage_plan_type
    use text_tools, only: integer_text
+   use tolerances, only: close_modes, least_mac
    use watched_nodes, only: find_watched, watch_answer, watch_state
    implicit none
    private
 
-   public :: take_stage, is_of_modes, is_predicted, mac_of
+   public :: take_stage, exchange_modes, is_of_modes, is_predicted, mac_of
+
+   integer, parameter :: spare_modes = 4 ! beyond those of the deck: modes that change places stay among those found
 
    !> What the runs share.
    type, public :: structure_type
@@ -44,14 +47,15 @@ module structure_answers
       type(stage_plan_type) :: plan
       class(equation_system), allocatable :: system  !! its bodies formed for the start
       logical, allocatable  :: keeps_bodies(:)       !! (parameters) the bodies do not depend on it
-      real(wp), allocatable :: shapes(:, :)          !! (components, rows) of the modes at the start
-      logical :: by_number = .false.                 !! a mode without a given shape has its number at any values
+      real(wp), allocatable :: shapes(:, :)          !! (components, rows) of the modes that are followed; or not allocated:
+      integer, allocatable  :: numbers(:)            !! (rows) of the modes
    end type structure_type
 
    type, public :: answer_type
       real(wp), allocatable :: set(:)                !! (parameters) their values
       character(:), allocatable :: fault             !! why the run failed, '': it did not
       real(wp), allocatable :: value(:)              !! (rows)
+      real(wp), allocatable :: off_number(:)         !! (rows) frequency of the mode with the number of the row, less VALUE
       real(wp), allocatable :: mac(:)                !! (rows) of modes, else 1
       integer, allocatable  :: mode(:)               !! (rows) place of the mode among those found, 0: none
       integer, allocatable  :: n_modes(:)            !! (stages)
@@ -100,7 +104,7 @@ contains
       associate (model => structure%model, plan => structure%plan)
          of_modes = is_of_modes(data%rows) .and. data%rows%stage == plan%stages(s)%id
          if (present(near) .and. all(of_modes .eqv. data%rows%stage == plan%stages(s)%id) .and. is_predicted(data, s, plan)) then
-            if (any(of_modes)) call predict(data, s, of_modes, structure, analysis, near, answer)
+            if (any(of_modes)) call predict(s, of_modes, structure, analysis, near, answer)
             return
          end if
          allocate (whole, source=analysis)
@@ -140,7 +144,7 @@ contains
          end do
          if (.not. any(of_modes)) return
          if (present(near) .and. is_predicted(data, s, plan)) then
-            call predict(data, s, of_modes, structure, whole, near, answer)
+            call predict(s, of_modes, structure, whole, near, answer)
             return
          end if
          allocate (loose, source=model)
@@ -160,8 +164,7 @@ contains
    end function is_predicted
 
    !> The frequencies of the rows OF_MODES of stage S from the modes of the run NEAR.
-   subroutine predict(data, s, of_modes, structure, analysis, near, answer)
-      type(measured_type), intent(in)  :: data
+   subroutine predict(s, of_modes, structure, analysis, near, answer)
       integer, intent(in)              :: s
       logical, intent(in)              :: of_modes(:)
       type(structure_type), intent(in) :: structure
@@ -186,7 +189,7 @@ contains
       do i = 1, size(of_modes)
          if (.not. of_modes(i)) cycle
          m = near%mode(i)
-         if (.not. structure%by_number .or. size(data%rows(i)%shape) > 0) m = maxloc(abs(a(m, :)), dim=1)
+         m = maxloc(abs(a(m, :)), dim=1)
          answer%mode(i) = m
          answer%value(i) = sqrt(max(0.0_wp, mu(m)))/two_pi
       end do
@@ -238,6 +241,7 @@ contains
          end if
          call start_oscillation(loose, analysis, structure%system, vibration%on_loading, oscillating, failure)
          oscillating%is_counted = .false.
+         if (vibration%most > 0 .and. .not. allocated(vibration%response)) vibration%most = vibration%most + spare_modes
          call find_natural_modes(loose, oscillating, vibration, spectrum, shifted, failure)
          if (failure%raised) return
          allocate (modes)
@@ -270,6 +274,9 @@ contains
                answer%value(i) = merge(mode%frequency, mode%loss, rows(i)%kind == a_frequency)
                answer%shapes(:, i) = reshape(mode%u, [size(mode%u)])
             end associate
+            k = rows(i)%mode - modes%n_before
+            if (rows(i)%kind == a_frequency .and. size(rows(i)%shape) == 0 .and. rows(i)%amplitude <= 0.0_wp .and. k > 0 .and. &
+                k <= size(modes%modes) .and. k /= m(i)) answer%off_number(i) = modes%modes(k)%frequency - answer%value(i)
          end do
       end associate
       if (any(of_modes .and. data%rows%amplitude > 0.0_wp)) &
@@ -324,7 +331,7 @@ contains
       real(wp) :: macs(size(modes%modes))
       integer  :: k, p
 
-      m = row%mode - modes%n_before
+      m = structure%numbers(i) - modes%n_before
       mac = 1.0_wp
       if (m < 1 .or. m > size(macs)) m = 0
       if (size(row%shape) == 0 .and. .not. allocated(structure%shapes)) return
@@ -335,8 +342,44 @@ contains
                [(u(row%at(2, p), structure%model%mesh%node_table%find(row%at(1, p))), p = 1, size(row%shape))])
          end associate
       end do
-      if (.not. structure%by_number .or. size(row%shape) > 0) m = maxloc(macs, dim=1)
-      if (m > 0) mac = macs(m)
+      m = maxloc(macs, dim=1)
+      mac = macs(m)
+      if (size(row%shape) == 0 .and. mac < least_mac) m = 0
    end subroutine match_mode
+
+   !> Exchange the NUMBERS of a mode with rows and of one beside it that ANSWER has close to it; IS_TRIED (rows, below and above).
+   !! OFF is the usual difference of a row over its deviation, 1 or more: so many times further may close modes be from each other.
+   subroutine exchange_modes(data, structure, answer, off, numbers, is_tried)
+      type(measured_type), intent(in)  :: data
+      type(structure_type), intent(in) :: structure
+      type(answer_type), intent(in)    :: answer
+      real(wp), intent(in)             :: off
+      integer, intent(inout)           :: numbers(:)
+      logical, intent(inout)           :: is_tried(:, :)
+      integer :: at, k, other, s, side
+
+      associate (rows => data%rows, stages => structure%plan%stages%id)
+         do k = 1, size(rows)
+            if (rows(k)%kind /= a_frequency .or. rows(k)%amplitude > 0.0_wp .or. size(rows(k)%shape) > 0) cycle
+            s = findloc(stages, rows(k)%stage, dim=1)
+            do side = 1, 2
+               at = answer%mode(k) + 2*side - 3
+               other = rows(k)%mode + 2*side - 3
+               if (is_tried(k, side) .or. min(at, other) < 1 .or. at > answer%n_modes(s)) cycle
+               associate (omega => sqrt(max(0.0_wp, answer%lambda([at, answer%mode(k)], s))))
+                  if (abs(omega(1) - omega(2)) > two_pi*close_modes*off*rows(k)%deviation) cycle
+               end associate
+               where (rows%stage == rows(k)%stage .and. rows%mode == other)
+                  numbers = rows(k)%mode
+                  is_tried(:, 3 - side) = .true.
+               elsewhere (rows%stage == rows(k)%stage .and. rows%mode == rows(k)%mode)
+                  numbers = other
+                  is_tried(:, side) = .true.
+               end where
+               return
+            end do
+         end do
+      end associate
+   end subroutine exchange_modes
 
 end module structure_answers

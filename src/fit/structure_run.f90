@@ -186,6 +186,7 @@ contains
                    size(plan%stages)), answer%moved(3*size(model%joints%element), most_modes, size(plan%stages)), &
                    answer%shapes(size(model%freedoms%held), n), source=0.0_wp)
          allocate (answer%mac(n), source=1.0_wp)
+         allocate (answer%off_number(n), source=0.0_wp)
          allocate (answer%mode(n), answer%n_modes(size(plan%stages)), source=0)
          allocate (kept(size(plan%stages)), ends(0:size(plan%stages)))
          if (any(abs(values - data%parameters%start) > 0.0_wp .and. .not. structure%keeps_bodies)) &

@@ -17,6 +17,7 @@ BEGIN {
    width = 40 + random(60); height = 40 + random(100); nx = 4 + random(4); ny = 3 + random(3)
    c = sprintf("%.6f", log_between(2e-3, 1e-2)); m = sprintf("%.3f", 0.35 + random(30) / 100)
    k0 = sprintf("%.2f", log_between(30, 200)); k1 = sprintf("%.2f", log_between(30, 200)); mu = sprintf("%.3f", 0.1 + random(20) / 100)
+   if (mu > 0.2 * width / height) mu = sprintf("%.3f", 0.2 * width / height) # else a push at the top tips the block over
    ks = sprintf("%.1f", log_between(5000, 50000)); e = sprintf("%.1f", log_between(7e4, 2.1e5))
    depth = 20 + random(30)
    area = kind == "ring" ? 3.14159265 * ((20 + width)^2 - 400) : width * depth
