@@ -15,12 +15,12 @@ contains
    pure subroutine sum_cases(plan, history)
       type(stage_plan_type), intent(in) :: plan
       type(history_type), intent(inout) :: history
-      type(stage_load_type) :: total
+      type(stage_load_type), allocatable :: total ! on the heap: the compiler warns of its bounds where it is a local variable
       integer :: k, s
 
       do s = 1, size(plan%stages)
          if (.not. allocated(plan%stages(s)%parts)) cycle
-         total = stage_load_type()
+         allocate (total)
          allocate (total%node(0), total%force(3, 0))
          do k = 1, size(plan%stages(s)%parts)
             associate (part => history%stages(plan%stages(s)%parts(k)), factor => plan%stages(s)%factors(k))
@@ -37,6 +37,7 @@ contains
          end do
          total%n = size(total%node)
          history%stages(s) = total
+         deallocate (total)
       end do
    end subroutine sum_cases
 

@@ -241,8 +241,12 @@ contains
       end do
       do k = 1, 6
          if (.not. law%stiffness(k) > 0.0_wp) cycle
-         spring = bar_type(id=card%id, nodes=bush%nodes, kind=a_spring, axis=axis_names(k), stiffness=law%stiffness(k), &
-                           damping=damping(k))
+         spring%id = card%id
+         spring%nodes = bush%nodes
+         spring%kind = a_spring
+         spring%axis = axis_names(k)
+         spring%stiffness = law%stiffness(k)
+         spring%damping = damping(k)
          spring%direction = spread(bush%axes(:, modulo(k - 1, 3) + 1), 2, 2)
          if (k <= 3) then
             do end = 1, 2

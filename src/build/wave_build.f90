@@ -30,9 +30,10 @@ contains
       type(mesh_type), intent(in)     :: mesh
       type(freedoms_type), intent(in) :: freedoms
       type(planned_wave), allocatable, intent(out) :: waves(:)
-      type(planned_wave) :: plain
+      type(planned_wave), allocatable :: plain ! on the heap: the compiler warns of its bounds where it is a local variable
       integer :: i, k, s
 
+      allocate (plain)
       allocate (plain%load%node(0), plain%load%force(3, 0), waves(0))
       do s = 1, size(deck%control%stages)
          associate (asked => deck%control%stages(s)%vibration%load)
@@ -63,7 +64,7 @@ contains
       subroutine add(id, scale)
          integer, intent(in)  :: id
          real(wp), intent(in) :: scale
-         type(planned_wave) :: wave
+         type(planned_wave), allocatable :: wave
          integer :: at, r, t
 
          do r = 1, size(deck%bulk%dynamic%rload)
