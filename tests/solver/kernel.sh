@@ -66,18 +66,18 @@ cmp -s <(tail -n +5 "$work/a b/it's *.out") <(tail -n +5 reference_output/prism0
 grep -q 'PRISM ON A RIGID BASE, 3 INCREMENTS' "$work/said"; same 'the deck of the standard input' 0 $?
 
 # ------------------------------------------------------------------ a thread that waits sleeps soon, but where the user has said otherwise
-mkfifo "$work/deck"
 spins() { # NAME=VALUE...: GOMP_SPINCOUNT of the program that waits for its deck
-   local spins
-   env -u GOMP_SPINCOUNT -u OMP_WAIT_POLICY "$@" "$program" -q -o "$work" - < "$work/deck" > /dev/null 2>&1 &
-   exec 3> "$work/deck" # opens when the program reads
-   for ((i = 0; i < 100; i++)); do
+   local i spins=
+   rm -f "$work/seen"
+   { until [ -e "$work/seen" ]; do sleep 0.02; done; cat input/prism05.bdf; } |
+      env -u GOMP_SPINCOUNT -u OMP_WAIT_POLICY "$@" "$program" -q -o "$work" - > /dev/null 2>&1 &
+   for ((i = 0; i < 50; i++)); do
+      sleep 0.02
+      [[ $(readlink "/proc/$!/exe") = */jointfem ]] || continue # not yet env's
       spins=$(tr '\0' '\n' < "/proc/$!/environ" | sed -n 's/^GOMP_SPINCOUNT=//p')
       [ -z "$spins" ] || break
-      sleep 0.02
    done
-   cat input/prism05.bdf >&3
-   exec 3>&-
+   touch "$work/seen"
    wait $! || spins="$spins, status $?"
    echo "$spins"
 }
