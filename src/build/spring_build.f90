@@ -223,11 +223,12 @@ contains
       type(mesh_type), intent(in)    :: mesh
       type(bar_type), intent(inout)  :: bars(:)
       integer, intent(inout)         :: n
-      type(bar_type) :: spring
+      type(bar_type), allocatable :: spring ! on the heap: the compiler warns of its bounds where it is a local variable
       real(wp) :: damping(6)
       integer  :: end, i, k
       logical  :: ok
 
+      allocate (spring)
       damping = law%damping
       if (all([(deck%bulk%spring_property(i)%damping(2:) <= 0.0_wp .or. .not. deck%bulk%spring_property(i)%is_bush, &
                 i = 1, size(deck%bulk%spring_property))])) damping = law%damping(1)
