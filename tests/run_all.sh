@@ -87,7 +87,7 @@ part 'decks of pairs that showed an error once' tests/random/pairs.sh -s 1 -f 10
 part 'decks of pairs with shells' tests/random/pairs.sh -x -s 1984 -n 40 "$program" "$build/test/pairs-shells"
 part 'decks of pairs with PATHTOL' tests/random/pairs.sh -p -s 1 -n 20 "$program" "$build/test/pairs-path"
 part 'the two fuzzers themselves' tests/random/selftest.sh "$program" "$build/test/random-selftest"
-part 'decks on other processors, built otherwise' tests/compare/processors.sh "$program" "$compare" "$build"
+part 'decks on other processors' tests/compare/processors.sh "$program" "$compare" "$build"
 part 'worked examples of the tour' tests/source/tour.sh "$query" "$build/tour"
 part 'decks through the program with run-time checks' tests/compare/check.sh "$checked" "$compare" "$build/check-checked" \
    $(for deck in input/*.bdf; do basename "$deck" .bdf; done | grep -vx brake_reuss) # a minute more

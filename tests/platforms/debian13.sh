@@ -2,10 +2,10 @@
 # The two commands of README.md on Debian 13, as a newcomer types them: in a root folder that debootstrap makes (as root), with a copy of this
 # tree and nothing else installed.
 #
-#    debian13.sh quick|whole WORK_FOLDER
+#    debian13.sh quick|whole|root WORK_FOLDER
 #
 # quick: the first command, the unit tests, the decks against their references. whole: both commands, with PETSC where it can be installed.
-# root: only the root folder, for a run of the other two behind it.
+# root: makes the root folder alone, for a later run of one of the other two.
 # DEBIAN13_ROOT: the root folder; one that is there is used as it is, so that the next run need not make it. The last line is
 # `N passed, N failed`; a part that cannot run on this machine is named in a line `skipped: WHAT: WHY`.
 set -u

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The kernel of OpenBLAS: where OpenBLAS takes one without AVX2 on a processor that has AVX2, the program starts itself anew with a better one
-# that computes right. Names, flags and faults are those of other_openblas.c.
+# that computes right. Names, flags and faults are those of other_openblas.c. And a thread that waits sleeps soon (GOMP_SPINCOUNT).
 #
 #    kernel.sh PROGRAM WORK_FOLDER
 set -u
