@@ -72,16 +72,16 @@ contains
       type(checked_deck), intent(in) :: deck
       type(grid_card), allocatable :: points(:)
       type(id_table_type) :: known
-      integer, allocatable :: named(:), order(:)
+      integer, allocatable :: ids(:), named(:), order(:)
       integer :: i, id, k
 
       allocate (points(0))
       do i = 1, size(deck%bulk%scalar)
          associate (card => deck%bulk%scalar(i))
             do k = 1, size(card%first)
-               do id = card%first(k), card%last(k)
-                  if (all(points%id /= id)) points = [points, grid_card(line=card%line, id=id, is_scalar=.true.)]
-               end do
+               ids = [(id, id = card%first(k), card%last(k))]
+               ids = pack(ids, [(all(points%id /= id), id = card%first(k), card%last(k))])
+               points = [points, (grid_card(line=card%line, id=ids(id), is_scalar=.true.), id = 1, size(ids))]
             end do
          end associate
       end do
