@@ -113,26 +113,28 @@ module bulk_data
       integer :: nodes(2) = 0
    end type conrod_card
 
-   !> CELAS1 to 4 (between component COMPONENTS(1) of node 1 and COMPONENTS(2) of node 2) and CBUSH (along three axes).
+   !> CELAS1 to 4 and CDAMP1 to 4 (between component COMPONENTS(1) of node 1 and COMPONENTS(2) of node 2), CBUSH (along three axes).
    type, public :: spring_card
       integer  :: line = 0, id = 0, nodes(2) = 0        ! 0: the ground
-      integer  :: property = 0                          ! PELAS or PBUSH; 0: a CELAS2 or CELAS4
+      integer  :: property = 0                          ! PELAS, PDAMP or PBUSH; 0: the values below
       integer  :: components(2) = 0
-      logical  :: is_bush = .false., is_scalar = .false. ! CBUSH; CELAS3 and CELAS4
+      logical  :: is_bush = .false., is_damper = .false. ! CBUSH; CDAMP1 to 4
+      logical  :: is_scalar = .false.                   ! CELAS3 and 4, CDAMP3 and 4
       integer  :: system = -1                           ! CID of a CBUSH, 0: global axes, -1: blank
       integer  :: other = 0                             ! GO of a CBUSH, 0: blank
       real(wp) :: orientation(3) = 0.0_wp               ! X1, X2, X3
       integer  :: point_system = -1                     ! OCID, -1: the point divides the line between the nodes at SHARE
       real(wp) :: share = 0.5_wp, point(3) = 0.0_wp     ! S; S1, S2, S3
       real(wp) :: stiffness = 0.0_wp, damping = 0.0_wp  ! of a CELAS2: K and GE
+      real(wp) :: viscous = 0.0_wp                      ! of a CDAMP2: B
    end type spring_card
 
-   !> PELAS (the first stiffness) and PBUSH.
+   !> PELAS (the first stiffness), PDAMP (the first B) and PBUSH.
    type, public :: spring_property_card
       integer  :: line = 0, id = 0
-      logical  :: is_bush = .false.
+      logical  :: is_bush = .false., is_damper = .false. ! PBUSH; PDAMP
       integer  :: field = 1                             ! data field of the id
-      real(wp) :: stiffness(6) = 0.0_wp
+      real(wp) :: stiffness(6) = 0.0_wp, viscous(6) = 0.0_wp ! K and B
       real(wp) :: damping(6) = 0.0_wp                   ! GE, of a PELAS the first
       real(wp) :: mass = 0.0_wp                         ! M of a PBUSH
    end type spring_property_card
