@@ -93,6 +93,7 @@ module bulk_data
       real(wp) :: thickness = 0.0_wp                    ! of a PSHELL
       logical  :: incompatible = .false.                ! modes of Wilson and Taylor
       integer  :: bending = 0, shear = 0                ! MID2 and MID3 of a PSHELL, 0: blank
+      logical  :: bends_alone = .false.                 ! MID1 is blank: no membrane; MATERIAL is MID2
       real(wp) :: inertia_ratio = 1.0_wp, shear_ratio = 5.0_wp/6.0_wp ! 12I/T**3, TS/T
       real(wp) :: extra_mass = 0.0_wp                   ! NSM, per area
       real(wp) :: fibre(2) = 0.0_wp                     ! Z1, Z2

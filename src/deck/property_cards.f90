@@ -29,8 +29,8 @@ module property_cards
 contains
 
    !> PSHELL: in the plane a membrane of thickness T; MID2 = -1 is plane strain, otherwise plane stress. MODES = YES on a continuation
-   !! adds the incompatible modes of Wilson and Taylor; bending data have no effect there. In space a shell: MID1 membrane, MID2 and
-   !! 12I/T**3 bending, MID3 and TS/T transverse shear, Z1 and Z2 the fibres of stress output.
+   !! adds the incompatible modes of Wilson and Taylor; bending data have no effect there. In space a shell: MID1 membrane (blank: none,
+   !! the mass is that of MID2), MID2 and 12I/T**3 bending, MID3 and TS/T transverse shear, Z1 and Z2 the fibres of stress output.
    subroutine read_pshell(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -40,9 +40,15 @@ contains
 
       associate (property => bulk%pshell(card%i))
          call card%field('PID', property%id)
-         call card%field('MID1', property%material)
+         property%bends_alone = (card%text_at(2) == '' .or. card%text_at(2) == '0') .and. card%text_at(4) /= ''
+         if (property%bends_alone) then
+            call card%skip(['MID1'])
+         else
+            call card%field('MID1', property%material)
+         end if
          call card%field('T', property%thickness, positive)
          call card%field('MID2', property%bending, default=0, least=-1)
+         if (property%bends_alone) property%material = property%bending
          call card%field('12I/T**3', property%inertia_ratio, positive, default=1.0_wp)
          call card%field('MID3', property%shear, default=0)
          call card%field('TS/T', property%shear_ratio, positive, default=5.0_wp/6.0_wp)
