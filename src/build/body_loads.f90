@@ -74,7 +74,7 @@ contains
             end if
             if (all(mesh%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp) .and. &
                 all(mesh%bars%mass <= 0.0_wp)) call deck%errors%add(field%line, &
-               one_of(field%is_spin, 'RFORCE', 'GRAV')//': no body has a mass; give RHO on its MAT1')
+               deck%card_on(field%line)//': no body has a mass; give RHO on its MAT1')
          end associate
       end do
 
