@@ -261,9 +261,6 @@ contains
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))
             superposed%shape(:, m) = wanted(mode%u)
-            superposed%forces(m, :) = [(excited(plan%waves(w)%force(:d, :), mode%u), w = 1, size(plan%waves)), &
-                                       (excited(unit_tension(model, dampers(w)), mode%u), w = 1, size(dampers))]
-            superposed%shape(size(u) - size(dampers) + 1:, m) = superposed%forces(m, size(plan%waves) + 1:)
             if (.not. allocated(plan%damping)) cycle
             superposed%loss(m) = mode%material_loss
             if (plan%is_structural) then
@@ -273,6 +270,10 @@ contains
             end if
          end associate
       end do
+
+      superposed%forces = reshape([(excited(plan%waves(w)%force(:d, :)), w = 1, size(plan%waves)), &
+                                   (excited(unit_tension(model, dampers(w))), w = 1, size(dampers))], shape(superposed%forces))
+      superposed%shape(size(u) - size(dampers) + 1:, :) = transpose(superposed%forces(:, size(plan%waves) + 1:))
 
       ! u_rest: the static response of a supported structure less that of the modes; without supports by inertia relief
       if (allocated(spectrum%at_rest)) then
@@ -353,12 +354,19 @@ contains
                    (sum(unit_tension(model, dampers(k))*u), k = 1, size(dampers))]
       end function wanted
 
-      !> The modal force of FORCE on the mode of shape U; zero where it is rounding.
-      pure real(wp) function excited(force, u)
-         real(wp), intent(in) :: force(:, :), u(:, :)
+      !> The modal forces of FORCE; zero where they are rounding, beside the size of FORCE and, since a large mass moves little in the
+      !! modes that its acceleration excites, beside all modal forces on modes of mass 1.
+      pure function excited(force) result(q)
+         real(wp), intent(in) :: force(:, :)
+         real(wp) :: q(size(modes%modes))
+         logical  :: is_small(size(q))
+         integer  :: r
 
-         excited = sum(u*force)
-         if (abs(excited) <= unexcited*norm2(force)*maxval(abs(u))) excited = 0.0_wp
+         q = [(sum(modes%modes(r)%u*force), r = 1, size(q))]
+         is_small = abs(q) <= unexcited*norm2(force)*[(maxval(abs(modes%modes(r)%u)), r = 1, size(q))]
+         associate (of_unit => q/sqrt(superposed%mass))
+            where (is_small .and. (all(is_small) .or. abs(of_unit) <= unexcited*norm2(of_unit))) q = 0.0_wp
+         end associate
       end function excited
 
    end subroutine find_response

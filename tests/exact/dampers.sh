@@ -52,6 +52,13 @@ chain dampers_1_2 'SPC = 1\n' 'GRID,1,,0.0,0.0\nGRID,2,,10.0,0.0\nSPC1,1,2,1,2\n
 CDAMP1,3,8,1,1\nCDAMP2,4,6.0,2,1,1,1\nCONM2,5,1,,0.02\nCONM2,6,2,,0.05\nDAREA,20,2,1,3.0'
 chain dampers_3_4 '' 'SPOINT,1,2\nCELAS4,1,3000.0,1\nCELAS4,2,5000.0,1,2\nCDAMP3,3,8,1\nCDAMP4,4,6.0,2,1\nCMASS4,5,0.02,1\nCMASS4,6,0.05,2\nDAREA,20,2,,3.0'
 
+# ---- A large mass is accelerated and a small one hangs on it, k = 6000 (1 + 0.05 i): the mode moves the large one by 1E-11 of the other
+printf '%b\n' "SPC = 1\nSET 1 = 2\n${asked/MODES/MODES(FREE)}" 'GRID,1,,0.0,0.0\nGRID,2,,10.0,0.0\nSPC1,1,2,1,2\nSUPORT,1,1\nCELAS2,1,6000.0,1,1,2,1' \
+   'CONM2,5,1,,2.0+9\nCONM2,6,2,,0.02\nPARAM,G,0.05\nEIGRL,5,,,2\nDAREA,20,1,1,5.0+9' \
+   'RLOAD1,20,20,,,1.0\nFREQ1,7,20.0,17.0,8\nENDDATA' > "$work/large_mass.bdf"
+run large_mass && listed 'a mass on a large one that is accelerated' 1e-6 '{ k[1] = 6000; k[2] = 300; a[1] = 6000 - 2e9*w^2; a[2] = 300; d[1] = 6000 - 0.02*w^2; d[2] = 300
+   times(a, d); det[1] = re; det[2] = im; times(k, k); det[1] -= re; det[2] -= im; x[1] = 5e9*k[1]; x[2] = 5e9*k[2]; over(x, det); check() }' large_mass 2
+
 # ---- A rod of forty elements with a damper at its end, of a third of the impedance of the rod: [k] - w^2 [m] + i w [b] by elimination.
 # Few modes are those up to twice the frequencies, with the static response to load and damper: within 1.5 % of F/(w b).
 for n in 40 ''; do
