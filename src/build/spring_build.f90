@@ -2,10 +2,11 @@
 !! A spring is stored as a bar of the model, one per direction; springs follow the bars.
 module spring_build
    use bolt_threads, only: in_units, thread_type
-   use bulk_data, only: bolt_card, edge_card, edge_crod, prod_card, spring_card, spring_property_card
+   use bulk_data, only: edge_card, edge_crod, prod_card, spring_card, spring_property_card
    use bush_build, only: bush_type
    use deck_check, only: checked_deck
    use kinds, only: wp
+   use load_data, only: bolt_card
    use mesh_queries, only: is_scalar_point, shown_number
    use model_data, only: a_spring, bar_type, mesh_type, tightening_type
    use model_kind, only: space_hint

@@ -1,5 +1,6 @@
 !> Reads a deck, its text, case control and bulk data, in one pass and collects all errors.
 module deck_input
+   use beam_cards, only: read_beam_load, read_beam_property
    use bulk_data, only: bulk_data_type
    use card_fields, only: card_fields_type
    use case_control, only: case_control_type, read_case_control, watch_also
@@ -20,7 +21,7 @@ module deck_input
    use nastran_compatibility, only: not_reduced, take_idle_card
    use nastran_defaults, only: find_first_card, take_initial_temperature, take_only_sets
    use nx_cards, only: read_pair, read_preload, read_region
-   use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
+   use property_cards, only: read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
    use response_cards, only: read_darea, read_dload, read_lseq, read_rload, read_tabled
    use rigid_cards, only: read_equation, read_place, read_rigid, read_tie

@@ -2,10 +2,11 @@
 !! Supports: SPC, SPC1, SPCM and their sum SPCADD, SUPORT; MPCADD combines constraint equations likewise. Prescribed displacements: SPCD.
 !! Springs: CELAS1 to 4, CBUSH, PELAS, PBUSH. Masses: CONM1, CONM2, CMASS1 to 4, PMASS. Scalar points: SPOINT, SLOAD.
 module support_cards
-   use bulk_data, only: bulk_data_type, displacement_card, pmass_card, set_sum_card, spring_property_card, support_card
+   use bulk_data, only: bulk_data_type, pmass_card, set_sum_card, spring_property_card, support_card
    use card_fields, only: card_fields_type
    use field_rules, only: at_least_1, not_negative, parse_integer, real_range
    use kinds, only: wp
+   use load_data, only: displacement_card
    use text_tools, only: integer_text, one_of
    implicit none
    private
