@@ -178,8 +178,10 @@ contains
          end associate
          factor(i) = omega**2*moved(i)
       end do
-      system%force = matmul(system%forces(:, :size(waves)), factor)
-      system%rest = matmul(system%rests(:, :size(waves)), factor) + matmul(system%carried, moved)
+      associate (n => size(waves)) ! the dampers follow
+         system%force = [(sum(system%forces(i, :n)*factor), i = 1, size(system%forces, 1))]
+         system%rest = [(sum(system%rests(i, :n)*factor) + sum(system%carried(i, :n)*moved), i = 1, size(system%rests, 1))]
+      end associate
    end subroutine excite
 
    !> The frequency at which mode R alone has its largest amplitude: with structural damping its natural frequency, with viscous
@@ -250,7 +252,8 @@ contains
       n = size(plan%nodes)
       dampers = damped_bars(model%mesh)
       superposed%damper = model%mesh%bars(dampers)%viscous
-      allocate (u(d*n + 4*size(plan%pairs) + size(dampers)))
+      m = d*n + 4*size(plan%pairs) + size(dampers)
+      allocate (u(m), large(m))
       allocate (superposed%shape(size(u), size(modes%modes)), superposed%viscous(size(modes%modes)), &
                 superposed%forces(size(modes%modes), size(plan%waves) + size(dampers)), &
                 superposed%rests(size(u), size(plan%waves) + size(dampers)), &
@@ -334,7 +337,7 @@ contains
                                why_unbounded(model, modes, m))
             return
          end if
-         large = abs(u)
+         large(:) = abs(u)
          where (large <= no_motion*maxval(large)) u = 0.0_wp
          response%amplitude(:, :, f) = reshape(abs(u(:d*n)), [d, n])
          response%phase(:, :, f) = reshape(phase_of(u(:d*n)), [d, n])
