@@ -1,5 +1,5 @@
-!> Frequencies of a structure from the modes that it has at the ends of its stages, where only the stiffness of its joints differs: by
-!! Rayleigh and Ritz in the space of all these modes, which have the joints at several preloads,
+!> Frequencies of a structure from the modes that it has at the ends of its stages, where only the stiffness of its joints differs:
+!! by Rayleigh and Ritz in the space of all these modes, which have the joints at several preloads,
 !!
 !!      [K + B^T dk B] {x} = omega^2 {x},   B the movements of the interface elements in a basis of this space, orthonormal in [m]
 !!
@@ -39,23 +39,23 @@ contains
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
       type(stage_modes), intent(inout)   :: stages(:)
-      real(wp), allocatable :: b(:, :), f(:, :), k(:, :), m(:, :), nu(:), t(:, :), u(:, :), unit(:, :), v(:, :), work(:)
+      real(wp), allocatable :: b(:, :), f(:, :), g(:, :), k(:, :), m(:, :), nu(:), t(:, :), u(:, :), unit(:, :), v(:, :), work(:)
       integer, allocatable  :: of(:)
-      integer :: d, i, info, j, n, s
+      integer :: d, i, info, j, n, own, s
 
       d = model%mesh%dimension
       do s = 1, size(stages)
          if (.not. allocated(stages(s)%lambda)) cycle
          if (size(stages(s)%lambda) == 0) cycle
-         allocate (of(0))
+         of = spread(s, 1, size(stages(s)%lambda)) ! its own first: without a change of the joints they are exact
          do i = 1, size(stages)
-            if (.not. allocated(stages(i)%lambda)) cycle
+            if (i == s .or. .not. allocated(stages(i)%lambda)) cycle
             if ((stages(i)%is_free .eqv. stages(s)%is_free) .and. all(stages(i)%is_locked .eqv. stages(s)%is_locked)) &
                of = [of, spread(i, 1, size(stages(i)%lambda))]
          end do
          n = size(of)
-         allocate (v(size(stages(s)%u, 1), n), b(size(stages(s)%k), n), k(n, n), m(n, n), t(n, n), nu(n), work(34*n))
-         allocate (u(d, size(v, 1)/d), f(d, size(v, 1)/d), unit(n, n))
+         allocate (v(size(stages(s)%u, 1), n), b(size(stages(s)%k), n), k(n, n), m(n, n), nu(n), work(34*n))
+         allocate (u(d, size(v, 1)/d), f(d, size(v, 1)/d))
          do j = 1, n
             i = count(of(:j) == of(j))
             v(:, j) = stages(of(j))%u(:, i)
@@ -75,17 +75,24 @@ contains
             call add_bar_forces(model, stages(s)%is_elastic, u, f)
             k(:, j) = nu(j)*m(:, j) + matmul(reshape(f, [size(f)]), v) + matmul((stages(s)%k - stages(of(j))%k)*b(:, j), b)
          end do
-         t = 0.5_wp*(m + transpose(m))
-         unit = identity(n)
-         call dsygv(1, 'V', 'U', n, t, n, unit, n, nu, work, size(work), info)
-         i = count(nu > in_the_span*nu(n)) ! the last ones
-         t(:, n - i + 1:) = t(:, n - i + 1:)/spread(sqrt(nu(n - i + 1:)), 1, n)
-         associate (basis => t(:, n - i + 1:))
+         own = size(stages(s)%lambda)
+         t = identity(n)
+         i = 0
+         if (n > own) then ! what the modes of other stages have beside, in combinations that are orthonormal
+            g = m(own + 1:, own + 1:) - matmul(m(own + 1:, :own), m(:own, own + 1:))
+            unit = identity(n - own)
+            call dsygv(1, 'V', 'U', n - own, g, n - own, unit, n - own, nu, work, size(work), info)
+            i = count(nu(:n - own) > in_the_span)
+            g = g(:, n - own - i + 1:)/spread(sqrt(nu(n - own - i + 1:n - own)), 1, n - own)
+            t(own + 1:, own + 1:own + i) = g
+            t(:own, own + 1:own + i) = -matmul(m(:own, own + 1:), g)
+         end if
+         associate (basis => t(:, :own + i))
             stages(s)%reduced = 0.5_wp*matmul(transpose(basis), matmul(k + transpose(k), basis))
             stages(s)%moved = matmul(b, basis)
-            stages(s)%place = matmul(transpose(basis), m(:, findloc(of, s, dim=1):findloc(of, s, dim=1, back=.true.)))
+            stages(s)%place = matmul(transpose(basis), m(:, :own))
          end associate
-         deallocate (b, f, k, m, nu, of, t, u, unit, v, work)
+         deallocate (b, f, k, m, nu, t, u, v, work)
       end do
    end subroutine span_modes
 

@@ -75,12 +75,13 @@ contains
       open (newunit=unit, file=streams_at//integer_text(stream), access='stream', action='write', status='old')
       write (unit) len(answer%fault), answer%fault
       if (answer%fault == '') then
-         write (unit) shape(answer%shapes), size(answer%stages), answer%value, answer%off_number, answer%mac, answer%mode, answer%shapes
+         write (unit) shape(answer%shapes), size(answer%stages), answer%value, answer%off_number, answer%mac, answer%mode, &
+            answer%shapes
          do s = 1, size(answer%stages)
             associate (stage => answer%stages(s))
                write (unit) allocated(stage%reduced)
-               if (allocated(stage%reduced)) write (unit) shape(stage%moved), shape(stage%u), stage%n_before, stage%lambda, stage%u, &
-                  stage%k, stage%reduced, stage%moved, stage%place
+               if (allocated(stage%reduced)) write (unit) shape(stage%moved), shape(stage%u), stage%n_before, stage%lambda, &
+                  stage%u, stage%k, stage%reduced, stage%moved, stage%place
             end associate
          end do
       end if

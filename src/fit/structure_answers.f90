@@ -1,6 +1,6 @@
 !> The answers of a structure to the rows of a measured file, at the end of a stage. Near a run with modes, their frequencies follow
-!! from the change of the joint stiffness alone, in the space of the modes of that run. A mode is followed by its shape: that of the largest MAC (x^T y)^2/(x^T x y^T y) with the shape given, or with that of a run
-!! before; without one, the mode is that of its number.
+!! from the change of the joint stiffness alone, in the space of the modes of that run. A mode is followed by its shape: that of the
+!! largest MAC (x^T y)^2/(x^T x y^T y) with the shape given, or with that of a run before; without one, the mode is that of its number.
 module structure_answers
    use analysis_state, only: analysis_type
    use backbone, only: backbone_type, find_loop, start_backbone
@@ -77,7 +77,8 @@ contains
       if (scale > 0.0_wp) mac = sum(x*y)**2/scale
    end function mac_of
 
-   !> The answers to the rows of stage S at its end, AT_END where nodes are watched; BEFORE is the end of the stage from which it started.
+   !> The answers to the rows of stage S at its end, AT_END where nodes are watched; BEFORE is the end of the stage from which S
+   !! started.
    subroutine take_stage(data, s, structure, analysis, before, at_end, answer, failure, near)
       type(measured_type), intent(in)         :: data
       integer, intent(in)                     :: s
@@ -211,7 +212,8 @@ contains
       integer :: f, i
 
       associate (vibration => structure%plan%stages(s)%vibration, rows => data%rows, nodes => loose%mesh%node_table, &
-                 oscillating => structure%oscillating(merge(1, 0, structure%plan%stages(s)%vibration%free)), stage => answer%stages(s))
+                 oscillating => structure%oscillating(merge(1, 0, structure%plan%stages(s)%vibration%free)), &
+                 stage => answer%stages(s))
          if (allocated(vibration%response) .and. all(rows%frequency <= 0.0_wp .or. .not. of_modes)) deallocate (vibration%response)
          if (allocated(vibration%response)) then ! of the frequencies and nodes of the rows alone
             vibration%response%spreads = vibration%response%spreads(:0)

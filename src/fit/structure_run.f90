@@ -218,8 +218,8 @@ contains
             end if
          end do
          if (failure%raised) answer%fault = failure%message
-         if (.not. failure%raised) &
-            call span_modes(model, structure%oscillating(merge(0, 1, allocated(structure%oscillating(0)%started)))%mass, answer%stages)
+         i = merge(0, 1, allocated(structure%oscillating(0)%started))
+         if (.not. failure%raised) call span_modes(model, structure%oscillating(i)%mass, answer%stages)
       end associate
    end subroutine run_structure
 
