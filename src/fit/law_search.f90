@@ -57,6 +57,7 @@ module law_search
       real(wp) :: square = huge(1.0_wp)            ! that sum
       real(wp), allocatable :: jacobian(:, :), x(:), f(:) ! of lmder, and where it had the derivatives last
       integer  :: n_steps = 0                      ! tried since then
+      logical  :: pairs_soon = .false.             ! end a round where the sum with MODE counting there is less
       logical  :: is_predicted = .false.           ! there are frequencies that the modes of a run nearby predict
    end type task_type
    type(task_type), pointer :: task => null()      ! for MINPACK, whose routines have no place for data
@@ -153,7 +154,9 @@ contains
       do i = 1, most_pairings
          task%structure%numbers = numbers
          if (allocated(task%structure%shapes)) deallocate (task%structure%shapes)
+         task%pairs_soon = i == 1
          call minimise(z)
+         task%pairs_soon = .false.
          is_better = .false.
          if (task%square < huge(found)) then
             square = sum(differences(task%data, task%found%value + task%found%off_number)**2)
@@ -234,6 +237,7 @@ contains
             end if
             task%from = z
             task%near = task%last
+            if (task%pairs_soon .and. sum(differences(task%data, task%last%value + task%last%off_number)**2) < now) exit
             if (n == 0 .or. best - now <= search_settled*max(1.0_wp, best)) exit ! far below one deviation
             if (round > 1 .and. task%is_predicted) then
                if (sum((differences(task%data, task%last%value) - fvec)**2) <= round_settled) exit ! as predicted
