@@ -179,6 +179,36 @@ schedule '1 a +1' '2 b +1' '3 c +2' '4 d <1 <2 >3' '1 e <3' '1 f <3' '1 g <3' 13
 schedule '4 a +1' '1 b >1' '5 c <1' '5 d' 15 6 15 9 6                    # c waits for b alone; on two it begins at 1, d at 4
 schedule '3 a >1' '1 b <1' 'phase other' '9 c' 'phase all' '1 a' '2 b <1' 7 6 7 6 6 # a later phase knows no key of this one
 
+# ------------------------------------------------------------------ the record of tasks of the program
+# A record changes no result; a task of order and factor waits for keys that tasks before it or it alone complete (0: the root), where
+# a substitution may know them from a phase before; one thread takes as long as the tasks together, two at least half of it and the span.
+# record SHAPE NAMES: NAMES of tasks that must be there
+record() {
+   local shape=$1
+   "$here/make_deck.sh" "$shape" TREE LAST > "$work/$shape.bdf"
+   "$program" -q --threads 1 -o "$work" "$work/$shape.bdf" > "$work/said" 2>&1 && mv "$work/$shape.out" "$work/alone" &&
+      JOINTFEM_TASKS=$work/tasks "$program" -q --threads 1 -o "$work" "$work/$shape.bdf" > "$work/said" 2>&1 &&
+      cmp "$work/$shape.out" "$work/alone"
+   count "$shape: a run that records its tasks" $?
+   awk -v names="$2" '$1 == "phase" { phase = $2; split("", done); next }
+      { ran[$2]++
+        for (i = 3; i <= NF; i++) if ($i ~ /^[>+]/) own[NR, substr($i, 2)] = 1
+        for (i = 3; i <= NF; i++) {
+           if ($i !~ /^</ || $i == "<0" || phase !~ /^(order|factor)$/) continue
+           if (!(substr($i, 2) in done) && !((NR, substr($i, 2)) in own)) { print; bad = 1 }
+        }
+        for (i = 3; i <= NF; i++) if ($i ~ /^[>+]/) done[substr($i, 2)] = 1 }
+      END { n = split(names, name, " "); for (i = 1; i <= n; i++) if (!ran[name[i]]) { print "no task " name[i]; bad = 1 }
+            if (ran["separate"] && ran["part"] != 2*ran["separate"] + 1) { print "parts and separators: " ran["part"], ran["separate"]; bad = 1 }
+            exit bad }' "$work/tasks"
+   count "$shape: keys of the tasks" $?
+   awk -f "$here/schedule.awk" -v threads='1 2' "$work/tasks" | awk 'NR > 1 { n++; least = $3/2 > $4 ? $3/2 : $4
+      if ($5 < 0.999*$3 - 1e-4 || $5 > 1.001*$3 + 1e-4 || $6 < 0.999*least - 1e-4 || $6 > $5) bad = 1 } END { exit bad || n == 0 }'
+   count "$shape: work, span and times of the tasks" $?
+}
+record q4_160x140 'separate part subtree front forward backward'            # its graph is cut into parts: 22,701 nodes
+record hex8_16x16x16 'zero add elements factorise divide subtract take'     # large fronts in tiles
+
 # ------------------------------------------------------------------ the script, with programs that always take as long
 rm -rf "$work/stand-in" && mkdir "$work/stand-in"
 stand_in() {

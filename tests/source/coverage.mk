@@ -3,9 +3,9 @@
 # The checked build is made anew under $(BUILD)/coverage with counters in place of checks, and takes the part of both programs. The parts
 # that run the decks of the manuals are left out: a third of the time, in which ten lines of 26,000 run that no other part reaches.
 
-COVERAGE_WITHOUT = other processors|run-time checks|benchmark|queries|itself|themselves|tools of make|tour|verification manual|of the manuals
+COVERAGE_WITHOUT = other processors|run-time checks|queries|itself|themselves|tools of make|tour|verification manual|of the manuals
 
-COVERAGE_FLAGS = -O0 --coverage -fprofile-update=atomic -fopenmp -fno-backtrace $(WARNINGS)
+COVERAGE_FLAGS = -O0 --coverage -fopenmp -fno-backtrace $(WARNINGS)
 
 .PHONY: coverage coverage-run
 coverage: $(COMPARE) $(QUERY)
