@@ -5,7 +5,7 @@ module blas_lapack
    implicit none
    private
 
-   public :: ddot, dgemm, dgemv, dgesv, dlacn2, dposv, dpotrf, dpstrf, dsygv, dsymv, dsyrk, dtrmv, dtrsm, dtrsv
+   public :: ddot, dgemm, dgemv, dgesv, dlacn2, dposv, dpotrf, dpstrf, dsygv, dsymv, dsyrk, dtrmv, dtrsm, dtrsv, zgesv
 
    interface
 
@@ -42,6 +42,14 @@ module blas_lapack
          real(wp), intent(inout) :: a(lda, *), b(ldb, *)
          integer, intent(out)    :: ipiv(*), info
       end subroutine dgesv
+
+      !> As dgesv, of complex A and B.
+      pure subroutine zgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         integer, intent(in)        :: n, nrhs, lda, ldb
+         complex(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         integer, intent(out)       :: ipiv(*), info
+      end subroutine zgesv
 
       !> Estimates the 1-norm of a matrix from a few products with it. Begin with KASE = 0. On return KASE = 1 asks for X = A X,
       !! KASE = 2 for X = A^T X, each before the next call; KASE = 0 ends the estimate EST = norm(V)/norm(W), V = A W.

@@ -1,16 +1,17 @@
 !> Loads on bodies: GRAV, ACCEL1, RFORCE and PLOAD1 as nodal forces and as end forces of beams.
 !! GRAV, ACCEL1 and RFORCE act on masses, PLOAD1 along beams.
 module body_loads
-   use property_cards, only: load_types
+   use beam_cards, only: load_types
    use beam_element, only: beam_axes, beam_length, beam_line_load, beam_nodal_forces, beam_point_load, beam_section_at
    use body_elements, only: law_of
-   use bulk_data, only: beam_load_card, gravity_card
+   use bulk_data, only: beam_load_card
    use deck_check, only: checked_deck
    use displacement_systems, only: rectangular_axes
    use element_kinds, only: kind_edge2, max_nodes
    use element_unknowns, only: displaced_nodes
    use isoparametric, only: body_forces
    use kinds, only: wp
+   use load_data, only: gravity_card
    use mass_matrix, only: bar_mass, scalar_mass
    use mesh_queries, only: element_points, is_beam, is_scalar_point, is_shell, n_points, node_kind
    use model_data, only: a_point, freedoms_type, mesh_type, stage_load_type
@@ -74,7 +75,7 @@ contains
             end if
             if (all(mesh%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp) .and. &
                 all(mesh%bars%mass <= 0.0_wp)) call deck%errors%add(field%line, &
-               one_of(field%is_spin, 'RFORCE', 'GRAV')//': no body has a mass; give RHO on its MAT1')
+               deck%card_on(field%line)//': no body has a mass; give RHO on its MAT1')
          end associate
       end do
 

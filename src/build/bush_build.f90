@@ -61,10 +61,10 @@ contains
             do end = 1, 2
                if (bush%nodes(end) == 0) cycle
                bush%lever(:, end) = point - mesh%x(:, bush%nodes(end))
-               do k = 1, mesh%dimension
-                  if (laws(bush%property)%stiffness(k) > 0.0_wp) bush%has_arm(end) = bush%has_arm(end) .or. &
-                     norm2(cross(bush%lever(:, end), bush%axes(:, k))) > no_lever*extent
-               end do
+               associate (law => laws(bush%property))
+                  bush%has_arm(end) = any([(law%stiffness(k) + law%viscous(k) > 0.0_wp .and. &
+                     norm2(cross(bush%lever(:, end), bush%axes(:, k))) > no_lever*extent, k = 1, mesh%dimension)])
+               end associate
             end do
          end associate
       end do
@@ -158,8 +158,9 @@ contains
       arm = norm2(bushes(i)%lever(:, end))
       turns = deck%bulk%spring(i)%components(end) > 3 .or. bushes(i)%has_arm(end)
       if (bushes(i)%is_whole) then
-         associate (k => deck%bulk%spring_property(bushes(i)%property)%stiffness)
-            turns = turns .or. any(k(4:) > 0.0_wp)
+         associate (law => deck%bulk%spring_property(bushes(i)%property), &
+                    k => deck%bulk%spring_property(bushes(i)%property)%stiffness)
+            turns = turns .or. any(k(4:) + law%viscous(4:) > 0.0_wp)
             if (.not. arm > 0.0_wp .and. any(k(:3) > 0.0_wp)) arm = sqrt(maxval(k(4:))/maxval(k(:3)))
          end associate
       end if

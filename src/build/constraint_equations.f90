@@ -15,7 +15,7 @@ module constraint_equations
    implicit none
    private
 
-   public :: add_dependence, add_expansion, add_term, check_dependences, eliminate, follow_dependents, invert, solve_for
+   public :: add_dependence, add_expansion, add_term, check_dependences, eliminate, invert, solve_for
 
    !> What a rigid element adds to a constraint equation when it is warmed: GROWTH times T - REFERENCE, T the mean of two POINTS.
    type, public :: expansion_type
@@ -39,7 +39,9 @@ module constraint_equations
    type, public :: dependence_list
       integer :: n = 0
       type(dependence_type), allocatable :: item(:)
-      type(expansion_type), allocatable :: expansions(:) !! of rigid elements; not allocated: none
+      type(expansion_type), allocatable :: expansions(:) !! (at least N_EXPANSIONS) of rigid elements
+      integer :: n_expansions = 0
+      integer, allocatable :: of(:, :)       !! (dimension, n_nodes) the equation of a component, 0: none
       logical, allocatable :: without(:)     !! (n_nodes) the node belongs to a rigid element or an equation, not to an element
    end type dependence_list
 
@@ -80,62 +82,35 @@ contains
       real(wp), intent(in)                 :: growth, reference
 
       if (abs(growth) <= 0.0_wp) return
-      if (.not. allocated(list%expansions)) allocate (list%expansions(0))
+      if (.not. allocated(list%expansions)) allocate (list%expansions(8))
+      if (list%n_expansions == size(list%expansions)) list%expansions = [list%expansions, list%expansions]
+      list%n_expansions = list%n_expansions + 1
       associate (item => list%item(list%n))
          item%expands = .true.
-         list%expansions = [list%expansions, expansion_type(item%node, item%d, points, item%line, growth, reference)]
+         list%expansions(list%n_expansions) = expansion_type(item%node, item%d, points, item%line, growth, reference)
       end associate
    end subroutine add_expansion
 
-   !> Put the equations of dependent components in their place in the equations FIRST to LAST of LIST. A dependent component that
-   !! expands stays, and is an error.
-   pure subroutine follow_dependents(mesh, list, first, last)
-      type(mesh_type), intent(in)          :: mesh
-      type(dependence_list), intent(inout) :: list
-      integer, intent(in)                  :: first, last
-      type(component_place), allocatable :: on(:)
-      integer :: of(mesh%dimension, mesh%n_nodes) ! the other equation of a component, 0: none
-      integer :: i, j, k, m
-
-      of = 0
-      do i = 1, list%n
-         if ((i < first .or. i > last) .and. .not. list%item(i)%expands) of(list%item(i)%d, list%item(i)%node) = i
-      end do
-      do i = first, last
-         on = [component_place ::]
-         do k = 1, list%item(i)%n
-            associate (term => list%item(i)%on(k))
-               j = of(term%d, term%node)
-               if (j == 0) on = [on, term]
-               if (j > 0) on = [on, [(component_place(list%item(j)%on(m)%node, list%item(j)%on(m)%d, &
-                                                      term%scale*list%item(j)%on(m)%scale), m = 1, list%item(j)%n)]]
-            end associate
-         end do
-         list%item(i)%n = size(on)
-         call move_alloc(on, list%item(i)%on)
-      end do
-   end subroutine follow_dependents
-
-   !> Errors: a component that depends twice, is supported too, or depends on a dependent component.
+   !> Set OF of LIST, and put the equations of dependent components in their place in the terms of the others, so that all terms are
+   !! independent. Errors: a component that depends twice, is supported too, depends on itself, or on one that expands.
    subroutine check_dependences(deck, mesh, freedoms, list)
       type(checked_deck), intent(in)    :: deck
       type(mesh_type), intent(in) :: mesh
       type(freedoms_type), intent(in) :: freedoms
-      type(dependence_list), intent(in) :: list
-      integer, allocatable :: of(:, :) ! (dimension, n_nodes) the equation of a component, 0: none
+      type(dependence_list), intent(inout) :: list
       character(:), allocatable :: words
-      logical, allocatable :: is_named(:)
-      integer :: i, k, other
+      logical, allocatable :: is_named(:), is_open(:), is_done(:)
+      integer :: i
 
-      allocate (of(mesh%dimension, mesh%n_nodes), source=0)
-      allocate (is_named(list%n), source=.false.)
+      allocate (list%of(mesh%dimension, mesh%n_nodes), source=0)
+      allocate (is_named(list%n), is_open(list%n), is_done(list%n), source=.false.)
       do i = 1, list%n
          associate (item => list%item(i))
             words = ''
-            if (of(item%d, item%node) > 0) then
-               words = ' is already dependent by '//name_of(deck, list%item(of(item%d, item%node))%line)
+            if (list%of(item%d, item%node) > 0) then
+               words = ' is already dependent by '//name_of(deck, list%item(list%of(item%d, item%node))%line)
             else
-               of(item%d, item%node) = i
+               list%of(item%d, item%node) = i
                if (freedoms%held(item%d, item%node)) words = ' is supported by '//support_name(deck, freedoms, item%node, &
                   item%d)//' too; a component is either dependent or supported'
             end if
@@ -143,19 +118,43 @@ contains
          end associate
       end do
       do i = 1, list%n
-         do k = 1, list%item(i)%n
-            associate (on => list%item(i)%on(k))
-               other = of(on%d, on%node)
-               if (other == 0) cycle
-               call name_once(i, component_text(mesh, on%node, on%d)//', on which this component depends, is itself dependent '// &
-                  'by '//name_of(deck, list%item(other)%line)//'; expected an independent component: name its own independent '// &
-                  'nodes')
-            end associate
-            exit
-         end do
+         call make_independent(i)
       end do
 
    contains
+
+      !> Put the equations of its dependent terms, made independent before, in their place in equation I.
+      recursive subroutine make_independent(i)
+         integer, intent(in) :: i
+         type(component_place), allocatable :: on(:)
+         integer :: j, k, m
+
+         if (is_done(i)) return
+         is_done(i) = .true.
+         if (all([(list%of(list%item(i)%on(k)%d, list%item(i)%on(k)%node), k = 1, list%item(i)%n)] == 0)) return
+         is_open(i) = .true.
+         on = [component_place ::]
+         do k = 1, list%item(i)%n
+            associate (term => list%item(i)%on(k))
+               j = list%of(term%d, term%node)
+               if (j > 0) call make_independent(j)
+               if (j == 0) then
+                  on = [on, term]
+               else if (is_open(j) .or. list%item(j)%expands) then
+                  call name_once(i, component_text(mesh, term%node, term%d)//', on which this component depends, is itself '// &
+                     'dependent by '//name_of(deck, list%item(j)%line)//one_of(is_open(j), ', in a circle', &
+                     ', which expands')//'; expected an independent component: name its own independent nodes')
+                  exit
+               else
+                  on = [on, [(component_place(list%item(j)%on(m)%node, list%item(j)%on(m)%d, &
+                                              term%scale*list%item(j)%on(m)%scale), m = 1, list%item(j)%n)]]
+               end if
+            end associate
+         end do
+         is_open(i) = .false.
+         list%item(i)%n = size(on)
+         call move_alloc(on, list%item(i)%on)
+      end subroutine make_independent
 
       !> One error per field of a card, though several components may be wrong.
       subroutine name_once(equation, message)
@@ -232,7 +231,6 @@ contains
       real(wp), allocatable :: t(:, :, :)
       logical, allocatable  :: is_used(:, :)
       integer, allocatable  :: masters(:), column(:) ! of a node, and their places among them
-      integer, allocatable  :: of(:, :) ! (dimension, n_nodes) the equation of a component, 0: none
       real(wp) :: axes(3, 3)
       logical  :: expands(3)
       integer  :: d, i, j, k, n, node
@@ -241,10 +239,8 @@ contains
       call open_left_out(mesh, freedoms)
       allocate (is_used(d, mesh%n_nodes), source=.false.)
       allocate (masters(mesh%n_nodes), column(mesh%n_nodes), source=0)
-      allocate (of(d, mesh%n_nodes), source=0)
       do i = 1, list%n
          associate (item => list%item(i))
-            of(item%d, item%node) = i
             freedoms%left_out(item%d, item%node) = .true.
             do k = 1, item%n
                is_used(item%on(k)%d, item%on(k)%node) = .true.
@@ -258,12 +254,12 @@ contains
          n = 0
          expands = .false.
          do j = 1, d
-            if (of(j, node) > 0) expands(j) = list%item(of(j, node))%expands
+            if (list%of(j, node) > 0) expands(j) = list%item(list%of(j, node))%expands
          end do
          if (any(expands(:d) .or. .not. freedoms%left_out(:, node))) call add_master(node)
          do j = 1, d
-            if (of(j, node) == 0) cycle
-            associate (item => list%item(of(j, node)))
+            if (list%of(j, node) == 0) cycle
+            associate (item => list%item(list%of(j, node)))
                do k = 1, item%n
                   call add_master(item%on(k)%node)
                end do
@@ -272,8 +268,8 @@ contains
          allocate (t(d, d, n), source=0.0_wp)
          do j = 1, d
             if (expands(j) .or. .not. freedoms%left_out(j, node)) t(:, j, 1) = axes(:d, j)
-            if (of(j, node) == 0) cycle
-            associate (item => list%item(of(j, node)))
+            if (list%of(j, node) == 0) cycle
+            associate (item => list%item(list%of(j, node)))
                do k = 1, item%n
                   associate (on => item%on(k))
                      t(:, on%d, column(on%node)) = t(:, on%d, column(on%node)) + on%scale*axes(:d, j)

@@ -1,6 +1,5 @@
 !> The sides of regions of contact and glue, and of the sections of solid bolts, that cards of NX name by elements or nodes.
 module contact_regions
-   use bulk_data, only: bolt_card, region_card
    use card_fields, only: id_ranges
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
@@ -8,6 +7,7 @@ module contact_regions
    use element_build, only: marked_side
    use element_kinds, only: element_table
    use kinds, only: wp
+   use load_data, only: bolt_card, region_card
    use lists, only: first_not_below
    use model_data, only: mesh_type
    use surface_sides, only: side_corners

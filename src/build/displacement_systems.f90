@@ -109,9 +109,9 @@ contains
    end subroutine find_system
 
    !> The directions, columns, of the system CID of the card on LINE at the point X; global axes for CID 0. OK is false, with an
-   !! error, for a missing system, and on the axis of a cylindrical or spherical one; but the directions of a node are then x, y and
-   !! z of that system, as in NASTRAN, with a warning.
-   subroutine find_directions(deck, systems, line, cid, x, directions, ok, names)
+   !! error, for a missing system, and on the axis of a cylindrical or spherical one; but the directions AT_NODE are then x, y and z of
+   !! that system, as in NASTRAN, with a warning.
+   subroutine find_directions(deck, systems, line, cid, x, directions, ok, names, at_node)
       type(checked_deck), intent(in)      :: deck
       type(coordinate_system), intent(in) :: systems(:)
       integer, intent(in)                 :: line, cid
@@ -119,17 +119,21 @@ contains
       real(wp), intent(out)               :: directions(3, 3)
       logical, intent(out)                :: ok
       character(*), intent(in), optional  :: names(2)  !! of the field and of the point; default 'CID' and 'the node'
+      logical, intent(in), optional       :: at_node   !! default: without NAMES
       character(8) :: called(2)
       integer      :: system
+      logical      :: is_of_node
 
       called = [character(8) :: 'CID', 'the node']
       if (present(names)) called = names
+      is_of_node = .not. present(names)
+      if (present(at_node)) is_of_node = at_node
       directions = identity
       call find_system(deck, line, trim(called(1)), cid, systems, system)
       ok = system > 0 .or. cid <= 0
       if (system == 0) return
       call directions_at(systems(system), x, directions, ok)
-      if (.not. ok .and. called(2) == 'the node') then
+      if (.not. ok .and. is_of_node) then
          ok = .true.
          call deck%errors%warn('a node lies on the axis of system '//integer_text(cid)//', where its first two directions are '// &
                                'not defined; they are x and y of that system, as in NASTRAN')
@@ -173,7 +177,7 @@ contains
             node = mesh%node_table%find(grid%id)
             if (node == 0) cycle
             call find_directions(deck, mesh%systems, grid%line, grid%cd, mesh%x(:, node), directions, ok, &
-                                 ['CD      ', 'the node'])
+                                 ['CD      ', 'the node'], at_node=.true.)
             if (.not. ok) cycle
             if (d == 2 .and. any(abs(directions(3, :2)) > zero_component_along)) then
                call deck%field_error(grid%line, 'CD', 'the first two directions of the system do not lie in the plane of the '// &

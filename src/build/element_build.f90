@@ -64,6 +64,8 @@ contains
                property%fibre = card%fibre
                property%extra_mass = deck%bulk%parameters%mass_factor*card%extra_mass
             end if
+            if (card%bends_alone .and. property%state /= shell) call deck%field_error(card%line, 'MID1', &
+               'blank, as of a shell that bends alone; expected a MAT1 in the plane')
             k = materials%find(card%material)
             if (k > 0) call check_plate_material(k, card, property%state)
             if (k > 0) then

@@ -27,7 +27,6 @@ contains
       type(mesh_type), intent(in)          :: mesh
       type(freedoms_type), intent(in)      :: freedoms
       type(dependence_list), intent(inout) :: list
-      integer, allocatable  :: equation(:, :)       ! (dimension, n_nodes) of a dependent component, 0: none
       logical, allocatable  :: is_term(:, :)        ! of an equation
       logical, allocatable  :: is_there(:, :)       ! in the equation in work
       real(wp), allocatable :: row(:, :)            ! of the equation in work
@@ -36,12 +35,10 @@ contains
       integer  :: a, c, i, k, left, n, node
 
       if (size(glue) == 0) return
-      allocate (equation(mesh%dimension, mesh%n_nodes), source=0)
       allocate (is_term(mesh%dimension, mesh%n_nodes), is_there(mesh%dimension, mesh%n_nodes), source=.false.)
       allocate (row(mesh%dimension, mesh%n_nodes), source=0.0_wp)
       allocate (terms(64))
       do i = 1, list%n
-         equation(list%item(i)%d, list%item(i)%node) = i
          call note_terms(i)
       end do
       left = 0
@@ -52,7 +49,7 @@ contains
          node = point_at(node)
          axes = node_axes(mesh, node)
          do c = 1, mesh%dimension
-            if (freedoms%held(c, node) .or. equation(c, node) > 0) then
+            if (freedoms%held(c, node) .or. list%of(c, node) > 0) then
                left = left + 1
                cycle
             end if
@@ -67,7 +64,7 @@ contains
                do k = 1, n
                   call add_term(list, terms(k), -row(terms(k)%d, terms(k)%node)/own)
                end do
-               equation(c, node) = list%n
+               list%of(c, node) = list%n
                call note_terms(list%n)
                if (is_term(c, node)) call put_in_place(c, node)
             end if
@@ -117,8 +114,8 @@ contains
          real(wp), intent(in) :: factor
          integer :: m
 
-         if (equation(d, node) > 0) then
-            associate (item => list%item(equation(d, node)))
+         if (list%of(d, node) > 0) then
+            associate (item => list%item(list%of(d, node)))
                do m = 1, item%n
                   call add_component(item%on(m)%node, item%on(m)%d, factor*item%on(m)%scale)
                end do

@@ -2,12 +2,12 @@
 !! FORCE, FORCE1 and FORCE2 are vectors in global axes; MOMENT acts on rotations.
 module load_build
    use body_loads, only: acceleration_field, add_gravity, add_to_beam, check_plane, find_beam_loads, find_fields
-   use bulk_data, only: force_card
    use case_entries, only: set_reference
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use field_rules, only: has_component
    use kinds, only: wp
+   use load_data, only: force_card
    use load_changes, only: forget_others, nodal_loads, note_changes
    use model_data, only: freedoms_type, history_type, mesh_type, stage_load_type, supported
    use model_kind, only: space_hint

@@ -16,6 +16,7 @@ module model_build
    use element_unknowns, only: make_table
    use free_structure, only: check_balance, hold_free_structure
    use idle_components, only: hold_idle
+   use inertia_relief, only: relieve
    use joint_build, only: build_joints
    use joint_gaps, only: build_gaps
    use joint_sides, only: find_frame
@@ -88,6 +89,11 @@ contains
                if (.not. (any(sets(1)%used) .or. errors%any())) &
                   call errors%add(0, 'nothing to solve: expected body elements or interface elements')
                if (errors%any()) return
+               if (deck%bulk%parameters%relief_line > 0) then
+                  model%freedoms = sets(1)
+                  call relieve(checked, model, plan, joints, sets, history)
+                  if (errors%any()) return
+               end if
                call find_start(checked, plan, mesh, history, joints, sets)
                call errors%warn(repeated_words(mesh))
                call errors%warn(crack_words(mesh, joints, sets(1)))

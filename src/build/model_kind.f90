@@ -4,7 +4,8 @@
 !! bodies make it plane. Bars do not decide, because the bolts of plane models are bars; supports do where there are no bars: the
 !! supports of a plane truss often name all six components.
 module model_kind
-   use bulk_data, only: edge_cbeam, of_edge
+   use bulk_data, only: edge_cbeam
+   use load_data, only: of_edge
    use control_words, only: model_axisymmetric, model_plane, model_space
    use coordinate_systems, only: directions_at
    use deck_check, only: checked_deck

@@ -1,13 +1,13 @@
 !> PLOAD4, PLOADE, PLOAD and PLOAD2: the loaded sides, found by their corners or elements, and their nodal forces; those of PLOADM
 !! and FORCEM.
 module pressure_loads
-   use bulk_data, only: of_face, of_marks, of_nodes, pressure_card, surface_load_card
    use deck_check, only: checked_deck
    use displacement_systems, only: rectangular_axes
    use element_build, only: is_face
    use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_pyram5, kind_tetra4, max_side_nodes
    use isoparametric, only: side_forces
    use kinds, only: wp
+   use load_data, only: of_face, of_marks, of_nodes, pressure_card, surface_load_card
    use lists, only: id_table_type
    use mesh_queries, only: element_points, is_shell
    use model_data, only: mesh_type, surface_type

@@ -1,10 +1,10 @@
 !> Pretension sections of solid bolts: BOLT cards that name a marked surface inside a body, at which it is cut.
 module pretension_section
-   use bulk_data, only: bolt_card
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions
    use element_kinds, only: max_side_nodes
    use kinds, only: wp
+   use load_data, only: bolt_card
    use model_data, only: mesh_type, section_type
    use node_build, only: append_unknowns
    use spring_build, only: add_tightening, find_thread

@@ -4,7 +4,7 @@
 module rigid_elements
    use bulk_data, only: equation_card, rigid_card
    use constraint_equations, only: add_dependence, add_expansion, add_term, check_dependences, dependence_list, eliminate, &
-                                   expansion_type, follow_dependents, solve_for
+                                   expansion_type, solve_for
    use deck_check, only: checked_deck
    use field_rules, only: has_component
    use glued_surfaces, only: add_glue
@@ -39,7 +39,7 @@ contains
       type(expansion_type), allocatable, intent(out) :: expansions(:) !! of rigid elements, for temperatures
       type(dependence_list) :: list
       integer, allocatable  :: active(:)  ! active sets of equations
-      integer :: first, i, last, set ! equations of ties: FIRST to LAST
+      integer :: i, set
 
       allocate (expansions(0))
       set = 0
@@ -65,17 +65,14 @@ contains
             end if
          end associate
       end do
-      first = list%n + 1
       call add_ties(mesh, ties, list)
       call add_middles(mesh, freedoms%held, list)
-      last = list%n
       do i = 1, size(deck%bulk%equation)
          call add_equation(deck, deck%bulk%equation(i), any(active == deck%bulk%equation(i)%set), mesh, freedoms, list)
       end do
       freedoms%used = freedoms%used .or. list%without
-      if (allocated(list%expansions)) call move_alloc(list%expansions, expansions)
+      if (allocated(list%expansions)) expansions = list%expansions(:list%n_expansions)
       if (deck%errors%any() .or. list%n + size(glue) == 0) return
-      call follow_dependents(mesh, list, first, last)
       call check_dependences(deck, mesh, freedoms, list)
       do i = 1, n_rotations(mesh)
          ! springs use those of a point of its own

@@ -25,13 +25,14 @@ contains
       real(wp), intent(in)  :: weight(:)     !! > 0
       real(wp), intent(out) :: t(:, :, :)    !! (6, 3 or 6, points) [-], rotations [1/length]
       logical, intent(out)  :: determined(6)
-      real(wp) :: g(6, size(used, 1), size(weight)), a(6, 6), inverse(6, 6), arm, extent
+      real(wp) :: g(6, size(used, 1), size(weight)), a(6, 6), inverse(6, 6), arm, extent, total
       integer  :: c, i
 
       extent = sqrt(sum(r**2)/size(weight))
       if (extent <= 0.0_wp) extent = 1.0_wp
       arm = sum(norm2(r, dim=1))/size(weight)
       if (arm <= 0.0_wp) arm = 1.0_wp
+      total = sum(weight)
       a = 0.0_wp
       g = 0.0_wp
       do i = 1, size(weight)
@@ -41,11 +42,11 @@ contains
          do c = 1, size(used, 1)
             if (.not. used(c, i)) g(:, c, i) = 0.0_wp
          end do
-         a = a + weight(i)/sum(weight)*matmul(g(:, :, i), transpose(g(:, :, i)))
+         a = a + weight(i)/total*matmul(g(:, :, i), transpose(g(:, :, i)))
       end do
       call invert_where_determined(a, inverse, determined)
       do i = 1, size(weight)
-         t(:, :, i) = weight(i)/sum(weight)*matmul(inverse, g(:, :, i))
+         t(:, :, i) = weight(i)/total*matmul(inverse, g(:, :, i))
          t(4:, :, i) = t(4:, :, i)/extent
          if (size(g, 2) == 6) t(:, 4:, i) = t(:, 4:, i)*arm
       end do

@@ -167,6 +167,8 @@ contains
       law%bending = card%inertia_ratio*bending
       law%heat(:, 1) = matmul(law%d, expansions)
       law%heat(:, 3) = matmul(law%bending, expansions)
+      if (card%bends_alone) law%d = 0.0_wp
+      if (card%bends_alone) law%heat(:, 1) = 0.0_wp
       if (.not. all(isotropic(:2)) .or. abs(law%shear(2) - law%shear(1)) > 0.0_wp) law%along = [1.0_wp, 0.0_wp, 0.0_wp]
    end subroutine find_shell
 

@@ -2,10 +2,11 @@
 !! A spring is stored as a bar of the model, one per direction; springs follow the bars.
 module spring_build
    use bolt_threads, only: in_units, thread_type
-   use bulk_data, only: bolt_card, edge_card, edge_crod, prod_card, spring_card, spring_property_card
+   use bulk_data, only: edge_card, edge_crod, prod_card, spring_card, spring_property_card
    use bush_build, only: bush_type
    use deck_check, only: checked_deck
    use kinds, only: wp
+   use load_data, only: bolt_card
    use mesh_queries, only: is_scalar_point, shown_number
    use model_data, only: a_spring, bar_type, mesh_type, tightening_type
    use model_kind, only: space_hint
@@ -189,10 +190,13 @@ contains
       type(mesh_type), intent(inout) :: mesh
       type(bar_type), allocatable :: bars(:)
       type(spring_property_card) :: law
+      logical :: is_kind(size(deck%bulk%spring_property))
       integer :: i, k, n
 
       associate (cards => deck%bulk%spring, laws => deck%bulk%spring_property)
-         call deck%report_repeated('PELAS', pack(laws%id, .not. laws%is_bush), pack(laws%line, .not. laws%is_bush))
+         is_kind = .not. (laws%is_bush .or. laws%is_damper)
+         call deck%report_repeated('PELAS', pack(laws%id, is_kind), pack(laws%line, is_kind))
+         call deck%report_repeated('PDAMP', pack(laws%id, laws%is_damper), pack(laws%line, laws%is_damper))
          call deck%report_repeated('PBUSH', pack(laws%id, laws%is_bush), pack(laws%line, laws%is_bush))
          if (size(cards) == 0) return
          n = size(mesh%bars)
@@ -204,17 +208,19 @@ contains
             law = spring_property_card()
             law%stiffness(1) = cards(i)%stiffness ! of a CELAS2
             law%damping(1) = cards(i)%damping
-            k = findloc(laws%id == cards(i)%property .and. .not. laws%is_bush, .true., dim=1)
+            law%viscous(1) = cards(i)%viscous
+            k = findloc(laws%id == cards(i)%property .and. .not. laws%is_bush .and. (laws%is_damper .eqv. cards(i)%is_damper), &
+                        .true., dim=1)
             if (cards(i)%property > 0 .and. k > 0) law = laws(k)
-            if (cards(i)%property > 0 .and. k == 0) call deck%field_error(cards(i)%line, 'PID', 'there is no PELAS '// &
-                                                                          integer_text(cards(i)%property))
+            if (cards(i)%property > 0 .and. k == 0) call deck%field_error(cards(i)%line, 'PID', 'there is no '// &
+               one_of(cards(i)%is_damper, 'PDAMP ', 'PELAS ')//integer_text(cards(i)%property))
             call build_spring(deck, cards(i), law, mesh, bars, n)
          end do
       end associate
       mesh%bars = bars(:n)
    end subroutine build_springs
 
-   !> Append the springs of a CBUSH, one for each stiffness, to BARS(:N). Where only GE1 of all PBUSH is given it holds for all six.
+   !> Append the springs of a CBUSH, one for each axis with K or B, to BARS(:N). Where only GE1 of all PBUSH is given it holds for all six.
    subroutine build_bush(deck, card, bush, law, mesh, bars, n)
       type(checked_deck), intent(in) :: deck
       type(spring_card), intent(in)  :: card
@@ -241,13 +247,14 @@ contains
          return
       end do
       do k = 1, 6
-         if (.not. law%stiffness(k) > 0.0_wp) cycle
+         if (.not. law%stiffness(k) + law%viscous(k) > 0.0_wp) cycle
          spring%id = card%id
          spring%nodes = bush%nodes
          spring%kind = a_spring
          spring%axis = axis_names(k)
          spring%stiffness = law%stiffness(k)
          spring%damping = damping(k)
+         spring%viscous = law%viscous(k)
          spring%direction = spread(bush%axes(:, modulo(k - 1, 3) + 1), 2, 2)
          if (k <= 3) then
             do end = 1, 2
@@ -290,7 +297,7 @@ contains
       spring%nodes(end) = mesh%rotations(rotation)%node
    end subroutine onto_rotation
 
-   !> Append the spring of a CELAS to BARS(:N), with the first stiffness of LAW. The force of NASTRAN is k (u_1 - u_2).
+   !> Append the spring of a CELAS or CDAMP to BARS(:N), with the first values of LAW. The force of NASTRAN is k (u_1 - u_2).
    subroutine build_spring(deck, card, law, mesh, bars, n)
       type(checked_deck), intent(in) :: deck
       type(spring_card), intent(in)  :: card
@@ -303,7 +310,7 @@ contains
       integer  :: component, k
       logical  :: ok
 
-      spring = bar_type(id=card%id, kind=a_spring, stiffness=law%stiffness(1), damping=law%damping(1))
+      spring = bar_type(id=card%id, kind=a_spring, stiffness=law%stiffness(1), damping=law%damping(1), viscous=law%viscous(1))
       do k = 2, 1, -1 ! AXIS is the component of the first node that is not the ground
          call find_nodes(deck, card%line, card%nodes(k:k), mesh, spring%nodes(k:k), first=2*k + 1)
          if (spring%nodes(k) == 0) cycle

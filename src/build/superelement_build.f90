@@ -68,7 +68,7 @@ contains
          end do
       end do
       k = findloc(deck%control%stages%output%dmig, .true., dim=1)
-      if (size(retained%id) == 0 .and. k > 0) call deck%errors%add(deck%control%stages(k)%output%line, &
+      if (all(deck%bulk%matrices%retained%of_modes) .and. k > 0) call deck%errors%add(deck%control%stages(k)%output%line, &
          'OUTPUT: DMIG needs ASET or ASET1 cards, the components of nodes on which stiffness and mass are condensed')
    end subroutine find_retained
 

@@ -49,7 +49,7 @@ contains
             vibration%amplitude = asked%amplitude
             vibration%damping = deck%bulk%parameters%damping
             vibration%has_losses = vibration%amplitude > 0.0_wp .or. vibration%damping > 0.0_wp .or. &
-                                   any(mesh%properties%damping > 0.0_wp) .or. any(mesh%bars%damping > 0.0_wp)
+                                   any(mesh%properties%damping > 0.0_wp) .or. any(mesh%bars%damping + mesh%bars%viscous > 0.0_wp)
             covers = .false.
             k = findloc(deck%bulk%eigrl%id, asked%modes%id, dim=1)
             if (asked%modes%id == any_modes) then

@@ -1,5 +1,6 @@
 !> Reads a deck, its text, case control and bulk data, in one pass and collects all errors.
 module deck_input
+   use beam_cards, only: read_beam_load, read_beam_property
    use bulk_data, only: bulk_data_type
    use card_fields, only: card_fields_type
    use case_control, only: case_control_type, read_case_control, watch_also
@@ -20,7 +21,7 @@ module deck_input
    use nastran_compatibility, only: not_reduced, take_idle_card
    use nastran_defaults, only: find_first_card, take_initial_temperature, take_only_sets
    use nx_cards, only: read_pair, read_preload, read_region
-   use property_cards, only: read_beam_load, read_beam_property, read_mat1, read_body_property, read_parameter, &
+   use property_cards, only: read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
    use response_cards, only: read_darea, read_dload, read_lseq, read_rload, read_tabled
    use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
@@ -95,8 +96,8 @@ contains
       call add(['BCTADD'], read_sum)
       call add(['BGADD'], read_sum)
       call add(['BOLTFOR', 'BOLTSEQ'], read_preload)
-      call add(['CELAS1', 'CELAS2', 'CELAS3', 'CELAS4', 'CBUSH '], read_spring)
-      call add(['PELAS', 'PBUSH'], read_spring_property)
+      call add(['CELAS1', 'CELAS2', 'CELAS3', 'CELAS4', 'CBUSH ', 'CDAMP1', 'CDAMP2', 'CDAMP3', 'CDAMP4'], read_spring)
+      call add(['PELAS', 'PBUSH', 'PDAMP'], read_spring_property)
       call add(['CONM2 ', 'CONM1 ', 'CMASS1', 'CMASS2', 'CMASS3', 'CMASS4'], read_mass)
       call add(['PMASS'], read_pmass)
       call add(['SPOINT'], read_scalar)
@@ -167,7 +168,7 @@ contains
       allocate (bulk%grid(n('GRID')), bulk%system(2*n('CORD1R')), bulk%element(n('CHEXA')), bulk%edge(n('CROD')), &
          bulk%plate(0), bulk%beam_property(n('PBAR')), bulk%beam_load(n('PLOAD1')), bulk%block(n('BLOCK2')), &
          bulk%pmark(n('PMARK')), bulk%pshell(n('PSHELL')), bulk%paxis(n('PAXIS')), bulk%psolid(n('PSOLID')), &
-         bulk%prod(n('PROD')), bulk%conrod(n('CONROD')), bulk%spring(n('CBUSH')), bulk%spring_property(2*n('PBUSH')), &
+         bulk%prod(n('PROD')), bulk%conrod(n('CONROD')), bulk%spring(n('CBUSH')), bulk%spring_property(4*n('PBUSH')), &
          bulk%mass(n('CONM2')), bulk%pmass(4*n('PMASS')), bulk%scalar(n('SPOINT')), &
          bulk%mat1(n('MAT1')), bulk%support(2*n('SPC')), bulk%support_sum(n('SPCADD')), &
          bulk%rigid(n('RBE2')), bulk%place(n('NODEAT')), bulk%tie(n('SHELLTO')), bulk%equation(n('MPC')), &

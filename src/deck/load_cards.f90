@@ -3,10 +3,11 @@
 !! (section 5: arithmetic or geometric progression) are here too.
 module load_cards
    use bolt_threads, only: complete_thread, strength_classes, thread_sizes, thread_type
-   use bulk_data, only: bulk_data_type, load_card, of_edge, of_face, of_marks, of_nodes, temperature_card
+   use bulk_data, only: bulk_data_type
    use card_fields, only: card_fields_type, id_ranges
    use field_rules, only: at_least_1, not_negative, positive, real_range
    use kinds, only: wp
+   use load_data, only: load_card, of_edge, of_face, of_marks, of_nodes, temperature_card
    use nx_cards, only: is_nx_bolt, read_nx_bolt
    use support_cards, only: read_scalar_load
    use text_tools, only: integer_text, one_of

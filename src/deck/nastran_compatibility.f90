@@ -43,6 +43,7 @@ module nastran_compatibility
       real(wp) :: mass_factor = 1.0_wp        !! WTMASS: densities are multiplied by it
       real(wp) :: damping = 0.0_wp            !! G: overall structural damping [-]
       integer  :: mass_line = 0               !! line of COUPMASS, 0: not given
+      integer  :: relief_line = 0             !! line of INREL = -1, 0: not given
       logical  :: holds_idle = .true.         !! AUTOSPC: components without stiffness are held
       logical  :: lumped = .false.            !! COUPMASS below 1
       logical  :: is_structural = .false.     !! KDAMP = -1: the damping of SDAMPING is structural
@@ -123,7 +124,8 @@ contains
          call ignored%wait('PARAM '//name, line, needs_response=.true., refusal=refusal)
       case default
          if (name == 'INREL' .and. (.not. is_integer .or. number /= 0)) then
-            expected = '0: inertia relief is not available'
+            parameters%relief_line = line
+            if (number /= -1) expected = '0, or -1 with SUPORT: inertia relief'
          else if (name == 'LGDISP' .and. (.not. is_integer .or. number > 0)) then
             call ignored%wait('PARAM LGDISP', line, .false., need=always, warning='displacements are small here')
          else

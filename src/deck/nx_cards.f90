@@ -1,10 +1,11 @@
 !> Reads the cards of contact, glue and bolts as Simcenter Nastran (NX) and Femap write them: regions, their pairs, preloads.
 !! nx_translation makes JOINT, PMARK and BOLT cards of this program from them.
 module nx_cards
-   use bulk_data, only: bolt_card, bulk_data_type
+   use bulk_data, only: bulk_data_type
    use card_fields, only: card_fields_type
    use field_rules, only: at_least_1, not_negative, parse_integer, positive
    use kinds, only: wp
+   use load_data, only: bolt_card
    use text_tools, only: one_of
    implicit none
    private

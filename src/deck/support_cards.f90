@@ -2,10 +2,11 @@
 !! Supports: SPC, SPC1, SPCM and their sum SPCADD, SUPORT; MPCADD combines constraint equations likewise. Prescribed displacements: SPCD.
 !! Springs: CELAS1 to 4, CBUSH, PELAS, PBUSH. Masses: CONM1, CONM2, CMASS1 to 4, PMASS. Scalar points: SPOINT, SLOAD.
 module support_cards
-   use bulk_data, only: bulk_data_type, displacement_card, pmass_card, set_sum_card, spring_property_card, support_card
+   use bulk_data, only: bulk_data_type, pmass_card, set_sum_card, spring_property_card, support_card
    use card_fields, only: card_fields_type
    use field_rules, only: at_least_1, not_negative, parse_integer, real_range
    use kinds, only: wp
+   use load_data, only: displacement_card
    use text_tools, only: integer_text, one_of
    implicit none
    private
@@ -137,21 +138,27 @@ contains
    end subroutine read_displacement
 
    !> CELAS1: a spring between component C1 of node G1 and C2 of G2, with a PELAS; CELAS2: with K. A blank node is the ground. CELAS3
-   !! and CELAS4: the same between scalar points S1 and S2. CBUSH: a bush.
+   !! and CELAS4: the same between scalar points S1 and S2. CDAMP1 to 4: viscous dampers likewise, with a PDAMP or B. CBUSH: a bush.
    subroutine read_spring(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
 
       associate (spring => bulk%spring(card%i))
          spring%is_bush = card%name == 'CBUSH'
-         spring%is_scalar = any(card%name == ['CELAS3', 'CELAS4'])
+         spring%is_damper = card%name(:5) == 'CDAMP'
+         spring%is_scalar = any(card%name(6:6) == ['3', '4'])
          call card%field('EID', spring%id)
          if (spring%is_bush) then
             call read_bush(card, bulk)
             return
          end if
-         if (any(card%name == ['CELAS1', 'CELAS3'])) call card%field('PID', spring%property)
-         if (any(card%name == ['CELAS2', 'CELAS4'])) call card%field('K', spring%stiffness, not_negative)
+         if (any(card%name(6:6) == ['1', '3'])) then
+            call card%field('PID', spring%property)
+         else if (spring%is_damper) then
+            call card%field('B', spring%viscous, not_negative)
+         else
+            call card%field('K', spring%stiffness, not_negative)
+         end if
          call read_ends(card, spring%is_scalar, spring%nodes, spring%components)
          if (card%name == 'CELAS2') then
             call card%field('GE', spring%damping, not_negative, default=0.0_wp)
@@ -159,6 +166,7 @@ contains
          end if
          call card%finish(spring%line)
          if (spring%damping > 0.0_wp) call bulk%ignored%wait('GE of CELAS2', card%line, needs_response=.false.)
+         if (spring%is_damper) call bulk%ignored%wait(trim(card%name), card%line, needs_response=.true.)
       end associate
    end subroutine read_spring
 
@@ -237,39 +245,40 @@ contains
       call card%finish(set)
    end subroutine read_scalar_load
 
-   !> PELAS: the stiffnesses K of one or two springs. PBUSH: K1, K2, K3 of a CBUSH along its axes, K4, K5, K6 about them; lines of
-   !! damping (viscous B, structural GE), stress recovery (RCV, without effect) and mass (M) may follow.
+   !> PELAS: the stiffnesses K of one or two springs. PDAMP: the viscous damping B of one to four dampers. PBUSH: K1, K2, K3 of a CBUSH
+   !! along its axes, K4, K5, K6 about them; lines of damping (viscous B, structural GE), stress recovery (RCV, without effect) and
+   !! mass (M) may follow.
    subroutine read_spring_property(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(spring_property_card) :: second
+      type(spring_property_card) :: law
+      character(1) :: nth
+      integer :: k
 
-      associate (first => bulk%spring_property(card%i))
-         first%is_bush = card%name == 'PBUSH'
-         if (first%is_bush) then
-            call read_bush_property(card, bulk)
-            return
+      if (card%name == 'PBUSH') then
+         bulk%spring_property(card%i)%is_bush = .true.
+         call read_bush_property(card, bulk)
+         return
+      end if
+      law%line = card%line
+      law%is_damper = card%name == 'PDAMP'
+      do k = 1, merge(4, 2, law%is_damper)
+         nth = integer_text(k)
+         law%field = merge(2*k - 1, 4*k - 3, law%is_damper)
+         if (k > 1 .and. (card%text_at(law%field) == '' .or. card%text_at(law%field) == '0')) exit ! FINISH finds the rest
+         if (k > 1) card%i = card%i + 1
+         call card%field('PID'//nth, law%id)
+         if (law%is_damper) then
+            call card%field('B'//nth, law%viscous(1), not_negative)
+         else
+            call card%field('K'//nth, law%stiffness(1), not_negative)
+            call card%field('GE'//nth, law%damping(1), not_negative, default=0.0_wp)
+            call card%skip(['S'//nth])
+            if (law%damping(1) > 0.0_wp) call bulk%ignored%wait('GE of PELAS', card%line, needs_response=.false.)
          end if
-         call card%field('PID1', first%id)
-         call card%field('K1', first%stiffness(1), not_negative)
-         call card%field('GE1', first%damping(1), not_negative, default=0.0_wp)
-         call card%skip(['S1'])
-         call card%field('PID2', second%id, default=0)
-         call card%field('K2', second%stiffness(1), not_negative, default=0.0_wp)
-         call card%field('GE2', second%damping(1), not_negative, default=0.0_wp)
-         call card%skip(['S2'])
-         call card%finish(first%line)
-         if (first%damping(1) > 0.0_wp) call bulk%ignored%wait('GE of PELAS', card%line, needs_response=.false.)
-         if (second%id > 0) then
-            second%line = card%line
-            second%field = 5
-            card%i = card%i + 1
-            bulk%spring_property(card%i) = second
-            if (second%damping(1) > 0.0_wp) call bulk%ignored%wait('GE of PELAS', card%line, needs_response=.false.)
-         else if (second%stiffness(1) > 0.0_wp) then
-            call card%error('PID2', 'blank, but K2 is not')
-         end if
-      end associate
+         bulk%spring_property(card%i) = law
+      end do
+      call card%finish(k)
    end subroutine read_spring_property
 
    !> PBUSH: a line of six values for each flag.
@@ -299,8 +308,8 @@ contains
                if (flag == 'GE') law%damping(i) = value
                if (flag == 'M') law%mass = value
                if (flag == 'GE') call bulk%ignored%wait('GE of PBUSH', card%line, needs_response=.false.)
-               if (flag == 'B') call bulk%ignored%wait('B of PBUSH', card%line, needs_response=.true., &
-                                                       refusal='expected GE; the viscous damping of springs is not available')
+               if (flag == 'B') law%viscous(i) = value
+               if (flag == 'B') call bulk%ignored%wait('B of PBUSH', card%line, needs_response=.true.)
             end do
          end do
       end associate

@@ -14,17 +14,22 @@ contains
    !> Add the unused properties and coordinate systems of BULK to its entries without effect.
    subroutine count_unused(bulk)
       type(bulk_data_type), intent(inout) :: bulk
+      character(6), parameter :: spring_names(3) = ['PBUSH ', 'PDAMP ', 'PELAS ']
+      logical, allocatable :: is_kind(:)
+      integer :: i
 
       call count_idle_rotations(bulk)
       associate (properties => [bulk%block%property, bulk%element%property, bulk%edge%property], &
-                 springs => bulk%spring_property, is_bush => bulk%spring%is_bush, system => bulk%system)
+                 springs => bulk%spring_property, elements => bulk%spring, system => bulk%system)
          call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%beam_property%id], properties, &
             [bulk%pshell%name, spread('PAXIS ', 1, size(bulk%paxis)), &
              spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod)), bulk%beam_property%name])
-         call count_unnamed(pack(springs%id, .not. springs%is_bush), pack(bulk%spring%property, .not. is_bush), &
-                            spread('PELAS ', 1, count(.not. springs%is_bush)))
-         call count_unnamed(pack(springs%id, springs%is_bush), pack(bulk%spring%property, is_bush), &
-                            spread('PBUSH ', 1, count(springs%is_bush)))
+         do i = 1, 3
+            is_kind = merge(1, merge(2, 3, springs%is_damper), springs%is_bush) == i
+            call count_unnamed(pack(springs%id, is_kind), &
+               pack(elements%property, merge(1, merge(2, 3, elements%is_damper), elements%is_bush) == i), &
+               spread(spring_names(i), 1, count(is_kind)))
+         end do
          if (size(system) == 0) return
          call count_unnamed(system%id, [system%reference, bulk%force%system, bulk%pressure%system, bulk%gravity%system, &
             bulk%spring%system, bulk%spring%point_system, bulk%mass%system, bulk%grid%cp, bulk%grid%cd], &

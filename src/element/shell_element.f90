@@ -189,6 +189,7 @@ contains
          end associate
       end do
       do i = m, 6*map%n + 1, -1
+         if (.not. k(i, i) > 0.0_wp) k(i, i) = 1.0_wp ! an amplitude of the membrane of a shell that bends alone is zero
          f(:i - 1) = f(:i - 1) - k(:i - 1, i)*f(i)/k(i, i)
          do j = 1, i - 1
             k(:i - 1, j) = k(:i - 1, j) - k(:i - 1, i)*k(i, j)/k(i, i)

@@ -15,7 +15,7 @@ module model_data
    implicit none
    private
 
-   public :: bar_nodes, joint_node_id, n_bars, n_sections, supported
+   public :: bar_nodes, damped_bars, joint_node_id, n_bars, n_sections, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -154,6 +154,7 @@ module model_data
       real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
       real(wp) :: reference = 0.0_wp         !! TREF [temperature]
       real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
+      real(wp) :: viscous = 0.0_wp           !! B of a spring, viscous damping [force x time/length]
       integer, allocatable  :: of_matrix(:)  !! K2GG: nodes with a MATRIX between their components, components of node 1
       real(wp), allocatable :: matrix(:, :)  !! first; not allocated: the terms above [force/length]
    end type bar_type
@@ -357,6 +358,15 @@ contains
       nodes = pack(bar%nodes, bar%nodes > 0)
       if (allocated(bar%of_matrix)) nodes = bar%of_matrix
    end function bar_nodes
+
+   !> The bars with viscous damping.
+   pure function damped_bars(mesh) result(bars)
+      type(mesh_type), intent(in) :: mesh
+      integer, allocatable :: bars(:)
+      integer :: i
+
+      bars = pack([(i, i = 1, n_bars(mesh))], mesh%bars%viscous > 0.0_wp)
+   end function damped_bars
 
    !> The number of pretension sections.
    pure integer function n_sections(mesh)

@@ -12,7 +12,7 @@ module structural_elements
    private
 
    public :: structural_stress, nodal_values, between_own, onto_own
-   public :: bar_elongation, thermal_tension, add_axial_force, add_bar_forces, bar_stiffness, matrix_forces
+   public :: bar_elongation, thermal_tension, add_axial_force, add_bar_forces, bar_stiffness, unit_tension, matrix_forces
 
    integer, parameter, public :: most_own = 16 !! own nodes of an element: its nodes and their rotations
 
@@ -133,6 +133,16 @@ contains
          if (bar%nodes(2) > 0) f(:, bar%nodes(2)) = f(:, bar%nodes(2)) - n*bar%direction(:d, 2)
       end associate
    end subroutine add_axial_force
+
+   !> The nodal forces of bar I under the tension 1; their product with displacements is the bar's shortening.
+   pure function unit_tension(model, i) result(f)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i
+      real(wp), allocatable :: f(:, :) !! (dimension, n_nodes) [-]
+
+      allocate (f(model%mesh%dimension, model%mesh%n_nodes), source=0.0_wp)
+      call add_axial_force(model, i, 1.0_wp, f)
+   end function unit_tension
 
    !> Add to F the internal forces of the elastic bars under the displacements U.
    pure subroutine add_bar_forces(model, is_elastic, u, f)

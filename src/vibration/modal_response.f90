@@ -9,21 +9,32 @@
 !!    viscous damping:    g_r of a TABDMP1, NASTRAN's B = g omega_r m, which is g at omega = omega_r
 !!
 !! u_rest is the static contribution of the modes that are not computed: the static response less that of the computed modes,
-!! phi_r q_r/(m_r lambda_r). An unsupported structure has no static response; its u_rest is that to the part of the load which the
+!! phi_r q_r/(m_r lambda_r).
+!!
+!! Dampers of CDAMP1 to CDAMP4 and CBUSH (B = c) couple the modes. Damper j gives its nodes the forces d_j g_j, and
+!!
+!!    g_j = -i omega c_j e_j,   e_j = d_j . u,   q_r = phi_r . F + sum over j of (phi_r . d_j) g_j
+!!
+!! with its own static contribution in u_rest. These are as many equations for the modal amplitudes and g_j together; without u_rest
+!! they are NASTRAN's, phi^T [B] phi, in the modes.
+!!
+!! An unsupported structure has no static response; its u_rest is that to the part of the load which the
 !! inertia forces of the computed modes, rigid-body modes among them, do not balance (inertia relief).
 !! Source: R. W. Clough and J. Penzien, Dynamics of Structures, sections 4-3 and 13-3; MSC Nastran, Dynamic Analysis User's Guide,
 !! modal frequency response.
 module modal_response
+   use blas_lapack, only: zgesv
    use eigenpairs, only: all_displacements, residual_displacements
    use equation_solver, only: equation_system, failure_type
    use frequency_loads, only: load_at
    use kinds, only: wp
    use mode_parts, only: main_part, mode_part
    use mode_values, only: modes_type
-   use model_data, only: model_type
+   use model_data, only: damped_bars, model_type
    use natural_modes, only: factorise_at, oscillating_type, spectrum_type
    use numbers, only: first_largest
    use stage_plan, only: asked_frequencies, between, force_between, loss_at, response_plan, wave_type
+   use structural_elements, only: unit_tension
    use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: at_resonance, least_load, no_motion, same_frequency, unexcited
    implicit none
@@ -44,6 +55,8 @@ module modal_response
       complex(wp), allocatable :: rest(:) !! (components) u_rest, zero where there is none [length]
       ! of each wave by itself, with the factor 1: its FORCE and REST, and u_s where it moves supports
       real(wp), allocatable :: forces(:, :), rests(:, :), carried(:, :)
+      ! dampers: c_j [force x time/length]; their movements e_j are the last components, and d_j the last of the waves
+      real(wp), allocatable :: damper(:)
    end type modal_system
 
    real(wp), parameter :: missed_share = 0.05_wp  ! excess over the response at the adjacent frequencies of a missed peak
@@ -82,23 +95,66 @@ contains
       real(wp), intent(in)           :: frequency !! f >= 0 [1/time]
       complex(wp), intent(out)       :: u(:)      !! (components)
       logical, intent(out)           :: ok
-      complex(wp) :: resistance ! dynamic stiffness of the mode per modal mass
+      complex(wp) :: along(size(system%lambda)) ! modal amplitudes
+      complex(wp) :: resistance(size(system%lambda)) ! dynamic stiffness of each mode per modal mass
+      logical     :: is_coupled(size(system%lambda))
       real(wp)    :: omega
-      integer     :: r
+      integer     :: n
 
       omega = 2.0_wp*pi*frequency
-      u = system%rest
-      ok = .true.
-      do r = 1, size(system%lambda)
-         if (abs(system%force(r)) <= 0.0_wp) cycle
-         associate (lambda => system%lambda(r))
-            resistance = cmplx(lambda - omega**2, system%loss(r)*lambda + system%viscous(r)*omega*sqrt(max(0.0_wp, lambda)), wp)
-         end associate
-         ok = abs(resistance) > at_resonance*abs(system%lambda(r))
+      n = 0
+      if (allocated(system%damper) .and. omega > 0.0_wp) n = size(system%damper)
+      associate (lambda => system%lambda, last => size(u) - n + 1)
+         resistance = cmplx(lambda - omega**2, system%loss*lambda + system%viscous*omega*sqrt(max(0.0_wp, lambda)), wp)
+         is_coupled = any(abs(system%shape(last:, :)) > 0.0_wp, dim=1)
+         ok = all(is_coupled .or. abs(system%force) <= 0.0_wp .or. abs(resistance) > at_resonance*abs(lambda))
          if (.not. ok) return
-         u = u + system%shape(:, r)*system%force(r)/(system%mass(r)*resistance)
-      end do
+         along = 0.0_wp
+         where (abs(system%force) > 0.0_wp .and. .not. is_coupled) along = system%force/(system%mass*resistance)
+         u = system%rest
+         if (n > 0) call couple(system, omega, resistance, is_coupled, along, u, ok)
+         u = u + matmul(system%shape, along)
+      end associate
    end subroutine response_at
+
+   !> The amplitudes ALONG of the modes that dampers couple, and the static contribution of the dampers in U. Every unknown is scaled
+   !! by the square root of its own resistance.
+   pure subroutine couple(system, omega, resistance, is_coupled, along, u, ok)
+      type(modal_system), intent(in) :: system
+      real(wp), intent(in)           :: omega         !! > 0 [1/time]
+      complex(wp), intent(in)        :: resistance(:) !! (modes) [1/time^2]
+      logical, intent(in)            :: is_coupled(:) !! (modes)
+      complex(wp), intent(inout)     :: along(:)      !! (modes)
+      complex(wp), intent(inout)     :: u(:)          !! (components)
+      logical, intent(out)           :: ok
+      complex(wp), allocatable :: a(:, :), b(:, :)
+      real(wp), allocatable    :: s(:)
+      integer, allocatable     :: modes(:), pivots(:)
+      integer :: first, info, k, m, n
+
+      modes = pack([(k, k = 1, size(along))], is_coupled)
+      m = size(modes)
+      n = size(system%damper)
+      first = size(u) - n + 1
+      s = [1.0_wp/(sqrt(system%mass(modes)*max(system%lambda(modes), omega**2))), sqrt(omega*system%damper)]
+      allocate (a(m + n, m + n), source=(0.0_wp, 0.0_wp))
+      a(:m, m + 1:) = -transpose(system%shape(first:, modes))
+      a(m + 1:, :m) = -system%shape(first:, modes)
+      a(m + 1:, m + 1:) = -system%rests(first:, size(system%rests, 2) - n + 1:)
+      do k = 1, m + n
+         a(:, k) = a(:, k)*s*s(k)
+         if (k <= m) a(k, k) = resistance(modes(k))*system%mass(modes(k))*s(k)**2
+         if (k > m) a(k, k) = a(k, k) + cmplx(0.0_wp, 1.0_wp, wp)
+      end do
+      b = reshape(s*[system%force(modes), u(first:)], [m + n, 1])
+      allocate (pivots(m + n))
+      call zgesv(m + n, 1, a, m + n, pivots, b, m + n, info)
+      ok = info == 0
+      if (.not. ok) return
+      b(:, 1) = s*b(:, 1)
+      along(modes) = b(:m, 1)
+      u = u + matmul(system%rests(:, size(system%rests, 2) - n + 1:), b(m + 1:, 1))
+   end subroutine couple
 
    !> Set the FORCE and REST of SYSTEM to those of its WAVES at FREQUENCY; not OK: a support moves without bound.
    pure subroutine excite(waves, frequency, system, ok)
@@ -122,8 +178,10 @@ contains
          end associate
          factor(i) = omega**2*moved(i)
       end do
-      system%force = matmul(system%forces, factor)
-      system%rest = matmul(system%rests, factor) + matmul(system%carried, moved)
+      associate (n => size(waves)) ! the dampers follow
+         system%force = [(sum(system%forces(i, :n)*factor), i = 1, size(system%forces, 1))]
+         system%rest = [(sum(system%rests(i, :n)*factor) + sum(system%carried(i, :n)*moved), i = 1, size(system%rests, 1))]
+      end associate
    end subroutine excite
 
    !> The frequency at which mode R alone has its largest amplitude: with structural damping its natural frequency, with viscous
@@ -132,8 +190,20 @@ contains
       type(modal_system), intent(in) :: system
       integer, intent(in)            :: r
 
-      frequency = sqrt(max(0.0_wp, system%lambda(r)*(1.0_wp - 0.5_wp*system%viscous(r)**2)))/(2.0_wp*pi)
+      frequency = sqrt(max(0.0_wp, system%lambda(r)*(1.0_wp - 0.5_wp*viscous_of(system, r)**2)))/(2.0_wp*pi)
    end function peak_frequency
+
+   !> The viscous damping g_r of mode R with that of dampers, phi^T [B] phi/(m omega) [-].
+   pure real(wp) function viscous_of(system, r) result(viscous)
+      type(modal_system), intent(in) :: system
+      integer, intent(in)            :: r
+
+      viscous = system%viscous(r)
+      if (.not. allocated(system%damper) .or. .not. system%lambda(r) > 0.0_wp) return
+      associate (first => size(system%shape, 1) - size(system%damper) + 1)
+         viscous = viscous + sum(system%damper*system%shape(first:, r)**2)/(system%mass(r)*sqrt(system%lambda(r)))
+      end associate
+   end function viscous_of
 
    !> The static response of the elastic modes, which is subtracted for u_rest [length].
    pure function static_share(system) result(u)
@@ -172,15 +242,21 @@ contains
       type(modal_system) :: superposed
       type(failure_type) :: loose
       real(wp), allocatable :: x(:, :), u_rest(:, :)
-      complex(wp) :: u(model%mesh%dimension*size(plan%nodes) + 4*size(plan%pairs)) ! of the nodes, then of the pairs
-      real(wp) :: large(size(u))
+      complex(wp), allocatable :: u(:) ! of the nodes, then of the pairs, then of the dampers
+      real(wp), allocatable :: large(:)
+      integer, allocatable  :: dampers(:)
       integer  :: d, f, k, m, n, w
       logical  :: ok
 
       d = model%mesh%dimension
       n = size(plan%nodes)
-      allocate (superposed%shape(size(u), size(modes%modes)), superposed%forces(size(modes%modes), size(plan%waves)), &
-                superposed%viscous(size(modes%modes)), superposed%rests(size(u), size(plan%waves)), &
+      dampers = damped_bars(model%mesh)
+      superposed%damper = model%mesh%bars(dampers)%viscous
+      m = d*n + 4*size(plan%pairs) + size(dampers)
+      allocate (u(m), large(m))
+      allocate (superposed%shape(size(u), size(modes%modes)), superposed%viscous(size(modes%modes)), &
+                superposed%forces(size(modes%modes), size(plan%waves) + size(dampers)), &
+                superposed%rests(size(u), size(plan%waves) + size(dampers)), &
                 superposed%carried(size(u), size(plan%waves)), source=0.0_wp)
       superposed%lambda = modes%modes%lambda
       superposed%mass = modes%modes%mass
@@ -188,12 +264,6 @@ contains
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))
             superposed%shape(:, m) = wanted(mode%u)
-            do w = 1, size(plan%waves)
-               associate (force => plan%waves(w)%force(:d, :), excited => superposed%forces(m, w))
-                  excited = sum(mode%u*force)
-                  if (abs(excited) <= unexcited*norm2(force)*maxval(abs(mode%u))) excited = 0.0_wp
-               end associate
-            end do
             if (.not. allocated(plan%damping)) cycle
             superposed%loss(m) = mode%material_loss
             if (plan%is_structural) then
@@ -203,6 +273,10 @@ contains
             end if
          end associate
       end do
+
+      superposed%forces = reshape([(excited(plan%waves(w)%force(:d, :)), w = 1, size(plan%waves)), &
+                                   (excited(unit_tension(model, dampers(w))), w = 1, size(dampers))], shape(superposed%forces))
+      superposed%shape(size(u) - size(dampers) + 1:, :) = transpose(superposed%forces(:, size(plan%waves) + 1:))
 
       ! u_rest: the static response of a supported structure less that of the modes; without supports by inertia relief
       if (allocated(spectrum%at_rest)) then
@@ -263,27 +337,40 @@ contains
                                why_unbounded(model, modes, m))
             return
          end if
-         large = abs(u)
+         large(:) = abs(u)
          where (large <= no_motion*maxval(large)) u = 0.0_wp
          response%amplitude(:, :, f) = reshape(abs(u(:d*n)), [d, n])
          response%phase(:, :, f) = reshape(phase_of(u(:d*n)), [d, n])
-         response%between(:, :, f) = reshape(u(d*n + 1:), [4, size(plan%pairs)])
+         response%between(:, :, f) = reshape(u(d*n + 1:d*n + 4*size(plan%pairs)), [4, size(plan%pairs)])
       end do
-      superposed%shape = superposed%shape(:d*n, :)
-      superposed%rests = superposed%rests(:d*n, :)
-      superposed%carried = superposed%carried(:d*n, :)
       call find_missed_peaks(plan, modes, superposed, response)
 
    contains
 
-      !> The movements of the wanted nodes, then of the pairs, from those of all nodes.
+      !> The movements of the wanted nodes, then of the pairs and dampers, from those of all nodes.
       pure function wanted(u)
          real(wp), intent(in) :: u(:, :)
-         real(wp) :: wanted(d*n + 4*size(plan%pairs))
+         real(wp) :: wanted(d*n + 4*size(plan%pairs) + size(dampers))
          integer  :: k
 
-         wanted = [pack(u(:, plan%nodes), .true.), (between(plan%pairs(k), u), k = 1, size(plan%pairs))]
+         wanted = [pack(u(:, plan%nodes), .true.), (between(plan%pairs(k), u), k = 1, size(plan%pairs)), &
+                   (sum(unit_tension(model, dampers(k))*u), k = 1, size(dampers))]
       end function wanted
+
+      !> The modal forces of FORCE; zero where they are rounding, beside the size of FORCE and, since a large mass moves little in the
+      !! modes that its acceleration excites, beside all modal forces on modes of mass 1.
+      pure function excited(force) result(q)
+         real(wp), intent(in) :: force(:, :)
+         real(wp) :: q(size(modes%modes))
+         logical  :: is_small(size(q))
+         integer  :: r
+
+         q = [(sum(modes%modes(r)%u*force), r = 1, size(q))]
+         is_small = abs(q) <= unexcited*norm2(force)*[(maxval(abs(modes%modes(r)%u)), r = 1, size(q))]
+         associate (of_unit => q/sqrt(superposed%mass))
+            where (is_small .and. (all(is_small) .or. abs(of_unit) <= unexcited*norm2(of_unit))) q = 0.0_wp
+         end associate
+      end function excited
 
    end subroutine find_response
 
@@ -315,14 +402,15 @@ contains
       type(response_type), intent(inout) :: response
       type(missed_peak) :: peak
       complex(wp) :: u(size(superposed%shape, 1))
-      real(wp)    :: at_peak(size(u)), beside(size(u)), most(size(u))
-      integer     :: at, d, k, m
+      real(wp)    :: at_peak(size(response%amplitude(:, :, 1))), beside(size(at_peak)), most(size(at_peak))
+      integer     :: at, d, k, m, n
       logical     :: is_damped, ok
 
       allocate (response%missed(0))
       if (size(response%frequency) < 2) return
       d = size(response%amplitude, 1)
-      most = reshape(maxval(response%amplitude, dim=3), [size(u)])
+      n = size(at_peak)
+      most = reshape(maxval(response%amplitude, dim=3), [n])
       do m = 1, size(modes%modes)
          peak = missed_peak(mode=modes%n_before + m, frequency=peak_frequency(superposed, m))
          k = count(response%frequency <= peak%frequency) ! the one below
@@ -330,14 +418,14 @@ contains
          associate (largest => maxval(abs(modes%modes(m)%u)))
             call excite(plan%waves, peak%frequency, superposed, ok)
             if (abs(superposed%force(m)) <= 0.0_wp) cycle
-            is_damped = superposed%loss(m) + superposed%viscous(m) > unexcited
-            beside = reshape(maxval(response%amplitude(:, :, k:k + 1), dim=3), [size(u)])
+            is_damped = superposed%loss(m) + viscous_of(superposed, m) > unexcited
+            beside = reshape(maxval(response%amplitude(:, :, k:k + 1), dim=3), [n])
             if (is_damped) then
                call response_at(superposed, peak%frequency, u, ok)
-               at_peak = abs(u)
+               at_peak = abs(u(:n))
                where (at_peak <= max(no_motion*maxval(at_peak), small_share*most, (1.0_wp + missed_share)*beside)) at_peak = 0.0_wp
             else
-               at_peak = abs(superposed%shape(:, m))
+               at_peak = abs(superposed%shape(:n, m))
                where (at_peak <= unexcited*largest) at_peak = 0.0_wp
             end if
          end associate

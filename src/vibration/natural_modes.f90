@@ -18,9 +18,10 @@ module natural_modes
    use kinds, only: wp
    use mass_matrix, only: form_mass, mass_matrix_type
    use mesh_queries, only: n_points, node_kind
-   use model_data, only: a_point, model_type, n_bars, n_sections
+   use model_data, only: a_point, damped_bars, model_type, n_bars, n_sections
    use shear_loops, only: oscillation_stiffness
    use stage_plan, only: vibration_plan_type
+   use structural_elements, only: unit_tension
    use text_tools, only: integer_text
    use tolerances, only: barely_held, off_the_pole, rigid_motion, wide_gap, zero_at_shift, zero_eigenvalue
    implicit none
@@ -51,7 +52,7 @@ module natural_modes
       integer  :: n_counted = 0                   !! eigenvalues below COUNTED_AT, all found
       real(wp) :: counted_at = 0.0_wp             !! [1/time^2]
       real(wp) :: reach = 0.0_wp                  !! up to here no mode is missing among the wanted ones; huge: they are all [1/time^2]
-      real(wp), allocatable :: load(:, :)         !! (equations, waves) of the response, where one is wanted [force]
+      real(wp), allocatable :: load(:, :)         !! (equations, waves, then dampers) of the response, where one is wanted [force]
       real(wp), allocatable :: at_rest(:, :)      !! likewise, under this load at rest, where a factor without shift was made
    end type spectrum_type
 
@@ -135,10 +136,15 @@ contains
       if (failure%raised) return
       spectrum%n_wanted = merge(plan%most, huge(1), plan%most > 0)
       if (allocated(plan%response)) then
-         allocate (spectrum%load(structure%started%n, size(plan%response%waves)))
-         do i = 1, size(plan%response%waves)
-            spectrum%load(:, i) = on_equations(model, structure%started, plan%response%waves(i)%force(:model%mesh%dimension, :))
-         end do
+         associate (n => size(plan%response%waves), dampers => damped_bars(model%mesh))
+            allocate (spectrum%load(structure%started%n, n + size(dampers)))
+            do i = 1, n
+               spectrum%load(:, i) = on_equations(model, structure%started, plan%response%waves(i)%force(:model%mesh%dimension, :))
+            end do
+            do i = 1, size(dampers)
+               spectrum%load(:, n + i) = on_equations(model, structure%started, unit_tension(model, dampers(i)))
+            end do
+         end associate
       end if
       if (needs_all(structure%started, plan%most)) then
          call find_all(model, structure, plan, spectrum, failure)

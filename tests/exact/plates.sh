@@ -351,3 +351,17 @@ run plate_orders && {
    near 'linear beside second order: curvature' "$(orders_moved 2 8 3)" '6e-4*4/(2*1000*0.1^3/12)' 1e-5
    says 'linear beside second order: said' "$work/plate_orders.log" '1 edge between linear shells and shells of second order'
 }
+
+# ---- MID1 blank: no membrane; as with MID1 where the loads bend alone, and the components in the plane are held as idle (AUTOSPC) ----
+for mid1 in 1 ''; do
+   for kind in CQUAD4 CTRIA3; do
+      sed "s/^PSHELL.*/PSHELL,1,$mid1,0.1,1,,1/; s/^SUBCASE 1.*/SUBCASE 2/; /^FORCE/d; /^SUBCASE 2;/d; s/^CQUAD4.*/$kind,1,1,1,2,3$([ $kind = CQUAD4 ] && echo ,4)/; /^CQUAD8/d; /^+,9/d" \
+         "$work/plate_orders.bdf" | awk '/^ *LOAD = 1/ { next } /^SUBCASE 2/ && n++ { next } /^GRID,([5-9]|10),/ { next } /^MOMENT/ { next }
+         /^ENDDATA/ { print "MOMENT,2,3,,1.-4,0.5,-1.0,0.0\nFORCE,2,2,,3.-4,0.0,0.0,1.0" } { print }' > "$work/bends_$kind$mid1.bdf"
+      run "bends_$kind$mid1"
+   done
+done
+for kind in CQUAD4 CTRIA3; do
+   near "$kind without membrane" "$(moved bends_$kind 3 3)" "$(moved bends_${kind}1 3 3)" 2e-6
+   says "$kind without membrane: idle components" "$work/bends_$kind.log" 'components of nodes without stiffness are held (PARAM AUTOSPC)'
+done

@@ -10,7 +10,7 @@ source tests/exact/lib.sh
 source tests/exact/decks.sh
 [ $# -gt 0 ] || set -- one_element by_hand first_guess rigid_block beam friction feet prism path turned two_bodies resultants histories gaps solids \
    space_axes moved_supports solid_bolts patches twisted_beam flange warm meshed_apart spiders rotations springs answer slip_limit divided habits sectors condition \
-   modes response harmonic superelement backbone free linear_pressure watch cases reactions batch plates laminates places rotating bolts energy half_models frames iwan bolt_parts shared_faces retighten nx supports scalars
+   modes response dampers relief harmonic superelement backbone free linear_pressure watch cases reactions batch plates laminates places rotating bolts energy half_models frames iwan bolt_parts shared_faces retighten nx supports scalars
 
 for part in "$@"; do source "tests/exact/$part.sh"; done
 echo "$passed passed, $failed failed"

@@ -99,6 +99,25 @@ SPC = 1;MPC = 3;BEGIN BULK;SPOINT,1,THRU,4;SPOINT,2;CELAS4,1,1000.0,1,2;CELAS4,2
 DECK
 run scalar_blank && near 'blank components of scalar points' "$(moved scalar_blank 2 1)" '0.03*1000/1500' 2e-6
 
+# ---- Dependent components that are terms of other equations: u1 = 2 u2, u2 = -u3, u3 = 0.5 u4, in another order ----
+cards scalar_chain <<'DECK'
+MPC = 3;LOAD = 10;BEGIN BULK;SPOINT,1,THRU,4;CELAS4,1,1000.0,1;CELAS4,2,500.0,4;MPC,3,3,0,2.0,4,0,-1.0;MPC,3,1,0,-1.0,2,0,2.0;MPC,3,2,0,1.0,3,0,1.0
+SLOAD,10,1,30.0;ENDDATA
+DECK
+run scalar_chain && for k in 1 2 3 4; do
+   near "a chain of MPC: point $k" "$(moved scalar_chain $k 1)" "$(awk -v k=$k 'BEGIN { split("0.02 0.01 -0.01 -0.02", u, " "); print u[k] }')" 2e-6
+done
+# The same of rigid elements, of a body on two nodes: RBE2 51 moves the independent node of RBE2 50
+link=1
+for chain in 'RBE2,50,9,123456,3\nRBAR,51,10,9,123456,,,123456' 'RBE2,50,10,123456,3,9'; do
+   printf '%b\n' 'MODEL = SPACE\nSPC = 1\nLOAD = 10\nBEGIN BULK\nGRID,1,,0.0,0.0,0.0\nGRID,2,,10.0,0.0,0.0\nGRID,3,,10.0,10.0,0.0\nGRID,4,,0.0,10.0,0.0' \
+      'GRID,9,,15.0,12.0,3.0\nGRID,10,,20.0,15.0,5.0\nCQUAD4,1,1,1,2,3,4\nPSHELL,1,1,2.0,1,,1\nMAT1,1,9500.0,,0.3\nSPC1,1,123456,1,2\nFORCE,10,10,,3.0,1.0,-2.0,4.0' \
+      "$chain\nENDDATA" > "$work/rigid_$link.bdf"
+   run "rigid_$link"
+   link=2
+done
+for c in 1 2 3; do near "a chain of rigid elements, $c" "$(moved rigid_1 10 $c)" "$(moved rigid_2 10 $c)" 2e-6; done
+
 # ---- A node on the axis of its cylindrical system has the axes of that system, turned by 30 degrees: springs along them. A held node
 # of no element takes its loads ----
 cards on_axis <<'DECK'

@@ -1,0 +1,191 @@
+!> Inertia relief, PARAM INREL = -1: a free structure under loads that do not balance themselves accelerates as a rigid body.
+!!
+!! The inertia forces -[m] {a} of its accelerations are added to the loads of each stage, so that the components of SUPORT, to which all
+!! displacements are relative, have no reactions. With the rigid-body motions [R] that the other supports leave,
+!!
+!!    {a} = [R] ([R]^T [m] [R])^-1 [R]^T {F}
+!!
+!! Source: MSC Nastran, Linear Static Analysis User's Guide, inertia relief.
+module inertia_relief
+   use constraint_equations, only: invert
+   use deck_check, only: checked_deck
+   use interface_operator, only: named_node
+   use kinds, only: wp
+   use mass_matrix, only: form_mass, mass_matrix_type, mass_times, total_mass
+   use mesh_queries, only: n_points, node_kind, place_in_kind, point_of
+   use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, model_type, n_sections, supported
+   use numbers, only: identity
+   use stage_plan, only: stage_plan_type
+   use text_tools, only: integer_text, real_text
+   use tolerances, only: balanced
+   use unknowns, only: motions_at, n_motions, node_axes
+   use wave_build, only: add_force
+   implicit none
+   private
+
+   public :: relieve
+
+contains
+
+   !> Add the inertia forces to the loads of HISTORY, and warn of the accelerations. Errors: a structure without SUPORT, one that a rigid
+   !! base or a grounded spring supports, one without mass; components of SUPORT that do not hold just its motions.
+   subroutine relieve(deck, model, plan, joints, sets, history)
+      type(checked_deck), intent(in)    :: deck
+      type(model_type), intent(in)      :: model   !! mesh, and freedoms of any set
+      type(stage_plan_type), intent(in) :: plan
+      type(joints_type), intent(in)     :: joints
+      type(freedoms_type), intent(in)   :: sets(:) !! of the plan
+      type(history_type), intent(inout) :: history
+      type(mass_matrix_type) :: mass
+      real(wp), allocatable :: r(:, :, :), mr(:, :, :) ! (dimension, n_nodes, motions): about the centre of mass, rotations by 1/extent
+      real(wp), allocatable :: g(:, :), inverse(:, :), n(:, :)
+      real(wp) :: a(n_motions(model%mesh%dimension)), centre(3), extent, force(3), whole, inertia(6)
+      integer  :: c, d, k, s
+      logical  :: ok
+
+      if (size(deck%bulk%suport) == 0) call report('expected SUPORT, the components to which displacements are relative')
+      if (any(deck%bulk%spring%nodes(1) == 0 .or. deck%bulk%spring%nodes(2) == 0) .or. &
+          any([(named_node(joints%element(k), 2) == 0, k = 1, size(joints%element))])) &
+         call report('a grounded spring or a rigid base supports the structure; expected a free one')
+      if (deck%errors%any()) return
+      d = model%mesh%dimension
+      call form_mass(model, mass)
+      call total_mass(model, mass, whole, centre, inertia)
+      associate (mesh => model%mesh)
+         extent = norm2(maxval(mesh%x(:, :n_points(mesh)), dim=2) - minval(mesh%x(:, :n_points(mesh)), dim=2))
+         allocate (r(d, mesh%n_nodes, size(a)), mr(d, mesh%n_nodes, size(a)), source=0.0_wp)
+         do k = 1, mesh%n_nodes
+            if (node_kind(mesh, k) == a_point) r(:, k, :) = motions_at((mesh%x(:d, k) - centre(:d))/extent)
+            if (node_kind(mesh, k) /= a_rotation) cycle
+            do c = 1, size(a) - d
+               r(c, k, d + c) = mesh%rotations(place_in_kind(mesh, k))%arm/extent
+            end do
+         end do
+      end associate
+      do c = 1, size(a)
+         call mass_times(model, mass, r(:, :, c), mr(:, :, c))
+      end do
+      g = reshape([((sum(r(:, :, k)*mr(:, :, c)), k = 1, size(a)), c = 1, size(a))], [size(a), size(a)])
+      do s = 1, size(history%stages)
+         associate (loads => history%stages(s))
+            if (loads%n == 0 .or. deck%errors%any()) cycle
+            call find_motions(model, sets(plan%stages(s)%supports), r, n, ok)
+            if (.not. ok) call report('the components of SUPORT are not those that hold the '//integer_text(size(n, 2))// &
+                                      ' rigid-body motions which the other supports leave')
+            if (.not. ok) cycle
+            allocate (inverse(size(n, 2), size(n, 2)))
+            call invert(matmul(matmul(transpose(n), g), n), inverse, ok)
+            if (.not. ok) call report('a rigid-body motion moves no mass; expected RHO on MAT1, or CONM2')
+            if (.not. ok) return
+            a = [(sum([(dot_product(loads%force(:d, k), r(:, loads%node(k), c)), k = 1, loads%n)]), c = 1, size(a))]
+            a = matmul(n, matmul(inverse, matmul(transpose(n), a)))
+            deallocate (inverse)
+            do k = 1, size(mr, 2)
+               force = 0.0_wp
+               force(:d) = -matmul(mr(:, k, :), a)
+               if (any(abs(force) > 0.0_wp)) call add_force(k, force, loads)
+            end do
+            call deck%errors%warn('PARAM INREL = -1: stage '//integer_text(s)//' has the inertia forces of the acceleration '// &
+               listed(a(:d))//' of the centre of mass and the angular acceleration '//listed(a(d + 1:)/extent))
+         end associate
+      end do
+
+   contains
+
+      subroutine report(words)
+         character(*), intent(in) :: words
+
+         call deck%errors%add(deck%bulk%parameters%relief_line, 'PARAM INREL = -1: '//words)
+      end subroutine report
+
+      pure function listed(values) result(words)
+         real(wp), intent(in) :: values(:)
+         character(:), allocatable :: words
+         integer :: i
+
+         words = real_text(values(1))
+         do i = 2, size(values)
+            words = words//', '//real_text(values(i))
+         end do
+      end function listed
+
+   end subroutine relieve
+
+   !> N: the rigid-body motions that the supports in FREEDOMS without SUPORT leave, orthonormal combinations of R. OK: the components of
+   !! SUPORT are as many as these and hold them.
+   subroutine find_motions(model, freedoms, r, n, ok)
+      type(model_type), intent(in)    :: model
+      type(freedoms_type), intent(in) :: freedoms
+      real(wp), intent(in)            :: r(:, :, :)  !! (dimension, n_nodes, motions)
+      real(wp), allocatable, intent(out) :: n(:, :)  !! (motions, left motions)
+      logical, intent(out)            :: ok
+      real(wp) :: axes(3, 3), basis(size(r, 3), size(r, 3)), held(size(r, 3), size(r, 3)), unit(size(r, 3), size(r, 3))
+      real(wp), allocatable :: inverse(:, :)
+      integer  :: d, first, k, n_held, rank
+
+      rank = 0
+      n_held = 0
+      do k = 1, model%mesh%n_nodes - n_sections(model%mesh)
+         axes = node_axes(model%mesh, point_of(model%mesh, k))
+         if (node_kind(model%mesh, k) == a_rotation) then
+            associate (rotation => model%mesh%rotations(place_in_kind(model%mesh, k)))
+               if (.not. rotation%of_element .or. rotation%of_rods) cycle
+            end associate
+            if (size(r, 1) == 2) axes = identity ! about z in the first component
+         end if
+         associate (is_held => supported(model%mesh, freedoms, k), &
+                    along => matmul(transpose(r(:, k, :)), axes(:size(r, 1), :size(r, 1))))
+            do d = 1, size(r, 1)
+               if (.not. is_held(d)) cycle
+               if (freedoms%support_groups(freedoms%support_of(d, k))%kind /= 'FREE') then
+                  call add(along(:, d))
+               else
+                  n_held = n_held + 1
+                  if (n_held <= size(held, 2)) held(:, n_held) = along(:, d)
+               end if
+            end do
+         end associate
+      end do
+      first = rank + 1
+      unit = 0.0_wp
+      do k = 1, size(unit, 2)
+         unit(k, k) = 1.0_wp
+      end do
+      do while (rank < size(basis, 2)) ! the motion that is least among those before
+         call add(unit(:, maxloc([(norm2(left_of(unit(:, k))), k = 1, size(unit, 2))], dim=1)))
+      end do
+      n = basis(:, first:)
+      ok = n_held == size(n, 2) .and. n_held > 0
+      if (.not. ok) return
+      allocate (inverse(n_held, n_held))
+      call invert(matmul(transpose(held(:, :n_held)), n), inverse, ok)
+
+   contains
+
+      !> What MOTION has beside the basis.
+      pure function left_of(motion) result(left)
+         real(wp), intent(in) :: motion(:)
+         real(wp) :: left(size(motion))
+         integer  :: k
+
+         left = motion
+         do k = 1, 2*rank ! twice against rounding
+            associate (b => basis(:, 1 + modulo(k - 1, rank)))
+               left = left - dot_product(left, b)*b
+            end associate
+         end do
+      end function left_of
+
+      subroutine add(motion)
+         real(wp), intent(in) :: motion(:)
+         real(wp) :: left(size(motion))
+
+         left = left_of(motion)
+         if (rank == size(basis, 2) .or. norm2(left) <= balanced) return
+         rank = rank + 1
+         basis(:, rank) = left/norm2(left)
+      end subroutine add
+
+   end subroutine find_motions
+
+end module inertia_relief
