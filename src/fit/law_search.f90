@@ -6,12 +6,13 @@
 !! i-th frequency there: where modes have changed places they are paired anew, and close neighbours are exchanged to see what is less.
 !! Source: J. J. More, The Levenberg-Marquardt algorithm, Lecture Notes in Mathematics 630 (1978) 105-116.
 module law_search
+   use equation_solver, only: failure_type
    use fit_statistics, only: statistics_type, weigh
    use incomplete_results, only: interrupt_so_far
    use kinds, only: wp
    use measured_data, only: differences, inner_value, measured_type, outer_value, unknown_of, y_of
    use runs_together, only: run_all
-   use structure_answers, only: answer_type, exchange_modes, is_of_modes, is_predicted, structure_type
+   use structure_answers, only: answer_type, exchange_modes, is_of_modes, is_predicted, match_rows, structure_type
    use terminal, only: show_line
    use text_tools, only: integer_text, real_text
    use tolerances, only: at_bound, far_better, round_settled, search_difference, search_settled, &
@@ -52,10 +53,11 @@ module law_search
       real(wp), allocatable :: x_from(:)           ! those of lmder there
       type(answer_type)     :: near, last          ! the answer there in full; of the last run that has not failed
       type(answer_type)     :: found, paired       ! of the least sum of squares with one pairing of the modes; with the best one
-      real(wp), allocatable :: y(:)                ! the unknowns of FOUND
+      real(wp), allocatable :: y(:), paired_y(:)   ! the unknowns of FOUND and PAIRED
       real(wp) :: square = huge(1.0_wp)            ! that sum
       real(wp), allocatable :: jacobian(:, :), x(:), f(:) ! of lmder, and where it had the derivatives last
       integer  :: n_steps = 0                      ! tried since then
+      logical  :: pairs_soon = .false.             ! end a round where the sum with MODE counting there is less
       logical  :: is_predicted = .false.           ! there are frequencies that the modes of a run nearby predict
    end type task_type
    type(task_type), pointer :: task => null()      ! for MINPACK, whose routines have no place for data
@@ -141,7 +143,7 @@ contains
    subroutine pair_modes(y, least, found)
       real(wp), intent(in)  :: y(:), least
       real(wp), intent(out) :: found
-      real(wp) :: best_y(size(y)), square, z(size(y))
+      real(wp) :: square, z(size(y))
       integer  :: i, numbers(size(task%data%rows))
       logical  :: is_better, is_tried(size(numbers), 2)
 
@@ -152,7 +154,9 @@ contains
       do i = 1, most_pairings
          task%structure%numbers = numbers
          if (allocated(task%structure%shapes)) deallocate (task%structure%shapes)
+         task%pairs_soon = i == 1
          call minimise(z)
+         task%pairs_soon = .false.
          is_better = .false.
          if (task%square < huge(found)) then
             square = sum(differences(task%data, task%found%value + task%found%off_number)**2)
@@ -162,13 +166,13 @@ contains
             is_better = square < found - same_minimum
             if (is_better) then
                found = square
-               best_y = task%y
+               task%paired_y = task%y
                task%paired = task%found
                if (square < least) call take_found(i > 1)
             end if
          end if
          if (found >= huge(found) .or. interrupt_so_far() /= 0) exit
-         z = best_y
+         z = task%paired_y
          numbers = task%data%rows%mode
          if (is_better .and. any(abs(task%found%off_number) > 0.0_wp)) cycle
          call exchange_modes(task%data, task%structure, task%paired, &
@@ -176,6 +180,27 @@ contains
          if (all(numbers == task%data%rows%mode)) exit
       end do
    end subroutine pair_modes
+
+   !> The answer at the unknowns Y of PAIRED, whose modes the rows take by their numbers now, in LAST; OK: all that the rows want of its
+   !! modes are frequencies, and it is there.
+   subroutine pair_again(y, ok)
+      real(wp), intent(in) :: y(:)
+      logical, intent(out) :: ok
+      type(failure_type) :: failure
+      integer :: s
+
+      ok = task%is_predicted .and. allocated(task%paired%value)
+      if (ok) ok = all(abs(y - task%paired_y) <= 0.0_wp)
+      if (.not. ok) return
+      task%last = task%paired
+      do s = 1, size(task%structure%plan%stages)
+         associate (of_modes => is_of_modes(task%data%rows) .and. task%data%rows%stage == task%structure%plan%stages(s)%id)
+            ok = ok .and. is_predicted(task%data, s, task%structure%plan)
+            if (ok .and. any(of_modes)) call match_rows(task%data, s, of_modes, task%structure, task%last, failure)
+         end associate
+      end do
+      ok = ok .and. .not. failure%raised
+   end subroutine pair_again
 
    !> Take what has been found with one pairing of the modes as the best answer.
    subroutine take_found(by_number)
@@ -212,6 +237,7 @@ contains
             end if
             task%from = z
             task%near = task%last
+            if (task%pairs_soon .and. sum(differences(task%data, task%last%value + task%last%off_number)**2) < now) exit
             if (n == 0 .or. best - now <= search_settled*max(1.0_wp, best)) exit ! far below one deviation
             if (round > 1 .and. task%is_predicted) then
                if (sum((differences(task%data, task%last%value) - fvec)**2) <= round_settled) exit ! as predicted
@@ -243,8 +269,10 @@ contains
       associate (search => task%search)
          is_known = allocated(search%y) .and. allocated(task%structure%shapes)
          if (is_known) is_known = all(abs(y - search%y) <= 0.0_wp)
+         if (is_known) task%last = search%best
+         if (.not. (is_known .or. allocated(task%structure%shapes))) call pair_again(y, is_known)
          if (is_known) then
-            task%last = search%best
+            if (.not. allocated(task%structure%shapes)) task%structure%shapes = task%last%shapes
          else
             call run_all(task%data, task%structure, reshape(outer_value(task%data%parameters, y), [size(y), 1]), &
                          task%cores, answers)

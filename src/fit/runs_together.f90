@@ -70,13 +70,21 @@ contains
    subroutine send(stream, answer)
       integer, intent(in)           :: stream
       type(answer_type), intent(in) :: answer
-      integer :: unit
+      integer :: s, unit
 
       open (newunit=unit, file=streams_at//integer_text(stream), access='stream', action='write', status='old')
       write (unit) len(answer%fault), answer%fault
-      if (answer%fault == '') write (unit) shape(answer%moved), shape(answer%shapes), answer%value, answer%off_number, &
-         answer%mac, answer%mode, &
-         answer%n_modes, answer%lambda, answer%k, answer%moved, answer%shapes
+      if (answer%fault == '') then
+         write (unit) shape(answer%shapes), size(answer%stages), answer%value, answer%off_number, answer%mac, answer%mode, &
+            answer%shapes
+         do s = 1, size(answer%stages)
+            associate (stage => answer%stages(s))
+               write (unit) allocated(stage%reduced)
+               if (allocated(stage%reduced)) write (unit) shape(stage%moved), shape(stage%u), stage%n_before, stage%lambda, &
+                  stage%u, stage%k, stage%reduced, stage%moved, stage%place
+            end associate
+         end do
+      end if
       close (unit)
    end subroutine send
 
@@ -84,8 +92,8 @@ contains
    subroutine receive(stream, answer)
       integer, intent(in)              :: stream
       type(answer_type), intent(inout) :: answer
-      integer :: components(2), length, n(3), status, unit
-      logical :: ok
+      integer :: length, n(2), rows(3), s, status, unit
+      logical :: is_there, ok
 
       open (newunit=unit, file=streams_at//integer_text(stream), access='stream', action='read', status='old')
       read (unit, iostat=status) length
@@ -95,14 +103,20 @@ contains
          allocate (character(length) :: answer%fault)
          read (unit) answer%fault
          if (length == 0) then
-            read (unit) n, components
-            associate (rows => components(2))
-               allocate (answer%value(rows), answer%off_number(rows), answer%mac(rows), answer%mode(rows), &
-                         answer%n_modes(n(3)), answer%lambda(n(2), n(3)), answer%k(n(1), n(3)), answer%moved(n(1), n(2), n(3)), &
-                         answer%shapes(components(1), rows))
-            end associate
-            read (unit) answer%value, answer%off_number, answer%mac, answer%mode, answer%n_modes, answer%lambda, answer%k, &
-               answer%moved, answer%shapes
+            read (unit) rows
+            allocate (answer%value(rows(2)), answer%off_number(rows(2)), answer%mac(rows(2)), answer%mode(rows(2)), &
+                      answer%shapes(rows(1), rows(2)), answer%stages(rows(3)))
+            read (unit) answer%value, answer%off_number, answer%mac, answer%mode, answer%shapes
+            do s = 1, size(answer%stages)
+               associate (stage => answer%stages(s))
+                  read (unit) is_there
+                  if (.not. is_there) cycle
+                  read (unit) n, rows(:2)
+                  allocate (stage%lambda(rows(2)), stage%u(rows(1), rows(2)), stage%k(n(1)), stage%reduced(n(2), n(2)), &
+                            stage%moved(n(1), n(2)), stage%place(n(2), rows(2)))
+                  read (unit) stage%n_before, stage%lambda, stage%u, stage%k, stage%reduced, stage%moved, stage%place
+               end associate
+            end do
          end if
       end if
       close (unit)

@@ -1,13 +1,8 @@
 !> The answers of a structure to the rows of a measured file, at the end of a stage. Near a run with modes, their frequencies follow
-!! from the change of the joint stiffness alone: they are those of the structure in the space of these modes, exact in the first order,
-!!
-!!      [lambda + Phi^T dk Phi] {x} = mu {x},  Phi the movements of the interface elements in the modes, of generalised mass 1
-!!
-!! A mode is followed by its shape: that of the largest MAC (x^T y)^2/(x^T x y^T y) with the shape given, or with that of a run
-!! before; without one, the mode is that of its number.
+!! from the change of the joint stiffness alone, in the space of the modes of that run. A mode is followed by its shape: that of the
+!! largest MAC (x^T y)^2/(x^T x y^T y) with the shape given, or with that of a run before; without one, the mode is that of its number.
 module structure_answers
    use analysis_state, only: analysis_type
-   use blas_lapack, only: dsygv
    use backbone, only: backbone_type, find_loop, start_backbone
    use bolt_locking, only: bar_tension, section_tension
    use deck_input, only: deck_type
@@ -16,13 +11,13 @@ module structure_answers
    use equation_solver, only: equation_system, failure_type
    use equations, only: recover_displacements
    use free_structure, only: release_supports
-   use interface_operator, only: joint_movement
    use kinds, only: wp
    use load_path, only: recover_bodies
    use measured_data, only: a_bolt, a_displacement, a_frequency, a_loss, a_phase, a_stiffness, an_amplitude, measured_row, &
                             measured_type
    use mode_values, only: evaluate_modes, modes_type
    use modal_response, only: find_response, response_type
+   use mode_span, only: find_spanned, stage_modes
    use model_data, only: model_type
    use node_coupling, only: displacements, forces_on_unknowns
    use natural_modes, only: find_natural_modes, oscillating_type, spectrum_type, start_oscillation
@@ -30,11 +25,11 @@ module structure_answers
    use stage_plan, only: merged, stage_plan_type
    use text_tools, only: integer_text
    use tolerances, only: close_modes, least_mac
-   use watched_nodes, only: find_watched, watch_answer, watch_state
+   use watched_nodes, only: find_watched, state_at_end, watch_answer, watch_state
    implicit none
    private
 
-   public :: take_stage, exchange_modes, is_of_modes, is_predicted, mac_of
+   public :: take_stage, exchange_modes, is_of_modes, is_predicted, mac_of, match_rows
 
    integer, parameter :: spare_modes = 4 ! beyond those of the deck: modes that change places stay among those found
 
@@ -47,6 +42,7 @@ module structure_answers
       type(stage_plan_type) :: plan
       class(equation_system), allocatable :: system  !! its bodies formed for the start
       logical, allocatable  :: keeps_bodies(:)       !! (parameters) the bodies do not depend on it
+      type(oscillating_type) :: oscillating(0:1)     !! with and without supports
       real(wp), allocatable :: shapes(:, :)          !! (components, rows) of the modes that are followed; or not allocated:
       integer, allocatable  :: numbers(:)            !! (rows) of the modes
    end type structure_type
@@ -58,10 +54,7 @@ module structure_answers
       real(wp), allocatable :: off_number(:)         !! (rows) frequency of the mode with the number of the row, less VALUE
       real(wp), allocatable :: mac(:)                !! (rows) of modes, else 1
       integer, allocatable  :: mode(:)               !! (rows) place of the mode among those found, 0: none
-      integer, allocatable  :: n_modes(:)            !! (stages)
-      real(wp), allocatable :: lambda(:, :)          !! (modes, stages) omega^2 [1/time^2]
-      real(wp), allocatable :: k(:, :)               !! (3 n, stages) k_sx, k_sy, k_n of the interface elements under oscillation
-      real(wp), allocatable :: moved(:, :, :)        !! (3 n, modes, stages) their movement in a mode of generalised mass 1
+      type(stage_modes), allocatable :: stages(:)    !! of a run in full
       real(wp), allocatable :: shapes(:, :)          !! (components, rows) of the modes
    end type answer_type
 
@@ -84,13 +77,15 @@ contains
       if (scale > 0.0_wp) mac = sum(x*y)**2/scale
    end function mac_of
 
-   !> The answers to the rows of stage S at its end; BEFORE is the end of the stage from which it started.
-   subroutine take_stage(data, s, structure, analysis, before, answer, failure, near)
+   !> The answers to the rows of stage S at its end, AT_END where nodes are watched; BEFORE is the end of the stage from which S
+   !! started.
+   subroutine take_stage(data, s, structure, analysis, before, at_end, answer, failure, near)
       type(measured_type), intent(in)         :: data
       integer, intent(in)                     :: s
       type(structure_type), intent(inout)     :: structure
       type(analysis_type), intent(in)         :: analysis
       type(watch_state), intent(in)           :: before
+      type(watch_state), intent(inout)        :: at_end
       type(answer_type), intent(inout)        :: answer
       type(failure_type), intent(inout)       :: failure
       type(answer_type), intent(in), optional :: near
@@ -103,7 +98,8 @@ contains
 
       associate (model => structure%model, plan => structure%plan)
          of_modes = is_of_modes(data%rows) .and. data%rows%stage == plan%stages(s)%id
-         if (present(near) .and. all(of_modes .eqv. data%rows%stage == plan%stages(s)%id) .and. is_predicted(data, s, plan)) then
+         if (present(near) .and. all(of_modes .eqv. data%rows%stage == plan%stages(s)%id) .and. is_predicted(data, s, plan) &
+             .and. .not. allocated(plan%stages(s)%watched)) then
             if (any(of_modes)) call predict(s, of_modes, structure, analysis, near, answer)
             return
          end if
@@ -117,8 +113,10 @@ contains
             call recover_displacements(structure%system, forces_on_unknowns(model, whole%now%load), whole%u, q)
             whole%all_u = displacements(model, q)
          end if
-         if (allocated(plan%stages(s)%watched)) &
+         if (allocated(plan%stages(s)%watched)) then
             call find_watched(model, whole, plan%stages(s)%watched, plan%stages(s)%pairs, before, watched)
+            at_end = state_at_end(model, whole)
+         end if
          do i = 1, size(data%rows)
             associate (row => data%rows(i), value => answer%value(i))
                if (row%stage /= plan%stages(s)%id) cycle
@@ -171,27 +169,14 @@ contains
       type(analysis_type), intent(in)  :: analysis
       type(answer_type), intent(in)    :: near
       type(answer_type), intent(inout) :: answer
-      real(wp) :: a(near%n_modes(s), near%n_modes(s)), unit(near%n_modes(s), near%n_modes(s)), mu(near%n_modes(s)), &
-                  work(10*near%n_modes(s))
-      integer  :: i, info, m, n
+      real(wp) :: lambda(size(near%stages(s)%lambda))
+      integer  :: i
 
-      n = size(mu)
-      answer%k(:, s) = stiffness_of(structure%model, analysis, structure%plan%stages(s)%vibration%on_loading)
-      associate (phi => near%moved(:, :n, s))
-         a = matmul(transpose(phi), spread(answer%k(:, s) - near%k(:, s), 2, n)*phi)
-      end associate
-      unit = 0.0_wp
-      do i = 1, n
-         a(i, i) = a(i, i) + near%lambda(i, s)
-         unit(i, i) = 1.0_wp
-      end do
-      call dsygv(1, 'V', 'U', n, a, n, unit, n, mu, work, size(work), info)
+      call find_spanned(near%stages(s), stiffness_of(structure%model, analysis, structure%plan%stages(s)%vibration%on_loading), &
+                        lambda)
+      answer%mode = near%mode
       do i = 1, size(of_modes)
-         if (.not. of_modes(i)) cycle
-         m = near%mode(i)
-         m = maxloc(abs(a(m, :)), dim=1)
-         answer%mode(i) = m
-         answer%value(i) = sqrt(max(0.0_wp, mu(m)))/two_pi
+         if (of_modes(i)) answer%value(i) = sqrt(max(0.0_wp, lambda(near%mode(i))))/two_pi
       end do
    end subroutine predict
 
@@ -220,14 +205,15 @@ contains
       type(analysis_type), intent(inout)  :: analysis
       type(answer_type), intent(inout)    :: answer
       type(failure_type), intent(inout)   :: failure
-      type(oscillating_type) :: oscillating
       type(spectrum_type)    :: spectrum
       type(modes_type), allocatable :: modes
       type(response_type)    :: response
       class(equation_system), allocatable :: shifted
-      integer :: f, i, k, m(size(of_modes))
+      integer :: f, i
 
-      associate (vibration => structure%plan%stages(s)%vibration, rows => data%rows, nodes => loose%mesh%node_table)
+      associate (vibration => structure%plan%stages(s)%vibration, rows => data%rows, nodes => loose%mesh%node_table, &
+                 oscillating => structure%oscillating(merge(1, 0, structure%plan%stages(s)%vibration%free)), &
+                 stage => answer%stages(s))
          if (allocated(vibration%response) .and. all(rows%frequency <= 0.0_wp .or. .not. of_modes)) deallocate (vibration%response)
          if (allocated(vibration%response)) then ! of the frequencies and nodes of the rows alone
             vibration%response%spreads = vibration%response%spreads(:0)
@@ -249,38 +235,31 @@ contains
          if (allocated(vibration%response)) &
             call find_response(loose, oscillating, vibration%response, spectrum, modes, shifted, response, failure)
          if (failure%raised) return
-         answer%k(:, s) = stiffness_of(loose, analysis, vibration%on_loading)
-         answer%n_modes(s) = min(size(modes%modes), size(answer%lambda, 1))
-         do i = 1, answer%n_modes(s)
-            answer%lambda(i, s) = modes%modes(i)%lambda
-            do k = 1, size(loose%joints%element)
-               answer%moved(3*k - 2:3*k, i, s) = joint_movement(loose%joints%element(k), modes%modes(i)%u)/sqrt(modes%modes(i)%mass)
-            end do
+         stage%is_free = vibration%free
+         stage%is_elastic = oscillating%is_elastic
+         stage%is_locked = oscillating%is_locked
+         stage%n_before = modes%n_before
+         stage%k = reshape(oscillating%k, [size(oscillating%k)])
+         stage%lambda = modes%modes%lambda
+         allocate (stage%u(size(loose%freedoms%held), size(modes%modes)))
+         do i = 1, size(modes%modes)
+            stage%u(:, i) = reshape(modes%modes(i)%u, [size(modes%modes(i)%u)])/sqrt(modes%modes(i)%mass)
          end do
-         m = 0
+         call match_rows(data, s, of_modes, structure, answer, failure)
+         if (failure%raised) return
          do i = 1, size(rows)
             if (.not. of_modes(i)) cycle
             if (rows(i)%frequency > 0.0_wp) then
                f = minloc(abs(response%frequency - rows(i)%frequency), dim=1)
                answer%value(i) = merge(response%phase(rows(i)%direction, i, f), response%amplitude(rows(i)%direction, i, f), &
                                        rows(i)%kind == a_phase)
-               cycle
+            else if (rows(i)%kind == a_loss) then
+               answer%value(i) = modes%modes(answer%mode(i))%loss
             end if
-            call match_mode(rows(i), i, structure, modes, m(i), answer%mac(i))
-            if (m(i) == 0) call failure%raise('mode '//integer_text(rows(i)%mode)//' is not among those found')
-            if (failure%raised) return
-            answer%mode(i) = m(i)
-            associate (mode => modes%modes(m(i)))
-               answer%value(i) = merge(mode%frequency, mode%loss, rows(i)%kind == a_frequency)
-               answer%shapes(:, i) = reshape(mode%u, [size(mode%u)])
-            end associate
-            k = rows(i)%mode - modes%n_before
-            if (rows(i)%kind == a_frequency .and. size(rows(i)%shape) == 0 .and. rows(i)%amplitude <= 0.0_wp .and. k > 0 .and. &
-                k <= size(modes%modes) .and. k /= m(i)) answer%off_number(i) = modes%modes(k)%frequency - answer%value(i)
          end do
       end associate
       if (any(of_modes .and. data%rows%amplitude > 0.0_wp)) &
-         call take_backbone(data, s, of_modes .and. data%rows%amplitude > 0.0_wp, m, modes, structure, loose, analysis)
+         call take_backbone(data, s, of_modes .and. data%rows%amplitude > 0.0_wp, answer%mode, modes, structure, loose, analysis)
 
    contains
 
@@ -320,32 +299,48 @@ contains
 
    end subroutine take_modes
 
-   !> The mode M of MODES that ROW, number I, means, and its MAC with the shape given or that of the start; 0: none.
-   subroutine match_mode(row, i, structure, modes, m, mac)
-      type(measured_row), intent(in)   :: row
-      integer, intent(in)              :: i
-      type(structure_type), intent(in) :: structure
-      type(modes_type), intent(in)     :: modes
-      integer, intent(out)             :: m
-      real(wp), intent(out)            :: mac
-      real(wp) :: macs(size(modes%modes))
-      integer  :: k, p
+   !> The modes of stage S of ANSWER that the rows OF_MODES mean, their MAC with the shape given or that of the start, and their
+   !! frequencies.
+   subroutine match_rows(data, s, of_modes, structure, answer, failure)
+      type(measured_type), intent(in)    :: data
+      integer, intent(in)                :: s
+      logical, intent(in)                :: of_modes(:)
+      type(structure_type), intent(in)   :: structure
+      type(answer_type), intent(inout)   :: answer
+      type(failure_type), intent(inout)  :: failure
+      real(wp) :: macs(size(answer%stages(s)%lambda)), frequencies(size(answer%stages(s)%lambda))
+      integer  :: d, i, k, m, p
 
-      m = structure%numbers(i) - modes%n_before
-      mac = 1.0_wp
-      if (m < 1 .or. m > size(macs)) m = 0
-      if (size(row%shape) == 0 .and. .not. allocated(structure%shapes)) return
-      do k = 1, size(macs)
-         associate (u => modes%modes(k)%u)
-            if (size(row%shape) == 0) macs(k) = mac_of(reshape(u, [size(u)]), structure%shapes(:, i))
-            if (size(row%shape) > 0) macs(k) = mac_of(row%shape, &
-               [(u(row%at(2, p), structure%model%mesh%node_table%find(row%at(1, p))), p = 1, size(row%shape))])
+      d = structure%model%mesh%dimension
+      frequencies = sqrt(max(0.0_wp, answer%stages(s)%lambda))/two_pi
+      do i = 1, size(of_modes)
+         associate (row => data%rows(i), stage => answer%stages(s))
+            if (.not. of_modes(i) .or. row%frequency > 0.0_wp) cycle
+            m = structure%numbers(i) - stage%n_before
+            if (m < 1 .or. m > size(macs)) m = 0
+            answer%mac(i) = 1.0_wp
+            if (size(row%shape) > 0 .or. allocated(structure%shapes)) then
+               do k = 1, size(macs)
+                  if (size(row%shape) == 0) macs(k) = mac_of(stage%u(:, k), structure%shapes(:, i))
+                  if (size(row%shape) > 0) macs(k) = mac_of(row%shape, [(stage%u(d*(structure%model%mesh%node_table%find( &
+                     row%at(1, p)) - 1) + row%at(2, p), k), p = 1, size(row%shape))])
+               end do
+               m = maxloc(macs, dim=1)
+               answer%mac(i) = macs(m)
+               if (size(row%shape) == 0 .and. macs(m) < least_mac) m = 0
+            end if
+            if (m == 0) call failure%raise('mode '//integer_text(row%mode)//' is not among those found')
+            if (failure%raised) return
+            answer%mode(i) = m
+            answer%value(i) = frequencies(m)
+            answer%shapes(:, i) = stage%u(:, m)
+            answer%off_number(i) = 0.0_wp
+            k = row%mode - stage%n_before
+            if (row%kind == a_frequency .and. size(row%shape) == 0 .and. row%amplitude <= 0.0_wp .and. k > 0 .and. &
+                k <= size(macs) .and. k /= m) answer%off_number(i) = frequencies(k) - frequencies(m)
          end associate
       end do
-      m = maxloc(macs, dim=1)
-      mac = macs(m)
-      if (size(row%shape) == 0 .and. mac < least_mac) m = 0
-   end subroutine match_mode
+   end subroutine match_rows
 
    !> Exchange the NUMBERS of a mode with rows and of one beside it that ANSWER has close to it; IS_TRIED (rows, below and above).
    !! OFF is the usual difference of a row over its deviation, 1 or more: so many times further may close modes be from each other.
@@ -365,8 +360,8 @@ contains
             do side = 1, 2
                at = answer%mode(k) + 2*side - 3
                other = rows(k)%mode + 2*side - 3
-               if (is_tried(k, side) .or. min(at, other) < 1 .or. at > answer%n_modes(s)) cycle
-               associate (omega => sqrt(max(0.0_wp, answer%lambda([at, answer%mode(k)], s))))
+               if (is_tried(k, side) .or. min(at, other) < 1 .or. at > size(answer%stages(s)%lambda)) cycle
+               associate (omega => sqrt(max(0.0_wp, answer%stages(s)%lambda([at, answer%mode(k)]))))
                   if (abs(omega(1) - omega(2)) > two_pi*close_modes*off*rows(k)%deviation) cycle
                end associate
                where (rows%stage == rows(k)%stage .and. rows%mode == other)

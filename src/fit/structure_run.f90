@@ -14,6 +14,7 @@ module structure_run
    use kinds, only: wp
    use load_path, only: recover_bodies, start_increment, start_stage
    use measured_data, only: a_bolt, a_loss, a_stiffness, measured_row, measured_type
+   use mode_span, only: span_modes
    use model_build, only: build_model
    use model_data, only: model_type
    use newton_method, only: close_gaps, crosses_gaps, newton_increment, seat_joints
@@ -21,7 +22,7 @@ module structure_run
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    use structure_answers, only: answer_type, is_of_modes, structure_type, take_stage
    use text_tools, only: integer_text
-   use watched_nodes, only: start_watched, state_at_end, watch_state
+   use watched_nodes, only: start_watched, watch_state
    implicit none
    private
 
@@ -29,8 +30,6 @@ module structure_run
 
    character(*), parameter :: of_laws = & ! cards on which no body depends
       ' JNORM JSHEAR JIWAN PJOINT BOLT FORCE FORCEM MOMENT PLOAD PLOAD2 PLOAD4 PLOADE PLOADM GRAV LOAD '
-
-   integer, parameter :: most_modes = 30 ! that serve the runs nearby
 
 contains
 
@@ -182,13 +181,11 @@ contains
       if (answer%fault /= '') return
       associate (deck => structure%deck, model => structure%model, plan => structure%plan, system => structure%system, &
                  n => size(data%rows))
-         allocate (answer%value(n), answer%k(3*size(model%joints%element), size(plan%stages)), answer%lambda(most_modes, &
-                   size(plan%stages)), answer%moved(3*size(model%joints%element), most_modes, size(plan%stages)), &
-                   answer%shapes(size(model%freedoms%held), n), source=0.0_wp)
+         allocate (answer%value(n), answer%shapes(size(model%freedoms%held), n), source=0.0_wp)
          allocate (answer%mac(n), source=1.0_wp)
          allocate (answer%off_number(n), source=0.0_wp)
-         allocate (answer%mode(n), answer%n_modes(size(plan%stages)), source=0)
-         allocate (kept(size(plan%stages)), ends(0:size(plan%stages)))
+         allocate (answer%mode(n), source=0)
+         allocate (answer%stages(size(plan%stages)), kept(size(plan%stages)), ends(0:size(plan%stages)))
          if (any(abs(values - data%parameters%start) > 0.0_wp .and. .not. structure%keeps_bodies)) &
             call form(deck, model, plan, system, failure)
          if (.not. failure%raised) call start_analysis(model, system, deck%control, analysis)
@@ -212,16 +209,17 @@ contains
                if (.not. failure%raised) call go_an_increment(deck, model, plan, system, analysis, failure)
             end do
             if (failure%raised) exit
-            if (is_near) call take_stage(data, s, structure, analysis, ends(from), answer, failure, near)
-            if (.not. is_near) call take_stage(data, s, structure, analysis, ends(from), answer, failure)
+            if (is_near) call take_stage(data, s, structure, analysis, ends(from), ends(s), answer, failure, near)
+            if (.not. is_near) call take_stage(data, s, structure, analysis, ends(from), ends(s), answer, failure)
             if (failure%raised) exit
-            ends(s) = state_at_end(model, analysis)
             if (any(model%history%stages(s + 1:)%from == s)) then
                call lock_bolts(model, system, analysis)
                kept(s) = analysis
             end if
          end do
          if (failure%raised) answer%fault = failure%message
+         i = merge(0, 1, allocated(structure%oscillating(0)%started))
+         if (.not. failure%raised) call span_modes(model, structure%oscillating(i)%mass, answer%stages)
       end associate
    end subroutine run_structure
 

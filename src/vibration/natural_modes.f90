@@ -59,17 +59,17 @@ module natural_modes
 contains
 
    !> Stiffness and mass about the state of ANALYSIS, and the order of the equations. The solver is SKYLINE if SYSTEM is
-   !! SKYLINE, else TREE.
+   !! SKYLINE, else TREE. Mass and equations that STRUCTURE has already stay.
    subroutine start_oscillation(model, analysis, system, on_loading, structure, failure)
       type(model_type), intent(in)        :: model
       type(analysis_type), intent(in)     :: analysis
       class(equation_system), intent(in)  :: system
       logical, intent(in)                 :: on_loading !! STIFFNESS = LOAD
-      type(oscillating_type), intent(out) :: structure
+      type(oscillating_type), intent(inout) :: structure
       type(failure_type), intent(inout)   :: failure
       integer :: i
 
-      allocate (structure%k(3, size(model%joints%element)))
+      if (.not. allocated(structure%k)) allocate (structure%k(3, size(model%joints%element)))
       do i = 1, size(model%joints%element)
          structure%k(:, i) = oscillation_stiffness(model%joints%list(model%joints%element(i)%joint)%law, &
             model%joints%element(i)%area, analysis%states(i), on_loading)
@@ -78,6 +78,7 @@ contains
                                i = 1, n_bars(model%mesh))]
       structure%is_locked = [(analysis%is_locked(i) .or. model%mesh%sections(i)%tightening%is_in(analysis%stage), i = 1, &
                               n_sections(model%mesh))]
+      if (allocated(structure%started)) return
       call form_mass(model, structure%mass)
       call start_equations(model, structure%started, failure, &
                            merge(solver_skyline, solver_tree, system%description%name == 'SKYLINE'), factorisations=1, shift=0.0_wp)

@@ -106,6 +106,39 @@ bad 'no MODES' 'frequency,1.0,1%,stage=1,mode=1' 'SUBCASE 1 has no MODES'
 bad 'a key without meaning' 'displacement,1.0,1%,stage=1,node=1,direction=y,bolt=1' 'BOLT= has no meaning in this row'
 bad 'no such bolt' 'bolt,1.0,1%,stage=1,bolt=1' 'the deck has no such BOLT'
 bad 'a start beyond its bounds' 'parameter,K,0.5,1.0,2.0' 'a start between its bounds'
+bad 'a bound that is missing' 'parameter,K,1.0,2.0' 'expected parameter,NAME,START or'
+bad 'a parameter given twice' 'parameter,C,1.0' 'parameter C is given twice'
+bad 'a start that is no number' 'parameter,K,x' "'x' is not a number"
+bad 'a start below 0' 'parameter,K,-1.0' 'expected start and bounds above 0, or LINEAR'
+bad 'no value' 'displacement' 'expected a value and its standard deviation'
+bad 'a key given twice' 'displacement,1.0,1%,stage=1,stage=1,node=1,direction=y' "'stage=1': expected one of"
+bad 'no such key' 'displacement,1.0,1%,stage=1,node=1,direction=y,colour=1' "'colour=1': expected one of"
+bad 'no such direction' 'displacement,1.0,1%,stage=1,node=1,direction=w' "'direction=w': expected one of"
+bad 'a shape without its value' 'frequency,1.0,1%,stage=1,shape=1:y' "'shape=1:y': expected one of"
+bad 'a shape that is no number' 'frequency,1.0,1%,stage=1,shape=1:y:z' "'shape=1:y:z': expected one of"
+bad 'no mode' 'frequency,1.0,1%,stage=1' 'expected MODE=, or SHAPE='
+bad 'two nodes without direction' 'stiffness,1.0,1%,stage=1,node=1-2' 'two nodes are those of a displacement or stiffness'
+bad 'a line of one node' 'displacement,1.0,1%,stage=1,node=1,direction=line' 'direction=line is that of two nodes'
+sed 's/^frequency.*/displacement,1.0,1%,stage=1,node=413,direction=z/' "$input/measured/column.csv" > bad.csv
+seek "$input/measured/column.bdf" --measured bad.csv
+says 'out of the plane' stderr 'direction=z: the model lies in the plane'
+seek one.bdf --measured one.csv --start K=1.0
+says 'a start of no parameter' stderr '--start K: the file has no such parameter'
+holds 'a start of no parameter: status 2' [ $status -eq 2 ]
+seek one.bdf --measured one.csv --start M=1.5
+says 'a start beyond the bounds' stderr '--start M: expected a value between the bounds'
+grep displacement one.csv > bad.csv
+seek one.bdf --measured bad.csv
+says 'no parameter' stderr 'no parameter: expected rows as'
+grep parameter one.csv > bad.csv
+seek one.bdf --measured bad.csv
+says 'no measured value' stderr 'no measured value: expected rows as'
+seek none.bdf --measured one.csv
+holds 'no such deck: status 1' [ $status -eq 1 ]
+sed 's/^PJOINT  1 /PJOINT  2 /' one.bdf > bad.bdf
+seek bad.bdf --measured one.csv
+says 'a deck with an error' stderr 'DECK ERROR 1 OF'
+holds 'a deck with an error: status 2' [ $status -eq 2 ]
 { cat one.csv; echo 'parameter,K,1.0'; } > bad.csv
 seek one.bdf --measured bad.csv
 says 'a parameter that the deck has not' stderr 'there is no ${K} in the deck'
@@ -113,6 +146,22 @@ seek one.bdf
 says 'no measured file' stderr '--structure DECK and --measured FILE go together'
 seek one.bdf --measured none.csv
 holds 'no such file: status 1' [ $status -eq 1 ]
+
+# ---- the same element by the other methods, and from the end of stage 1: BACK has the closed form, STEP is that of jointfem ----
+sed '/^SUBCASE [23]/,/LOAD/d; s/NEWTON/BACK/' one.bdf > back.bdf
+grep -v 'stage=[23]\|,M,' one.csv > back.csv
+seek back.bdf --measured back.csv --set M=0.45
+near 'one element, BACK: C' C 8e-3 1e-3
+sed 's/NEWTON/STEP/; s/^SUBCASE 3/SUBCASE 3\n  FROM = 1/' one.bdf > step.bdf
+"$jointfem" -q --set C=8.0E-3 --set M=0.45 --watch 1 step.bdf > log 2>&1
+{ echo 'WHAT,VALUE,DEVIATION'; echo 'parameter,C,4.0E-3'; echo 'parameter,M,0.5,-1.0,1.0,LINEAR'
+  awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { printf "displacement,%s,1%%,stage=%d,node=1,direction=y\n", $at["u_y"], $1 }' step.watch.csv
+  awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } $1 == 3 { printf "stiffness,%s,1%%,stage=3,node=1\n", $at["stiffness"] }' step.watch.csv; } > step.csv
+sed 's/^SUBCASE 3/SUBCASE 3\n  FROM = 1/' back.bdf > from.bdf
+seek step.bdf --measured step.csv --plot picture.gp
+near 'one element, STEP: C' C 8e-3 1e-3
+near 'one element, STEP: M, linear' M 0.45 1e-3
+says 'one element, STEP: the picture' picture.gp 'set ylabel "over the measured value"' '$deviations using 1:2:3 with yerrorbars'
 
 # ---- failing runs: MU too small holds no block; the search goes on ----
 cat > slide.bdf << 'END'
@@ -143,6 +192,12 @@ u=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "u_x" || $i == "ux") 
 printf 'parameter,MU,0.15\ndisplacement,%s,1%%,stage=2,node=1,direction=x\n' "$u" > slide.csv
 seek slide.bdf --measured slide.csv
 near 'friction: MU' MU 0.1 1e-3
+
+sed '/^CELAS2/d' slide.bdf > free.bdf
+sed 's/^parameter.*/parameter,MU,0.01/' slide.csv > free.csv
+seek free.bdf --measured free.csv
+holds 'no equilibrium at the start: status 3' [ $status -eq 3 ]
+says 'no equilibrium at the start' stderr 'with the start values: ' 'nothing found'
 
 # ---- a mass on one element in closed form: the start has its modes, along and across, in the other order; two rows allow both ----
 cat > mass.bdf << 'END'
@@ -181,6 +236,57 @@ says 'two rows allow both orders' found '$ or       with other modes for the row
 holds 'two rows allow both orders: C and K0' awk '/^\$ or / { split($0, part, "C="); c = part[2] + 0; split($0, part, "K0="); k = part[2] + 0 }
    $2 == "C" { first = $4 } $2 == "K0" { second = $4 } # (C, K0) = (0.01, 300) or (0.0149, 447)
    END { exit !(((c - 0.01)^2 < 1e-8 && (k - 300)^2 < 0.01 && second > 440) || ((c - 0.014907)^2 < 1e-8 && (k - 447.21)^2 < 0.01 && first < 0.0101)) }' found
+
+# ---- a backbone in closed form: K = 3E4 slips at 50 N beside a spring of 5E3, which a parameter changes; amplitude A = 0.02:
+#      secant 5E3 + 50/A, loss 4*50 (A - 50/3E4)/(pi secant A^2); the small oscillation by its shape ----
+cat > loop.bdf << 'END'
+METHOD = NEWTON
+OUTPUT = NONE
+MODEL = PLANE
+INCR = 5
+SUBCASE 1
+  LOAD = 1
+  MODES = 4
+  BACKBONE = 6
+BEGIN BULK
+GRID    1               0.0     0.0
+CJOINT  1       1       1               100.0   0.0     -1.0
+PJOINT  1       1       1               ${MU}
+JNORM   1       1.0-2   0.5     1.+6
+JSHEAR  1       ${K0}
+CONM2   2       1               1.0-3
+CELAS2  3       ${KS}   1       1
+FORCE   1       1               500.0   0.0     -1.0
+JINCR   5       5
+EIGRL   4                       2
+JAMPL   6       1       0.02    3       0.1     40      1
+ENDDATA
+END
+awk 'BEGIN { pi = atan2(0, -1); a = 0.02; k = 5e3 + 50 / a; print "parameter,MU,0.07"; print "parameter,KS,4.0E3"; print "parameter,K0,250.0"
+   printf "frequency,%.12g,1%%,stage=1,mode=1,amplitude=%g\n", sqrt(k / 1e-3) / (2 * pi), a
+   printf "loss,%.12g,1%%,stage=1,mode=1,amplitude=%g\n", 4 * 50 * (a - 50 / 3e4) / (pi * k * a^2), a
+   printf "frequency,%.12g,1%%,stage=1,shape=1:x:1.0,shape=1:y:0.0\n", sqrt(35e3 / 1e-3) / (2 * pi) }' > loop.csv
+seek loop.bdf --measured loop.csv
+near 'a backbone: MU' MU 0.1 1e-3
+near 'a backbone: KS' KS 5e3 1e-3
+near 'a backbone: K0' K0 300 1e-3
+
+# ---- rows that a deck has no answer to ----
+refused() { # DECK FRAGMENT ROW
+   { grep ^parameter "$1.csv"; echo "$3"; echo "$3"; echo "$3"; echo "$3"; } > bad.csv
+   seek "$1.bdf" --measured bad.csv
+   holds "$3: status 2" [ $status -eq 2 ]
+   says "$3" stderr "$2"
+}
+refused mass 'SUBCASE 1 has no loss factors' 'loss,1.0,1%,stage=1,mode=1'
+refused mass 'SUBCASE 1 has no FREQUENCY and DLOAD' 'phase,1.0,1,stage=1,node=1,direction=x,frequency=1.0'
+refused mass 'SUBCASE 1 has no BACKBONE' 'loss,1.0,1%,stage=1,mode=1,amplitude=1.0'
+refused mass 'shape=2: the model has no such node or direction' 'frequency,1.0,1%,stage=1,shape=2:x:1.0'
+refused loop 'mode=2: BACKBONE follows mode 1' 'loss,1.0,1%,stage=1,mode=2,amplitude=1.0'
+{ grep ^parameter mass.csv; for mode in 1 9; do echo "frequency,1.0,1%,stage=1,mode=$mode"; done; } > bad.csv
+seek mass.bdf --measured bad.csv
+holds 'a mode that is not there: status 3' [ $status -eq 3 ]
+says 'a mode that is not there' stderr 'mode 9 is not among those found'
 
 # ---- the column of the manual: known laws within two deviations, modes that change places ----
 seek "$input/measured/column.bdf" --measured "$input/measured/column.csv"
