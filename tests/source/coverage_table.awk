@@ -19,7 +19,7 @@ number == 0 {
 }
 
 # The end of a module is what the compiler adds to it: copies and comparisons of its types
-!ours || count == "-" || text ~ /^ *end (module|subroutine|function)/ { next }
+!ours || count == "-" || text ~ /^ *end (module|submodule|subroutine|function)/ { next }
 
 # A source can come more than once: a line ran if it did in any of them.
 {
