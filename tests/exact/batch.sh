@@ -183,3 +183,9 @@ sed 's/, /;/g' "$work/endless.csv" | judge 'rows that do not end are given up, t
       if (($15 ~ /GIVEN UP/) != (deck in told)) print deck ": " $15
       if ((deck ~ /N=40;/) && $2 != 0) print deck ": status " $2 }
    END { if (n != 6) print n " rows"; print "checked " given }' "$work/endless.told" -
+
+# values far longer than their places: 40 forces of 1/4 on a rod, u = F L/(E A) = 10*100/(1000*2)
+{ printf 'SPC = 1\nLOAD = 1\nOUTPUT = ALL\nBEGIN BULK\nGRID,1,,0.,0.\nGRID,2,,100.,0.\nCROD,1,1,1,2\nPROD,1,1,2.\nMAT1,1,1000.,,.3\nSPC1,1,12,1\nSPC1,1,2,2\n'
+  for i in {1..40}; do echo 'FORCE,1,2,,${F},1.,0.'; done; echo ENDDATA; } > "$work/long_values.bdf"
+"$program" -q -o "$work" --set F=0.25000000000000000000 "$work/long_values.bdf" > "$work/long_values.log" 2>&1 || cat "$work/long_values.log"
+near 'long values of a parameter' "$(moved long_values 2 1)" '10*100/(1000*2)' 1e-6

@@ -89,6 +89,14 @@ PSOLID         1       1                                                SOLID
 MAT1           1   1000.              0.                                STEEL
 $habits_load;ENDDATA
 END
+# a mark of letters: + takes the place of its first letter in the line behind
+habit letter_marks << END
+$habits_sol;BEGIN BULK;$habits_grid
+CHEXA          1       1       1       2       3       4       5       6CE000001
++E000001       7       8
+$habits_rest;ENDDATA
+END
+same 'a mark of letters is no loose text' "$(grep -c 'columns 73' "$work/habit_letter_marks.log")" 0
 habit past_80 'text past column 80 is not read: 1 line' << END
 $habits_sol;BEGIN BULK;$habits_grid;$habits_cube
 PSOLID         1       1                                                        a, b
@@ -132,10 +140,17 @@ SPC1,1,3,1,THRU,4;SPC1,1,12,1,THRU,8;TEMPD,3,25.,4,20.;TEMP,3,7,25.;TEMP,3,7,25.
 END
 # cards alone, without case control and ENDDATA; cards without BEGIN BULK
 habit cards_alone 'the only sets of their kinds are taken: SPC = 1, LOAD = 2' <<< "$habits_grid;$habits_cube;$habits_rest"
+habit sums_alone 'the only sets of their kinds are taken: SPC = 9, LOAD = 2' << END
+$habits_grid;$habits_cube;$habits_rest;SPC1,3,3,1;SPCADD,9,1,3;MPC,5,7,3,1.;+,,8,3,-2.;MPC,6,7,3,1.;+,,6,3,-2.
+END
+says 'sets of which none is chosen' "$work/habit_sums_alone.log" 'sets that no case control chooses have no effect: MPC'
+habit numbers_again '1 number of rigid elements and masses are those of other elements too, the first 1; NASTRAN wants numbers of their own' << END
+$habits_sol;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;CONM2,1,7,,5.0;ENDDATA
+END
 habit no_begin 'no BEGIN BULK: the cards begin in .*habit_no_begin.bdf, line 5' <<< "$habits_sol;$habits_grid;$habits_cube;$habits_rest;ENDDATA"
 # other kinds of analysis: their cards have no effect on statics; SOL 200 analyses the design of the cards; DMAP is not followed
 habit others 'SOL 200: the design of the property cards is analysed once' << END
-SOL 200;CEND;DESOBJ = 1;DESSUB = 2;ANALYSIS = STATICS;SPC = 1;LOAD = 2;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;DEBUG,192,2;USET,U2,1,123
+SOL 200;CEND;DESOBJ = 1;DESSUB = 2;ANALYSIS = STATICS;SPC = 1;LOAD = 2;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;DEBUG,192,2;USET,U2,1,123;OMIT1,123,7
 DESVAR,1,T,1.;DVPREL1,1,PSHELL,1,T;+,1,1.;DCONSTR,1,2,3.;AEROS,,,1.,1.,1.;CAERO1,1,1;SET1,1,1,THRU,8;SNORM,1,,0.,0.,1.;TABRND1,1;+,0.,1.,ENDT
 ASET1,123,1,THRU,8;MATT1,1,7;TABLEM1,7;+,0.,1.,1.,1.,ENDT;CDAMP2,91,5.,5,3;LSEQ,9,8,2;PARAM,SOLLIB,IntMKL,0,1,1.-6;PARAM,LGDISP,1;ENDDATA
 END

@@ -92,6 +92,24 @@ read -r ex ey exy kx ky kxy < "$work/strip.clt"
 run strip_z0 && near 'Z0: out of its plane' "$(moved strip_z0 15 3)" "-($kx*100^2 + $ky*20^2 + $kxy*100*20)/2" 3e-5 &&
    near 'Z0: along' "$(moved strip_z0 15 1)" "($ex - 1.125*$kx)*100 + ($exy - 1.125*$kxy)*20" 3e-5
 
+# THETA as a system: its x is the direction from which the plies turn, theta from x; SYM: the plies again in reverse
+strip strip_system CQUAD4 25
+sed -i -e 's/^\(CQUAD4,.*\),[^,]*$/\1,9/' -e "s/^BEGIN BULK/&\nCORD2R,9,,0.0,0.0,0.0,0.0,0.0,1.0\n+,$(number 'cos(25*3.14159265358979/180)'),$(number 'sin(25*3.14159265358979/180)'),0.0/" "$work/strip_system.bdf"
+run strip_system && for c in 1 2 3; do near "THETA as a system, component $c" "$(moved strip_system 15 $c)" "$(moved strip_CQUAD4 15 $c)" 3e-6; done
+strip strip_sym CQUAD4 0
+sed -i -e '/^PCOMP/s/$/,,SYM/' -e '/^PCOMP/s/,,,,20.0,,SYM/,,,,20.0,,SYM/' "$work/strip_sym.bdf"
+awk -v plies="$m8 0.5 30;$m8 0.25 -50;$m1 1.0 0;$m8 0.5 90;$m8 0.5 90;$m1 1.0 0;$m8 0.25 -50;$m8 0.5 30" -v load='100 0 0 50 0 0' -v dt=40 -f tests/exact/laminates.awk > "$work/strip.clt"
+read -r ex ey exy kx ky kxy < "$work/strip.clt"
+run strip_sym && near 'SYM: along' "$(moved strip_sym 15 1)" "$ex*100 + $exy*20" 3e-5 &&
+   near 'SYM: out of its plane' "$(moved strip_sym 15 3)" "-($kx*100^2 + $ky*20^2 + $kxy*100*20)/2" 3e-5
+# an edge of second order bears a force: u = F L/(E A)
+cards pulled_edge <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,20.0,0.0,0.0;GRID,3,,20.0,10.0,0.0;GRID,4,,0.0,10.0,0.0
+GRID,5,,10.0,0.0,0.0;GRID,6,,20.0,5.0,0.0;GRID,7,,10.0,10.0,0.0;GRID,8,,0.0,5.0,0.0;CQUAD8,1,1,1,2,3,4,5,6;+,7,8;PSHELL,1,1,2.0,1,,1
+MAT1,1,1000.0,,0.0;PMARK,8;CBAR,9,8,2,3;SPC1,1,123456,1,4,8;FORCEM,1,40.0,1.0,0.0,0.0,8;ENDDATA
+DECK
+run pulled_edge && for n in 2 3 6; do near "an edge of second order, pulled: node $n" "$(moved pulled_edge $n 1)" '40*20/(1000*20)' 3e-6; done
+
 # Cylindrical bending of an unsymmetric sandwich under an end force, P L^3/(3 (D11 - B11^2/A11)) + P L/S; S of the core, G d^2/h nearly
 awk 'BEGIN { print "MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nMAT8,1,70000.0,70000.0,0.0,35000.0,,\nMAT8,2,1.0,1.0,0.0,0.5,50.0,50.0"
    print "PCOMP,1\n+,1,0.5,0.0,,2,20.0,0.0\n+,1,1.0\nSPC1,1,246,1,THRU,22\nSPC1,1,135,1,2\nFORCE,1,21,,5.0,0.0,0.0,1.0\nFORCE,1,22,,5.0,0.0,0.0,1.0"
@@ -141,3 +159,18 @@ MODEL = SPACE;SPC = 1;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2
 PBEAML,1,1,,BAR;+,10.0,40.0,,YES,1.0,10.0,20.0;MAT1,1,210000.0,,0.3;SPC1,1,123456,1;FORCE,1,2,,1000.0,1.0,0.0,0.0;ENDDATA
 DECK
 run tapered_bar && near 'PBEAML with a station' "$(moved tapered_bar 2 1)" '1000*1000/(210000*400)*2*log(2)' 3e-6
+# point loads along beams: on a tapered one without torsional stiffness a torque passes to the ends as a lever has it; v by the unit force
+sed -e 's/,,6.0+4,/,,,/; s/,,3.0+4/,,/; /^MOMENT/d; s/^FORCE.*/PLOAD1,1,1,FY,FR,0.5,1000.0\nPLOAD1,1,1,MX,FR,0.25,8000.0/; s/^SPC1.*/&\nSPC1,1,4,2/' "$work/tapered.bdf" > "$work/tapered_point.bdf"
+run tapered_point && {
+   q=$(awk 'BEGIN { n = 200000; for (i = 0; i < n; i++) { s = (i + 0.5)/n/2; q += (0.5 - s)*(1 - s)/(1 - 0.75*s)/n/2 } printf "%.10f", q }')
+   near 'a tapered beam: a force along it' "$(moved tapered_point 2 2)" "1000*1000^3/(210000*8e4)*$q" 3e-6
+   near 'a tapered beam: a torque along it' "$("$query" "$work/tapered_point.reaction.csv" rows 'x = 1000 within 1e-6' print moment_x)" -2000 1e-6
+}
+cards point_loads <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,1000.0,0.0,0.0;CBAR,1,1,1,2,0.0,1.0,0.0
+PBAR,1,1,400.0,8.0+4,4.0+4,6.0+4;MAT1,1,210000.0,,0.3;SPC1,1,123456,1;PLOAD1,1,1,FY,LE,400.0,1000.0;PLOAD1,1,1,MX,FR,0.25,1.0+6;ENDDATA
+DECK
+run point_loads && {
+   near 'a force along a bar' "$(moved point_loads 2 2)" '1000*400^2*(3*1000 - 400)/(6*210000*8e4)' 3e-6
+   near 'a torque along a bar' "$(table point_loads 'ROTATIONS OF REFERENCE NODES' | awk '$1 == 2 { print $2 }')" '1e6*250/(210000/2.6*6e4)' 3e-6
+}

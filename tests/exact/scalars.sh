@@ -43,6 +43,17 @@ scalar_pair 'two nodes' <<'DECK'
 MODEL = SPACE;SPC = 1;SUBCASE 1;  MODES = 5;BEGIN BULK;EIGRL,5,,,2;GRID,1,,1.0,2.0,3.0;GRID,2,,4.0,0.0,0.0;CELAS2,1,700.0,1,1;CELAS2,2,400.0,2,5
 SPC1,1,23,1;CMASS2,3,3.0,1,1;CMASS2,4,5.0,2,5;CMASS1,5,7,1,1,2,5;PMASS,6,9.0,7,2.0;ENDDATA
 DECK
+scalar_pair 'a displacement and a rotation in the plane' <<'DECK'
+MODEL = PLANE;SPC = 1;SUBCASE 1;  MODES = 5;BEGIN BULK;EIGRL,5,,,2;GRID,1,,1.0,2.0;GRID,2,,4.0,0.0;CELAS2,1,700.0,1,1;CELAS2,2,400.0,2,6
+SPC1,1,2,1;SPC1,1,12,2;CMASS2,3,3.0,1,1;CMASS2,4,5.0,2,6;CMASS2,5,2.0,1,1,2,6;ENDDATA
+DECK
+scalar_pair 'CONM1 in the plane' <<'DECK'
+MODEL = PLANE;SUBCASE 1;  MODES = 5;BEGIN BULK;EIGRL,5,,,2;GRID,1,,1.0,2.0;CELAS2,1,700.0,1,1;CELAS2,2,400.0,1,2;CONM1,3,1,,5.0,-2.0,7.0;ENDDATA
+DECK
+scalar_pair 'CONM1 with a rotation in the plane' <<'DECK'
+MODEL = PLANE;SPC = 1;SUBCASE 1;  MODES = 5;BEGIN BULK;EIGRL,5,,,2;GRID,1,,1.0,2.0;CELAS2,1,700.0,1,1;CELAS2,2,400.0,1,6;SPC1,1,2,1
+CONM1,3,1,,5.0,0.0,1.0;+;+,,,-2.0,0.0,0.0,0.0,0.0,7.0;ENDDATA
+DECK
 
 # ---- CONM1 with the matrix of a body, mass 0.3 at (0.4, -0.2, 0.5) from the node, is CONM2 with this offset and inertia, in system 4:
 # the same six frequencies of the body on a CBUSH
