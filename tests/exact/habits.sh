@@ -141,7 +141,7 @@ END
 # cards alone, without case control and ENDDATA; cards without BEGIN BULK
 habit cards_alone 'the only sets of their kinds are taken: SPC = 1, LOAD = 2' <<< "$habits_grid;$habits_cube;$habits_rest"
 habit sums_alone 'the only sets of their kinds are taken: SPC = 9, LOAD = 2' << END
-$habits_grid;$habits_cube;$habits_rest;SPC1,3,3,1;SPCADD,9,1,3;MPC,5,7,3,1.;+,,8,3,-2.;MPC,6,7,3,1.;+,,6,3,-2.
+$habits_grid;$habits_cube;$habits_rest;SPC1,3,3,1;SPCADD,9,1,3;MPC,5,7,3,1.,8,3,-2.;MPC,6,7,3,1.,6,3,-2.
 END
 says 'sets of which none is chosen' "$work/habit_sums_alone.log" 'sets that no case control chooses have no effect: MPC'
 habit numbers_again '1 number of rigid elements and masses are those of other elements too, the first 1; NASTRAN wants numbers of their own' << END

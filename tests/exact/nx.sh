@@ -99,6 +99,19 @@ DECK
 }
 nx_overhang over '1,2'
 nx_overhang under '2,1'
+# two strips of shells, 2 thick, the upper one on the lower one: by elements and by properties
+cards nx_lap <<'DECK'
+SOL 101;CEND;BGSET = 1;SPC = 1;LOAD = 1;BEGIN BULK;PSHELL,1,1,2.0,1,,1;PSHELL,2,1,2.0,1,,1;MAT1,1,210000.,,.3
+GRID,1,,0.,0.,0.;GRID,2,,10.,0.,0.;GRID,3,,20.,0.,0.;GRID,4,,30.,0.,0.;GRID,11,,0.,10.,0.;GRID,12,,10.,10.,0.;GRID,13,,20.,10.,0.;GRID,14,,30.,10.,0.
+GRID,21,,17.,0.,2.;GRID,22,,27.,0.,2.;GRID,23,,40.,0.,2.;GRID,31,,17.,10.,2.;GRID,32,,27.,10.,2.;GRID,33,,40.,10.,2.
+CQUAD4,1,1,1,2,12,11;CQUAD4,2,1,2,3,13,12;CQUAD4,3,1,3,4,14,13;CQUAD4,4,2,21,22,32,31;CQUAD4,5,2,22,23,33,32
+BSURF,1,2,3;BCPROP,2,2;BCRPARA,1,TOP;BCRPARA,2,BOT;BGSET,1,2,1;SPC1,1,123456,1,11;FORCE,1,23,,50.,1.,0.,2.;FORCE,1,33,,50.,1.,0.,2.;ENDDATA
+DECK
+run nx_lap && {
+   near 'glued shells: force along' "$(total nx_lap SUPPORTS 1)" -100 1e-9
+   near 'glued shells: force across' "$(total nx_lap SUPPORTS 3)" -200 1e-9
+   near 'glued shells: moment' "$("$query" "$work/nx_lap.reaction.csv" print 'sum(moment_y)')" '200*40 - 100*2' 1e-6
+}
 
 # the script of the manual for .inp of CalculiX: contact with friction and a pretension section, in the numbers of the mesh
 nx_python=${PYTHON:-python3}

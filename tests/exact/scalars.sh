@@ -54,6 +54,12 @@ scalar_pair 'CONM1 with a rotation in the plane' <<'DECK'
 MODEL = PLANE;SPC = 1;SUBCASE 1;  MODES = 5;BEGIN BULK;EIGRL,5,,,2;GRID,1,,1.0,2.0;CELAS2,1,700.0,1,1;CELAS2,2,400.0,1,6;SPC1,1,2,1
 CONM1,3,1,,5.0,0.0,1.0;+;+,,,-2.0,0.0,0.0,0.0,0.0,7.0;ENDDATA
 DECK
+# two masses 0.02 and 0.05 that float, 6000 between them
+cards scalar_free <<'DECK'
+MODEL = PLANE;SPC = 1;SUBCASE 1;  MODES(FREE) = 5;BEGIN BULK;EIGRL,5,,,2;GRID,1,,0.0,0.0;GRID,2,,10.0,0.0;SPC1,1,2,1,2;SUPORT,1,1
+CELAS2,1,6000.0,1,1,2,1;CONM1,3,1,,0.02,0.0,0.02;CONM1,4,2,,0.05,0.0,0.05;ENDDATA
+DECK
+run scalar_free && near 'CONM1 on nodes that float' "$(mode scalar_free 2 omega)^2" '6000*(1/0.02 + 1/0.05)' 1e-9
 
 # ---- CONM1 with the matrix of a body, mass 0.3 at (0.4, -0.2, 0.5) from the node, is CONM2 with this offset and inertia, in system 4:
 # the same six frequencies of the body on a CBUSH
