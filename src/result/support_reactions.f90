@@ -6,7 +6,7 @@ module support_reactions
    use bolt_locking, only: bar_tension
    use interface_operator, only: at_first_end, named_node
    use kinds, only: wp
-   use mesh_queries, only: n_points, n_rotations, node_kind, place_in_kind
+   use mesh_queries, only: n_points, n_rotations, node_kind, place_in_kind, point_of
    use model_data, only: a_point, a_rotation, model_type, n_bars, supported
    use node_coupling, only: coupling_parts, forces_on_unknowns, held_forces
    use numbers, only: cross
@@ -109,6 +109,9 @@ contains
                   if (model%freedoms%coupling%node(i) == node) force = matmul(model%freedoms%coupling%t(:, :, i), force)
                end do
                call act_on(model, node, force, answer%parts(g))
+               if (node_kind(model%mesh, node) /= a_rotation) cycle
+               if (all(model%freedoms%support_of(:, point_of(model%mesh, node)) /= g)) &
+                  call act(answer%parts(g), model%mesh%x(:, node), 0.0_wp*force) ! it holds rotations alone here
             end do
          end associate
       end do
@@ -121,10 +124,8 @@ contains
       do i = 1, n_bars(model%mesh)
          associate (bar => model%mesh%bars(i), part => answer%parts(last))
             if (bar%nodes(2) > 0) cycle
-            if (node_kind(model%mesh, bar%nodes(1)) == a_rotation) then
-               part%nodes = part%nodes + 1
-               part%centre = part%centre + model%mesh%x(:, bar%nodes(1))
-            end if
+            if (node_kind(model%mesh, bar%nodes(1)) == a_rotation) &
+               call act(part, model%mesh%x(:, bar%nodes(1)), spread(0.0_wp, 1, model%mesh%dimension))
             call act_on(model, bar%nodes(1), bar_tension(model, analysis, i)*bar%direction(:model%mesh%dimension, 1), part)
          end associate
       end do

@@ -34,3 +34,13 @@ for name in prism05 flange_sector bracket_spiders gib lap_joint slideway; do
       d = l > 0 ? l : -l; if (d > worst) worst = d; m = $i > 0 ? $i : -$i; if (m > most) most = m } } END { printf "%.6g <= 0.05*%.6g", worst, most }' \
       "$work/$name.reaction.csv")"
 done
+# a card that holds rotations alone, one of them under a moment
+cards held_rotation <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,1000.0,0.0,0.0;CBAR,1,1,1,2,0.0,1.0,0.0
+PBAR,1,1,400.0,8.0+4,4.0+4,6.0+4;MAT1,1,210000.0,,0.3;SPC1,1,123456,1;SPC1,1,45,2;FORCE,1,2,,12.0,0.0,0.0,1.0;MOMENT,1,2,,8000.0,1.0,0.0,0.0;ENDDATA
+DECK
+run held_rotation && {
+   near 'a held rotation: moment of the load on it' "$("$query" "$work/held_rotation.reaction.csv" rows 'kind = "SPC1" and x = 1000 within 1e-6' print moment_x)" -8000 1e-9
+   near 'a held rotation: moment of the bar' "$("$query" "$work/held_rotation.reaction.csv" rows 'kind = "SPC1" and x = 1000 within 1e-6' print moment_y)" '12*1000/2' 1e-9
+   near 'a held rotation: all moments' "$("$query" "$work/held_rotation.reaction.csv" rows 'kind = "ALL"' print moment_y)" '12*1000' 1e-9
+}
