@@ -199,3 +199,12 @@ run masses && {
    says '... of how many' "$work/masses.out" 'LISTED: 2 OF 4 MODES, WHICH OUTPUT SELECTS'
    near '... the sum is that of all' "$(table masses PARTICIPATION | awk '$1 == "SUM" { print $2 }')" 0.05 1e-9
 }
+# METHOD beside a support that leaves a rotation: a massless beam on a pin, 0.3 in its middle and at its end, omega^2 = 60 E I/(L^3 m)
+cards pinned <<'DECK'
+SOL 103;CEND;MODEL = PLANE;SPC = 1;METHOD = 5;BEGIN BULK;EIGRL,5,,,2;GRID,1,,0.0,0.0;GRID,2,,50.0,0.0;GRID,3,,100.0,0.0;CBAR,1,1,1,2,0.0,1.0,0.0
+CBAR,2,1,2,3,0.0,1.0,0.0;PBAR,1,1,400.0,80.0,80.0,60.0;MAT1,1,210000.0,,0.3;SPC1,1,12,1;CONM2,3,2,,0.3;CONM2,4,3,,0.3;ENDDATA
+DECK
+run pinned && {
+   same 'on a pin: it turns' "$(number "$(mode pinned 1 omega) = 0")" 1
+   near 'on a pin: it bends' "$(mode pinned 2 omega)^2" '60*210000*80/(100^3*0.3)' 1e-7
+}
