@@ -34,6 +34,7 @@ same_rows 'UM of RBE3' spiders_um bracket_spiders 1e-8 $resultant
 # UM of the reference node and its own components: nothing changes
 awk '/^RBE3/ { um = substr($0, 25, 8); of = substr($0, 33, 8) } { print } um && /^[+]/ && ++n == 2 { print "+       UM      " um of; um = ""; n = 0 }' \
    "$work/bracket_spiders.bdf" > "$work/spiders_own.bdf"
+same 'UM of the reference node in the deck' "$(grep -c 'UM  ' "$work/spiders_own.bdf")" 8
 run spiders_own && same_rows 'UM of RBE3, its reference node' spiders_own bracket_spiders 1e-8 $resultant
 
 # a reference node that is held and moved, components of its nodes dependent by UM, against the forces that this needs on a free one
