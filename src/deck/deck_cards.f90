@@ -135,15 +135,13 @@ contains
       end select
    end function is_continuation
 
-   !> The column from which the text of LINE is not read: in columns 73 to 80 text that is no continuation mark, or past column 80; 0:
-   !! none. NEXT, the line behind it, may have that text as its mark.
-   pure integer function loose_text(line, comma, next) result(column)
+   !> The column from which the text of LINE, in fixed fields and longer than 72, is not read: in columns 73 to 80 text that is no
+   !! continuation mark, or past column 80; 0: none. NEXT, the line behind it, may have that text as its mark.
+   pure integer function loose_text(line, next) result(column)
       character(*), intent(in) :: line, next
-      integer, intent(in)      :: comma !! column of the first comma in LINE, 0: none
       character(8) :: mark
 
       column = 0
-      if (comma > 0 .or. len(line) <= 72) return
       mark = adjustl(line(73:min(80, len(line))))
       if (mark /= '' .and. scan(mark(1:1), '+*') == 0) column = 73
       if (column == 73 .and. next(:min(1, len(next))) == '+') then

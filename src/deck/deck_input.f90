@@ -360,7 +360,7 @@ contains
          character(*), intent(in) :: line
          integer :: column, k
 
-         column = loose_text(line, comma, text%card_part(min(at + 1, text%n)))
+         column = loose_text(line, text%card_part(min(at + 1, text%n)))
          if (column == 0) return
          k = merge(1, 2, column == 73)
          n_loose(k) = n_loose(k) + 1
