@@ -122,7 +122,7 @@ places_edges PSHELL,1,1,2. 'bodies 2 and 1 face each other: 3 and 2 sides, areas
 places_edges PAXIS,1,1 "3 and 2 sides, areas 251[03]"
 cards places_tetra <<'DECK'
 SPC = 1;BEGIN BULK;GRID,1,,0.,0.,0.;GRID,2,,10.,0.,0.;GRID,3,,0.,10.,0.;GRID,4,,0.,0.,-10.;GRID,11,,0.,0.,.02;GRID,12,,10.,0.,.02
-GRID,13,,0.,10.,.02;GRID,14,,0.,0.,10.;GRID,21,,0.,-9.,-2.;GRID,22,,10.,-9.,-2.;GRID,24,,0.,-9.,-10.;CPENTA,3,1,1,2,4,21,22,24
+GRID,13,,0.,10.,.02;GRID,14,,0.,0.,10.;GRID,21,,0.,-9.,-2.;GRID,22,,10.,-9.,-2.;GRID,24,,0.,-9.,-10.;CPENTA,3,1,1,4,2,21,24,22
 CTETRA,1,1,1,3,2,4;CTETRA,2,1,11,12,13,14;PSOLID,1,1;MAT1,1,9500.,,.25;SPC1,1,123,1,2,4;ENDDATA
 DECK
 "$program" --joints "$work/places_tetra.bdf" > "$work/places_tetra.cards" 2>&1
