@@ -29,6 +29,13 @@ oscillating_bar free 40 CONSISTENT 'MODES(FREE)' && {
    near 'free bar: it moves along x as a whole' "$(mode free 1 mass_x)" '7.85e-9*500*10*2' 1e-9
    says 'free bar: it says so' "$work/free.out" 'MOVES WITHOUT STRAIN'
 }
+# a mass at one corner of a free bar that is solved by iteration: CONM1 as CONM2
+for card in 'CONM2,900,402,,0.02' 'CONM1,900,402,,0.02,0.0,0.02'; do
+   oscillating_bar free 200 CONSISTENT 'MODES(FREE)' && sed -i "s/^ENDDATA/$card\n&/; s/EIGRL,5,,,3/EIGRL,5,,,5/" "$work/free.bdf" && run free || continue
+   [ "${card%%,*}" = CONM2 ] && cp "$work/free.modes.csv" "$work/corner.modes.csv"
+done
+holds 'a mass on a free bar: its fourth mode strains it' "$(mode corner 4 frequency) > 1"
+near 'CONM1 as CONM2 on a free bar' "$(mode free 4 frequency)" "$(mode corner 4 frequency)" 1e-10
 
 # ---- A rigid block on its joint
 # the two solvers, and any number of threads
