@@ -154,8 +154,6 @@ contains
                call deck%field_error(card%line, 'EID', 'element '//integer_text(card%first)//' is a '// &
                   trim(element_table(mesh%element_kind(e))%card)// &
                   one_of(card%kind == of_face, ': PLOAD4 is for faces of solids', ': PLOADE is for plane edges'))
-            else if (any(element_points(mesh, e) == 0)) then
-               cycle ! reported already
             else if (card%corners(1) == 0) then
                if (card%kind == of_face) call deck%field_error(card%line, 'G1', 'blank, expected a corner of the face')
             else

@@ -179,7 +179,6 @@ contains
       words = ''
       do j = 1, size(joints%list)
          associate (joint => joints%list(j), law => joints%list(j)%law%normal)
-            if (.not. law%c > 0.0_wp) cycle
             words = 'joint '//integer_text(joint%id)//': c p^m of its JNORM is'
             if (metre > 0.0_wp .and. newton > 0.0_wp) then
                pressure = one_mpa*metre**2/newton
