@@ -146,7 +146,7 @@ while kill -0 $batch_runner 2> /dev/null; do
 done
 wait $batch_runner
 same 'rows, each killed twice: exit status' "$?" 3
-same '... said of both' "$(grep -c 'lasting.bdf, N=30[01], A=3.33-3: ended by signal 9; no results$' "$work/killed.told")" 2
+same '... said of both' "$(grep -c 'lasting.bdf, N=30[01]: ended by signal 9; no results$' "$work/killed.told")" 2
 batch_start stopped N=2,9000,9001,2:A=.5,1.111111111-4,1.110987668-4,.4
 kill -s TERM $batch_runner
 wait $batch_runner
