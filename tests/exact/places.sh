@@ -120,6 +120,7 @@ BLOCK2,1,1,4,2,0.0,0.0;+,40.0,20.0,,,,,1,1;BLOCK2,2,1,2,2,0.0,20.0;+,40.0,40.0,,
 PJOINT,1,1;JNORM,1,8.-3,1.0;JINCR,5,2;SPC1,1,12,1,4,7,10,13;FORCE,1,106,,10.,0.,-1.;SPC1,1,1,103,106;ENDDATA
 DECK
 "$program" --joints "$work/strips.bdf" > "$work/strips.cards"
+same '--joints in the plane: edges' "$(grep -c '^CBAR' "$work/strips.cards")" 6
 { sed '/^ENDDATA/d' "$work/strips.bdf"; cat "$work/strips.cards"; echo ENDDATA; } > "$work/pasted.bdf"
 run pasted && near '--joints in the plane: its joint bears the load' "$(value pasted rows 'increment = 2' print 'sum(force)' | tail -1)" 10 1e-9
 cards tetras <<'DECK'
