@@ -199,3 +199,9 @@ run masses && {
    says '... of how many' "$work/masses.out" 'LISTED: 2 OF 4 MODES, WHICH OUTPUT SELECTS'
    near '... the sum is that of all' "$(table masses PARTICIPATION | awk '$1 == "SUM" { print $2 }')" 0.05 1e-9
 }
+# a spring bears along the joint, the joint alone across it
+mass_on_joint selected 'OUTPUT = LAST, JOINT 1' && {
+   sed -i 's/^CONM2.*/CELAS2,2,1.0E9,1,1/; s/^CJOINT.*/&\nCONM2,4,1,,0.02/' "$work/selected.bdf"
+   run selected && same 'OUTPUT = JOINT: modes listed' "$(table selected FREQUENCIES | awk '$1 ~ /^[0-9]+$/ { print $1, $(NF - 2), $(NF - 1) }')" '1 JOINT 1'
+   says '... of how many' "$work/selected.out" 'LISTED: 1 OF 2 MODES, WHICH OUTPUT SELECTS'
+}
