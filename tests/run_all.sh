@@ -85,7 +85,7 @@ part 'decks made at random' tests/random/fuzz.sh -s 1984 -n 2000 -j 1 "$build/te
 part 'decks in which every pair of features meets' tests/random/pairs.sh -s 1984 -n 100 "$program" "$build/test/pairs"
 part 'decks of pairs that showed an error once' tests/random/pairs.sh -s 1 -f 102,3740,4498,4529 -n 1 "$program" "$build/test/pairs-again"
 part 'decks of pairs with shells' tests/random/pairs.sh -x -s 1984 -n 40 "$program" "$build/test/pairs-shells"
-part 'decks of pairs with PATHTOL' tests/random/pairs.sh -p -s 2 -n 20 "$program" "$build/test/pairs-path"
+part 'decks of pairs with PATHTOL' tests/random/pairs.sh -p -s 1 -n 20 "$program" "$build/test/pairs-path"
 part 'the two fuzzers themselves' tests/random/selftest.sh "$program" "$build/test/random-selftest"
 part 'decks on other processors' tests/compare/processors.sh "$program" "$compare" "$build"
 part 'worked examples of the tour' tests/source/tour.sh "$query" "$build/tour"

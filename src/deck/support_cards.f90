@@ -265,7 +265,11 @@ contains
       do k = 1, merge(4, 2, law%is_damper)
          nth = integer_text(k)
          law%field = merge(2*k - 1, 4*k - 3, law%is_damper)
-         if (k > 1 .and. (card%text_at(law%field) == '' .or. card%text_at(law%field) == '0')) exit ! FINISH finds the rest
+         if (k > 1 .and. (card%text_at(law%field) == '' .or. card%text_at(law%field) == '0')) then ! FINISH finds the rest
+            if (card%text_at(law%field + 1) /= '') &
+               call card%error_at(law%field, 'PID'//nth//': blank, but '//merge('B', 'K', law%is_damper)//nth//' is not')
+            exit
+         end if
          if (k > 1) card%i = card%i + 1
          call card%field('PID'//nth, law%id)
          if (law%is_damper) then

@@ -14,7 +14,7 @@ contains
    !> Add the unused properties and coordinate systems of BULK to its entries without effect.
    subroutine count_unused(bulk)
       type(bulk_data_type), intent(inout) :: bulk
-      character(6), parameter :: spring_names(3) = ['PBUSH ', 'PDAMP ', 'PELAS ']
+      character(6), parameter :: spring_names(3) = ['PELAS ', 'PDAMP ', 'PBUSH ']
       logical, allocatable :: is_kind(:)
       integer :: i
 
@@ -25,9 +25,9 @@ contains
             [bulk%pshell%name, spread('PAXIS ', 1, size(bulk%paxis)), &
              spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod)), bulk%beam_property%name])
          do i = 1, 3
-            is_kind = merge(1, merge(2, 3, springs%is_damper), springs%is_bush) == i
+            is_kind = merge(3, merge(2, 1, springs%is_damper), springs%is_bush) == i
             call count_unnamed(pack(springs%id, is_kind), &
-               pack(elements%property, merge(1, merge(2, 3, elements%is_damper), elements%is_bush) == i), &
+               pack(elements%property, merge(3, merge(2, 1, elements%is_damper), elements%is_bush) == i), &
                spread(spring_names(i), 1, count(is_kind)))
          end do
          if (size(system) == 0) return

@@ -14,7 +14,7 @@ module newton_method
    use newton_trial, only: attempt_type
    use node_coupling, only: forces_on_unknowns
    use normal_stiffness, only: at_rest, branch_name, branch_open
-   use path_error, only: measure_whole, note_start, path_start_type
+   use path_error, only: measure_path, note_start, path_start_type
    use shear_stiffness, only: shear_state
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
@@ -212,7 +212,6 @@ contains
       type(element_state), allocatable :: way(:)
       type(path_start_type) :: start
       real(wp), allocatable :: half(:, :), u_start(:, :)
-      real(wp) :: grade
       integer  :: before_open
 
       allocate (u_start, source=analysis%u)
@@ -225,7 +224,7 @@ contains
          if (measures) allocate (way, source=analysis%states)
          call reach(model, analysis, system, attempt, [0.0_wp, 1.0_wp])
          if (measures .and. attempt%converged) &
-            call measure_whole(model, system, start, analysis, attempt, way, analysis%record%path_error, half, grade)
+            call measure_path(model, system, start, 1.0_wp, analysis, attempt, way, analysis%record%path_error, half)
       end if
       if (attempt%converged) then
          analysis%du = analysis%u - u_start

@@ -4,9 +4,6 @@
 !! The path is found without a factorisation. The displacements half way follow from the mean of both ends under the mean load, by
 !! corrections with the factor of the last iteration. The exact laws are followed along the parabola through the three states up to
 !! three quarters of it, and from there to the equilibrium at its end, by corrections again. These states go on from part to part.
-!! Half way is half of the load, unless elements with shear begin at no pressure. There a joint moves as much as it does later, at
-!! forces that hardly count: lambda = c p**m; with shear stiffness in proportion to p the movement grows by the same amount whenever
-!! the load grows tenfold; gaps close. From nothing, half way is (1/2)**GRADED of the load.
 module path_error
    use analysis_state, only: analysis_type, path_error_type, turning_point
    use equations, only: equation_system, solve_coupled_again, solve_equations
@@ -18,18 +15,15 @@ module path_error
    use newton_trial, only: attempt_type, evaluate_at, trial_type
    use normal_stiffness, only: branch_open
    use straight_laws, only: direction_digits, loose_joints
-   use tolerances, only: equal_shares, loose_direction, no_contact, no_start, on_the_path
+   use tolerances, only: equal_shares, loose_direction, no_contact, on_the_path
    implicit none
    private
 
-   public :: note_start, go_to_start, measure_path, measure_whole, difference, enlarge, is_within, error_size, distance
+   public :: note_start, go_to_start, measure_path, is_within, error_size, distance
 
    integer, parameter  :: most_corrections = 8       ! where the error decides on the division
    integer, parameter  :: some_corrections = 4       ! where it is only printed
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
-   real(wp), parameter :: graded = 5.0_wp            ! a part that begins at no pressure ends at this power of its number
-   real(wp), parameter :: half_left = 0.5_wp         ! of the residual of the first guess: corrections that leave more lead nowhere
-   real(wp), parameter, public :: half_seen = 2.0_wp !! one way from nothing sees about half of its error
 
    !> What an attempt changes when it is committed.
    type, public :: path_start_type
@@ -73,90 +67,25 @@ contains
       analysis%record%kind = start%kind
    end subroutine go_to_start
 
-   !> The ERROR of an increment that an ATTEMPT has reached in one part from START, and the WAY from there; where elements with
-   !! shear begin at no pressure, the larger of the errors of two ways. GRADE is that of the parts in which the increment is to be
-   !! divided: (k/n)**GRADE are their ends, as far as the way from nothing has shown an error above PATHTOL.
-   subroutine measure_whole(model, system, start, analysis, attempt, way, error, half, grade)
+   !> Follow the WAY from the start of the increment along the committed ATTEMPT at a PART of it, from START, whose displacements
+   !! HALF way are found. ERROR is that of the committed states from the end of the WAY.
+   subroutine measure_path(model, system, start, part, analysis, attempt, way, error, half)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system   !! with the factor of the last iteration
       type(path_start_type), intent(inout)  :: start    !! returned as it was
-      type(analysis_type), intent(inout)    :: analysis !! likewise
-      type(attempt_type), intent(inout)     :: attempt
-      type(element_state), allocatable, intent(inout) :: way(:)
-      type(path_error_type), intent(out)    :: error
-      real(wp), allocatable, intent(out)    :: half(:, :) !! (dimension, retained) [length]
-      real(wp), intent(out)                 :: grade
-      type(element_state), allocatable :: from_nothing(:)
-      type(path_error_type) :: other
-      real(wp), allocatable :: other_half(:, :)
-
-      allocate (from_nothing, source=way)
-      call measure_path(model, system, start, 0.5_wp, analysis, attempt, way, error, half)
-      grade = 1.0_wp
-      if (.not. starts_from_nothing(model, start%states, analysis%states)) return
-      call measure_path(model, system, start, 1.0_wp - 0.5_wp**graded, analysis, attempt, from_nothing, other, other_half)
-      call enlarge(half_seen, other)
-      other%lets_go = other%lets_go .or. error%lets_go
-      other%slides = other%slides .or. error%slides
-      if (error_size(other) > analysis%path_tolerance) then
-         grade = graded
-         call move_alloc(from_nothing, way)
-         call move_alloc(other_half, half)
-      end if
-      if (error_size(other) > error_size(error)) error = other
-      error%lets_go = other%lets_go
-   end subroutine measure_whole
-
-   !> Whether an element with shear that counts AFTER an increment has hardly been pressed BEFORE.
-   pure logical function starts_from_nothing(model, before, after) result(starts)
-      type(model_type), intent(in)    :: model
-      type(element_state), intent(in) :: before(:), after(:)
-      real(wp) :: largest
-      integer  :: i
-
-      starts = .false.
-      largest = maxval(after%normal%pressure)
-      do i = 1, size(after)
-         associate (law => model%joints%list(model%joints%element(i)%joint)%law, p => after(i)%normal%pressure)
-            if (.not. (any(law%shear%given) .or. law%iwan%given)) cycle
-            starts = starts .or. (p > no_start*largest .and. before(i)%normal%pressure < no_start*p)
-         end associate
-      end do
-   end function starts_from_nothing
-
-   !> The ERROR, TIMES as large.
-   pure subroutine enlarge(times, error)
-      real(wp), intent(in)                 :: times
-      type(path_error_type), intent(inout) :: error
-
-      error%deflection = times*error%deflection
-      error%pressure = times*error%pressure
-      error%contact = times*error%contact
-      error%displacement = times*error%displacement
-   end subroutine enlarge
-
-   !> Follow the WAY from the start of the increment along the committed ATTEMPT at a part of it, from START, whose displacements
-   !! HALF way are found. ERROR is that of the committed states from the end of the WAY. An increment whose state half way is not
-   !! found is not taken in one part either.
-   subroutine measure_path(model, system, start, back, analysis, attempt, way, error, half)
-      type(model_type), intent(in)          :: model
-      class(equation_system), intent(inout) :: system   !! with the factor of the last iteration
-      type(path_start_type), intent(inout)  :: start    !! returned as it was
-      real(wp), intent(in)                  :: back     !! from the end to half way, of the increment [-]
+      real(wp), intent(in)                  :: part     !! of the increment [-]
       type(analysis_type), intent(inout)    :: analysis !! likewise
       type(attempt_type), intent(inout)     :: attempt
       type(element_state), allocatable, intent(inout) :: way(:)
       type(path_error_type), intent(out)    :: error
       real(wp), allocatable, intent(out)    :: half(:, :) !! (dimension, retained) [length]
       type(trial_type) :: trial
-      logical :: is_found
       integer :: i
 
       half = 0.5_wp*(start%u + analysis%u)
-      is_found = .true.
       if (size(way) == 0) return
       if (attempt%iteration > 0) then ! otherwise there may be no factor
-         call approach(model, system, attempt%load - back*analysis%change, half, start%states, analysis, attempt, trial, is_found)
+         call approach(model, system, attempt%load - 0.5_wp*part*analysis%change, half, start%states, analysis, attempt, trial)
          half = trial%u
       end if
       call follow_way(model, system, start, half, analysis, way)
@@ -166,7 +95,6 @@ contains
          call rest_when_open(way(i), joint_movement(system%interface(i), trial%u))
       end do
       error = difference(model, analysis%states, way, analysis%path_tolerance)
-      error%lets_go = error%lets_go .or. .not. is_found
       error%displacement = distance(trial%u, analysis%u)
    end subroutine measure_path
 
@@ -174,7 +102,7 @@ contains
    !! the factor of the last iteration. The factor is that of the end of the increment; what the corrections so far have changed in the
    !! residual replaces it where it errs. Source: Anderson, J. ACM 12 (1965) 547-560, in the form of Walker, Ni, SIAM J. Numer.
    !! Anal. 49 (2011) 1715-1735, with the factor as preconditioner.
-   subroutine approach(model, system, load, u, before, analysis, attempt, trial, is_found)
+   subroutine approach(model, system, load, u, before, analysis, attempt, trial)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       real(wp), intent(in)                  :: load(:, :), u(:, :)
@@ -182,11 +110,10 @@ contains
       type(analysis_type), intent(inout)    :: analysis            !! likewise
       type(attempt_type), intent(inout)     :: attempt             !! likewise
       type(trial_type), intent(out)         :: trial
-      logical, intent(out), optional        :: is_found            !! whether the corrections have led towards it
       real(wp), allocatable :: goal(:, :) ! the load of the attempt
       type(trial_type) :: next, last
       real(wp) :: steps(size(u, 1), size(u, 2), most_corrections), gains(size(u, 1), size(u, 2), most_corrections)
-      real(wp) :: direction(size(u, 1), size(u, 2)), left(size(u, 1), size(u, 2)), share, enough, first
+      real(wp) :: direction(size(u, 1), size(u, 2)), left(size(u, 1), size(u, 2)), share, enough
       integer  :: i, k
 
       allocate (goal, source=attempt%load)
@@ -194,7 +121,6 @@ contains
       call exchange_states(before, analysis%states)
       call evaluate_at(model, system, attempt, analysis, u, trial)
       enough = max(on_the_path*trial%size, analysis%tolerance)
-      first = trial%size
       last = trial
       do i = 1, merge(most_corrections, some_corrections, analysis%record%follows_path)
          if (trial%size <= enough .or. attempt%iteration == 0) exit
@@ -223,7 +149,6 @@ contains
          last = next
          if (last%size < trial%size) trial = last
       end do
-      if (present(is_found)) is_found = trial%size <= max(half_left*first, analysis%tolerance)
       call exchange_states(before, analysis%states)
       call move_alloc(goal, attempt%load)
    end subroutine approach

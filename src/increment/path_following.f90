@@ -1,13 +1,12 @@
-!> Follows the path in the increment of a stage without INCR: NEWTON divides it into ever more parts until its end no longer depends
-!! on them. The parts are equal, or, from no pressure, graded towards the start.
+!> Follows the path in the increment of a stage without INCR: NEWTON divides it into ever more equal parts until its end no longer
+!! depends on them.
 submodule(newton_method) path_following
    use analysis_state, only: path_error_type
-   use path_error, only: difference, distance, enlarge, error_size, go_to_start, half_seen, is_within, measure_path
+   use path_error, only: distance, error_size, go_to_start, is_within
    implicit none
 
    integer, parameter  :: most_parts = 64   ! of an increment
    real(wp), parameter :: falling = 0.75_wp ! of the error of path with half as many parts: one that is larger does not fall
-   real(wp), parameter :: left = 0.2_wp     ! of the change by a division: the least that it leaves, where errors fall sixfold
 
    !> Displacements that the last division has found.
    type :: known_type
@@ -28,11 +27,9 @@ contains
       type(known_type), allocatable :: known(:)
       type(path_start_type) :: first, last
       type(path_error_type) :: error
-      type(element_state), allocatable :: states(:) ! at the end of the last division
-      real(wp), allocatable :: u(:, :)      ! likewise (dimension, retained) [length]
-      real(wp) :: grade, size_of_way, last_size
-      integer  :: n
-      logical  :: falls, is_whole
+      real(wp), allocatable :: u(:, :)      ! (dimension, retained) at the end of the last division [length]
+      integer :: n
+      logical :: falls, is_whole
 
       analysis%record%follows_path = .true.
       call note_start(analysis, first)
@@ -41,13 +38,13 @@ contains
       is_whole = .true.
       do
          analysis%record%is_whole = .true.
-         call reach_in_parts(model, analysis, system, attempt, known, grade)
+         call reach_in_parts(model, analysis, system, attempt, known)
          if (.not. attempt%converged) exit
-         size_of_way = error_size(analysis%record%path_error)
-         if (n > 0) call compare_divisions(analysis%record%path_error)
-         last_size = size_of_way
+         associate (displacement => analysis%record%path_error%displacement)
+            ! of second order: the error is about a third of the distance from the last division
+            if (n > 0) displacement = max(displacement, distance(analysis%u, u)/3.0_wp)
+         end associate
          u = analysis%u
-         states = analysis%states
          falls = n < 2 .or. error_size(analysis%record%path_error) < max(falling*error_size(error), analysis%path_tolerance)
          n = size(known)
          is_whole = analysis%record%is_whole
@@ -63,46 +60,24 @@ contains
       analysis%record%is_whole = is_whole
       analysis%record%path_error = error
       analysis%record%n_parts = n
-
-   contains
-
-      !> The way of a division shows the next change of its end. If the errors of ways fall by q, ERROR is 1/(1 - q) of it: graded
-      !! parts find the movements at low pressures only when they become small enough, and two parts are not. The last change is the
-      !! other bound.
-      subroutine compare_divisions(error)
-         type(path_error_type), intent(inout) :: error
-         type(path_error_type) :: change
-         real(wp) :: q
-
-         q = min(falling, size_of_way/max(last_size, tiny(1.0_wp)))
-         if (grade > 1.0_wp) call enlarge(max(merge(half_seen, 1.0_wp, n == 1), 1.0_wp/(1.0_wp - q)), error)
-         change = difference(model, analysis%states, states, analysis%path_tolerance)
-         error%deflection = max(error%deflection, left*change%deflection)
-         error%pressure = max(error%pressure, left*change%pressure)
-         ! of second order: the error is about a third of the distance from the last division
-         error%displacement = max(error%displacement, distance(analysis%u, u)/3.0_wp)
-      end subroutine compare_divisions
-
    end subroutine follow_path
 
-   !> Reach the end of the increment in as many parts as KNOWN has, with the error of path there. Their ends are (k/n)**GRADE.
-   subroutine reach_in_parts(model, analysis, system, attempt, known, grade)
+   !> Reach the end of the increment in equal parts, as many as KNOWN has, with the error of path there.
+   subroutine reach_in_parts(model, analysis, system, attempt, known)
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(inout)    :: analysis
       class(equation_system), intent(inout) :: system
       type(attempt_type), intent(inout)     :: attempt
       type(known_type), intent(inout)       :: known(:) !! of the last division; becomes that of this one
-      real(wp), intent(inout)               :: grade    !! decided where KNOWN has one part
       type(element_state), allocatable :: way(:)
       type(path_start_type) :: start
-      real(wp) :: ends(2), middle
+      real(wp) :: ends(2)
       integer  :: k, n
 
       allocate (way, source=analysis%states)
       n = size(known)
-      if (n == 1) grade = 1.0_wp
       do k = 1, n
-         ends = ([real(k - 1, wp), real(k, wp)]/real(n, wp))**grade
+         ends = [real(k - 1, wp), real(k, wp)]/real(n, wp)
          analysis%record%n_parts = k - 1
          call note_start(analysis, start)
          if (allocated(known(k)%u)) then
@@ -112,13 +87,8 @@ contains
          end if
          if (.not. attempt%converged) return
          known(k)%u = analysis%u
-         middle = ((real(k, wp) - 0.5_wp)/real(n, wp))**grade
-         if (n == 1) then
-            call measure_whole(model, system, start, analysis, attempt, way, analysis%record%path_error, known(k)%half, grade)
-         else
-            call measure_path(model, system, start, ends(2) - middle, analysis, attempt, way, analysis%record%path_error, &
-                              known(k)%half)
-         end if
+         call measure_path(model, system, start, ends(2) - ends(1), analysis, attempt, way, analysis%record%path_error, &
+                           known(k)%half)
       end do
    end subroutine reach_in_parts
 

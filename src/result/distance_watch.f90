@@ -91,7 +91,7 @@ contains
             '; METHOD = NEWTON follows the laws'
       else if (farthest%relative > off_path) then
          words = 'NEWTON is up to '//percent(farthest%relative)//' '//farthest%quantity// &
-                 ' away from the path of many increments, in '//farthest%place//'; see PATHTOL'
+                 ' away from the path of many increments, in '//farthest%place//'; without INCR it follows the path'
       end if
    end function distance_words
 

@@ -451,6 +451,11 @@ for options in '-q -o here' '--check' '-q'; do
    "$program" $options $deck < good.bdf >&- 2> "$work/stderr"; status=$?
    check "$options $deck, standard output closed" 4 'cannot be written'
 done
+sed 's/8\.0-3   /${C}    /' good.bdf > rows.bdf
+"$program" -q -o here --set C=8.0-3,9.0-3 rows.bdf > /dev/full 2> "$work/stderr"; status=$?
+check 'two runs of --set, standard output full' 4 'rows.bdf, C=8.0-3: the standard output cannot be written' 'rows.bdf, C=9.0-3: the standard'
+rm -f rows.bdf
+fresh here
 "$program" --version > /dev/full 2> "$work/stderr"; status=$?
 check '--version, standard output full' 4 'the standard output cannot be written'
 run -o here good.bdf

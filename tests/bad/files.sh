@@ -53,6 +53,15 @@ for ((i = 1; i <= 20; i++)); do
    fi
 done
 
+# what another run that names its files holds is waited for
+fresh results
+{ flock 9; sleep 0.4; } 9< results &
+holder=$!
+sleep 0.1
+run -q -o results good.bdf;            check 'a folder that another run holds' 0
+if kill -0 $holder 2> /dev/null; then fail 'a folder that another run holds is written to'; else pass; fi
+wait $holder
+
 # ---- a run that is killed, interrupted, ended ----
 
 fresh results

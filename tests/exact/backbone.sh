@@ -46,6 +46,10 @@ near 'Jenkins: the amplitudes' "$(backbone jenkins amplitude 11)" 0.1*10^-1.5 1e
 # fewer modes exist than EIGRL asks for
 sed 's/EIGRL,5,,,2/EIGRL,5,,,9/; s/JAMPL,6,1/JAMPL,6,9/' "$work/jenkins.bdf" > "$work/beyond.bdf"
 run beyond && says 'a mode that does not exist: the listing' "$work/beyond.out" 'WARNING: NO BACKBONE: THE MODE IS NOT AMONG THOSE FOUND'
+# at the smallest amplitude 0.005 the spring and the joint need 5000*0.005 at rest; a load of 100 exceeds that, by far, at resonance
+sed 's/^SUBCASE 1/SET 1 = 1\n&/; s/^  BACKBONE.*/&\nFREQUENCY = 7\nDLOAD = 20\nSDAMPING = 8\nRESPONSE = SET 1/; s/^JAMPL.*/JAMPL,6,1,0.005,4,0.1/
+   s/^ENDDATA/FREQ1,7,10.0,10.0,2\nFORCE,20,1,,100.0,1.0\nTABDMP1,8,G\n+,0.0,0.02,1.0E5,0.02,ENDT\n&/' "$work/jenkins.bdf" > "$work/strong.bdf"
+run strong > "$work/strong.said" && says 'a load that goes beyond all amplitudes' "$work/strong.out" 'NONE UP TO THE LARGEST AMPLITUDE: THE BRANCHES DO NOT MEET'
 # any number of increments
 for n in 1 3 40; do
    pushed_mass increments "JAMPL,6,1,0.1,21,0.001,,$n" "$joint;JSHEAR,2,40.0;CELAS2,2,1000.0,1,1" &&

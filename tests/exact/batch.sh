@@ -137,6 +137,16 @@ same 'rows, one of which was killed' "$?" 0
 "$program" -q -o "$work/whole" --threads 1 --summary "$work/whole.csv" --set N=2,300,301,2:A=.5,3.333333333-3,3.322259136-3,.4 "$work/lasting.bdf" > "$work/whole.said" 2>&1
 same '... the same files' "$(diff -rq -x sum.csv -x '*.part' "$work/killed" "$work/whole")" ''
 same '... the same summary' "$(batch_timeless "$work/killed/sum.csv")" "$(batch_timeless "$work/whole.csv")"
+# killed twice, in the second one alone, a row is given up
+"$program" -q -o "$work/killed" --threads 2 --set N=300,301 --set A=3.33-3 "$work/lasting.bdf" > "$work/killed.said" 2> "$work/killed.told" &
+batch_runner=$!
+while kill -0 $batch_runner 2> /dev/null; do
+   cat /proc/$batch_runner/task/*/children 2> /dev/null | xargs -r kill -9 2> /dev/null
+   sleep 0.02
+done
+wait $batch_runner
+same 'rows, each killed twice: exit status' "$?" 3
+same '... said of both' "$(grep -c 'lasting.bdf, N=30[01]: ended by signal 9; no results$' "$work/killed.told")" 2
 batch_start stopped N=2,9000,9001,2:A=.5,1.111111111-4,1.110987668-4,.4
 kill -s TERM $batch_runner
 wait $batch_runner

@@ -33,6 +33,8 @@ on_bush bush_modes "MODEL = SPACE\nSPC = 1\nSET 1 = 1\n$asked" "$pulled\nEIGRL,5
 on_bush bush_moved "MODEL = SPACE\nSPC = 1\nSET 1 = 1\n$asked" 'SPCD,30,2,1,9.0\nRLOAD1,20,30,,,1.0,,ACCE\nEIGRL,5,,,2' && \
    listed 'B of a bush whose support moves' 1e-9 \
       '{ a[1] = -9/w^2*6000; a[2] = -9/w^2*w*4; b[1] = 6000 - 0.02*w^2; b[2] = w*4; over(a, b); check() }' bush_moved 1
+sed 's/^FREQ,.*/FREQ,7,0.0/' "$work/bush_moved.bdf" > "$work/bush_away.bdf"
+run bush_away 3 && says 'a support that accelerates for ever' "$work/bush_away.log" 'at 0 a support that has a velocity or an acceleration moves without bound'
 # its peak between two frequencies lies at omega sqrt(1 - g^2/2), g = c omega/k
 sed 's/^FREQ,.*/FREQ,7,10.0,1000.0/; s/^+,,B,4.0/+,,B,8.0/' "$work/bush_modes.bdf" > "$work/bush_peak.bdf"
 run bush_peak && near 'B of a bush: a peak that is missed' "$(sed -n 's/.*ITS PEAK BETWEEN .*: AT \([^ ]*\) NODE.*/\1/p' "$work/bush_peak.out")" \

@@ -182,3 +182,15 @@ CTRIA3  2       1       1       3       4;+                       0.5     0.5   
 PSHELL,1,1,9.0,1,,1;MAT1,1,1000.0,,0.3;SPC1,1,123,1;SPC1,1,13,4;SPC1,1,3,2;FORCE,1,2,,5.0,1.0,0.0,0.0;FORCE,1,3,,5.0,1.0,0.0,0.0;ENDDATA
 DECK
 run corner_thickness && near 'thickness at the corners of CTRIA3' "$(moved corner_thickness 3 1)" '10*2/(1000*2*0.5)' 3e-6
+
+# ---- A section with one moment of inertia, the other 0: M z/I at the points of the section, for either of them. The load is along y; I2 belongs
+# to y where the vector of the beam is along z, and z of the beam is then -y
+for moment in 'PLANE 0.,1.,0. 800. +,5.,,-5. -1' 'SPACE 0.,0.,1. ,800. +,,5.,,-5. 1'; do
+   set -- $moment
+   cards one_moment <<DECK
+MODEL = $1;SPC = 1;LOAD = 1;BEGIN BULK;GRID,1,,0.,0.,0.;GRID,2,,100.,0.,0.;CBAR,1,1,1,2,$2;PBAR,1,1,100.,$3;$4;MAT1,1,2.1+5,,.3
+SPC1,1,123456,1;SPC1,1,345,2;FORCE,1,2,,10.,0.,1.,0.;ENDDATA
+DECK
+   run one_moment > "$work/one_moment.said" && near "one moment of inertia, $1: at C" "$(table one_moment 'STRESSES IN BEAMS' | awk '$2 == 1 { print $3 }')" "$5*10*100*5/800" 1e-5 &&
+      near "one moment of inertia, $1: at D" "$(table one_moment 'STRESSES IN BEAMS' | awk '$2 == 1 { print $4 }')" "-($5)*10*100*5/800" 1e-5
+done

@@ -88,6 +88,9 @@ free_lap few 0 0 'MODES(FREE)' TREE 0 && few few &&
 for k in 0.1 0.01 0.001; do
    free_lap soft_$k 0 0 MODES TREE $k && few soft_$k && same_backbone "free beams on springs of $k" few soft_$k "$(number "0.12*$k + 1e-5")" 5
 done
+# a mode without strain
+sed 's/^JAMPL,6,4/JAMPL,6,1/' "$work/few.bdf" > "$work/rigid.bdf"
+run rigid && says 'a backbone of a mode without strain' "$work/rigid.out" 'WARNING: NO BACKBONE: THE MODE HAS NO STRAIN'
 # a structure with supports of its own, whose modes are free of them: the supports would bear a part of the load
 sed 's/^GRID,1,.*/&;SPC1,1,2,1,15/; s/^SUBCASE.*/SPC = 1;&/' "$work/few.bdf" | cards held
 run held 2 && says 'supports in the deck' "$work/held.log" 'BACKBONE with MODES(FREE): expected a deck without supports'

@@ -215,3 +215,9 @@ run pinned && {
    same 'on a pin: it turns' "$(number "$(mode pinned 1 omega) = 0")" 1
    near 'on a pin: it bends' "$(mode pinned 2 omega)^2" '60*210000*80/(100^3*0.3)' 1e-7
 }
+# a spring bears along the joint, the joint alone across it
+mass_on_joint selected 'OUTPUT = LAST, JOINT 1' && {
+   sed -i 's/^CONM2.*/CELAS2,2,1.0E9,1,1/; s/^CJOINT.*/&\nCONM2,4,1,,0.02/' "$work/selected.bdf"
+   run selected && same 'OUTPUT = JOINT: modes listed' "$(table selected FREQUENCIES | awk '$1 ~ /^[0-9]+$/ { print $1, $(NF - 2), $(NF - 1) }')" '1 JOINT 1'
+   says '... of how many' "$work/selected.out" 'LISTED: 1 OF 2 MODES, WHICH OUTPUT SELECTS'
+}

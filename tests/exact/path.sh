@@ -46,7 +46,7 @@ DECKS
    near 'prism: contact in one increment, per cent' "$(off prism_newton.path1 5)" 10 1e-6
    says 'prism: one increment is warned of' "$work/prism_newton.path1.out" 'WARNING: STAGE 1, INCREMENT 1: ERROR OF PATH 10 % OF THE AREA IN CONTACT'
    says 'prism: one increment is told of on the screen' "$work/prism_newton.path1.log" 'away from the path of many increments'
-   holds 'prism: error of lambda without INCR, per cent' "$(off prism_newton.path 3) <= 0.1"
+   near 'prism: error of lambda without INCR, per cent' "$(off prism_newton.path 3)" 0 0 1e-3
    same 'prism: the path has no warning' "$(grep -c 'WARNING.*PATH' "$work/prism_newton.path.out")" 0
 }
 
@@ -59,42 +59,4 @@ done && {
       print 'max(abs(pressure - other.pressure))/max(other.pressure)'; }
    holds 'PATHTOL: the smaller, the nearer' "0 < $(away path1.0-5) and $(away path1.0-5) < 0.3*$(away path1.0-2)"
    holds 'PATHTOL: the smaller, the more parts' "$(off path1.0-5 2) > $(off path1.0-2 2)"
-}
-
-# Shear from no pressure: the joint moves as much at small loads as later. Most of the way lies in the first hundredth of the load. The
-# printed error of equal increments is not below a third of the true one, and graded parts are within PATHTOL of many graded increments.
-beginning() {
-   { printf 'METHOD = NEWTON\nSPC = 1\nOUTPUT = NONE\nSUBCASE 1\n  LOAD = 1\n'; [ "$1" ] && echo '  INCR = 5'; printf 'BEGIN BULK\n'
-     cat <<'CARDS'
-BLOCK2,1,1,10,4,0.,0.
-+,150.,100.
-+,20,21
-PMARK,20
-PMARK,21
-PSHELL,1,1,20.
-MAT1,1,9500.,,.25
-JOINT,1,1,20
-JNORM,1,8.-3,.5
-PJOINT,1,1,1,,.3,,.27
-JSHEAR,1,.4,120.
-SPCM,1,1,21
-FORCE,1,55,,800.,.15,-1.
-CARDS
-     [ "$1" ] && awk -v n="$1" -v g="$2" 'BEGIN { t = "JINCR,5,,LIST"; for (k = 1; k <= n; k++) { x = (k/n)^g
-        t = t sprintf(",%.15f", x - last) (k % 5 || k == n ? "" : "\n+"); last = x } print t }'
-     echo ENDDATA; } > "$work/begins$1$2.bdf"
-   run "begins$1$2"
-}
-beginning '' '' && beginning 1 1 && beginning 40 5 && beginning 80 5 && {
-   true_error() { value begins$1 rows 'increment = max(increment)' with "$work/begins805.joint.csv" on increment=80 on element \
-      print "sqrt(sum(area*($2 - other.$2)^2)/3000)/max(other.$2)*100"; }
-   number=3
-   for column in lambda pressure; do
-      holds "shear from no pressure: $column of 40 graded increments, of PATHTOL" "$(true_error 405 $column) < 0.01"
-      holds "shear from no pressure: $column of one increment is in error" "$(true_error 11 $column) > 0.2"
-      holds "shear from no pressure: said error of $column in one increment" "$(off begins11 $number) > $(true_error 11 $column)/3"
-      holds "shear from no pressure: $column without INCR is within PATHTOL" "$(true_error '' $column) <= 0.1"
-      holds "shear from no pressure: said error of $column without INCR" "$(off begins $number) > $(true_error '' $column)/3"
-      number=$((number + 1))
-   done
 }

@@ -128,6 +128,29 @@ DECK
 "$program" --joints "$work/places_tetra.bdf" > "$work/places_tetra.cards" 2>&1
 says '--joints: faces of tetrahedra' "$work/places_tetra.cards" '1 and 1 sides, areas 50.0 and 50.0, gap 0.02 to 0.02, normal (0, 0, 1)'
 
+# edges in the plane, triangles of tetrahedra; a small body before a face whose centre sees nothing of it has no joint
+cards strips <<'DECK'
+METHOD = NEWTON;SPC = 1;LOAD = 1;INCR = 5;BEGIN BULK
+BLOCK2,1,1,4,2,0.0,0.0;+,40.0,20.0,,,,,1,1;BLOCK2,2,1,2,2,0.0,20.0;+,40.0,40.0,,,,,101,101;PSHELL,1,1,1.0;MAT1,1,9500.,,.25
+PJOINT,1,1;JNORM,1,8.-3,1.0;JINCR,5,2;SPC1,1,12,1,4,7,10,13;FORCE,1,106,,10.,0.,-1.;SPC1,1,1,103,106;ENDDATA
+DECK
+"$program" --joints "$work/strips.bdf" > "$work/strips.cards"
+same '--joints in the plane: edges' "$(grep -c '^CBAR' "$work/strips.cards")" 6
+{ sed '/^ENDDATA/d' "$work/strips.bdf"; cat "$work/strips.cards"; echo ENDDATA; } > "$work/pasted.bdf"
+run pasted && near '--joints in the plane: its joint bears the load' "$(value pasted rows 'increment = 2' print 'sum(force)' | tail -1)" 10 1e-9
+cards tetras <<'DECK'
+METHOD = NEWTON;LOAD = 1;SPC = 1;MODEL = SPACE;BEGIN BULK
+GRID,1,,0.,0.,0.;GRID,2,,10.,0.,0.;GRID,3,,0.,10.,0.;GRID,4,,0.,0.,10.;GRID,11,,0.,0.,0.;GRID,12,,10.,0.,0.;GRID,13,,0.,10.,0.;GRID,14,,0.,0.,-10.
+CTETRA,1,1,1,2,3,4;CTETRA,2,1,11,13,12,14;PSOLID,1,1;MAT1,1,9500.,,.25;FORCE,1,4,,10.,0.,0.,-1.;SPC1,1,123,11,12,13,14;ENDDATA
+DECK
+same '--joints of tetrahedra' "$("$program" --joints "$work/tetras.bdf" | grep '^CTRIA3' | paste -sd' ')" 'CTRIA3,3,2,1,3,2 CTRIA3,4,3,11,12,13'
+cards beside <<'DECK'
+METHOD = NEWTON;SPC = 1;LOAD = 1;INCR = 5;BEGIN BULK
+BLOCK3,1,1,1,1,1,0.0,0.0,0.0;+,10.0,10.0,10.0,,,,1,1;BLOCK3,2,1,1,1,1,10.19,1.0,1.0;+,12.19,3.0,3.0,,,,201,201
+PSOLID,1,1;MAT1,1,9500.,,.25;JINCR,5,2;FORCE,1,202,,100.,0.,0.,-1.;SPC1,1,123,1,2,3,201,202,203;ENDDATA
+DECK
+"$program" --joints "$work/beside.bdf" > "$work/beside.cards"
+says '--joints: one body alone sees the other' "$work/beside.cards" 'only body 2 has sides opposite to the other, apart: no JOINT'
 # a joint for each plane and distance: a step of the lower body under the upper one, 0 below, 0.5 above, 0.02 beside it. Without PJOINT
 # its comments have a published surface
 cards places_step <<'DECK'

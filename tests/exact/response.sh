@@ -41,6 +41,13 @@ oscillating_bar solid 40 CONSISTENT MODES && {
       "$work/solid.bdf"
    run solid && for j in 1 2 3; do near "GE of a bar: mode $j" "$(mode solid $j loss_factor)" 0.04 1e-12; done
 }
+# from the second mode on, the response at rest has the first one in its static part: F L/(E A)
+oscillating_bar upper 200 CONSISTENT MODES && {
+   sed -i 's/^MASS.*/&\nSET 1 = 402/; s/^  LOAD.*/&\n  FREQUENCY = 7\n  DLOAD = 10\n  SDAMPING = 8\n  RESPONSE = SET 1/
+      s/^EIGRL.*/EIGRL,5,4.0E3,,3\nFREQ,7,0.0\nTABDMP1,8,G\n+,0.0,0.02,1.0E5,0.02,ENDT/; s/^FORCE,.*/FORCE,10,402,,0.5,1.0\nFORCE,10,401,,0.5,1.0/' "$work/upper.bdf"
+   run upper && same 'from the second mode on: its number' "$(mode upper 2 mode)" 2 &&
+      near '... the response at rest' "$(awk -F, '$4 == "x" { print $5 }' "$work/upper.response.csv")" '500/(2.1E5*20)' 1e-9
+}
 # together with what the joint loses at an amplitude
 mass_on_joint alone '' && mass_on_joint sprung '' && {
    sed -i 's/^CJOINT.*/&\nCELAS2,2,20000.0,1,1,,,0.3/' "$work/sprung.bdf"

@@ -57,6 +57,11 @@ superelement_block free 'METHOD = 5\nOUTPUT = NONE, DMIG' "EIGRL,5,,,12\n$supere
       END { for (i in f) w = f[i]^2 > w ? f[i]^2 : w; print sqrt(w)/(30*k) }' "$work/free.k")" 0 0 1e-9
    same 'free: coordinates of the modes behind the nodes' "$(grep SPOINT "$work/free.dmig" | tr -s ' ')" 'SPOINT 37 THRU 48'
 }
+superelement_block named 'METHOD = 5\nOUTPUT = NONE, DMIG' "EIGRL,5,,,12\n$superelement_corners\nSPOINT,101,THRU,112\nQSET1,0,101,THRU,112" &&
+   same 'QSET1: coordinates of the modes, by their numbers' "$(superelement_matrix named KAAX | awk '$1 > 100 { $1 -= 64; $3 -= 64 } 1')" \
+      "$(superelement_matrix free KAAX)"
+superelement_block loose 'METHOD = 5\nOUTPUT = NONE, DMIG' 'EIGRL,5,,,12\nASET1,1,1' 3 > /dev/null &&
+   says 'ASET that holds a free body in one direction' "$work/loose.log" 'increment 1: OUTPUT = DMIG, with the components of ASET held: .* mechanism'
 
 # ---- read back: nodes and DMIG in place of the block, statics and modes as of the whole; held at four corners, loaded at the others
 superelement_held='SPC1,1,123,1,9,25,33'

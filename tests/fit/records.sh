@@ -28,6 +28,16 @@ holds 'stretches of one branch are runs, from 1 on' \
 fit record.dat
 says 'a record: its turns and its noise band are said' cards '195 rows in the order of time, 3 tests, 15 turns; noise band 1 % of the range' \
    '3E-4 of d, 0.03015 of tau'
+# reloading that goes on past A, d = 0.03, below the loading curve: five of its rows at each pressure
+awk 'function load(d) { return (60 + 100 * p) * d - (500 + 300 * p) * d^2 + 1000 * d^3 }
+   function row(d, tau) { printf "%.17g %.17g %g\n", d, tau, p }
+   BEGIN { print "d tau p"
+      for (i = 1; i <= 3; i++) { p = 0.2 * i; k = load(0.03) / 0.03
+         for (j = 0; j <= 12; j++) row(0.03 * j / 12, load(0.03 * j / 12))
+         for (j = 1; j <= 8; j++) row(0.03 - 0.012 * j / 8, load(0.03) - 1.5 * k * 0.012 * j / 8)
+         for (j = 1; j <= 12; j++) row(0.018 + 0.02 * j / 12, load(0.03) - 1.5 * k * 0.012 + 0.6 * k * 0.02 * j / 12) } }' > past.dat
+fit past.dat
+says 'a record past A: rows off the loading curve are left out' cards '5 rows left out: past point A and off the loading curve, p = 0.2' 'p = 0.4' 'p = 0.6'
 # deflections that run against their stresses: no loading curve lies ahead of a path that turns back
 awk 'NR > 1 { $1 = -$1 } { print }' record.dat > against.dat
 fit --zero against.dat

@@ -25,9 +25,9 @@ fail() {
    [ -s stderr ] && head -n 12 stderr | cut -c 1-160
 }
 
-# fit ARGUMENTS: jointfit, at most 60 seconds; sets STATUS, leaves `cards` and `stderr`
+# fit ARGUMENTS: jointfit, at most 300 seconds; sets STATUS, leaves `cards` and `stderr`
 fit() {
-   timeout 60 "$jointfit" "$@" > cards 2> stderr
+   timeout 300 "$jointfit" "$@" > cards 2> stderr
    status=$?
 }
 

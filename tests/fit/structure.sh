@@ -157,11 +157,22 @@ sed 's/NEWTON/STEP/; s/^SUBCASE 3/SUBCASE 3\n  FROM = 1/' one.bdf > step.bdf
 { echo 'WHAT,VALUE,DEVIATION'; echo 'parameter,C,4.0E-3'; echo 'parameter,M,0.5,-1.0,1.0,LINEAR'
   awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } { printf "displacement,%s,1%%,stage=%d,node=1,direction=y\n", $at["u_y"], $1 }' step.watch.csv
   awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } $1 == 3 { printf "stiffness,%s,1%%,stage=3,node=1\n", $at["stiffness"] }' step.watch.csv; } > step.csv
-sed 's/^SUBCASE 3/SUBCASE 3\n  FROM = 1/' back.bdf > from.bdf
 seek step.bdf --measured step.csv --plot picture.gp
 near 'one element, STEP: C' C 8e-3 1e-3
 near 'one element, STEP: M, linear' M 0.45 1e-3
 says 'one element, STEP: the picture' picture.gp 'set ylabel "over the measured value"' '$deviations using 1:2:3 with yerrorbars'
+
+# ---- the same law behind a gap of 0.02, which STEP closes; and from the end of stage 1 again, after a bolt was tightened and has borne a load ----
+sed 's/NEWTON/STEP/; s/${M}/0.45/; s/^JINCR.*/JINCR   5       1\nJGAP    1       CONST   0.02/' one.bdf | sed '/^SUBCASE 2/,/^  LOAD = 3/d' > gap.bdf
+{ echo 'parameter,C,4.0E-3'; awk 'BEGIN { printf "displacement,%.17g,1%%,stage=1,node=1,direction=y\n", -0.02 - 8e-3 * 0.5^0.45 }'; } > gap.csv
+seek gap.bdf --measured gap.csv
+near 'one element behind a gap, STEP: C' C 8e-3 1e-4
+sed 's/^SUBCASE 3/SUBCASE 3\n  LOAD = 2\nSUBCASE 4\n  FROM = 1/
+   s/^ENDDATA/GRID,2,,0.,-50.\nSPC1,1,12,2\nCROD,9,6,1,2\nPROD,6,1,10.\nMAT1,1,2.1+5,,.3\nBOLT,1,9,300.,2\n&/' one.bdf > bolt.bdf
+sed 's/stage=3/stage=4/; /stage=2/d' one.csv > bolt.csv
+seek bolt.bdf --measured bolt.csv
+near 'from the end of stage 1, behind a bolt: C' C 8e-3 1e-4
+near 'from the end of stage 1, behind a bolt: M' M 0.45 1e-4
 
 # ---- failing runs: MU too small holds no block; the search goes on ----
 cat > slide.bdf << 'END'
