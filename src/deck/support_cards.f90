@@ -266,8 +266,10 @@ contains
          nth = integer_text(k)
          law%field = merge(2*k - 1, 4*k - 3, law%is_damper)
          if (k > 1 .and. (card%text_at(law%field) == '' .or. card%text_at(law%field) == '0')) then ! FINISH finds the rest
-            if (card%text_at(law%field + 1) /= '') &
+            if (card%text_at(law%field + 1) /= '') then
                call card%error_at(law%field, 'PID'//nth//': blank, but '//merge('B', 'K', law%is_damper)//nth//' is not')
+               return
+            end if
             exit
          end if
          if (k > 1) card%i = card%i + 1
