@@ -121,7 +121,7 @@ contains
       logical, intent(out)            :: ok
       real(wp) :: axes(3, 3), basis(size(r, 3), size(r, 3)), held(size(r, 3), size(r, 3)), unit(size(r, 3), size(r, 3))
       real(wp), allocatable :: inverse(:, :)
-      integer  :: d, first, k, n_held, rank
+      integer  :: d, first, k, most, n_held, rank
 
       rank = 0
       n_held = 0
@@ -152,7 +152,11 @@ contains
          unit(k, k) = 1.0_wp
       end do
       do while (rank < size(basis, 2)) ! the motion that is least among those before
-         call add(unit(:, maxloc([(norm2(left_of(unit(:, k))), k = 1, size(unit, 2))], dim=1)))
+         most = 1
+         do k = 2, size(unit, 2)
+            if (norm2(left_of(unit(:, k))) > norm2(left_of(unit(:, most)))) most = k
+         end do
+         call add(unit(:, most))
       end do
       n = basis(:, first:)
       ok = n_held == size(n, 2) .and. n_held > 0
