@@ -16,7 +16,7 @@ module free_structure
    implicit none
    private
 
-   public :: hold_free_structure, release_supports, check_balance
+   public :: beside, hold_free_structure, release_supports, check_balance
 
 contains
 
@@ -176,7 +176,6 @@ contains
       function left_of(node, d) result(left)
          integer, intent(in) :: node, d
          real(wp) :: left(size(basis, 1)), axes(3, 3)
-         integer  :: k
 
          axes = node_axes(mesh, point_of(mesh, node))
          left = 0.0_wp
@@ -187,11 +186,7 @@ contains
          else
             left(3) = merge(1.0_wp, 0.0_wp, d == 1)
          end if
-         do k = 1, 2*rank ! twice against rounding
-            associate (b => basis(:, 1 + modulo(k - 1, rank)))
-               left = left - dot_product(left, b)*b
-            end associate
-         end do
+         left = beside(left, basis(:, :rank))
       end function left_of
 
       subroutine add(left)
@@ -203,6 +198,21 @@ contains
       end subroutine add
 
    end subroutine hold_rest
+
+   !> What MOTION has beside the orthonormal columns of BASIS.
+   pure function beside(motion, basis) result(left)
+      real(wp), intent(in) :: motion(:)
+      real(wp), intent(in) :: basis(:, :) !! (size of MOTION, columns)
+      real(wp) :: left(size(motion))
+      integer  :: k
+
+      left = motion
+      do k = 1, 2*size(basis, 2) ! twice against rounding
+         associate (b => basis(:, 1 + modulo(k - 1, size(basis, 2))))
+            left = left - dot_product(left, b)*b
+         end associate
+      end do
+   end function beside
 
    !> Error: a load of a stage that is not self-equilibrated, in a structure without supports.
    subroutine check_balance(deck, mesh, freedoms, history)

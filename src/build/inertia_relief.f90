@@ -9,6 +9,7 @@
 module inertia_relief
    use constraint_equations, only: invert
    use deck_check, only: checked_deck
+   use free_structure, only: beside
    use interface_operator, only: named_node
    use kinds, only: wp
    use mass_matrix, only: form_mass, mass_matrix_type, mass_times, total_mass
@@ -151,10 +152,10 @@ contains
       do k = 1, size(unit, 2)
          unit(k, k) = 1.0_wp
       end do
-      do while (rank < size(basis, 2)) ! the motion that is least among those before
+      do while (rank < size(basis, 2)) ! the motion of which the basis has least
          most = 1
          do k = 2, size(unit, 2)
-            if (norm2(left_of(unit(:, k))) > norm2(left_of(unit(:, most)))) most = k
+            if (norm2(beside(unit(:, k), basis(:, :rank))) > norm2(beside(unit(:, most), basis(:, :rank)))) most = k
          end do
          call add(unit(:, most))
       end do
@@ -166,25 +167,11 @@ contains
 
    contains
 
-      !> What MOTION has beside the basis.
-      pure function left_of(motion) result(left)
-         real(wp), intent(in) :: motion(:)
-         real(wp) :: left(size(motion))
-         integer  :: k
-
-         left = motion
-         do k = 1, 2*rank ! twice against rounding
-            associate (b => basis(:, 1 + modulo(k - 1, rank)))
-               left = left - dot_product(left, b)*b
-            end associate
-         end do
-      end function left_of
-
       subroutine add(motion)
          real(wp), intent(in) :: motion(:)
          real(wp) :: left(size(motion))
 
-         left = left_of(motion)
+         left = beside(motion, basis(:, :rank))
          if (rank == size(basis, 2) .or. norm2(left) <= balanced) return
          rank = rank + 1
          basis(:, rank) = left/norm2(left)
