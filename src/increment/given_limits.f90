@@ -4,12 +4,13 @@
 !! movement: the equilibrium is the minimum of a convex energy, which Newton's method with a line search finds. The pressures of that
 !! equilibrium give new limits, and so on. The first limits are those of the best trial of the straight laws, or nothing slips. From the
 !! second equilibrium on the full tangents, which know that the limit grows with the pressure, try to finish; where one of them leaves
-!! more than a tenth of the residual, new limits follow.
+!! more than half of the residual, new limits follow.
 !! Where the limits are those of the trial itself, its equilibrium is that of the exact laws: the answer is the same.
 !! Source: P. D. Panagiotopoulos, Ing.-Arch. 44 (1975) 421-432; N. Kikuchi, J. T. Oden, Contact Problems in Elasticity, SIAM 1988.
 module given_limits
    use analysis_state, only: analysis_type, subtract_joint_forces
    use equations, only: equation_system, forces_in_bodies
+   use interface_operator, only: joint_movement
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate, trial_type
@@ -18,11 +19,12 @@ module given_limits
    implicit none
    private
 
-   public :: give_first_limits, renew_limits, take_exact_laws, falls_back, is_exact, minimise, moves_on
+   public :: give_first_limits, renew_limits, take_exact_laws, falls_back, is_exact, minimise, moves_on, &
+             find_leaving_joint
 
    real(wp), parameter :: solved = 1.0e-1_wp   ! of the residual with the first trial under given limits: time for new limits
    real(wp), parameter :: below_tol = 0.1_wp   ! of the tolerance: likewise
-   real(wp), parameter :: converges = 0.1_wp   ! of the residual: an iteration of the exact laws that leaves more does not converge
+   real(wp), parameter :: converges = 0.5_wp   ! of the residual: an iteration of the exact laws that leaves more does not converge
    real(wp), parameter :: close = 0.2_wp       ! of the work of the first unbalanced forces: what a line search may leave
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
    real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave
@@ -45,6 +47,7 @@ contains
       attempt%n_limits = 0
       attempt%n_returns = 0
       attempt%runs = .false.
+      attempt%leaves = 0
       attempt%bearable = 1.0_wp
       attempt%asked = attempt%load - analysis%body
       call subtract_joint_forces(system%interface, analysis%states, attempt%asked)
@@ -240,6 +243,28 @@ contains
 
       moves_on = attempt%runs .or. attempt%iteration - attempt%since > patience
    end function moves_on
+
+   !> Under given limits, a joint whose ends have moved by more than the largest joint is wide has left its place: these limits do not
+   !! bear the load of ATTEMPT, and half of it is tried next.
+   subroutine find_leaving_joint(model, system, analysis, now, attempt)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(trial_type), intent(in)       :: now
+      type(attempt_type), intent(inout)  :: attempt
+      real(wp) :: width
+      integer  :: i
+
+      width = 2.0_wp*maxval(model%joints%list%frame%extent)
+      if (attempt%runs .or. .not. (allocated(attempt%seen) .and. width > 0.0_wp)) return
+      do i = 1, size(system%interface)
+         if (norm2(joint_movement(system%interface(i), now%u) - analysis%movement(:, i)) <= width) cycle
+         attempt%leaves = model%joints%element(i)%joint
+         attempt%runs = .true.
+         attempt%bearable = 0.5_wp
+         return
+      end do
+   end subroutine find_leaving_joint
 
    !> Whether the trial of ATTEMPT follows the exact laws.
    pure logical function is_exact(attempt)
