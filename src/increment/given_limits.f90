@@ -19,8 +19,7 @@ module given_limits
    implicit none
    private
 
-   public :: give_first_limits, renew_limits, take_exact_laws, falls_back, is_exact, minimise, moves_on, &
-             find_leaving_joint
+   public :: give_first_limits, renew_limits, take_exact_laws, falls_back, is_exact, minimise, judge_limits
 
    real(wp), parameter :: solved = 1.0e-1_wp   ! of the residual with the first trial under given limits: time for new limits
    real(wp), parameter :: below_tol = 0.1_wp   ! of the tolerance: likewise
@@ -215,7 +214,8 @@ contains
          attempt%runs = .true.
          asked = sum(attempt%asked*direction, mask=.not. analysis%held)
          attempt%bearable = max(0.0_wp, min(1.0_wp, 1.0_wp - work/max(asked, work)))
-         if (attempt%missing <= 0.0_wp) attempt%missing = work/max(maxval(abs(direction)), tiny(1.0_wp))
+         if (attempt%missing <= 0.0_wp) attempt%missing = (work + attempt%left*sum(analysis%change*direction, &
+                                                mask=.not. analysis%held))/max(maxval(abs(direction)), tiny(1.0_wp))
       end subroutine note_missing
 
    end subroutine minimise
@@ -237,34 +237,27 @@ contains
       attempt%n_limits = settled - 1 ! two problems more before the exact laws try again
    end function falls_back
 
-   !> Whether the body moves on under the present limits, or many iterations have not solved their problem.
-   pure logical function moves_on(attempt)
-      type(attempt_type), intent(in) :: attempt
-
-      moves_on = attempt%runs .or. attempt%iteration - attempt%since > patience
-   end function moves_on
-
-   !> Under given limits, a joint whose ends have moved by more than the largest joint is wide has left its place: these limits do not
-   !! bear the load of ATTEMPT, and half of it is tried next.
-   subroutine find_leaving_joint(model, system, analysis, now, attempt)
+   !> Whether the body moves on under the present limits, a joint leaves its place, or many iterations have not solved their problem.
+   !! A joint has left its place where its ends have moved by more than the largest joint is wide.
+   subroutine judge_limits(model, system, analysis, now, attempt)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(in)    :: analysis
       type(trial_type), intent(in)       :: now
-      type(attempt_type), intent(inout)  :: attempt
+      type(attempt_type), intent(inout)  :: attempt !! its ENDS is the result
       real(wp) :: width
       integer  :: i
 
+      attempt%ends = attempt%ends .or. attempt%runs .or. attempt%iteration - attempt%since > patience
       width = 2.0_wp*maxval(model%joints%list%frame%extent)
-      if (attempt%runs .or. .not. (allocated(attempt%seen) .and. width > 0.0_wp)) return
+      if (attempt%ends .or. .not. (allocated(attempt%seen) .and. width > 0.0_wp)) return
       do i = 1, size(system%interface)
          if (norm2(joint_movement(system%interface(i), now%u) - analysis%movement(:, i)) <= width) cycle
+         attempt%ends = .true.
          attempt%leaves = model%joints%element(i)%joint
-         attempt%runs = .true.
-         attempt%bearable = 0.5_wp
          return
       end do
-   end subroutine find_leaving_joint
+   end subroutine judge_limits
 
    !> Whether the trial of ATTEMPT follows the exact laws.
    pure logical function is_exact(attempt)

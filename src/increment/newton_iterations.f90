@@ -4,8 +4,7 @@
 module newton_iterations
    use analysis_state, only: analysis_type, force_noise, free_norm, iteration_record, record_iteration
    use equations, only: equation_system, forces_in_bodies, solve_coupled_again, solve_equations
-   use given_limits, only: falls_back, find_leaving_joint, give_first_limits, is_exact, minimise, moves_on, &
-                           renew_limits, take_exact_laws
+   use given_limits, only: falls_back, give_first_limits, is_exact, judge_limits, minimise, renew_limits, take_exact_laws
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: model_type
@@ -243,8 +242,7 @@ contains
          attempt%sizes(n) = merge(huge(1.0_wp), now%size, attempt%moves)
          attempt%ends = n == most_iterations
          if (attempt%with_limits) then
-            call find_leaving_joint(model, system, analysis, now, attempt)
-            attempt%ends = attempt%ends .or. moves_on(attempt)
+            call judge_limits(model, system, analysis, now, attempt)
          else
             attempt%ends = attempt%ends .or. leads_nowhere(attempt%sizes(:n)) .or. &
                            is_slow(attempt%sizes(:n))
