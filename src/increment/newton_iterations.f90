@@ -13,7 +13,7 @@ module newton_iterations
    use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, laws_at, loose_joints, next_laws, &
                             residual_of, straight_law
    use tolerances, only: far_below_tol, finest_direction, loose_direction, most_rounding_of_forces, pressure_floor, &
-                         rounding_of_forces, tight_direction
+                         rounding_of_forces, shortest_step, tight_direction
    implicit none
    private
 
@@ -27,8 +27,7 @@ module newton_iterations
    real(wp), parameter :: worth_while = 0.1_wp         ! of its residual: a correction that leaves more is the last one
    real(wp), parameter :: away = 100.0_wp              ! times the initial residual: the iterations diverge
    real(wp), parameter :: far_away = 1.0e6_wp          ! times the residual before it: a step that leaves more is shortened,
-   real(wp), parameter :: shorter = 0.1_wp             ! to this part of it,
-   real(wp), parameter :: shortest = 1.0e-6_wp         ! but not below this one
+   real(wp), parameter :: shorter = 0.1_wp             ! to this part of it, but not below SHORTEST_STEP
    real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: an interference pressure below it counts as none
 
 contains
@@ -142,7 +141,7 @@ contains
       attempt%step = 1.0_wp
       do
          call evaluate_at(model, system, attempt, analysis, now%u + attempt%step*direction, next)
-         if (attempt%moves .or. searches .or. attempt%step <= shortest) exit
+         if (attempt%moves .or. searches .or. attempt%step <= shortest_step) exit
          if (.not. next%size > far_away*max(now%size, analysis%tolerance)) exit
          attempt%step = shorter*attempt%step
       end do
