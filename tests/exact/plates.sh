@@ -283,6 +283,33 @@ run wall && {
    near 'a wall on its edge: highest pressure' "$(value wall print 'max(pressure)')" '3 + 6*4800/(100*12^2)/(1 + 2/8^2)' 3e-3
 }
 
+# ---- a second-order edge under FORCEM, PLOADM, RBE3M and joints: 1/6, 2/3, 1/6 of the force at its nodes, evenly pressed ----
+
+# edge8 NAME LINES: a sheet of 10 x 10 x 1, as one CQUAD8 or two CTRIA6, held at x = 0 where LINES say so, loaded at x = 10, u = F/100 there
+edge8() {
+   cards "$1" <<DECK
+MODEL = SPACE;METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,10.0,0.0,0.0;GRID,3,,10.0,10.0,0.0;GRID,4,,0.0,10.0,0.0
+GRID,5,,5.0,0.0,0.0;GRID,6,,10.0,5.0,0.0;GRID,7,,5.0,10.0,0.0;GRID,8,,0.0,5.0,0.0;PSHELL,1,1,1.0,1,,1;MAT1,1,1000.0,,0.0
+SPC1,1,3456,1,2,3,4;SPC1,1,3456,5,6,7,8;SPC1,1,2,1,2,5;PMARK,7;CBAR,9,7,2,3;$2;ENDDATA
+DECK
+}
+sheet8='CQUAD8,1,1,1,2,3,4,5,6;+,7,8'
+sheet6='GRID,9,,5.0,5.0,0.0;SPC1,1,3456,9;CTRIA6,1,1,1,2,3,5,6,9;CTRIA6,2,1,1,3,4,9,7,8'
+pressed8='FORCE,1,1,,16.66666666666667,1.0,0.0,0.0;FORCE,1,4,,16.66666666666667,1.0,0.0,0.0;FORCE,1,8,,66.66666666666667,1.0,0.0,0.0;JNORM,1,1.-3,1.0,1.+6;PJOINT,1,1,1,1;JSHEAR,1,1.+5'
+for sheet in "$sheet8" "$sheet6"; do
+   words="an edge of ${sheet:0:6}"
+   for load in 'FORCEM,1,100.0,1.0,0.0,0.0,7' 'PLOADM,1,-10.0,7' 'GRID,90,,20.0,5.0,0.0;RBE3M,70,90,1,123456,7;FORCE,1,90,,100.0,1.0,0.0,0.0'; do
+      edge8 edge8 "$sheet;SPC1,1,1,1,4,8;$load"
+      run edge8 && for node in 2 6 3; do near "$words, ${load%%,*}: node $node" "$(moved edge8 $node 1)" 0.1 1e-6; done
+   done
+   edge8 edge8_joint "$sheet;$pressed8;JOINT,1,1,7"
+   run edge8_joint && ask "$words pressed evenly" edge8_joint all 'pressure = 10 within 1e-7 and lambda = 0.01 within 1e-10 and area > 0'
+   for side in 7,8 8,7; do # a solid of another mesh behind the joint
+      edge8 edge8_joint "$sheet;$pressed8;JOINT,1,1,$side;PMARK,8;PMARK,18;BLOCK3,1,2,2,3,2,10.0,0.0,-0.5;+,20.0,10.0,0.5,,,,1001,1001;+,8,18;PSOLID,2,1;SPCM,1,123,18"
+      run edge8_joint && ask "$words pressed evenly on a solid, sides $side" edge8_joint all 'pressure = 10 within 1e-7 and area > 0'
+   done
+done
+
 # ---- a square tube of shells, with rigid ends, beside the same as one beam: bent, twisted, oscillating ----
 
 tube() { # NAME
