@@ -8,7 +8,7 @@ module bulk_data
    use frequency_loads, only: response_cards_type
    use kinds, only: wp
    use load_data, only: bolt_card, displacement_card, force_card, gravity_card, load_card, pair_card, &
-                        plate_temperature_card, preload_card, pressure_card, region_card, surface_load_card, temperature_card
+                        own_temperature_card, preload_card, pressure_card, region_card, surface_load_card, temperature_card
    use nastran_compatibility, only: ignored_entries_type, parameters_type
    use nodal_matrices, only: matrix_cards_type
    use normal_curve, only: normal_law
@@ -370,7 +370,7 @@ module bulk_data
       type(gravity_card), allocatable      :: gravity(:)
       type(displacement_card), allocatable :: displacement(:), suport(:)
       type(temperature_card), allocatable  :: temperature(:)
-      type(plate_temperature_card), allocatable :: plate_temperature(:)
+      type(own_temperature_card), allocatable :: own_temperature(:)
       type(load_card), allocatable         :: load(:), dload(:)
       type(bolt_card), allocatable         :: bolt(:)
       type(region_card), allocatable       :: region(:)

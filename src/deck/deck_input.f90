@@ -14,7 +14,7 @@ module deck_input
    use kinds, only: long
    use laminate_cards, only: read_laminate, read_plate_material
    use matrix_cards, only: read_dmig, read_retained
-   use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
+   use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_own_temperature, read_pressure, read_surface_load, &
                          read_temperature
    use mesh_cards, only: complete_remedy, fill_defaults, read_block, read_edge, read_edge_defaults, read_element, read_grid, &
                          read_pmark, read_grid_defaults, read_system, system_names
@@ -115,7 +115,7 @@ contains
       call add(['PLOAD1'], read_beam_load)
       call add(['SPCD'], read_displacement)
       call add(['TEMP ', 'TEMPD'], read_temperature)
-      call add(['TEMPP1'], read_plate_temperature)
+      call add(['TEMPP1', 'TEMPRB'], read_own_temperature)
       call add(['LOAD'], read_load)
       call add(['BOLT'], read_bolt)
       call add(['JOINT'], read_joint)
@@ -176,7 +176,7 @@ contains
          bulk%pressure(n('PLOAD')), bulk%surface_load(n('PLOADM')), &
          bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%suport(4*n('SUPORT')), &
          bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
-         bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
+         bulk%own_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
          bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
          bulk%jiwan(n('JIWAN')), bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
          bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')), bulk%region(n('BSURF')), &

@@ -1,4 +1,4 @@
-!> Reads the cards of loads (FORCE to FORCEM, GRAV, RFORCE, LOAD), of bolts and of temperatures (TEMP, TEMPD, TEMPP1).
+!> Reads the cards of loads (FORCE to FORCEM, GRAV, RFORCE, LOAD), of bolts and of temperatures (TEMP to TEMPRB).
 !! Each array of the bulk data has a routine, each kind of card a table. The increment fractions of a stage's load change
 !! (section 5: arithmetic or geometric progression) are here too.
 module load_cards
@@ -16,7 +16,7 @@ module load_cards
    private
 
    public :: arithmetic_fractions, geometric_fractions, read_force, read_pressure, read_surface_load, read_gravity, read_load, &
-             read_combination, read_bolt, read_temperature, read_plate_temperature
+             read_combination, read_bolt, read_temperature, read_own_temperature
 
 contains
 
@@ -371,26 +371,34 @@ contains
       end do
    end subroutine read_temperature
 
-   !> TEMPP1: the mean temperature TBAR of shells and its gradient TPRIME along their normals. TS1 and TS2, which NASTRAN uses for
-   !! stresses only, have no effect.
-   subroutine read_plate_temperature(card, bulk)
+   !> TEMPP1, TEMPRB: temperatures of shells, of beams and rods. Those of points of the section, which NASTRAN uses for stresses only,
+   !! have no effect.
+   subroutine read_own_temperature(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       type(id_ranges) :: others
       integer :: first
 
-      associate (warm => bulk%plate_temperature(card%i))
+      associate (warm => bulk%own_temperature(card%i))
          warm%line = card%line
+         warm%is_plate = card%name == 'TEMPP1'
          call card%field('SID', warm%set)
          call card%field('EID1', first)
-         call card%field('TBAR', warm%mean)
-         call card%field('TPRIME', warm%slope, default=0.0_wp)
-         call card%skip(['-  ', 'TS1', 'TS2', '-  '])
+         if (warm%is_plate) then
+            call card%field('TBAR', warm%mean(1))
+            warm%mean(2) = warm%mean(1)
+            call card%field('TPRIME', warm%slope(1), default=0.0_wp)
+            call card%skip(['-  ', 'TS1', 'TS2', '-  '])
+         else
+            call card%field(['TA', 'TB'], warm%mean)
+            call card%field(['TP1A', 'TP1B', 'TP2A', 'TP2B'], warm%slope, default=0.0_wp)
+            call card%skip(['TCA', 'TDA', 'TEA', 'TFA', 'TCB', 'TDB', 'TEB', 'TFB'])
+         end if
          warm%ranges = id_ranges([first], [first], [2])
-         if (card%n <= 8) return
-         call card%list_ranges(9, 'EID', 'an element number', others)
+         if (card%n <= merge(8, 16, warm%is_plate)) return
+         call card%list_ranges(merge(9, 17, warm%is_plate), 'EID', 'an element number', others)
          warm%ranges = id_ranges([first, others%first], [first, others%last], [2, others%at])
       end associate
-   end subroutine read_plate_temperature
+   end subroutine read_own_temperature
 
 end module load_cards

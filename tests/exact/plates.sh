@@ -109,6 +109,45 @@ MODEL = SPACE;SPC = 1;SUBCASE 1;  TEMPERATURE(LOAD) = 5;BEGIN BULK;GRID,1,,0.0,0
 CBAR,1,1,1,2,0.0,1.0,0.0;PBAR,1,1,800.0,1.0+5,1.0+5,1.5+5;MAT1,1,210000.0,,0.3,,1.2-5,20.0;SPC1,1,123456,1;SPC1,1,12345,2;TEMPD,5,70.0;ENDDATA
 DECK
 run warm_beam && near 'a warm beam, held' "$(beam_force warm_beam 1 1 1)" '-210000*800*1.2e-5*50' 3e-6
+# TEMPRB: gradients along y and z, linear along the beam. Free: v'' = -alpha TP1, w'' = -alpha TP2; held: sigma = -E alpha (T + TP1 y + TP2 z)
+for model in PLANE SPACE; do
+   [ $model = PLANE ] && z='' || z=0.3,0.6
+   cards warm_bar <<DECK
+MODEL = $model;SPC = 1;SUBCASE 1;  TEMPERATURE(LOAD) = 5;  INCR = 1;BEGIN BULK;JINCR,1,,LIST,0.25,0.75;GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0
+CBAR,1,1,1,2,0.0,1.0,0.0;PBARL,1,1,,BAR;+,20.0,40.0;MAT1,1,210000.0,,0.3,,1.2-5,20.0;SPC1,1,123456,1;TEMPRB,5,1,70.0,90.0,0.2,0.5,$z;TEMPD,5,-999.0;ENDDATA
+DECK
+   run warm_bar && {
+      near "$model: a beam warm on one side, along" "$(moved warm_bar 2 1)" '1.2e-5*60*500' 3e-6
+      near "$model: a beam warm on one side, along y" "$(moved warm_bar 2 2)" '-1.2e-5*500^2*(0.2/3 + 0.5/6)' 3e-6
+      near "$model: a beam warm on one side, its slope" "$(rotation warm_bar 2 $([ $model = PLANE ] && echo 1 || echo 3))" '-1.2e-5*500*0.35' 3e-6
+      near "$model: a beam warm on one side, no moment" "$(beam_force warm_bar 1 1 6)" 0 0 1e-4
+   }
+   [ $model = SPACE ] && near 'along z' "$(moved warm_bar 2 3)" '-1.2e-5*500^2*(0.3/3 + 0.6/6)' 3e-6
+   sed -e 's/^SPC1.*/&\nSPC1,1,23456,2/' -e 's/^TEMPD.*//' -e 's/0.2,0.5,0.3,0.6/0.5,0.5,0.3,0.3/; s/0.2,0.5/0.5,0.5/' "$work/warm_bar.bdf" > "$work/warm_bar_held.bdf"
+   run warm_bar_held && {
+      near "$model: a beam warm on one side, held: moment" "$(beam_force warm_bar_held 1 1 6)" "210000*$i1*1.2e-5*0.5" 3e-6
+      near "$model: a beam warm on one side, held: stress" "$(beam_stress warm_bar_held 1 1 1)" "-210000*1.2e-5*(0.5*20 + ${z:+1}0*0.3)" 3e-6
+   }
+done
+# a CBEAM whose section changes, free; rods in a line, by the mean of both ends
+cards warm_taper <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;  TEMPERATURE(LOAD) = 5;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0
+CBEAM,1,1,1,2,0.0,1.0,0.0;PBEAM,1,1,800.0,1.0+5,0.4+5;+;+,NO,1.0,400.0,0.3+5,0.2+5;MAT1,1,210000.0,,0.3,,1.2-5,20.0;SPC1,1,123456,1;TEMPRB,5,1,70.0,90.0,0.2,0.5,0.3,0.6;ENDDATA
+DECK
+sed -i 's/^+$/+,,,,,,,,/' "$work/warm_taper.bdf"
+run warm_taper && {
+   near 'a tapered beam warm on one side, along' "$(moved warm_taper 2 1)" '1.2e-5*60*500' 3e-6
+   near 'along y' "$(moved warm_taper 2 2)" '-1.2e-5*500^2*(0.2/3 + 0.5/6)' 3e-6
+   near 'along z' "$(moved warm_taper 2 3)" '-1.2e-5*500^2*(0.3/3 + 0.6/6)' 3e-6
+}
+cards warm_rods <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;  TEMPERATURE(LOAD) = 5;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0;GRID,3,,1000.0,0.0,0.0
+CROD,1,1,1,2;CONROD,2,2,3,1,50.0;PROD,1,1,50.0;MAT1,1,210000.0,,0.3,,1.2-5,20.0;SPC1,1,123,1;SPC1,1,23,2,3;TEMPRB,5,1,70.0,90.0;+;+,2
+ENDDATA
+DECK
+sed -i 's/^+$/+,,,,,,,,/' "$work/warm_rods.bdf"
+run warm_rods && near 'warm rods' "$(moved warm_rods 3 1)" '1.2e-5*60*1000' 3e-6
+
 {
    printf 'MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  MODES = 3\nBEGIN BULK\nEIGRL,3,,,6\n'
    for k in 0 1 2 3 4 5 6 7 8; do printf 'GRID,%d,,%s,0.0,0.0\n' $((k + 1)) "$((125 * k)).0"; done
