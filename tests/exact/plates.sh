@@ -349,6 +349,20 @@ for sheet in "$sheet8" "$sheet6"; do
    done
 done
 
+# ---- linear triangles beside shells of second order, pulled evenly: their drilling rotations bow no edge that these do not bow ----
+
+cards mixed <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;  LOAD = 1;  OUTPUT = LAST, STRESS;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,10.0,0.0,0.0;GRID,3,,10.0,10.0,0.0
+GRID,4,,0.0,10.0,0.0;GRID,12,,20.0,0.0,0.0;GRID,13,,20.0,10.0,0.0;GRID,22,,30.0,0.0,0.0;GRID,23,,30.0,10.0,0.0;GRID,5,,5.0,0.0,0.0;GRID,6,,10.0,5.0,0.0
+GRID,7,,5.0,10.0,0.0;GRID,8,,0.0,5.0,0.0;GRID,14,,25.0,0.0,0.0;GRID,15,,25.0,5.0,0.0;GRID,16,,20.0,5.0,0.0;CQUAD8,1,1,1,2,3,4,5,6;+,7,8;CTRIA3,2,1,2,12,13
+CTRIA3,3,1,2,13,3;CTRIA6,4,1,12,22,13,14,15,16;CTRIA3,5,1,22,23,13;PSHELL,1,1,1.0,1,,1;MAT1,1,1000.0,,0.3;SPC1,1,13456,1,4,8;SPC1,1,2,1
+FORCE,1,22,,50.0,1.0,0.0,0.0;FORCE,1,23,,50.0,1.0,0.0,0.0;ENDDATA
+DECK
+run mixed && {
+   for node in 22 23; do near "linear triangles beside second order: node $node" "$(moved mixed $node 1)" 0.3 1e-6; done
+   for e in 1 2 3 4 5; do near "linear triangles beside second order: stress in $e" "$(shell_stress mixed $e 2 7)" 10 1e-6; done
+}
+
 # ---- a square tube of shells, with rigid ends, beside the same as one beam: bent, twisted, oscillating ----
 
 tube() { # NAME
