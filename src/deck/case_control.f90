@@ -367,7 +367,7 @@ contains
          call complete_response(control%stages(i)%vibration, control%is_direct, control%of_nastran, shown)
       end do
       if (shown) call control%ignored%drop(motions, n_shown)
-      call check_vibration(control%stages%vibration, control%stages%line, errors)
+      call check_vibration(control%stages%vibration, control%stages%line, control%stages%output%dmig, errors)
    end subroutine check_stages
 
 end module case_control
