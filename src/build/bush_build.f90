@@ -95,7 +95,8 @@ contains
       if (nodes(2) > 0) along = mesh%x(:, nodes(2)) - mesh%x(:, nodes(1))
       if (.not. norm2(along) > 0.0_wp) then
          ok = .not. (is_oriented .or. card%is_damper)
-         if (card%is_damper) call deck%field_error(card%line, 'G2', 'lies at the place of G1; expected nodes that are apart')
+         if (card%is_damper .and. nodes(2) > 0) call deck%field_error(card%line, 'G2', &
+            'lies at the place of G1; expected nodes that are apart')
          if (is_oriented) call deck%field_error(card%line, 'CID', 'blank, and GA and GB are not apart, so that '// &
             'GO or X1, X2, X3 give no axes; expected the system of its axes, 0 for global axes')
          return
