@@ -104,13 +104,10 @@ contains
          call card%field('SID', force%set)
          call card%field('G', force%node)
          select case (card%name)
-         case ('FORCE1', 'MOMENT1')
+         case ('FORCE1', 'MOMENT1', 'FORCE2', 'MOMENT2')
             call card%field(merge('M', 'F', force%is_moment), force%force(1))
             call card%field(['G1', 'G2'], force%ends(:2))
-            call card%finish(force%line)
-         case ('FORCE2', 'MOMENT2')
-            call card%field(merge('M', 'F', force%is_moment), force%force(1))
-            call card%field(['G1', 'G2', 'G3', 'G4'], force%ends)
+            if (any(card%name == ['FORCE2 ', 'MOMENT2'])) call card%field(['G3', 'G4'], force%ends(3:))
             call card%finish(force%line)
          case default
             call card%field('CID', force%system, default=0, least=0)
@@ -172,21 +169,19 @@ contains
             call card%field('P', p(1))
             call card%field(['G1', 'G2'], pressure%corners(:2))
             call card%finish(pressure%line)
-            p = p(1)
          case ('PLOAD2')
             pressure%kind = of_marks
             call card%field('P', p(1))
             call card%list_ranges(3, 'EID', 'an element number', pressure%ranges)
             pressure%line = card%line
-            p = p(1)
          case default
             pressure%kind = of_nodes
             call card%field('P', p(1))
             call card%field(['G1', 'G2', 'G3'], pressure%corners(:3))
             call card%field('G4', pressure%corners(4), default=0)
             call card%finish(pressure%line)
-            p = p(1)
          end select
+         if (card%name /= 'PLOAD4') p = p(1)
       end associate
    end subroutine read_pressure
 
