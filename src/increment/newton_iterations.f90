@@ -216,7 +216,7 @@ contains
       type(analysis_type), intent(inout) :: analysis
       type(attempt_type), intent(inout)  :: attempt
       type(trial_type), intent(inout)    :: now
-      real(wp) :: pressed, rounding
+      real(wp) :: enough, pressed, rounding
 
       if (attempt%seats) then ! the joint pressures on the bodies are the load
          pressed = free_norm(now%body, analysis%held)
@@ -235,7 +235,11 @@ contains
          end if
          rounding = rounding_of_forces*system%stiffest*attempt%displacement_scale*sqrt(real(size(analysis%now%load), wp))
          attempt%carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*attempt%displacement_scale
-         attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= most_rounding_of_forces*load_size
+         enough = max(analysis%tolerance, 0.1_wp*noise)
+         if (n > 0) then
+            if (now%size > half*attempt%sizes(n - 1)) enough = max(enough, noise) ! only rounding is left
+         end if
+         attempt%converged = now%size <= enough .and. noise <= most_rounding_of_forces*load_size
          attempt%converged = attempt%converged .or. (attempt%carried .and. now%size <= rounding)
          attempt%converged = attempt%converged .and. is_exact(attempt) .and. .not. attempt%moves
          attempt%sizes(n) = merge(huge(1.0_wp), now%size, attempt%moves)
