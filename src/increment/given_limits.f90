@@ -30,6 +30,7 @@ module given_limits
    integer, parameter  :: most_flat = 4        ! such trials, one behind the other
    integer, parameter  :: most_trials = 20     ! of a line search
    integer, parameter  :: patience = 40        ! iterations in which a problem is solved
+   integer, parameter  :: most_returns = 10    ! of the exact laws: their limits have no equilibrium in common
    integer, parameter  :: settled = 2          ! limits after which the exact laws try to finish
 
 contains
@@ -237,7 +238,8 @@ contains
       attempt%n_limits = settled - 1 ! two problems more before the exact laws try again
    end function falls_back
 
-   !> Whether the body moves on under the present limits, a joint leaves its place, or many iterations have not solved their problem.
+   !> Whether the body moves on under the present limits, a joint leaves its place, many iterations have not solved their problem,
+   !! or the exact laws have failed to finish again and again.
    !! A joint has left its place where its ends have moved by more than the largest joint is wide.
    subroutine judge_limits(model, system, analysis, now, attempt)
       type(model_type), intent(in)       :: model
@@ -248,7 +250,8 @@ contains
       real(wp) :: width
       integer  :: i
 
-      attempt%ends = attempt%ends .or. attempt%runs .or. attempt%iteration - attempt%since > patience
+      attempt%ends = attempt%ends .or. attempt%runs .or. attempt%iteration - attempt%since > patience .or. &
+                     attempt%n_returns > most_returns
       width = 2.0_wp*maxval(model%joints%list%frame%extent)
       if (attempt%ends .or. .not. (allocated(attempt%seen) .and. width > 0.0_wp)) return
       do i = 1, size(system%interface)

@@ -24,6 +24,7 @@ module newton_iterations
    integer, parameter  :: patience = 8                 ! iterations that must leave less than the same number before them
    real(wp), parameter :: progress = 0.9_wp            ! of it: the required reduction
    real(wp), parameter :: half = 0.5_wp                ! of the residual of the load: a guess that leaves more is poor
+   real(wp), parameter :: near = 10.0_wp               ! times the tolerance: rounding that is allowed where no iteration falls
    real(wp), parameter :: worth_while = 0.1_wp         ! of its residual: a correction that leaves more is the last one
    real(wp), parameter :: away = 100.0_wp              ! times the initial residual: the iterations diverge
    real(wp), parameter :: far_away = 1.0e6_wp          ! times the residual before it: a step that leaves more is shortened,
@@ -237,7 +238,7 @@ contains
          attempt%carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*attempt%displacement_scale
          enough = max(analysis%tolerance, 0.1_wp*noise)
          if (n > 0) then
-            if (now%size > half*attempt%sizes(n - 1)) enough = max(enough, noise) ! only rounding is left
+            if (now%size > half*attempt%sizes(n - 1)) enough = max(enough, min(noise, near*analysis%tolerance)) ! only rounding is left
          end if
          attempt%converged = now%size <= enough .and. noise <= most_rounding_of_forces*load_size
          attempt%converged = attempt%converged .or. (attempt%carried .and. now%size <= rounding)
