@@ -1,5 +1,6 @@
 !> A run of a deck with given values of its parameters, without listing and tables: the answers to the rows of a measured file.
-!! Parameters that only laws and loads use leave the bodies as they are: such runs share the factor of their static part.
+!! Parameters that only laws and loads use leave the bodies as they are: such runs share the factor of their static part. Those of a
+!! difference in place of a derivative go beside one run by NEWTON: in each increment its last factor brings them to equilibrium.
 module structure_run
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use back_method, only: back_increment
