@@ -104,7 +104,7 @@ contains
             return
          end if
          allocate (whole, source=analysis)
-         needs_forces = any(of_modes) .and. .not. (present(near) .and. is_predicted(data, s, plan))
+         needs_forces = any(of_modes) .and. .not. is_predicted(data, s, plan)
          if (needs_forces .or. allocated(plan%stages(s)%watched) .or. any(data%rows%kind == a_bolt) .or. &
              any(abs(whole%now%moved) > 0.0_wp)) then
             call recover_bodies(model, structure%system, whole)
