@@ -10,7 +10,7 @@ module bush_build
    use model_data, only: face_node_type, mesh_type
    use node_build, only: find_nodes
    use numbers, only: cross, identity
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, one_of
    use tolerances, only: no_lever, zero_cosine
    implicit none
    private
@@ -44,9 +44,10 @@ contains
       do i = 1, size(bushes)
          associate (card => deck%bulk%spring(i), bush => bushes(i), laws => deck%bulk%spring_property)
             if (.not. card%is_bush) cycle
-            bush%property = findloc(laws%id == card%property .and. laws%is_bush, .true., dim=1)
-            if (card%property > 0 .and. bush%property == 0) call deck%field_error(card%line, 'PID', 'there is no PBUSH '// &
-                                                                                  integer_text(card%property))
+            bush%property = findloc(laws%id == card%property .and. laws%is_bush .and. (laws%is_damper .eqv. card%is_damper), &
+                                    .true., dim=1)
+            if (card%property > 0 .and. bush%property == 0) call deck%field_error(card%line, 'PID', 'there is no '// &
+               one_of(card%is_damper, 'PVISC ', 'PBUSH ')//integer_text(card%property))
             call find_nodes(deck, card%line, card%nodes, mesh, bush%nodes)
             if (bush%property == 0 .or. bush%nodes(1) == 0 .or. (bush%nodes(2) == 0 .and. card%nodes(2) > 0)) cycle
             call find_axes(deck, card, mesh, bush%nodes, laws(bush%property)%stiffness, bush%axes, bush%is_whole)
@@ -93,8 +94,10 @@ contains
       along = 0.0_wp
       if (nodes(2) > 0) along = mesh%x(:, nodes(2)) - mesh%x(:, nodes(1))
       if (.not. norm2(along) > 0.0_wp) then
-         ok = .not. is_oriented
-         if (.not. ok) call deck%field_error(card%line, 'CID', 'blank, and GA and GB are not apart, so that '// &
+         ok = .not. (is_oriented .or. card%is_damper)
+         if (card%is_damper .and. nodes(2) > 0) call deck%field_error(card%line, 'G2', &
+            'lies at the place of G1; expected nodes that are apart')
+         if (is_oriented) call deck%field_error(card%line, 'CID', 'blank, and GA and GB are not apart, so that '// &
             'GO or X1, X2, X3 give no axes; expected the system of its axes, 0 for global axes')
          return
       end if

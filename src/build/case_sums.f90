@@ -28,7 +28,7 @@ contains
                total%force = reshape([total%force, factor*part%force(:, :part%n)], [3, size(total%node)])
                call add(total%moved, factor, part%moved)
                call add(total%beam, factor, part%beam)
-               call add(total%temperature%plate, factor, part%temperature%plate)
+               call add(total%temperature%own, factor, part%temperature%own)
                total%temperature%reference_share = total%temperature%reference_share + factor*part%temperature%reference_share
                if (.not. allocated(part%temperature%at)) cycle
                if (.not. allocated(total%temperature%at)) total%temperature%at = 0.0_wp*part%temperature%at

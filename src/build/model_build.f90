@@ -151,6 +151,7 @@ contains
       logical, intent(out)              :: is_whole
       type(marked_side), allocatable :: sides(:)
       type(bush_type), allocatable :: bushes(:)
+      integer :: k
 
       call start_mesh(mesh)
       call build_mesh(deck, mesh, sides)
@@ -178,6 +179,7 @@ contains
       call add_torsion(mesh)
       call build_masses(deck, bushes, mesh)
       call build_matrices(deck, mesh)
+      mesh%bars%column = size(mesh%structural%shells) + size(mesh%structural%beams) + [(k, k = 1, size(mesh%bars))]
    end subroutine make_mesh
 
    !> Make the JOINTS and their interface elements, with their gaps.

@@ -106,7 +106,8 @@ contains
    end function material_direction
 
    !> Find the edges between triangular shells, which their drilling rotations bow (shell_membrane), once shared surfaces are split:
-   !! triangles lie on different sides of the edge, and no quadrilateral has it. Triangles on the same nodes lie on one side.
+   !! triangles of three nodes lie on different sides of the edge, and no other shell has it. Triangles on the same nodes lie on one
+   !! side.
    pure subroutine bow_edges(mesh)
       type(mesh_type), intent(inout) :: mesh
       integer :: b, e, i, k
@@ -122,7 +123,7 @@ contains
                   associate (other => mesh%elements_at(k))
                      if (.not. is_shell(mesh, other)) cycle
                      if (all(element_points(mesh, other) /= b)) cycle
-                     if (size(element_points(mesh, other)) == 4) then
+                     if (size(element_points(mesh, other)) /= 3) then
                         law%bowed(i) = .false.
                         exit
                      end if

@@ -1,7 +1,8 @@
 !> Nodes on the faces and edges of shells, at rigid levers from the nodes of the shells.
 !! A marked surface of shells lies half a thickness off their mean plane, on the side to which the normals of the marking elements
-!! point. A marked edge of shells is as wide as the thickness and is cut into strips. The nodes of such sides have rigid levers r
-!! from the nodes of the shells and no unknowns of their own: u + theta x r. Joints, gaps and pressure use them as they use other
+!! point. A marked edge of shells is as wide as the thickness and is cut into strips; those of an edge with a mid-side node are
+!! faces of eight nodes. The nodes of such sides have rigid levers r from the nodes of the shells and no unknowns of their own:
+!! u + theta x r. Joints, gaps and pressure use them as they use other
 !! nodes. Masses with an offset and bushes between nodes apart have such nodes too.
 module shell_faces
    use bulk_data, only: mass_card
@@ -24,6 +25,8 @@ module shell_faces
    public :: build_shell_faces, couple_shell_faces, mass_offset
 
    integer, parameter :: strips = 8 ! over the thickness at an edge: equal strips overestimate the inertia by 2/strips^2
+   !> The node of a strip that stands off node 1, 2, and 3, at the middle, of the edge, on the lower, middle and upper line.
+   integer, parameter :: place(3, 3) = reshape([1, 8, 4, 2, 6, 3, 5, 0, 7], [3, 3])
 
 contains
 
@@ -99,7 +102,7 @@ contains
       real(wp) :: normal(3), side, t(max_side_nodes), up(3, mesh%n_nodes)
 
       call cut_edges(surface)
-      allocate (added(max_side_nodes*surface%n), of_node(0:strips, mesh%n_nodes))
+      allocate (added(max_side_nodes*surface%n), of_node(0:2*strips, mesh%n_nodes))
       allocate (n_of(max_side_nodes*surface%n), source=0)
       of_node = 0
       up = 0.0_wp
@@ -120,18 +123,20 @@ contains
                normal = node_normal(mesh%x(:, corners), at)
                if (row == 0) then
                   call take(0, nodes(i), (law%offset + side*t(at))*normal, surface%nodes(i, s))
-               else ! edge 1 to 2: 1 and 2 on the lower line of the strip, then 2 and 1 on the upper one
+               else ! lines half a strip apart
                   if (all(abs(up(:, nodes(i))) <= 0.0_wp)) up(:, nodes(i)) = normal
-                  do line = row - 1, row
-                     call take(merge(line, strips - line, dot_product(up(:, nodes(i)), normal) >= 0.0_wp), nodes(i), &
-                               (law%offset + t(at)*(real(line, wp)/strips - 0.5_wp))*normal, &
-                               surface%nodes(merge(i, 5 - i, line < row), s))
+                  do line = 2*row - 2, 2*row
+                     associate (k => place(line - 2*row + 3, i))
+                        if (k > merge(4, 8, c == 2) .or. k == 0) cycle
+                        call take(merge(line, 2*strips - line, dot_product(up(:, nodes(i)), normal) >= 0.0_wp), nodes(i), &
+                                  (law%offset + t(at)*(0.5_wp*line/strips - 0.5_wp))*normal, surface%nodes(k, s))
+                     end associate
                   end do
                end if
             end do
          end associate
-         if (c == 2) surface%corners(s) = 4
-         surface%n_nodes(s) = merge(4, c, c == 2)
+         if (row > 0) surface%corners(s) = 4
+         surface%n_nodes(s) = merge(merge(4, 8, c == 2), c, row > 0)
       end do
       do i = 1, n
          added(i)%lever = added(i)%lever/n_of(i)

@@ -76,21 +76,23 @@ contains
       type(tie_type), allocatable :: added(:)
       type(face_frame)  :: frames(base%n)
       real(wp) :: along(3), arms(3, 3), farthest, miss, normal(3), t, thickness(max_side_nodes)
-      integer  :: k, n, node, of_node(mesh%n_nodes), p, s
+      integer  :: k, n, node, of_node(mesh%n_nodes), p, pair(2, 4), s
 
       do s = 1, base%n
          call make_frame(3, mesh%x(:, base%nodes(:base%n_nodes(s), s)), frames(s))
       end do
-      allocate (added(2*side%n))
+      allocate (added(3*side%n))
       of_node = 0
       n = 0
       do s = 1, side%n
          associate (corners => element_points(mesh, side%element(s)), &
                     law => mesh%structural%shells(mesh%structural%place(side%element(s))))
             thickness(:size(corners)) = node_thickness(law, size(corners))
-            do k = 1, 2
-               node = side%nodes(k, s)
-               along = mesh%x(:, side%nodes(3 - k, s)) - mesh%x(:, node)
+            pair = reshape([1, 3, 3, 1, 3, 2, 2, 3], [2, 4]) ! an edge of three nodes has two parts
+            if (side%n_nodes(s) == 2) pair(:, :2) = reshape([1, 2, 2, 1], [2, 2])
+            do k = 1, 2*side%n_nodes(s) - 2 ! both ends of each part
+               node = side%nodes(pair(1, k), s)
+               along = mesh%x(:, side%nodes(pair(2, k), s)) - mesh%x(:, node)
                t = thickness(findloc(corners, node, dim=1))
                normal = node_normal(mesh%x(:, corners), findloc(corners, node, dim=1))
                arms = spread(law%offset*normal, 2, 3)

@@ -196,8 +196,12 @@ contains
       associate (cards => deck%bulk%spring, laws => deck%bulk%spring_property)
          is_kind = .not. (laws%is_bush .or. laws%is_damper)
          call deck%report_repeated('PELAS', pack(laws%id, is_kind), pack(laws%line, is_kind))
-         call deck%report_repeated('PDAMP', pack(laws%id, laws%is_damper), pack(laws%line, laws%is_damper))
-         call deck%report_repeated('PBUSH', pack(laws%id, laws%is_bush), pack(laws%line, laws%is_bush))
+         is_kind = laws%is_damper .and. .not. laws%is_bush
+         call deck%report_repeated('PDAMP', pack(laws%id, is_kind), pack(laws%line, is_kind))
+         is_kind = laws%is_bush .and. .not. laws%is_damper
+         call deck%report_repeated('PBUSH', pack(laws%id, is_kind), pack(laws%line, is_kind))
+         is_kind = laws%is_bush .and. laws%is_damper
+         call deck%report_repeated('PVISC', pack(laws%id, is_kind), pack(laws%line, is_kind))
          if (size(cards) == 0) return
          n = size(mesh%bars)
          allocate (bars(n + 6*size(cards)))

@@ -3,11 +3,13 @@ module surface_build
    use deck_check, only: checked_deck
    use element_build, only: marked_side
    use element_kinds, only: element_table, is_second_order, max_side_nodes
+   use elasticity, only: plane_stress
    use isoparametric, only: side_areas, side_forces
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
    use mesh_queries, only: element_points, is_shell
    use model_data, only: mesh_type, surface_type
+   use shell_element, only: node_thickness
    use surface_sides, only: nodes_of, side_corners
    use text_tools, only: integer_text, one_of
    implicit none
@@ -33,7 +35,7 @@ contains
       type(id_table_type)  :: marks
       integer, allocatable :: surface(:), first(:), members(:), said(:) ! said: missing marks
       character(:), allocatable :: words
-      integer :: i, k, most_nodes, room
+      integer :: i, k, most_nodes
 
       words = ''
       most_nodes = 2*(mesh%dimension - 1)                     ! of a side
@@ -59,15 +61,14 @@ contains
       do k = 1, size(mesh%surfaces)
          associate (marked => mesh%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
             marked%id = card%id
-            room = n*merge(2, 1, mesh%dimension == 3 .and. any(is_second_order(mesh%element_kind))) ! an edge of a shell may be two
-            allocate (marked%nodes(most_nodes, room), marked%strip(room), source=0)
-            allocate (marked%element(room), marked%other(room), marked%line(room), marked%corners(room), marked%n_nodes(room))
+            allocate (marked%nodes(most_nodes, n), marked%strip(n), source=0)
+            allocate (marked%element(n), marked%other(n), marked%line(n), marked%corners(n), marked%n_nodes(n))
             do i = first(k), first(k + 1) - 1
                associate (side => sides(members(i)))
                   if (all(side%nodes(:side%corners) > 0)) call add_side(deck, side, mesh, marked) ! else reported already
                end associate
             end do
-            if (marked%n < room) call cut(marked)
+            if (marked%n < n) call cut(marked)
             call check_repeated(deck, mesh, marked)
             if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! a number given twice is reported elsewhere
             words = 'surface '//integer_text(card%id)//' has no '// &
@@ -151,28 +152,13 @@ contains
          if (any(side_nodes == 0)) return ! reported already
       end if
       if (own_side > 0 .or. size(side_nodes) > side%corners) call check_mark(deck, side, mesh, owner, side_nodes)
-      if (size(side_nodes) == 3 .and. is_shell(mesh, owner) .and. own_side > 0) then ! an edge of second order: two edges
-         call append(side_nodes([1, 3]))
-         call append(side_nodes([3, 2]))
-      else
-         call append(side_nodes)
-      end if
-
-   contains
-
-      !> Append the side with these NODES.
-      subroutine append(nodes)
-         integer, intent(in) :: nodes(:)
-
-         surface%n = surface%n + 1
-         surface%line(surface%n) = side%line
-         surface%corners(surface%n) = side%corners
-         surface%n_nodes(surface%n) = size(nodes)
-         surface%nodes(:size(nodes), surface%n) = nodes
-         surface%element(surface%n) = owner
-         surface%other(surface%n) = other
-      end subroutine append
-
+      surface%n = surface%n + 1
+      surface%line(surface%n) = side%line
+      surface%corners(surface%n) = side%corners
+      surface%n_nodes(surface%n) = size(side_nodes)
+      surface%nodes(:size(side_nodes), surface%n) = side_nodes
+      surface%element(surface%n) = owner
+      surface%other(surface%n) = other
    end subroutine add_side
 
    !> The nodes of the face of shell E on the side on which its corners have the order of CORNERS.
@@ -312,11 +298,40 @@ contains
       if (mesh%element_property(surface%element(s)) == 0) return ! reported already
       associate (property => mesh%properties(mesh%element_property(surface%element(s))), &
                  x => mesh%x(:mesh%dimension, surface%nodes(:n, s)))
+         if (mesh%dimension == 3 .and. surface%corners(s) == 2) then
+            call edge_areas(mesh, surface%element(s), surface%nodes(:n, s), area)
+            return
+         end if
          call side_areas(property%state, property%thickness, x, area)
          call side_forces(property%state, property%thickness, x, spread(-1.0_wp, 1, n), force)
       end associate
       normal(:mesh%dimension, :n) = force(:, :n)
    end subroutine side_influence
+
+   !> Tributary areas of the NODES of an edge of shell E, before shell_faces cuts it into strips: the integral of N_i along the edge
+   !! times the thickness at the node.
+   pure subroutine edge_areas(mesh, e, nodes, area)
+      type(mesh_type), intent(in) :: mesh
+      integer, intent(in)         :: e, nodes(:)
+      real(wp), intent(inout)     :: area(:)     !! (nodes) [length^2], set here
+      real(wp) :: flat(2, size(nodes)), thickness(max_side_nodes)
+      integer  :: k
+
+      associate (points => element_points(mesh, e), law => mesh%structural%shells(mesh%structural%place(e)), &
+                 along => mesh%x(:, nodes(2)) - mesh%x(:, nodes(1)))
+         thickness(:size(points)) = node_thickness(law, size(points))
+         do k = 1, size(nodes) ! in the plane of the edge
+            associate (from_first => mesh%x(:, nodes(k)) - mesh%x(:, nodes(1)))
+               flat(1, k) = dot_product(from_first, along)/norm2(along)
+               flat(2, k) = norm2(from_first - flat(1, k)/norm2(along)*along)
+            end associate
+         end do
+         call side_areas(plane_stress, 1.0_wp, flat, area)
+         do k = 1, size(nodes)
+            area(k) = area(k)*thickness(findloc(points, nodes(k), dim=1))
+         end do
+      end associate
+   end subroutine edge_areas
 
    !> The nodes of SURFACE with their tributary areas, summed over the sides at a node, and their normals, the mean of the sides
    !! weighted by area.

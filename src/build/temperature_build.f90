@@ -1,14 +1,14 @@
-!> Temperatures of nodes and shells at the end of every stage, from TEMP, TEMPD and TEMPP1.
+!> Temperatures of nodes, shells and beams at the end of every stage, from TEMP, TEMPD, TEMPP1 and TEMPRB.
 module temperature_build
    use bulk_data, only: rigid_card
    use constraint_equations, only: expansion_type
    use deck_check, only: checked_deck
    use element_kinds, only: element_table
+   use element_temperatures, only: check_element_temperatures, set_element_temperatures
    use field_rules, only: has_component
    use kinds, only: wp
-   use lists, only: first_not_below
-   use mesh_queries, only: element_points, is_shell, n_points
-   use model_data, only: a_bar, freedoms_type, history_type, mesh_type, n_bars, slope_row, stage_load_type, temperature_type
+   use mesh_queries, only: element_points, n_points
+   use model_data, only: a_bar, freedoms_type, history_type, mesh_type, n_bars, stage_load_type
    use support_build, only: differ
    use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: least_misfit
@@ -33,6 +33,7 @@ contains
       integer :: before, i, k, s
 
       call check_cards(deck, mesh)
+      call check_element_temperatures(deck, mesh)
       do s = 1, size(deck%control%stages)
          associate (reference => deck%control%stages(s)%temperature, stages => deck%control%stages)
             if (reference%id == 0) cycle
@@ -41,9 +42,9 @@ contains
                history%stages(s)%temperature = history%stages(before)%temperature
                cycle
             end if
-            if (all(deck%bulk%temperature%set /= reference%id) .and. all(deck%bulk%plate_temperature%set /= reference%id)) then
-               call deck%errors%add(reference%line, 'TEMPERATURE: there is no TEMP, TEMPD or TEMPP1 with set '// &
-                                    integer_text(reference%id))
+            if (all(deck%bulk%temperature%set /= reference%id) .and. all(deck%bulk%own_temperature%set /= reference%id)) then
+               call deck%errors%add(reference%line, 'TEMPERATURE: there is no TEMP, TEMPD, TEMPP1 or '// &
+                                    'TEMPRB with set '//integer_text(reference%id))
                cycle
             end if
             if (all(abs(mesh%properties%alpha) <= 0.0_wp) .and. all(abs(mesh%bars%expansion) <= 0.0_wp) .and. &
@@ -55,7 +56,7 @@ contains
                allocate (temperature%at(mesh%n_nodes), source=0.0_wp)
                temperature%reference_share = 1.0_wp
                call fill_in(deck, mesh, reference%id, temperature%at, given)
-               call set_plate_temperatures(deck, mesh, reference%id, temperature, given)
+               call set_element_temperatures(deck, mesh, reference%id, temperature, given)
             end associate
             if (deck%errors%any()) cycle
             needs_one = mesh%first_at(2:) > mesh%first_at(:mesh%n_nodes)
@@ -74,7 +75,7 @@ contains
       do s = 2, size(history%stages)
          if (history%stages(s)%from == 0) cycle
          associate (a => history%stages(history%stages(s)%from)%temperature, b => history%stages(s)%temperature)
-            history%stages(s)%changes(3) = abs(a%reference_share - b%reference_share) > 0.0_wp .or. differ(a%plate, b%plate)
+            history%stages(s)%changes(3) = abs(a%reference_share - b%reference_share) > 0.0_wp .or. differ(a%own, b%own)
             if (allocated(a%at) .and. allocated(b%at)) history%stages(s)%changes(3) = history%stages(s)%changes(3) .or. &
                any(abs(a%at - b%at) > 0.0_wp)
          end associate
@@ -202,13 +203,12 @@ contains
       words = words//' count from 0'
    end function reference_words
 
-   !> Errors of TEMP and TEMPP1: missing nodes or shells, a node or shell named twice in a set; of TEMPD: two of one set.
+   !> Errors of TEMP: missing nodes, a node named twice in a set; of TEMPD: two of one set.
    subroutine check_cards(deck, mesh)
       type(checked_deck), intent(in) :: deck
       type(mesh_type), intent(in) :: mesh
-      integer :: i, k, node, twice
+      integer :: i, k, node
       integer, allocatable :: last(:)   ! (nodes) last card that named the node
-      integer, allocatable :: set_of(:) ! (elements) set of the last TEMPP1 that named the element
 
       allocate (last(mesh%n_nodes), source=0)
       do i = 1, size(deck%bulk%temperature)
@@ -233,27 +233,6 @@ contains
             if (deck%bulk%temperature(k)%set == card%set) call deck%field_error(card%line, card%field, 'node '// &
                integer_text(card%node)//' has a temperature in set '//integer_text(card%set)//' already, in '// &
                deck%text%place(deck%bulk%temperature(k)%line))
-         end associate
-      end do
-
-      allocate (set_of(mesh%n_elements), source=0)
-      do i = 1, size(deck%bulk%plate_temperature)
-         associate (card => deck%bulk%plate_temperature(i))
-            do k = 1, size(card%ranges%first)
-               if (card%ranges%first(k) == 0) cycle ! reported already
-               associate (named => plates_of(mesh, card%ranges%first(k), card%ranges%last(k)))
-                  twice = findloc(set_of(named), card%set, dim=1)
-                  if (size(named) == 0) then
-                     call deck%field_error(card%line, card%ranges%at(k), 'there is no shell with this number; expected '// &
-                                           'CQUAD4 or CTRIA3 with a PSHELL in a model of space', called='EID')
-                  else if (twice > 0) then
-                     call deck%field_error(card%line, card%ranges%at(k), 'element '// &
-                                           integer_text(mesh%element_id(named(twice)))//' has a TEMPP1 in set '// &
-                                           integer_text(card%set)//' already', called='EID')
-                  end if
-                  set_of(named) = card%set
-               end associate
-            end do
          end associate
       end do
    end subroutine check_cards
@@ -312,58 +291,5 @@ contains
          end associate
       end do
    end subroutine fill_in
-
-   !> The shells with numbers from FIRST to LAST.
-   pure function plates_of(mesh, first, last) result(named)
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)          :: first, last
-      integer, allocatable :: named(:)
-      integer :: e
-
-      associate (id => mesh%element_id, low => first_not_below(mesh%element_id, first), most => max(first, last))
-         named = [(e, e = low, min(first_not_below(id, most), size(id)))]
-         named = pack(named, id(named) >= first .and. id(named) <= most)
-      end associate
-      named = pack(named, [(is_shell(mesh, named(e)), e = 1, size(named))])
-   end function plates_of
-
-   !> Temperatures of the shells of SET from TEMPP1. Nodes that have no other temperature get that of these shells, and are then
-   !! GIVEN.
-   subroutine set_plate_temperatures(deck, mesh, set, temperature, given)
-      type(checked_deck), intent(in)        :: deck
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)                   :: set
-      type(temperature_type), intent(inout) :: temperature
-      logical, intent(inout)                :: given(:)
-      integer :: card_of(mesh%n_elements), e, i, k, node
-
-      if (all(deck%bulk%plate_temperature%set /= set)) return
-      card_of = 0
-      do i = 1, size(deck%bulk%plate_temperature)
-         associate (card => deck%bulk%plate_temperature(i))
-            if (card%set == set) then
-               do k = 1, size(card%ranges%first)
-                  card_of(plates_of(mesh, card%ranges%first(k), card%ranges%last(k))) = i
-               end do
-            end if
-         end associate
-      end do
-      do node = 1, n_points(mesh)
-         associate (around => mesh%elements_at(mesh%first_at(node):mesh%first_at(node + 1) - 1))
-            if (given(node) .or. size(around) == 0 .or. any(card_of(around) == 0)) cycle
-            temperature%at(node) = sum(deck%bulk%plate_temperature(card_of(around))%mean)/size(around)
-            given(node) = .true.
-         end associate
-      end do
-      allocate (temperature%plate(slope_row, size(mesh%structural%shells)), source=0.0_wp)
-      do e = 1, mesh%n_elements
-         if (card_of(e) == 0) cycle
-         associate (card => deck%bulk%plate_temperature(card_of(e)), nodes => element_points(mesh, e), &
-                    place => mesh%structural%place(e))
-            temperature%plate(:size(nodes), place) = card%mean - temperature%at(nodes)
-            temperature%plate(slope_row, place) = card%slope
-         end associate
-      end do
-   end subroutine set_plate_temperatures
 
 end module temperature_build

@@ -8,7 +8,7 @@ module bulk_data
    use frequency_loads, only: response_cards_type
    use kinds, only: wp
    use load_data, only: bolt_card, displacement_card, force_card, gravity_card, load_card, pair_card, &
-                        plate_temperature_card, preload_card, pressure_card, region_card, surface_load_card, temperature_card
+                        own_temperature_card, preload_card, pressure_card, region_card, surface_load_card, temperature_card
    use nastran_compatibility, only: ignored_entries_type, parameters_type
    use nodal_matrices, only: matrix_cards_type
    use normal_curve, only: normal_law
@@ -118,9 +118,9 @@ module bulk_data
    !> CELAS1 to 4 and CDAMP1 to 4 (between component COMPONENTS(1) of node 1 and COMPONENTS(2) of node 2), CBUSH (along three axes).
    type, public :: spring_card
       integer  :: line = 0, id = 0, nodes(2) = 0        ! 0: the ground
-      integer  :: property = 0                          ! PELAS, PDAMP or PBUSH; 0: the values below
+      integer  :: property = 0                          ! PELAS, PDAMP, PBUSH or PVISC; 0: the values below
       integer  :: components(2) = 0
-      logical  :: is_bush = .false., is_damper = .false. ! CBUSH; CDAMP1 to 4
+      logical  :: is_bush = .false., is_damper = .false. ! CBUSH; CDAMP1 to 4; both: CVISC
       logical  :: is_scalar = .false.                   ! CELAS3 and 4, CDAMP3 and 4
       integer  :: system = -1                           ! CID of a CBUSH, 0: global axes, -1: blank
       integer  :: other = 0                             ! GO of a CBUSH, 0: blank
@@ -134,7 +134,7 @@ module bulk_data
    !> PELAS (the first stiffness), PDAMP (the first B) and PBUSH.
    type, public :: spring_property_card
       integer  :: line = 0, id = 0
-      logical  :: is_bush = .false., is_damper = .false. ! PBUSH; PDAMP
+      logical  :: is_bush = .false., is_damper = .false. ! PBUSH; PDAMP; both: PVISC
       integer  :: field = 1                             ! data field of the id
       real(wp) :: stiffness(6) = 0.0_wp, viscous(6) = 0.0_wp ! K and B
       real(wp) :: damping(6) = 0.0_wp                   ! GE, of a PELAS the first
@@ -370,7 +370,7 @@ module bulk_data
       type(gravity_card), allocatable      :: gravity(:)
       type(displacement_card), allocatable :: displacement(:), suport(:)
       type(temperature_card), allocatable  :: temperature(:)
-      type(plate_temperature_card), allocatable :: plate_temperature(:)
+      type(own_temperature_card), allocatable :: own_temperature(:)
       type(load_card), allocatable         :: load(:), dload(:)
       type(bolt_card), allocatable         :: bolt(:)
       type(region_card), allocatable       :: region(:)

@@ -11,18 +11,17 @@ module case_control
    use nastran_compatibility, only: ignored_entries_type, parameters_type, read_echo, read_habit
    use nastran_solutions, only: is_direct, is_statics, judge_solution, starts_dmap, warn_of_dmap
    use nastran_words, only: control_habit
-   use stage_entries, only: check_vibration, complete_response, pair_reference, read_pair, read_stage_entry, show_nodes, &
+   use stage_entries, only: check_vibration, complete_response, read_stage_entry, show_nodes, &
                             stage_type, vibration_entries_type
    use text_tools, only: integer_text, upper
    use tolerances, only: back_tol, least_tol, newton_tol, path_tol
    implicit none
    private
 
-   public :: read_case_control, watch_also, offer_petsc
+   public :: read_case_control, offer_petsc
 
-   integer, parameter  :: own_set = -1 ! number of the set of --watch
    character(12), parameter :: motions(5) = [character(12) :: 'DISPLACEMENT', 'VECTOR', 'SVECTOR', 'VELOCITY', 'ACCELERATION']
-   integer, parameter  :: all_nodes = -2 ! and of that of DISPLACEMENT = ALL
+   integer, parameter  :: all_nodes = -2 ! number of the set of DISPLACEMENT = ALL, -1 that of --watch
 
    type, public :: case_control_type
       character(:), allocatable :: title
@@ -182,44 +181,6 @@ contains
       end subroutine refuse
 
    end subroutine read_case_control
-
-   !> Watch the nodes and pairs of LIST, numbers and N-M with commas, in all stages; not OK: a word is neither. The nodes form a set
-   !! whose number no deck can use.
-   pure subroutine watch_also(control, list, ok)
-      type(case_control_type), intent(inout) :: control
-      character(*), intent(in)               :: list
-      logical, intent(out)                   :: ok
-      type(pair_reference), allocatable :: pairs(:)
-      type(pair_reference) :: pair
-      character(:), allocatable :: nodes, rest
-      integer :: comma, s
-
-      nodes = ''
-      allocate (pairs(0))
-      rest = list
-      ok = .true.
-      do while (ok .and. rest /= '')
-         comma = index(rest//',', ',')
-         if (index(rest(:comma - 1), '-') > 0) then
-            call read_pair(rest(:comma - 1), pair, ok)
-            pairs = [pairs, pair]
-         else
-            nodes = nodes//','//rest(:comma - 1)
-         end if
-         rest = rest(min(comma + 1, len(rest) + 1):)
-      end do
-      if (.not. allocated(control%sets)) allocate (control%sets(0))
-      if (nodes /= '') control%sets = [control%sets, number_set(own_set, 0, nodes(2:))]
-      do s = 1, size(control%stages)
-         associate (stage => control%stages(s))
-            if (.not. allocated(stage%pairs)) allocate (stage%pairs(0))
-            stage%pairs = [stage%pairs, pairs]
-            if (nodes == '') cycle
-            if (.not. allocated(stage%watch)) allocate (stage%watch(0))
-            stage%watch = [stage%watch, limit_type(.false., own_set, 0)]
-         end associate
-      end do
-   end subroutine watch_also
 
    !> Note the sets that no OUTPUT, WATCH or RESPONSE names as entries without effect.
    pure subroutine note_idle_sets(control)
@@ -406,7 +367,7 @@ contains
          call complete_response(control%stages(i)%vibration, control%is_direct, control%of_nastran, shown)
       end do
       if (shown) call control%ignored%drop(motions, n_shown)
-      call check_vibration(control%stages%vibration, control%stages%line, errors)
+      call check_vibration(control%stages%vibration, control%stages%line, control%stages%output%dmig, errors)
    end subroutine check_stages
 
 end module case_control

@@ -4,7 +4,8 @@ module deck_check
    use case_control, only: case_control_type
    use deck_cards, only: add_field_error, card_name
    use deck_errors, only: deck_error_list
-   use deck_input, only: card_kind, deck_type
+   use card_kinds, only: card_kind
+   use deck_input, only: deck_type
    use deck_text, only: deck_text_type
    use field_rules, only: number_of
    use lists, only: id_table_type, sorted_order

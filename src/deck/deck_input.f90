@@ -3,31 +3,30 @@ module deck_input
    use beam_cards, only: read_beam_load, read_beam_property
    use bulk_data, only: bulk_data_type
    use card_fields, only: card_fields_type
-   use case_control, only: case_control_type, read_case_control, watch_also
-   use deck_cards, only: card_name, card_type, check_first_field, is_continuation, loose_text, read_card
+   use card_kinds, only: card_kind, find_cards, read_all, read_one
+   use case_entries, only: limit_type, number_set
+   use case_control, only: case_control_type, read_case_control
    use deck_errors, only: deck_error_list
    use deck_parameters, only: parameter_type
    use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
-   use deck_lines, only: is_include
    use, intrinsic :: iso_fortran_env, only: int16
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
-   use kinds, only: long
    use laminate_cards, only: read_laminate, read_plate_material
    use matrix_cards, only: read_dmig, read_retained
-   use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_plate_temperature, read_pressure, read_surface_load, &
+   use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_own_temperature, read_pressure, read_surface_load, &
                          read_temperature
-   use mesh_cards, only: complete_remedy, fill_defaults, read_block, read_edge, read_edge_defaults, read_element, read_grid, &
+   use mesh_cards, only: fill_defaults, read_block, read_edge, read_edge_defaults, read_element, read_grid, &
                          read_pmark, read_grid_defaults, read_system, system_names
-   use nastran_compatibility, only: not_reduced, take_idle_card
+   use nastran_compatibility, only: not_reduced
    use nastran_defaults, only: find_first_card, take_initial_temperature, take_only_sets
    use nx_cards, only: read_pair, read_preload, read_region
    use property_cards, only: read_mat1, read_body_property, read_parameter, &
                              read_pshell, read_rod
    use response_cards, only: read_darea, read_dload, read_lseq, read_rload, read_tabled
    use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
+   use stage_entries, only: pair_reference, read_watched_pair => read_pair
    use support_cards, only: read_displacement, read_mass, read_pmass, read_scalar, read_spring, read_spring_property, &
                             read_sum, read_suport, read_support
-   use text_tools, only: plural, upper
    use unused_cards, only: count_unused
    use vibration_cards, only: read_eigrl, read_frequencies, read_jampl, read_tabdmp1
    implicit none
@@ -35,15 +34,7 @@ module deck_input
 
    public :: read_deck, read_deck_of_text
 
-   !> One kind of card, and the routine that reads it. The kinds of one array share a routine.
-   type, public :: card_kind
-      character(8) :: name = ''
-      character(8), allocatable :: fields(:)         !! names of the data fields, as far as cards of this kind have been read
-      integer, private :: routine = 0                ! the same for kinds that share a routine
-      integer, private :: n = 0                      ! number of cards of this kind
-      logical :: of_mesh = .false.                   !! of nodes, elements, properties or marked surfaces
-      procedure(read_one), pointer, nopass, private :: read => null()
-   end type card_kind
+   integer, parameter :: own_set = -1 ! number of the set of --watch
 
    type, public :: deck_type
       type(deck_text_type)    :: text
@@ -52,17 +43,6 @@ module deck_input
       logical :: is_whole = .false. !! false: a part of the deck is missing, so that references to it cannot be checked
       type(card_kind), allocatable :: kinds(:) !! of card, with their field tables
    end type deck_type
-
-   abstract interface
-      !> Stores the fields of CARD in entry CARD%I of its array of BULK.
-      subroutine read_one(card, bulk)
-         import :: bulk_data_type, card_fields_type
-         type(card_fields_type), intent(inout) :: card
-         type(bulk_data_type), intent(inout)   :: bulk
-      end subroutine read_one
-   end interface
-
-   integer, parameter :: many_lines = 5000 ! length of a deck from which two threads pay
 
 contains
 
@@ -96,8 +76,8 @@ contains
       call add(['BCTADD'], read_sum)
       call add(['BGADD'], read_sum)
       call add(['BOLTFOR', 'BOLTSEQ'], read_preload)
-      call add(['CELAS1', 'CELAS2', 'CELAS3', 'CELAS4', 'CBUSH ', 'CDAMP1', 'CDAMP2', 'CDAMP3', 'CDAMP4'], read_spring)
-      call add(['PELAS', 'PBUSH', 'PDAMP'], read_spring_property)
+      call add(['CELAS1', 'CELAS2', 'CELAS3', 'CELAS4', 'CBUSH ', 'CVISC ', 'CDAMP1', 'CDAMP2', 'CDAMP3', 'CDAMP4'], read_spring)
+      call add(['PELAS', 'PBUSH', 'PVISC', 'PDAMP'], read_spring_property)
       call add(['CONM2 ', 'CONM1 ', 'CMASS1', 'CMASS2', 'CMASS3', 'CMASS4'], read_mass)
       call add(['PMASS'], read_pmass)
       call add(['SPOINT'], read_scalar)
@@ -115,7 +95,7 @@ contains
       call add(['PLOAD1'], read_beam_load)
       call add(['SPCD'], read_displacement)
       call add(['TEMP ', 'TEMPD'], read_temperature)
-      call add(['TEMPP1'], read_plate_temperature)
+      call add(['TEMPP1', 'TEMPRB'], read_own_temperature)
       call add(['LOAD'], read_load)
       call add(['BOLT'], read_bolt)
       call add(['JOINT'], read_joint)
@@ -176,7 +156,7 @@ contains
          bulk%pressure(n('PLOAD')), bulk%surface_load(n('PLOADM')), &
          bulk%gravity(n('GRAV')), bulk%displacement(2*n('SPCD')), bulk%suport(4*n('SUPORT')), &
          bulk%temperature(4*n('TEMP')), bulk%load(n('LOAD')), &
-         bulk%plate_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
+         bulk%own_temperature(n('TEMPP1')), bulk%bolt(n('BOLT')), bulk%joint(n('JOINT')), bulk%cjoint(n('CJOINT')), &
          bulk%pjoint(n('PJOINT')), bulk%jnorm(n('JNORM')), bulk%jshear(n('JSHEAR')), bulk%jgap(n('JGAP')), &
          bulk%jiwan(n('JIWAN')), bulk%jincr(n('JINCR')), bulk%eigrl(n('EIGRL')), bulk%jampl(n('JAMPL')), &
          bulk%frequency(n('FREQ1')), bulk%tabdmp1(n('TABDMP1')), bulk%region(n('BSURF')), &
@@ -280,183 +260,50 @@ contains
          call fill_defaults(bulk)
          call count_unused(bulk)
          call bulk%ignored%settle(any(asked%modes%id /= 0), any(asked%modes%id /= 0 .and. asked%frequency%id > 0), &
-                                  any(deck%control%stages%warms_materials), errors)
+                                  any(deck%control%stages%warms_materials), &
+                                  bulk%parameters%relief_line > 0 .or. any(deck%control%stages%output%dmig), errors)
          if (is_alone) call take_only_sets(bulk, deck%control%stages(1), errors)
          call take_initial_temperature(deck%control%stages%initial, bulk, errors)
       end associate
       deck%is_whole = is_whole
    end subroutine read_lines
 
-   !> Note where the cards from line CURSOR to ENDDATA begin. BULK counts all cards, also unknown ones and those without effect. Text
-   !! behind ENDDATA has no effect. A second BEGIN makes their number -1.
-   subroutine find_cards(text, cursor, cards, may_be_open, kind_at, bulk, errors)
-      type(deck_text_type), intent(in)     :: text
-      integer, intent(inout)               :: cursor
-      type(card_kind), intent(inout)       :: cards(:)   !! the number of each kind
-      logical, intent(in)                  :: may_be_open !! NASTRAN takes the deck without ENDDATA too
-      integer(int16), intent(inout)        :: kind_at(:) !! (lines) kind of the card that begins there
-      type(bulk_data_type), intent(inout)  :: bulk
-      type(deck_error_list), intent(inout) :: errors
-      integer(long) :: first, last
-      integer :: at, comma, file
-      integer :: ended_file ! file whose ENDDATA was read last, 1: the deck itself
-      integer :: loose(2), n_loose(2) ! first line with text in columns 73 to 80, and past column 80; and their number
-      logical :: is_open    ! a card may be continued
+   !> Watch the nodes and pairs of LIST, numbers and N-M with commas, in all stages; not OK: a word is neither. The nodes form a set
+   !! whose number no deck can use.
+   pure subroutine watch_also(control, list, ok)
+      type(case_control_type), intent(inout) :: control
+      character(*), intent(in)               :: list
+      logical, intent(out)                   :: ok
+      type(pair_reference), allocatable :: pairs(:)
+      type(pair_reference) :: pair
+      character(:), allocatable :: nodes, rest
+      integer :: comma, s
 
-      ended_file = 0
-      loose = 0
-      n_loose = 0
-      is_open = .false.
-      do while (cursor <= text%n)
-         at = cursor
-         cursor = cursor + 1
-         call text%find(at, file, first, last, comma)
-         if (last < first) cycle
-         if (ended_file == 1 .or. file == ended_file) then
-            call bulk%ignored%add('text behind ENDDATA')
-            do while (cursor <= text%n) ! once for each file
-               if (ended_file /= 1 .and. text%file_number(cursor) /= ended_file) exit
-               cursor = cursor + 1
-            end do
-            cycle
+      nodes = ''
+      allocate (pairs(0))
+      rest = list
+      ok = .true.
+      do while (ok .and. rest /= '')
+         comma = index(rest//',', ',')
+         if (index(rest(:comma - 1), '-') > 0) then
+            call read_watched_pair(rest(:comma - 1), pair, ok)
+            pairs = [pairs, pair]
+         else
+            nodes = nodes//','//rest(:comma - 1)
          end if
-         associate (line => text%files(file)%bytes(first:last))
-            if (len(line) > 72 .and. comma == 0) call watch_columns(line)
-            if (is_continuation(line, comma)) then
-               if (.not. is_open) call errors%add(at, 'a continuation line without a card before it')
-               cycle
-            end if
-            is_open = .false.
-            if (is_include(line)) cycle ! the lines of the file follow in the deck text
-            if (card_name(line, comma) == 'ENDDATA') then
-               ended_file = file
-            else if (upper(line(:min(6, len(line)))) == 'BEGIN') then
-               errors%n = 0
-               call errors%add(at, 'a second BEGIN: there is one structure, without superelements; nothing of this deck is read')
-               bulk%n_cards = -1
-               return
-            else
-               is_open = .true.
-               bulk%n_cards = bulk%n_cards + 1
-               call find_card(line)
-            end if
+         rest = rest(min(comma + 1, len(rest) + 1):)
+      end do
+      if (.not. allocated(control%sets)) allocate (control%sets(0))
+      if (nodes /= '') control%sets = [control%sets, number_set(own_set, 0, nodes(2:))]
+      do s = 1, size(control%stages)
+         associate (stage => control%stages(s))
+            if (.not. allocated(stage%pairs)) allocate (stage%pairs(0))
+            stage%pairs = [stage%pairs, pairs]
+            if (nodes == '') cycle
+            if (.not. allocated(stage%watch)) allocate (stage%watch(0))
+            stage%watch = [stage%watch, limit_type(.false., own_set, 0)]
          end associate
       end do
-      if (ended_file /= 1 .and. text%ends_whole .and. may_be_open) then
-         call errors%warn('no ENDDATA: expected it after the last card; a deck that is cut off between two lines would look '// &
-                          'the same')
-      else if (ended_file /= 1) then
-         call errors%add(0, 'no ENDDATA: the deck may be truncated; expected ENDDATA after the last card')
-      end if
-      if (n_loose(1) > 0) call errors%warn('text in columns 73 to 80 that is no continuation mark is not read: '// &
-         plural(n_loose(1), 'line')//', the first '//text%place(loose(1)))
-      if (n_loose(2) > 0) call errors%warn('text past column 80 is not read: '//plural(n_loose(2), 'line')//', the first '// &
-                                           text%place(loose(2)))
-
-   contains
-
-      !> Note the text that is not read at the end of LINE, line AT.
-      subroutine watch_columns(line)
-         character(*), intent(in) :: line
-         integer :: column, k
-
-         column = loose_text(line, text%card_part(min(at + 1, text%n)))
-         if (column == 0) return
-         k = merge(1, 2, column == 73)
-         n_loose(k) = n_loose(k) + 1
-         if (loose(k) == 0) loose(k) = at
-      end subroutine watch_columns
-
-      !> Note the card that begins with LINE, line AT of TEXT; the first comma is in column COMMA, 0: none.
-      subroutine find_card(line)
-         character(*), intent(in) :: line
-         type(card_type)       :: card
-         type(deck_error_list) :: faults
-         character(8) :: name
-         integer :: behind, kind
-         logical :: is_idle
-
-         name = card_name(line, comma)
-         call check_first_field(line, comma, at, faults)
-         do kind = 1, size(cards) ! findloc would copy the names
-            if (cards(kind)%name == name) exit
-         end do
-         if (kind <= size(cards) .and. .not. faults%any()) then
-            kind_at(at) = int(kind, int16)
-            cards(kind)%n = cards(kind)%n + 1
-         else
-            is_idle = .false.
-            if (.not. faults%any()) call take_idle_card(trim(name), at, bulk%ignored, is_idle)
-            if (is_idle) return
-            behind = at
-            call read_card(text, behind, card, errors) ! finds the other errors of the card
-            if (card%name == 'CQUAD9') then
-               call errors%add(card%line, 'CQUAD9 is a complete element of nine nodes; expected a CQUAD8, no node inside'// &
-                               complete_remedy, 1, 8)
-            else if (card%name /= '') then
-               call errors%add(card%line, ''''//trim(card%name)//''' is not a card of jointfem; see input/cards.md', 1, 8)
-            end if
-         end if
-      end subroutine find_card
-
-   end subroutine find_cards
-
-   !> Fill the arrays of BULK with the noted cards, in the order of the deck TEXT; errors go to ERRORS. The first routine, that of
-   !! the nodes, reads about half of a long deck: one thread runs it, a second thread runs the others. The errors have the order of
-   !! a serial run.
-   subroutine read_all(text, kind_at, cards, bulk, errors)
-      type(deck_text_type), intent(in)             :: text
-      integer(int16), intent(in)                    :: kind_at(:)
-      type(card_kind), intent(inout)               :: cards(:)
-      type(bulk_data_type), intent(inout)          :: bulk
-      type(deck_error_list), intent(inout), target :: errors
-      type(deck_error_list), target :: others
-      integer :: k
-
-      !$omp parallel sections default(shared) if(text%n > many_lines)
-      call read_by(1, errors)
-      !$omp section
-      do k = 2, size(cards)
-         call read_by(k, others)
-      end do
-      !$omp end parallel sections
-      if (allocated(others%warnings)) then
-         do k = 1, size(others%warnings)
-            call errors%warn(others%warnings(k)%words)
-         end do
-      end if
-      do k = 1, others%n
-         call errors%add(others%items(k)%line, others%items(k)%message, others%items(k)%first, others%items(k)%last)
-      end do
-
-   contains
-
-      !> Read all cards of routine number ROUTINE.
-      subroutine read_by(routine, errors)
-         integer, intent(in)                          :: routine
-         type(deck_error_list), intent(inout), target :: errors
-         type(card_fields_type) :: card
-         integer :: behind, left, line
-
-         if (cards(routine)%routine /= routine) return ! another name in the line of a routine
-         left = sum(cards%n, mask=cards%routine == routine)
-         card%errors => errors
-         do line = 1, size(kind_at)
-            if (left == 0) exit
-            if (kind_at(line) == 0) cycle
-            associate (kind => cards(kind_at(line)))
-               if (kind%routine /= routine) cycle
-               behind = line
-               call read_card(text, behind, card%card_type, errors)
-               call move_alloc(kind%fields, card%names)
-               call card%begin()
-               call kind%read(card, bulk)
-               call move_alloc(card%names, kind%fields)
-            end associate
-            left = left - 1
-         end do
-      end subroutine read_by
-
-   end subroutine read_all
+   end subroutine watch_also
 
 end module deck_input

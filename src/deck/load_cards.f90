@@ -1,4 +1,4 @@
-!> Reads the cards of loads (FORCE to FORCEM, GRAV, RFORCE, LOAD), of bolts and of temperatures (TEMP, TEMPD, TEMPP1).
+!> Reads the cards of loads (FORCE to FORCEM, GRAV, RFORCE, LOAD), of bolts and of temperatures (TEMP to TEMPRB).
 !! Each array of the bulk data has a routine, each kind of card a table. The increment fractions of a stage's load change
 !! (section 5: arithmetic or geometric progression) are here too.
 module load_cards
@@ -16,7 +16,7 @@ module load_cards
    private
 
    public :: arithmetic_fractions, geometric_fractions, read_force, read_pressure, read_surface_load, read_gravity, read_load, &
-             read_combination, read_bolt, read_temperature, read_plate_temperature
+             read_combination, read_bolt, read_temperature, read_own_temperature
 
 contains
 
@@ -104,13 +104,10 @@ contains
          call card%field('SID', force%set)
          call card%field('G', force%node)
          select case (card%name)
-         case ('FORCE1', 'MOMENT1')
+         case ('FORCE1', 'MOMENT1', 'FORCE2', 'MOMENT2')
             call card%field(merge('M', 'F', force%is_moment), force%force(1))
             call card%field(['G1', 'G2'], force%ends(:2))
-            call card%finish(force%line)
-         case ('FORCE2', 'MOMENT2')
-            call card%field(merge('M', 'F', force%is_moment), force%force(1))
-            call card%field(['G1', 'G2', 'G3', 'G4'], force%ends)
+            if (any(card%name == ['FORCE2 ', 'MOMENT2'])) call card%field(['G3', 'G4'], force%ends(3:))
             call card%finish(force%line)
          case default
             call card%field('CID', force%system, default=0, least=0)
@@ -172,21 +169,19 @@ contains
             call card%field('P', p(1))
             call card%field(['G1', 'G2'], pressure%corners(:2))
             call card%finish(pressure%line)
-            p = p(1)
          case ('PLOAD2')
             pressure%kind = of_marks
             call card%field('P', p(1))
             call card%list_ranges(3, 'EID', 'an element number', pressure%ranges)
             pressure%line = card%line
-            p = p(1)
          case default
             pressure%kind = of_nodes
             call card%field('P', p(1))
             call card%field(['G1', 'G2', 'G3'], pressure%corners(:3))
             call card%field('G4', pressure%corners(4), default=0)
             call card%finish(pressure%line)
-            p = p(1)
          end select
+         if (card%name /= 'PLOAD4') p = p(1)
       end associate
    end subroutine read_pressure
 
@@ -371,26 +366,34 @@ contains
       end do
    end subroutine read_temperature
 
-   !> TEMPP1: the mean temperature TBAR of shells and its gradient TPRIME along their normals. TS1 and TS2, which NASTRAN uses for
-   !! stresses only, have no effect.
-   subroutine read_plate_temperature(card, bulk)
+   !> TEMPP1, TEMPRB: temperatures of shells, of beams and rods. Those of points of the section, which NASTRAN uses for stresses only,
+   !! have no effect.
+   subroutine read_own_temperature(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       type(id_ranges) :: others
       integer :: first
 
-      associate (warm => bulk%plate_temperature(card%i))
+      associate (warm => bulk%own_temperature(card%i))
          warm%line = card%line
+         warm%is_plate = card%name == 'TEMPP1'
          call card%field('SID', warm%set)
          call card%field('EID1', first)
-         call card%field('TBAR', warm%mean)
-         call card%field('TPRIME', warm%slope, default=0.0_wp)
-         call card%skip(['-  ', 'TS1', 'TS2', '-  '])
+         if (warm%is_plate) then
+            call card%field('TBAR', warm%mean(1))
+            warm%mean(2) = warm%mean(1)
+            call card%field('TPRIME', warm%slope(1), default=0.0_wp)
+            call card%skip(['-  ', 'TS1', 'TS2', '-  '])
+         else
+            call card%field(['TA', 'TB'], warm%mean)
+            call card%field(['TP1A', 'TP1B', 'TP2A', 'TP2B'], warm%slope, default=0.0_wp)
+            call card%skip(['TCA', 'TDA', 'TEA', 'TFA', 'TCB', 'TDB', 'TEB', 'TFB'])
+         end if
          warm%ranges = id_ranges([first], [first], [2])
-         if (card%n <= 8) return
-         call card%list_ranges(9, 'EID', 'an element number', others)
+         if (card%n <= merge(8, 16, warm%is_plate)) return
+         call card%list_ranges(merge(9, 17, warm%is_plate), 'EID', 'an element number', others)
          warm%ranges = id_ranges([first, others%first], [first, others%last], [2, others%at])
       end associate
-   end subroutine read_plate_temperature
+   end subroutine read_own_temperature
 
 end module load_cards

@@ -63,12 +63,14 @@ module load_data
       real(wp) :: value = 0.0_wp
    end type temperature_card
 
-   !> TEMPP1: the MEAN temperature over the thickness of shells, and its gradient along the normal.
-   type, public :: plate_temperature_card
+   !> TEMPP1: the MEAN temperature over the thickness of shells, and its gradient along the normal. TEMPRB: that over the section of
+   !! beams and rods at their ends A and B, and its gradients, along y at A and B, along z at A and B.
+   type, public :: own_temperature_card
       integer  :: line = 0, set = 0
+      logical  :: is_plate = .false.                    ! TEMPP1
       type(id_ranges) :: ranges                         ! of elements
-      real(wp) :: mean = 0.0_wp, slope = 0.0_wp
-   end type plate_temperature_card
+      real(wp) :: mean(2) = 0.0_wp, slope(4) = 0.0_wp   ! TEMPP1: slope(1)
+   end type own_temperature_card
 
    !> BOLT: the CROD ELEMENT, or a solid cut at the marked SURFACE, tightened to PRELOAD in SUBCASE STAGE and locked afterwards.
    type, public :: bolt_card

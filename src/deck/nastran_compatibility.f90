@@ -15,7 +15,8 @@ module nastran_compatibility
 
    integer, parameter :: name_length = 40
    character(*), parameter :: not_reduced = 'the modes are those of the whole model, which is not reduced'
-   integer, parameter :: with_modes = 1, with_response = 2, with_materials = 3, always = 4 ! temperatures of materials
+   integer, parameter :: with_modes = 1, with_response = 2, with_materials = 3, always = 4, & ! temperatures of materials
+      with_mass = 5
 
    !> An entry whose effect depends on the stages.
    type :: waiting_entry
@@ -107,7 +108,7 @@ contains
          parameters%lumped = number < 1
          parameters%mass_line = line
          if (.not. is_integer) expected = 'an integer: above 0 consistent mass, else lumped mass'
-         call ignored%wait('PARAM COUPMASS', line, needs_response=.false.)
+         call ignored%wait('PARAM COUPMASS', line, .false., need=with_mass)
       case ('AUTOSPC')
          parameters%holds_idle = value /= 'NO'
          call ignored%add('PARAM '//name)
@@ -125,7 +126,7 @@ contains
       case default
          if (name == 'INREL' .and. (.not. is_integer .or. number /= 0)) then
             parameters%relief_line = line
-            if (number /= -1) expected = '0, or -1 with SUPORT: inertia relief'
+            if (number /= -1) expected = '0, or -1 with SUPORT: inertia relief, of which -2 has the same forces and stresses'
          else if (name == 'LGDISP' .and. (.not. is_integer .or. number > 0)) then
             call ignored%wait('PARAM LGDISP', line, .false., need=always, warning='displacements are small here')
          else
@@ -252,15 +253,17 @@ contains
    end subroutine wait
 
    !> Decide the noted entries, now that it is known whether any stage has MODES, FREQUENCY and temperatures of materials.
-   subroutine settle(self, has_modes, has_response, has_materials, errors)
+   !! HAS_MASS: beside MODES, inertia relief or OUTPUT = DMIG.
+   subroutine settle(self, has_modes, has_response, has_materials, has_mass, errors)
       class(ignored_entries_type), intent(inout) :: self
-      logical, intent(in)                    :: has_modes, has_response, has_materials
+      logical, intent(in)                    :: has_modes, has_response, has_materials, has_mass
       type(deck_error_list), intent(inout)   :: errors
-      logical :: has(4)
+      logical :: has(5)
       integer :: i
 
       if (.not. allocated(self%waiting)) return
-      has([with_modes, with_response, with_materials, always]) = [has_modes, has_response, has_materials, .true.]
+      has([with_modes, with_response, with_materials, always, with_mass]) = [has_modes, has_response, has_materials, .true., &
+                                                                            has_modes .or. has_mass]
       do i = 1, size(self%waiting)
          associate (entry => self%waiting(i))
             if (entry%refusal /= '' .and. has(entry%need)) then

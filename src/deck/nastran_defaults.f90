@@ -77,7 +77,7 @@ contains
       call take('MPC', [bulk%equation%set, bulk%equation_sum%set], bulk%equation_sum%set, stage%equations)
       call take('LOAD', [bulk%force%set, bulk%pressure%set, bulk%surface_load%set, bulk%gravity%set, bulk%beam_load%set, &
                          bulk%displacement%set, bulk%load%set], bulk%load%set, stage%load)
-      call take('TEMPERATURE(LOAD)', [bulk%temperature%set, bulk%plate_temperature%set], [integer ::], stage%temperature)
+      call take('TEMPERATURE(LOAD)', [bulk%temperature%set, bulk%own_temperature%set], [integer ::], stage%temperature)
       if (taken /= '') call errors%warn('the only sets of their kinds are taken: '//taken(3:))
       if (several /= '') call errors%warn('sets that no case control chooses have no effect: '//several(3:))
 

@@ -23,11 +23,11 @@ module nastran_words
       'TRIM', 'FMETHOD', 'AESYMXZ', 'AESYMXY', 'AECONFIG', 'AEROF', 'APRESSURE', 'MONITOR', 'DIVERG', & ! air
       'CMETHOD', 'TSTEP', 'TSTEPNL', 'IC', 'RIGID', 'NLOPRM', 'BC', 'SEQDEP'] ! of other kinds of analysis
    ! of the bulk data: plots, and properties and materials of unsupported elements
-   character(8), parameter :: card_names(138) = [character(8) :: &
+   character(8), parameter :: card_names(137) = [character(8) :: &
       'MAT4', 'MAT5', 'DTI', 'BCTPARM', 'BGPARM', &
       'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBCOMP', &
       'PBEND', 'PBUSH1D', 'PCOMPS', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &
-      'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PVISC', 'PWELD', 'MAT3', 'MAT9', &
+      'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PWELD', 'MAT3', 'MAT9', &
       'MAT10', 'MAT11', 'TABLEM1', 'MDLPRM', 'ABSNMVS', 'ABSTRCT', &
       'DEBUG', 'USET', 'USET1', 'SNORM', 'SEQGP', 'CBARAO', 'RVDOF', 'RVDOF1', 'TABLEM2', 'TABLEM3', 'TABLEM4', 'TABLEST', &
       'MATHP', 'PDAMPT', 'PDAMP5', 'PFASTT', 'ACMODL', 'SWLDPRM', 'GROUP', &
@@ -44,8 +44,8 @@ module nastran_words
       'TLOAD1', 'TLOAD2', 'TSTEP', 'TSTEP1', 'TSTEPNL', 'TIC', 'EIGB', 'EIGC', 'EIGP', 'TF', 'NLPCI', 'NLSTEP', 'RANDT1', &
       'RANDPS', 'TABRND1', 'TABRNDG', 'DEFORM']
 
-   ! with an effect on a response: dashpots, springs that depend on the frequency
-   character(6), parameter, public :: of_response(2) = [character(6) :: 'CVISC', 'PELAST']
+   ! with an effect on a response: springs that depend on the frequency
+   character(6), parameter, public :: of_response(1) = [character(6) :: 'PELAST']
    ! with an effect on modes: reduction to some of the unknowns
    character(6), parameter, public :: of_reduction(4) = [character(6) :: 'CSET', 'CSET1', 'OMIT', 'OMIT1']
 

@@ -366,9 +366,10 @@ contains
 
    !> Check that each vibration entry has the key it needs. An entry above the first SUBCASE has been copied into each stage. It has no
    !! effect in a stage without MODES, or without FREQUENCY, but one stage must have the key.
-   subroutine check_vibration(asked, line, errors)
+   subroutine check_vibration(asked, line, condenses, errors)
       type(vibration_entries_type), intent(in) :: asked(:) !! of each stage
       integer, intent(in)                      :: line(:)  !! line of its SUBCASE, 0: none
+      logical, intent(in)                      :: condenses(:) !! OUTPUT = DMIG, for which STIFFNESS has an effect too
       type(deck_error_list), intent(inout)     :: errors
       character(:), allocatable :: lacking
       integer :: key, need, s, said
@@ -378,7 +379,7 @@ contains
       do s = 1, size(asked)
          do key = stiffness, response
             need = merge(modes, frequency, key <= frequency)
-            associate (at => asked(s)%line(key), has_it => asked%line(need) > 0)
+            associate (at => asked(s)%line(key), has_it => asked%line(need) > 0 .or. (condenses .and. key == stiffness))
                if (at == 0 .or. has_it(s)) cycle
                if (at < line(s) .and. (s > 1 .or. any(has_it))) cycle ! reported in the first stage, or effective elsewhere
                call errors%add(at, trim(keys(key))//': has no effect without '//trim(keys(need))//', which is not given')

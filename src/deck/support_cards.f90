@@ -139,27 +139,32 @@ contains
 
    !> CELAS1: a spring between component C1 of node G1 and C2 of G2, with a PELAS; CELAS2: with K. A blank node is the ground. CELAS3
    !! and CELAS4: the same between scalar points S1 and S2. CDAMP1 to 4: viscous dampers likewise, with a PDAMP or B. CBUSH: a bush.
+   !! CVISC: a bush along and about the line between its nodes, with a PVISC.
    subroutine read_spring(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
 
       associate (spring => bulk%spring(card%i))
          spring%is_bush = card%name == 'CBUSH'
-         spring%is_damper = card%name(:5) == 'CDAMP'
+         spring%is_damper = any(card%name(:5) == ['CDAMP', 'CVISC'])
          spring%is_scalar = any(card%name(6:6) == ['3', '4'])
          call card%field('EID', spring%id)
          if (spring%is_bush) then
             call read_bush(card, bulk)
             return
          end if
-         if (any(card%name(6:6) == ['1', '3'])) then
+         if (card%name == 'CVISC') then
+            spring%is_bush = .true.
+            call card%field('PID', spring%property, default=spring%id)
+            call card%field(['G1', 'G2'], spring%nodes)
+         else if (any(card%name(6:6) == ['1', '3'])) then
             call card%field('PID', spring%property)
          else if (spring%is_damper) then
             call card%field('B', spring%viscous, not_negative)
          else
             call card%field('K', spring%stiffness, not_negative)
          end if
-         call read_ends(card, spring%is_scalar, spring%nodes, spring%components)
+         if (.not. spring%is_bush) call read_ends(card, spring%is_scalar, spring%nodes, spring%components)
          if (card%name == 'CELAS2') then
             call card%field('GE', spring%damping, not_negative, default=0.0_wp)
             call card%skip(['S'])
@@ -245,7 +250,8 @@ contains
       call card%finish(set)
    end subroutine read_scalar_load
 
-   !> PELAS: the stiffnesses K of one or two springs. PDAMP: the viscous damping B of one to four dampers. PBUSH: K1, K2, K3 of a CBUSH
+   !> PELAS: the stiffnesses K of one or two springs. PDAMP: the viscous damping B of one to four dampers. PVISC: the
+   !! damping CE along and CR about the line of one or two CVISC. PBUSH: K1, K2, K3 of a CBUSH
    !! along its axes, K4, K5, K6 about them; lines of damping (viscous B, structural GE), stress recovery (RCV, without effect) and
    !! mass (M) may follow.
    subroutine read_spring_property(card, bulk)
@@ -261,13 +267,15 @@ contains
          return
       end if
       law%line = card%line
+      law%is_bush = card%name == 'PVISC'
       law%is_damper = card%name == 'PDAMP'
       do k = 1, merge(4, 2, law%is_damper)
          nth = integer_text(k)
          law%field = merge(2*k - 1, 4*k - 3, law%is_damper)
          if (k > 1 .and. (card%text_at(law%field) == '' .or. card%text_at(law%field) == '0')) then ! FINISH finds the rest
             if (card%text_at(law%field + 1) /= '') then
-               call card%error_at(law%field, 'PID'//nth//': blank, but '//merge('B', 'K', law%is_damper)//nth//' is not')
+               call card%error_at(law%field, 'PID'//nth//': blank, but '//one_of(law%is_bush, 'CE', &
+                                  merge('B', 'K', law%is_damper))//nth//' is not')
                return
             end if
             exit
@@ -276,6 +284,10 @@ contains
          call card%field('PID'//nth, law%id)
          if (law%is_damper) then
             call card%field('B'//nth, law%viscous(1), not_negative)
+         else if (law%is_bush) then
+            call card%field('CE'//nth, law%viscous(1), not_negative, default=0.0_wp)
+            call card%field('CR'//nth, law%viscous(4), not_negative, default=0.0_wp)
+            if (k == 1) call card%skip(['-'])
          else
             call card%field('K'//nth, law%stiffness(1), not_negative)
             call card%field('GE'//nth, law%damping(1), not_negative, default=0.0_wp)
@@ -283,6 +295,7 @@ contains
             if (law%damping(1) > 0.0_wp) call bulk%ignored%wait('GE of PELAS', card%line, needs_response=.false.)
          end if
          bulk%spring_property(card%i) = law
+         if (law%is_bush) bulk%spring_property(card%i)%is_damper = .true.
       end do
       call card%finish(k)
    end subroutine read_spring_property

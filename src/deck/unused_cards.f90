@@ -14,7 +14,7 @@ contains
    !> Add the unused properties and coordinate systems of BULK to its entries without effect.
    subroutine count_unused(bulk)
       type(bulk_data_type), intent(inout) :: bulk
-      character(6), parameter :: spring_names(3) = ['PELAS ', 'PDAMP ', 'PBUSH ']
+      character(6), parameter :: spring_names(4) = ['PELAS ', 'PDAMP ', 'PBUSH ', 'PVISC ']
       logical, allocatable :: is_kind(:)
       integer :: i
 
@@ -24,10 +24,10 @@ contains
          call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%beam_property%id], properties, &
             [bulk%pshell%name, spread('PAXIS ', 1, size(bulk%paxis)), &
              spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod)), bulk%beam_property%name])
-         do i = 1, 3
-            is_kind = merge(3, merge(2, 1, springs%is_damper), springs%is_bush) == i
+         do i = 1, 4
+            is_kind = merge(3, 1, springs%is_bush) + merge(1, 0, springs%is_damper) == i
             call count_unnamed(pack(springs%id, is_kind), &
-               pack(elements%property, merge(3, merge(2, 1, elements%is_damper), elements%is_bush) == i), &
+               pack(elements%property, merge(3, 1, elements%is_bush) + merge(1, 0, elements%is_damper) == i), &
                spread(spring_names(i), 1, count(is_kind)))
          end do
          if (size(system) == 0) return

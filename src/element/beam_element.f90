@@ -306,19 +306,22 @@ contains
       f = matmul([matmul(load(:3), axes), matmul(load(4:), axes)], movement_at(law, beam_length(law, x), s))
    end function beam_point_load
 
-   !> End forces of a thermal load: RISE is the mean temperature of the beam above its reference temperature.
-   pure function beam_thermal_load(law, rise) result(f)
+   !> End forces of a thermal load: those that would move end B as the free beam moves it, from end A on. RISE is the temperature of
+   !! the ends above the reference temperature, SLOPE its gradient along y and z over the section, linear along the beam: strains
+   !! alpha (RISE + SLOPE_y y + SLOPE_z z), and curvatures v'' = -alpha SLOPE_y, w'' = -alpha SLOPE_z.
+   pure function beam_thermal_load(law, x, rise, slope) result(f)
       type(beam_law), intent(in) :: law
-      real(wp), intent(in)       :: rise       !! [temperature]
-      real(wp) :: f(12), unit(6, 6)
+      real(wp), intent(in)       :: x(3, 2)     !! [length]
+      real(wp), intent(in)       :: rise(2)     !! [temperature]
+      real(wp), intent(in)       :: slope(2, 2) !! (end, y or z) [temperature/length]
+      real(wp) :: f(12), free(6), k(12, 12)
 
-      f = 0.0_wp
-      if (allocated(law%stations)) then
-         unit = flexibility(law%stations, law%e, law%g, 1.0_wp, 1.0_wp)
-         f([1, 7]) = law%expansion*rise/unit(1, 1)*[-1.0_wp, 1.0_wp]
-      else if (.not. law%is_cut) then
-         f([1, 7]) = law%e*law%area*law%expansion*rise*[-1.0_wp, 1.0_wp]
-      end if
+      associate (l => beam_length(law, x), a => law%expansion)
+         free = [a*l*sum(rise)/2.0_wp, -a*l**2*matmul([2.0_wp, 1.0_wp], slope)/6.0_wp, 0.0_wp, a*l*sum(slope(:, 2))/2.0_wp, &
+                 -a*l*sum(slope(:, 1))/2.0_wp]
+         k = end_stiffness(law, l)
+      end associate
+      f = matmul(k(:, 7:), free)
    end function beam_thermal_load
 
    !> The nodal forces (3, 4) that are equivalent to the end forces F.

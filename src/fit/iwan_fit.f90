@@ -40,7 +40,7 @@ contains
       type(test_data_type), intent(in)     :: data
       type(iwan_fit_type), intent(out)     :: fit
       type(deck_error_list), intent(inout) :: errors, warnings
-      real(wp) :: best, now, q(4), trial(4)
+      real(wp) :: best, now, p_ref, q(4), trial(4)
       integer  :: chi, free, k
       logical  :: fixed(4)
 
@@ -52,24 +52,24 @@ contains
          if (data%kind /= data_loss .and. .not. data%is_record .and. any(data%branch(:data%n) /= fit_load)) &
             call errors%add(0, 'Iwan''s law follows the test: expected rows in the order of time without a column branch or run')
          if (errors%any()) return
-         fit%law%p_ref = maxval(p)
+         p_ref = maxval(p)
       end associate
       best = huge(best)
       do free = 4, 3, -1 ! without beta where the data do not fix it
          do k = 1, 3
             do chi = 1, 3
-               trial = first_guess(data, fit%law%p_ref, -0.25_wp*chi, 10.0_wp**(k - 2))
+               trial = first_guess(data, p_ref, -0.25_wp*chi, 10.0_wp**(k - 2))
                if (free == 3) trial(4) = -huge(1.0_wp)
-               call minimise(data, fit%law%p_ref, free, trial, now)
+               call minimise(data, p_ref, free, trial, now)
                if (now >= best .and. .not. (free == 3 .and. k == 1 .and. chi == 1)) cycle
                best = now
                q = trial
             end do
          end do
-         call take_errors(data, fit%law%p_ref, q(:free), best, fit%error, fixed)
-         call set_law(q, fit%law%p_ref, fit%law)
+         call take_errors(data, p_ref, q(:free), best, fit%error, fixed)
+         call set_law(q, p_ref, fit%law)
          if (free == 4) fixed(4) = fixed(4) .and. beyond <= count(abs(data%value(column_d, :data%n)) > &
-                                   greatest_phi(fit%law)*data%value(column_p, :data%n)/fit%law%p_ref)
+                                   greatest_phi(fit%law)*data%value(column_p, :data%n)/p_ref)
          if (all(fixed(:free)) .and. (free == 3 .or. exp(q(4)) > not_fixed)) exit
          if (free == 4 .and. exp(q(4)) > not_fixed) call warnings%add(0, 'the data do not fix BETA, it is set to 0: expected '// &
             'amplitudes beyond phi_max, where the joint slides as a whole')

@@ -4,12 +4,13 @@
 !! movement: the equilibrium is the minimum of a convex energy, which Newton's method with a line search finds. The pressures of that
 !! equilibrium give new limits, and so on. The first limits are those of the best trial of the straight laws, or nothing slips. From the
 !! second equilibrium on the full tangents, which know that the limit grows with the pressure, try to finish; where one of them leaves
-!! more than a tenth of the residual, new limits follow.
+!! more than half of the residual, new limits follow.
 !! Where the limits are those of the trial itself, its equilibrium is that of the exact laws: the answer is the same.
 !! Source: P. D. Panagiotopoulos, Ing.-Arch. 44 (1975) 421-432; N. Kikuchi, J. T. Oden, Contact Problems in Elasticity, SIAM 1988.
 module given_limits
    use analysis_state, only: analysis_type, subtract_joint_forces
    use equations, only: equation_system, forces_in_bodies
+   use interface_operator, only: joint_movement
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate, trial_type
@@ -18,11 +19,11 @@ module given_limits
    implicit none
    private
 
-   public :: give_first_limits, renew_limits, take_exact_laws, falls_back, is_exact, minimise, moves_on
+   public :: give_first_limits, renew_limits, take_exact_laws, falls_back, is_exact, minimise, judge_limits
 
    real(wp), parameter :: solved = 1.0e-1_wp   ! of the residual with the first trial under given limits: time for new limits
    real(wp), parameter :: below_tol = 0.1_wp   ! of the tolerance: likewise
-   real(wp), parameter :: converges = 0.1_wp   ! of the residual: an iteration of the exact laws that leaves more does not converge
+   real(wp), parameter :: converges = 0.5_wp   ! of the residual: an iteration of the exact laws that leaves more does not converge
    real(wp), parameter :: close = 0.2_wp       ! of the work of the first unbalanced forces: what a line search may leave
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
    real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave
@@ -45,6 +46,7 @@ contains
       attempt%n_limits = 0
       attempt%n_returns = 0
       attempt%runs = .false.
+      attempt%leaves = 0
       attempt%bearable = 1.0_wp
       attempt%asked = attempt%load - analysis%body
       call subtract_joint_forces(system%interface, analysis%states, attempt%asked)
@@ -212,7 +214,8 @@ contains
          attempt%runs = .true.
          asked = sum(attempt%asked*direction, mask=.not. analysis%held)
          attempt%bearable = max(0.0_wp, min(1.0_wp, 1.0_wp - work/max(asked, work)))
-         if (attempt%missing <= 0.0_wp) attempt%missing = work/max(maxval(abs(direction)), tiny(1.0_wp))
+         if (attempt%missing <= 0.0_wp) attempt%missing = (work + attempt%left*sum(analysis%change*direction, &
+                                                mask=.not. analysis%held))/max(maxval(abs(direction)), tiny(1.0_wp))
       end subroutine note_missing
 
    end subroutine minimise
@@ -234,12 +237,27 @@ contains
       attempt%n_limits = settled - 1 ! two problems more before the exact laws try again
    end function falls_back
 
-   !> Whether the body moves on under the present limits, or many iterations have not solved their problem.
-   pure logical function moves_on(attempt)
-      type(attempt_type), intent(in) :: attempt
+   !> Whether the body moves on under the present limits, a joint leaves its place, or many iterations have not solved their problem.
+   !! A joint has left its place where its ends have moved by more than the largest joint is wide.
+   subroutine judge_limits(model, system, analysis, now, attempt)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(trial_type), intent(in)       :: now
+      type(attempt_type), intent(inout)  :: attempt !! its ENDS is the result
+      real(wp) :: width
+      integer  :: i
 
-      moves_on = attempt%runs .or. attempt%iteration - attempt%since > patience
-   end function moves_on
+      attempt%ends = attempt%ends .or. attempt%runs .or. attempt%iteration - attempt%since > patience
+      width = 2.0_wp*maxval(model%joints%list%frame%extent)
+      if (attempt%ends .or. .not. (allocated(attempt%seen) .and. width > 0.0_wp)) return
+      do i = 1, size(system%interface)
+         if (norm2(joint_movement(system%interface(i), now%u) - analysis%movement(:, i)) <= width) cycle
+         attempt%ends = .true.
+         attempt%leaves = model%joints%element(i)%joint
+         return
+      end do
+   end subroutine judge_limits
 
    !> Whether the trial of ATTEMPT follows the exact laws.
    pure logical function is_exact(attempt)

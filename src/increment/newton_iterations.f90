@@ -4,7 +4,7 @@
 module newton_iterations
    use analysis_state, only: analysis_type, force_noise, free_norm, iteration_record, record_iteration
    use equations, only: equation_system, forces_in_bodies, solve_coupled_again, solve_equations
-   use given_limits, only: falls_back, give_first_limits, is_exact, minimise, moves_on, renew_limits, take_exact_laws
+   use given_limits, only: falls_back, give_first_limits, is_exact, judge_limits, minimise, renew_limits, take_exact_laws
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: model_type
@@ -13,7 +13,7 @@ module newton_iterations
    use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, laws_at, loose_joints, next_laws, &
                             residual_of, straight_law
    use tolerances, only: far_below_tol, finest_direction, loose_direction, most_rounding_of_forces, pressure_floor, &
-                         rounding_of_forces, tight_direction
+                         rounding_of_forces, shortest_step, tight_direction
    implicit none
    private
 
@@ -26,6 +26,8 @@ module newton_iterations
    real(wp), parameter :: half = 0.5_wp                ! of the residual of the load: a guess that leaves more is poor
    real(wp), parameter :: worth_while = 0.1_wp         ! of its residual: a correction that leaves more is the last one
    real(wp), parameter :: away = 100.0_wp              ! times the initial residual: the iterations diverge
+   real(wp), parameter :: far_away = 1.0e6_wp          ! times the residual before it: a step that leaves more is shortened,
+   real(wp), parameter :: shorter = 0.1_wp             ! to this part of it, but not below SHORTEST_STEP
    real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: an interference pressure below it counts as none
 
 contains
@@ -63,10 +65,8 @@ contains
          moves = attempt%moves
          direction = merge(attempt%growth*analysis%du, attempt%move, system%number(:, system%retained) > 0)
          call advance(model, system, analysis, attempt, now, direction, .true., next)
-         attempt%length = norm2(direction)
-         attempt%settled = .not. any(next%states%slips .neqv. analysis%states%slips)
          guessed = next%size <= half*merge(attempt%load_size, now%size, moves) .or. &
-                   (attempt%settled .and. any(loose_joints(model, next%states)))
+                   (any(loose_joints(model, next%states)) .and. .not. any(next%states%slips .neqv. analysis%states%slips))
          call swap(now, next)
          if (.not. guessed) return
       end if
@@ -118,8 +118,8 @@ contains
    end subroutine iterate
 
    !> Go from NOW along DIRECTION to NEXT: to the least energy under given limits of friction, by a line search where the caller
-   !! SEARCHES, or by a full step. The step that moves the supports is a full one; from
-   !! there on the support forces are the reference load.
+   !! SEARCHES, or by a full step, which is shortened only where it leads FAR_AWAY: a body that hardly anything holds. The step that
+   !! moves the supports is a full one; from there on the support forces are the reference load.
    subroutine advance(model, system, analysis, attempt, now, direction, searches, next)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -139,7 +139,12 @@ contains
          return
       end if
       attempt%step = 1.0_wp
-      call evaluate_at(model, system, attempt, analysis, now%u + direction, next)
+      do
+         call evaluate_at(model, system, attempt, analysis, now%u + attempt%step*direction, next)
+         if (attempt%moves .or. searches .or. attempt%step <= shortest_step) exit
+         if (.not. next%size > far_away*max(now%size, analysis%tolerance)) exit
+         attempt%step = shorter*attempt%step
+      end do
       if (.not. attempt%moves) return
       attempt%moves = .false.
       attempt%move = 0.0_wp
@@ -211,7 +216,7 @@ contains
       type(analysis_type), intent(inout) :: analysis
       type(attempt_type), intent(inout)  :: attempt
       type(trial_type), intent(inout)    :: now
-      real(wp) :: pressed, rounding
+      real(wp) :: enough, pressed, rounding
 
       if (attempt%seats) then ! the joint pressures on the bodies are the load
          pressed = free_norm(now%body, analysis%held)
@@ -230,16 +235,20 @@ contains
          end if
          rounding = rounding_of_forces*system%stiffest*attempt%displacement_scale*sqrt(real(size(analysis%now%load), wp))
          attempt%carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*attempt%displacement_scale
-         attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= most_rounding_of_forces*load_size
+         enough = max(analysis%tolerance, 0.1_wp*noise)
+         if (n > 0) then
+            if (now%size > half*attempt%sizes(n - 1)) enough = max(enough, noise) ! only rounding is left
+         end if
+         attempt%converged = now%size <= enough .and. noise <= most_rounding_of_forces*load_size
          attempt%converged = attempt%converged .or. (attempt%carried .and. now%size <= rounding)
          attempt%converged = attempt%converged .and. is_exact(attempt) .and. .not. attempt%moves
          attempt%sizes(n) = merge(huge(1.0_wp), now%size, attempt%moves)
          attempt%ends = n == most_iterations
          if (attempt%with_limits) then
-            attempt%ends = attempt%ends .or. moves_on(attempt)
+            call judge_limits(model, system, analysis, now, attempt)
          else
             attempt%ends = attempt%ends .or. leads_nowhere(attempt%sizes(:n)) .or. &
-                           is_slow(attempt%sizes(:n), any(loose_joints(model, now%states)))
+                           is_slow(attempt%sizes(:n))
          end if
          if (attempt%ends) attempt%converged = attempt%converged .or. &
                                                now%size <= idle*max(attempt%seat_force, analysis%loose_force)
@@ -283,18 +292,14 @@ contains
                                          progress*minval(sizes(n - 2*patience + 1:n - patience))
    end function leads_nowhere
 
-   !> Whether the last QUICK iterations with residuals SIZES have left more than WORTH_WHILE of the one before them, or, where a joint is
-   !! loose, the last three.
-   pure logical function is_slow(sizes, is_loose)
+   !> Whether the last QUICK iterations with residuals SIZES have left more than WORTH_WHILE of the one before them.
+   pure logical function is_slow(sizes)
       real(wp), intent(in) :: sizes(:) !! [force]
-      logical, intent(in)  :: is_loose
       integer :: n
 
       n = size(sizes)
-      is_slow = is_loose .and. n > 4
-      if (is_slow) is_slow = minval(sizes(n - 2:)) > worth_while*sizes(n - 3)
-      if (is_slow .or. n <= quick + 1) return
-      is_slow = minval(sizes(n - quick + 1:)) > worth_while*sizes(n - quick)
+      is_slow = n > quick + 1
+      if (is_slow) is_slow = minval(sizes(n - quick + 1:)) > worth_while*sizes(n - quick)
    end function is_slow
 
    !> One iteration more from the converged NOW. It squares the residual that TOL has left, so that the state does not depend on

@@ -297,7 +297,7 @@ contains
    !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
    !! extrapolated last increment if this one continues it, otherwise from the committed state. If they do not lead quickly to
    !! equilibrium, the attempt is repeated with given limits of friction: from the best trial of the straight laws if this has left
-   !! less than their first, and if that fails too, from a structure in which nothing slips.
+   !! less than their first, and if that fails too, from a structure in which nothing slips, unless these limits do not bear the load.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -332,7 +332,6 @@ contains
          attempt%with_limits = way >= from_best
          attempt%from_best = way == from_best
          if (allocated(attempt%seen)) deallocate (attempt%seen)
-         attempt%settled = .false.
          attempt%iteration = 0
          attempt%gain = 1.0_wp
          attempt%n_slow = 0
@@ -343,7 +342,7 @@ contains
          if (present(from)) u = from
          if (way == from_best) u = attempt%best
          call iterate(model, system, analysis, attempt, u)
-         if (attempt%converged) exit
+         if (attempt%converged .or. (way == from_best .and. attempt%runs)) exit
          if (way == straight) first = attempt%sizes(0)
          if (allocated(u)) deallocate (u)
       end do
@@ -368,10 +367,11 @@ contains
       words = attempt%where//': no equilibrium'
       if (is_given_up(analysis)) words = attempt%where//': given up after '// &
                                          integer_text(analysis%record%n_iterations)//' iterations'
-      if (attempt%loose > 0) then
-         associate (joint => model%joints%list(attempt%loose))
-            words = words//': joint '//integer_text(joint%id)//' slips or is open at all its nodes, from node '// &
-                    integer_text(joint_node_id(model, joint%first, 1))// &
+      if (max(attempt%loose, attempt%leaves) > 0) then
+         associate (joint => model%joints%list(merge(attempt%loose, attempt%leaves, attempt%loose > 0)))
+            words = words//': joint '//integer_text(joint%id)// &
+                    trim(merge(' slips or is open at all its nodes', ' moves by more than its size      ', attempt%loose > 0))// &
+                    ', from node '//integer_text(joint_node_id(model, joint%first, 1))// &
                     ' on, and does not hold the load in the direction of its movement'
             if (attempt%missing > 0.0_wp) words = words//': '//real_text(attempt%missing)//' of force are missing'
          end associate

@@ -39,9 +39,7 @@ module newton_trial
       real(wp) :: step = 1.0_wp                   !! length of the last step, in directions [-]
       real(wp) :: gain = 1.0_wp                   !! part of the present residual that the next step should leave [-]
       real(wp) :: tolerance = tight_direction     !! residual that the next direction may leave, relative [-]
-      real(wp) :: length = 0.0_wp                 !! of the last direction [length]
       logical  :: coupled = .false.               !! the last direction was that of a coupled system
-      logical  :: settled = .false.               !! no element has begun or stopped slipping in the last iteration
       integer  :: n_slow = 0                      !! iterations that did not halve the residual
       integer, allocatable :: flips(:)            !! changes of branch of each interface element
       real(wp), allocatable :: best(:, :)         !! displacements of the least residual along straight laws, (dimension, retained) [length]
@@ -63,8 +61,9 @@ module newton_trial
       real(wp) :: released = 0.0_wp               !! energy that the last step under them has released [force*length]
       real(wp), allocatable :: asked(:, :)        !! the load that the part adds, (dimension, retained) [force]
       logical  :: runs = .false.                  !! the body moves without end: the limits do not bear the load
+      integer  :: leaves = 0                      !! then the joint that has left its place, 0: none
       real(wp) :: bearable = 1.0_wp               !! share of the load of the part that they bear [-]
-      real(wp) :: missing = 0.0_wp                !! force that they lacked, in the largest part tried [force]
+      real(wp) :: missing = 0.0_wp                !! force that they lack at the end of the increment, in the largest part tried [force]
       ! the outcome
       logical  :: converged = .false.
       logical  :: ends = .false.                  !! no further iteration

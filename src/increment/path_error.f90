@@ -6,7 +6,8 @@
 !! three quarters of it, and from there to the equilibrium at its end, by corrections again. These states go on from part to part.
 module path_error
    use analysis_state, only: analysis_type, path_error_type, turning_point
-   use equations, only: equation_system, solve_coupled_again, solve_equations
+   use equation_solver, only: coupled_tally, failure_type
+   use equations, only: equation_system, solve_by_last_factor, solve_coupled_again
    use interface_operator, only: joint_movement
    use joint_laws, only: element_state, follow_element, force_of, rest_when_open
    use joint_work, only: joint_energy
@@ -14,7 +15,7 @@ module path_error
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate_at, trial_type
    use normal_stiffness, only: branch_open
-   use straight_laws, only: direction_digits, loose_joints
+   use straight_laws, only: loose_joints
    use tolerances, only: equal_shares, loose_direction, no_contact, on_the_path
    implicit none
    private
@@ -72,19 +73,21 @@ contains
    !! HALF way are found. ERROR is that of the committed states from the end of the WAY.
    subroutine measure_path(model, system, start, part, analysis, attempt, way, error, half)
       type(model_type), intent(in)          :: model
-      class(equation_system), intent(inout) :: system   !! with the factor of the last iteration
-      type(path_start_type), intent(inout)  :: start    !! returned as it was
+      class(equation_system), intent(inout) :: system   !! with the factor of the last iteration; returned as it was
+      type(path_start_type), intent(inout)  :: start    !! likewise
       real(wp), intent(in)                  :: part     !! of the increment [-]
       type(analysis_type), intent(inout)    :: analysis !! likewise
-      type(attempt_type), intent(inout)     :: attempt
+      type(attempt_type), intent(inout)     :: attempt  !! likewise
       type(element_state), allocatable, intent(inout) :: way(:)
       type(path_error_type), intent(out)    :: error
       real(wp), allocatable, intent(out)    :: half(:, :) !! (dimension, retained) [length]
       type(trial_type) :: trial
+      type(coupled_tally) :: tally
       integer :: i
 
       half = 0.5_wp*(start%u + analysis%u)
       if (size(way) == 0) return
+      tally = system%coupled
       if (attempt%iteration > 0) then ! otherwise there may be no factor
          call approach(model, system, attempt%load - 0.5_wp*part*analysis%change, half, start%states, analysis, attempt, trial)
          half = trial%u
@@ -97,6 +100,7 @@ contains
       end do
       error = difference(model, analysis%states, way, analysis%path_tolerance)
       error%displacement = distance(trial%u, analysis%u)
+      system%coupled = tally
    end subroutine measure_path
 
    !> The TRIAL near equilibrium under the LOAD, to which the states BEFORE lead: from the displacements U by a few corrections with
@@ -113,6 +117,7 @@ contains
       type(trial_type), intent(out)         :: trial
       real(wp), allocatable :: goal(:, :) ! the load of the attempt
       type(trial_type) :: next, last
+      type(failure_type) :: failure ! ends the corrections
       real(wp) :: steps(size(u, 1), size(u, 2), most_corrections), gains(size(u, 1), size(u, 2), most_corrections)
       real(wp) :: direction(size(u, 1), size(u, 2)), left(size(u, 1), size(u, 2)), share, enough
       integer  :: i, k
@@ -132,8 +137,8 @@ contains
             left = left - share*gains(:, :, k)
             steps(:, :, i) = steps(:, :, i) + share*steps(:, :, k)
          end do
-         call correction(model, system, left, attempt, direction)
-         if (attempt%trouble%raised) exit
+         call correction(model, system, left, attempt%coupled, direction, failure)
+         if (failure%raised) exit
          steps(:, :, i) = steps(:, :, i) + direction
          call evaluate_at(model, system, attempt, analysis, last%u + steps(:, :, i), next)
          if (.not. next%size < huge(1.0_wp)) exit
@@ -164,18 +169,19 @@ contains
    end subroutine exchange_states
 
    !> The DIRECTION that balances the RESIDUAL with the factor of the last iteration.
-   subroutine correction(model, system, residual, attempt, direction)
+   subroutine correction(model, system, residual, is_coupled, direction, failure)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       real(wp), intent(in)                  :: residual(:, :)
-      type(attempt_type), intent(inout)     :: attempt
+      logical, intent(in)                   :: is_coupled
       real(wp), intent(out)                 :: direction(:, :)
+      type(failure_type), intent(inout)     :: failure
 
-      direction = merge(residual, 0.0_wp, attempt%coupled)
-      if (attempt%coupled) then
-         call solve_coupled_again(model, loose_direction, system, direction, attempt%trouble)
+      if (is_coupled) then
+         direction = residual
+         call solve_coupled_again(model, loose_direction, system, direction, failure)
       else
-         call solve_equations(model, system, residual, direction, attempt%trouble, digits=direction_digits)
+         call solve_by_last_factor(system, residual, direction)
       end if
    end subroutine correction
 

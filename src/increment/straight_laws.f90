@@ -10,7 +10,7 @@
 !! answer does not depend on rho. Source: resolvent of a monotone graph (Rockafellar, SIAM J. Control Optim. 14 (1976) 877-898),
 !! used on rigid joints by Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375.
 module straight_laws
-   use analysis_state, only: analysis_type
+   use analysis_state, only: analysis_type, free_norm
    use equations, only: equation_system, form_structure_stiffness, solve_coupled, solve_equations
    use held_parts, only: find_held_parts, is_needed
    use interface_operator, only: add_force, joint_movement
@@ -22,7 +22,7 @@ module straight_laws
    use normal_stiffness, only: branch_load, branch_open, follow_normal, normal_state
    use shear_path, only: follow_shear
    use shear_stiffness, only: shear_state
-   use tolerances, only: least_rho, on_the_graph, pressure_floor, rounding_of_deflections, stand_in_stiffness
+   use tolerances, only: least_rho, on_the_graph, pressure_floor, rounding_of_deflections, rounding_of_entries, stand_in_stiffness
    implicit none
    private
 
@@ -32,7 +32,6 @@ module straight_laws
    real(wp), parameter :: right = 0.1_wp    !! of it: error up to which a straight law has crossed no kink
    real(wp), parameter :: farthest = 1.0e30_wp  !! point of rest from the origin and the movement: powers of it are finite [length]
    real(wp), parameter :: most  = 3.0_wp    !! times the residual: limit of the force of a movement
-   real(wp), parameter :: far = 1.0e3_wp    !! times the last direction: the body is not held
    integer, parameter, public :: direction_digits = 6 !! the next iteration corrects the direction
 
    !> The straight law of an interface element, in its axes: f = force + tangent (m - point).
@@ -108,7 +107,8 @@ contains
    end subroutine first_laws
 
    !> The straight laws for the next iteration, from the result NOW of the last ones with the residual UNBALANCED [force].
-   !! Iterations that cycle get another rho.
+   !! Iterations that cycle get another rho. An element that has slipped in one sense and would slip in the other has jumped over
+   !! the movements in which it sticks, and only these hold a body that slides: its law is the tangent of sticking at the start.
    subroutine next_laws(model, system, analysis, now, unbalanced, attempt, laws)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -117,15 +117,15 @@ contains
       real(wp), intent(in)               :: unbalanced
       type(attempt_type), intent(inout)  :: attempt
       type(straight_law), intent(inout)  :: laws(:)
+      type(element_state) :: last
+      type(joint_law) :: sticking
       real(wp) :: force(3), movement(3), rho(3), shift(3), softer, true_force(3)
       integer  :: i
-      logical  :: slipped
 
       associate (n => attempt%iteration)
          if (n > 4) then
             if (now%size > 0.5_wp*minval(attempt%sizes(n - 2:n))) attempt%n_slow = attempt%n_slow + 1
          end if
-         attempt%settled = attempt%settled .or. n > 1
       end associate
       softer = 1.0_wp
       if (attempt%n_slow > 0) softer = merge(10.0_wp, 0.1_wp, modulo(attempt%n_slow, 2) == 1)
@@ -150,12 +150,17 @@ contains
                if (dot_product(shift, straight%shift) < 0.0_wp) straight%rho = min(4.0_wp*straight%rho, 1.0_wp)
                movement = movement + shift
             end if
-            slipped = straight%state%slips
+            last = straight%state
             call follow_law(law, area, attempt, i, analysis%states(i), movement, straight%state, straight%tangent)
+            if (last%slips .and. straight%state%slips .and. dot_product(last%shear%tau, straight%state%shear%tau) < 0.0_wp) then
+               movement(:2) = analysis%states(i)%shear%delta + analysis%states(i)%origin
+               sticking = law
+               sticking%has_friction = .false.
+               call follow_law(sticking, area, attempt, i, analysis%states(i), movement, straight%state, straight%tangent)
+            end if
             straight%point = movement
             straight%shift = shift
             straight%force = force_of(area, straight%state)
-            if (slipped .neqv. straight%state%slips) attempt%settled = .false.
          end associate
       end do
    end subroutine next_laws
@@ -199,10 +204,11 @@ contains
 
    !> The DIRECTION that balances the RESIDUAL of the straight LAWS. The factorised matrix has the symmetric part of the tangents.
    !! This part is shifted where an eigenvalue is negative (a slipping element has one where its two shear laws differ), and has a
-   !! small stiffness where an element has none. solve_coupled adds the remaining part.
-   !! A joint that slips or is open at all nodes first has its elastic stiffness, as if no element slipped: this finds nodes that
-   !! turn back, which no tangent shows. When no node turns back any more, the tangent is used, which gives quadratic convergence.
-   !! Under given limits of friction no joint is held.
+   !! small stiffness where an element has none. solve_coupled adds the remaining part: what friction gains with the pressure, and
+   !! the antisymmetric part of an element whose stress turns while it slips. A joint that is open at all nodes holds by a share of its
+   !! elastic shear, which falls with the residual: a body that lies with clearance does not leave while others find their seats.
+   !! Source: Levenberg-Marquardt method with a parameter that falls with the residual, Yamashita, Fukushima, Computing Suppl. 15
+   !! (2001) 239-249.
    subroutine find_direction(model, residual, analysis, system, attempt, laws, direction)
       type(model_type), intent(in)          :: model
       real(wp), intent(in)                  :: residual(:, :)
@@ -212,47 +218,49 @@ contains
       type(straight_law), intent(inout)     :: laws(:) !! their tangents become those of the solved equations
       real(wp), intent(inout)               :: direction(:, :)
       real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
+      real(wp) :: share ! of its elastic shear by which an open joint holds [-]
       real(wp) :: least ! eigenvalue
       integer  :: i, k
-      logical  :: holds, is_loose(size(model%joints%list))
+      logical  :: apart(size(model%joints%list)), is_coupled
 
       allocate (matrix(3, 3, size(laws)), rest(3, 3, size(laws)), source=0.0_wp)
-      is_loose = loose_joints(model, laws%state)
-      holds = any(is_loose) .and. .not. (attempt%settled .or. attempt%with_limits)
-      do
-         do i = 1, size(laws)
-            associate (tangent => laws(i)%tangent, elastic => laws(i)%elastic, element => model%joints%element(i))
-               analysis%k(:, i) = [tangent(1, 1), tangent(2, 2), tangent(3, 3)]
-               matrix(3, 3, i) = max(tangent(3, 3), stand_in_stiffness*elastic(3))
-               matrix(:2, :2, i) = 0.5_wp*(tangent(:2, :2) + transpose(tangent(:2, :2)))
-               least = 0.5_wp*(matrix(1, 1, i) + matrix(2, 2, i)) - &
-                       hypot(0.5_wp*(matrix(1, 1, i) - matrix(2, 2, i)), matrix(1, 2, i))
-               do k = 1, 2
-                  matrix(k, k, i) = matrix(k, k, i) - min(0.0_wp, least) + stand_in_stiffness*elastic(k)
-                  if (holds .and. is_loose(element%joint)) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
-               end do
-               rest(:2, :, i) = tangent(:2, :) - matrix(:2, :, i)
-               if (holds .and. is_loose(element%joint)) rest(:2, :2, i) = 0.0_wp
-            end associate
-         end do
-         direction = 0.0_wp ! where the equations cannot be solved
-         attempt%coupled = any(abs(rest(:2, 3, :)) > 0.0_wp) .and. all(abs(attempt%move) <= 0.0_wp)
-         if (attempt%coupled) then
-            direction = residual
-            call solve_coupled(model, matrix, rest, attempt%where, attempt%tolerance, system, direction, attempt%trouble)
-         else
-            rest = 0.0_wp
-            call form_structure_stiffness(model, matrix, attempt%where, system, attempt%trouble, one_solution=.true.)
-            call solve_equations(model, system, residual, direction, attempt%trouble, moved=attempt%move, &
-                                 digits=direction_digits)
-         end if
-         if (holds .or. .not. any(is_loose) .or. attempt%with_limits .or. .not. norm2(direction) > far*attempt%length) exit
-         holds = .true.
+      do i = 1, size(apart)
+         associate (joint => model%joints%list(i))
+            apart(i) = .not. attempt%with_limits .and. &
+                       all(laws(joint%first:joint%last)%state%normal%branch == branch_open)
+         end associate
       end do
+      share = min(1.0_wp, free_norm(residual, analysis%held)/max(attempt%load_size, tiny(1.0_wp)))
+      is_coupled = .false.
+      do i = 1, size(laws)
+         associate (tangent => laws(i)%tangent, elastic => laws(i)%elastic, element => model%joints%element(i))
+            analysis%k(:, i) = [tangent(1, 1), tangent(2, 2), tangent(3, 3)]
+            matrix(3, 3, i) = max(tangent(3, 3), stand_in_stiffness*elastic(3))
+            matrix(:2, :2, i) = 0.5_wp*(tangent(:2, :2) + transpose(tangent(:2, :2)))
+            least = 0.5_wp*(matrix(1, 1, i) + matrix(2, 2, i)) - &
+                    hypot(0.5_wp*(matrix(1, 1, i) - matrix(2, 2, i)), matrix(1, 2, i))
+            do k = 1, 2
+               matrix(k, k, i) = matrix(k, k, i) - min(0.0_wp, least) + stand_in_stiffness*elastic(k)
+               if (apart(element%joint)) matrix(k, k, i) = max(matrix(k, k, i), share*elastic(k))
+            end do
+            rest(:2, :, i) = tangent(:2, :) - matrix(:2, :, i)
+            is_coupled = is_coupled .or. any(abs(rest(:2, 3, i)) > 0.0_wp) .or. &
+                         abs(rest(1, 2, i)) > rounding_of_entries*maxval(abs(tangent(:2, :2)))
+         end associate
+      end do
+      direction = 0.0_wp ! where the equations cannot be solved
+      attempt%coupled = is_coupled .and. all(abs(attempt%move) <= 0.0_wp)
+      if (attempt%coupled) then
+         direction = residual
+         call solve_coupled(model, matrix, rest, attempt%where, attempt%tolerance, system, direction, attempt%trouble)
+      else
+         rest = 0.0_wp
+         call form_structure_stiffness(model, matrix, attempt%where, system, attempt%trouble, one_solution=.true.)
+         call solve_equations(model, system, residual, direction, attempt%trouble, moved=attempt%move, digits=direction_digits)
+      end if
       do i = 1, size(laws)
          laws(i)%tangent = matrix(:, :, i) + rest(:, :, i)
       end do
-      attempt%length = norm2(direction)
    end subroutine find_direction
 
    !> Which joints are loose: all their elements are open or slip in STATES.

@@ -14,7 +14,7 @@ module body_elements
    use shell_element, only: most_shell_nodes, shell_stiffness, shell_thermal_forces
    use stress_recovery, only: centre_stress, nodal_stress
    use structural_elements, only: between_own, most_own, onto_own, structural_stress
-   use temperatures, only: element_rise, element_slope
+   use temperatures, only: beam_slopes, element_rise, element_slope
    implicit none
    private
 
@@ -259,7 +259,7 @@ contains
       associate (rise => element_rise(model, e, temperature), x => model%mesh%x(:, element_points(model%mesh, e)))
          if (is_beam(model%mesh, e)) then
             associate (law => model%mesh%structural%beams(model%mesh%structural%place(e)))
-               nodal(:, :4) = beam_nodal_forces(law, x, beam_thermal_load(law, sum(rise)/2))
+               nodal(:, :4) = beam_nodal_forces(law, x, beam_thermal_load(law, x, rise, beam_slopes(model, e, temperature)))
             end associate
             call onto_own(model%mesh, e, nodal, f)
          else if (is_shell(model%mesh, e)) then

@@ -8,7 +8,7 @@ module mesh_queries
 
    public :: start_mesh, start_freedoms, start_parts, open_left_out, shown_number
    public :: n_points, n_rotations, node_kind, place_in_kind, point_of, element_points, is_shell, is_beam, is_face_node, &
-             is_scalar_point
+             own_column, is_scalar_point
 
 contains
 
@@ -127,6 +127,14 @@ contains
 
       is_beam = mesh%element_kind(e) == kind_edge2
    end function is_beam
+
+   !> The column of a shell or beam E in the temperatures of elements; bar i has that behind the beams and i - 1 bars.
+   pure integer function own_column(mesh, e)
+      type(mesh_type), intent(in) :: mesh
+      integer, intent(in)         :: e
+
+      own_column = mesh%structural%place(e) + merge(size(mesh%structural%shells), 0, is_beam(mesh, e))
+   end function own_column
 
    !> Whether NODE is a face node of shells.
    pure logical function is_face_node(mesh, node)

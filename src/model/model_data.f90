@@ -116,8 +116,9 @@ module model_data
    type, public :: temperature_type
       real(wp), allocatable :: at(:)         !! (n_nodes) [temperature]; not allocated: none are given
       real(wp) :: reference_share = 0.0_wp   !! [-]
-      real(wp), allocatable :: plate(:, :)   !! (slope_row, shells) temperatures of nodes relative to AT [temperature], and gradient over the
-                                             !! thickness [temperature/length]; not allocated: no shell has temperatures of its own
+      real(wp), allocatable :: own(:, :)     !! (slope_row, own_column) temperatures of shells, beams and bars: at nodes, relative to AT
+                                             !! [temperature], of bars the mean; gradient of shells, in rows 3 to 6 those of beams, over the
+                                             !! section [temperature/length]; not allocated: no element has temperatures of its own
    end type temperature_type
 
    !> Forces on nodes, displacements of supports and temperatures: the total load at the end of a stage.
@@ -153,6 +154,7 @@ module model_data
       real(wp) :: mass = 0.0_wp              !! (rho A + NSM) L of a bar [force x time^2/length]
       real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
       real(wp) :: reference = 0.0_wp         !! TREF [temperature]
+      integer  :: column = 0                 !! in the temperatures of elements
       real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
       real(wp) :: viscous = 0.0_wp           !! B of a spring, viscous damping [force x time/length]
       integer, allocatable  :: of_matrix(:)  !! K2GG: nodes with a MATRIX between their components, components of node 1

@@ -117,8 +117,9 @@ contains
 
       tension = 0.0_wp
       if (bar%kind == a_spring .or. .not. allocated(temperature%at)) return
-      tension = -bar%stiffness*bar%expansion* &
-                (0.5_wp*sum(temperature%at(bar%nodes)) - temperature%reference_share*bar%reference)
+      tension = 0.5_wp*sum(temperature%at(bar%nodes)) - temperature%reference_share*bar%reference
+      if (allocated(temperature%own)) tension = tension + temperature%own(1, bar%column)
+      tension = -bar%stiffness*bar%expansion*tension
    end function thermal_tension
 
    !> Add to F the nodal forces of bar I under a tension N.

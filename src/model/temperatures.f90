@@ -2,12 +2,12 @@
 module temperatures
    use element_kinds, only: element_table
    use kinds, only: wp
-   use mesh_queries, only: element_points, is_shell
+   use mesh_queries, only: element_points, is_beam, is_shell, own_column
    use model_data, only: model_type, slope_row, temperature_type
    implicit none
    private
 
-   public :: element_rise, element_slope, temperature_between, has_temperatures, node_temperatures
+   public :: beam_slopes, element_rise, element_slope, temperature_between, has_temperatures, node_temperatures
 
 contains
 
@@ -22,8 +22,8 @@ contains
       if (.not. allocated(temperature%at)) return
       rise = temperature%at(element_points(model%mesh, e)) - temperature%reference_share* &
              model%mesh%properties(model%mesh%element_property(e))%reference
-      if (.not. allocated(temperature%plate)) return
-      if (is_shell(model%mesh, e)) rise = rise + temperature%plate(:size(rise), model%mesh%structural%place(e))
+      if (.not. allocated(temperature%own)) return
+      if (is_shell(model%mesh, e) .or. is_beam(model%mesh, e)) rise = rise + temperature%own(:size(rise), own_column(model%mesh, e))
    end function element_rise
 
    !> Gradient of T - TREF over the thickness of shell E [temperature/length].
@@ -33,8 +33,19 @@ contains
       type(temperature_type), intent(in) :: temperature
 
       slope = 0.0_wp
-      if (allocated(temperature%plate)) slope = temperature%plate(slope_row, model%mesh%structural%place(e))
+      if (allocated(temperature%own)) slope = temperature%own(slope_row, own_column(model%mesh, e))
    end function element_slope
+
+   !> Gradients of T - TREF over the section of beam E, (end, along y or z) [temperature/length].
+   pure function beam_slopes(model, e, temperature) result(slope)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: e
+      type(temperature_type), intent(in) :: temperature
+      real(wp) :: slope(2, 2)
+
+      slope = 0.0_wp
+      if (allocated(temperature%own)) slope = reshape(temperature%own(3:6, own_column(model%mesh, e)), [2, 2])
+   end function beam_slopes
 
    !> Whether any stage of MODEL has temperatures.
    pure logical function has_temperatures(model)
@@ -76,14 +87,14 @@ contains
       end if
       now%reference_share = before%reference_share + fraction*(after%reference_share - before%reference_share)
       if (allocated(before%at)) now%at = (1.0_wp - fraction)*before%at
-      if (allocated(before%plate)) now%plate = (1.0_wp - fraction)*before%plate
+      if (allocated(before%own)) now%own = (1.0_wp - fraction)*before%own
       if (allocated(after%at)) then
          if (.not. allocated(now%at)) now%at = 0.0_wp*after%at
          now%at = now%at + fraction*after%at
       end if
-      if (allocated(after%plate)) then
-         if (.not. allocated(now%plate)) now%plate = 0.0_wp*after%plate
-         now%plate = now%plate + fraction*after%plate
+      if (allocated(after%own)) then
+         if (.not. allocated(now%own)) now%own = 0.0_wp*after%own
+         now%own = now%own + fraction*after%own
       end if
    end function temperature_between
 

@@ -20,7 +20,7 @@ module structural_results
    use structural_elements, only: nodal_values, structural_stress
    use table_column, only: column
    use table_writer, only: table_type
-   use temperatures, only: element_rise, element_slope
+   use temperatures, only: beam_slopes, element_rise, element_slope
    use text_tools, only: clean
    use tolerances, only: page_zero
    implicit none
@@ -56,7 +56,8 @@ contains
       real(wp) :: forces(6, 2), load(12), s(12)
 
       associate (place => model%mesh%structural%place(e), now => analysis%now%temperature)
-         load = beam_thermal_load(model%mesh%structural%beams(place), sum(element_rise(model, e, now))/2.0_wp)
+         load = beam_thermal_load(model%mesh%structural%beams(place), model%mesh%x(:, element_points(model%mesh, e)), &
+                                  element_rise(model, e, now), beam_slopes(model, e, now))
          load = load + analysis%fraction*of_stage(analysis%stage) + (1.0_wp - analysis%fraction)* &
                 of_stage(model%history%stages(analysis%stage)%from)
          s = beam_end_forces(model%mesh%structural%beams(place), model%mesh%x(:, element_points(model%mesh, e)), &

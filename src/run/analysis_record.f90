@@ -211,7 +211,7 @@ contains
       if (.not. stream%writes .and. allocated(temperature%at)) deallocate (temperature%at)
       if (.not. stream%writes .and. n >= 0) allocate (temperature%at(n))
       if (n >= 0) call stream%item('at', temperature%at)
-      call record_plane(stream, 'plate', temperature%plate)
+      call record_plane(stream, 'own', temperature%own)
    end subroutine record_temperature
 
    !> The component NAME, of any extents or not allocated.

@@ -31,15 +31,13 @@ contains
       type(oscillating_type) :: structure
       type(reduced_type)     :: reduced
       type(retained_type)    :: retained
-      logical :: on_loading
 
       associate (stage => plan%stages(analysis%stage), failure => run%failure)
          if (.not. stage%output%dmig .or. failure%raised) return
          call checked%start(deck, run%errors)
          call find_retained(checked, model%mesh, model%freedoms, retained)
-         on_loading = .false.
-         if (allocated(stage%vibration)) on_loading = stage%vibration%on_loading
-         call start_oscillation(model, analysis, system, on_loading, structure, failure)
+         call start_oscillation(model, analysis, system, deck%control%stages(analysis%stage)%vibration%on_loading, structure, &
+                                failure)
          call reduce_structure(model, structure, retained, stage%vibration, reduced, failure)
          if (failure%raised) then
             failure%message = where_in_plan(plan, analysis%stage, analysis%increment)//': '//failure%message

@@ -98,7 +98,8 @@ module equation_solver
       procedure(form_structure), deferred   :: form_structure
       procedure(multiply_vector), deferred  :: multiply
       procedure(use_of_factor), deferred    :: solve_by_factor, multiply_by_factor
-      procedure :: number_unknowns, report_fault, held_now, gather, put, condense, solve, recover, forget_factors, forget_past
+      procedure :: number_unknowns, report_fault, held_now, gather, put, condense, solve, precondition, recover, &
+                   forget_factors, forget_past
    end type equation_system
 
    abstract interface
@@ -245,6 +246,14 @@ contains
       fault = 0
       call self%solve_by_factor(x)
    end subroutine solve
+
+   !> Replace X, at the EQUATIONS, by [k]^-1 X, as solve_by_factor does: no later result depends on whether this was done.
+   subroutine precondition(self, x)
+      class(equation_system), intent(in)  :: self
+      real(wp), contiguous, intent(inout) :: x(:) !! (n)
+
+      call self%solve_by_factor(x)
+   end subroutine precondition
 
    !> The displacements X of all equations: at the EQUATIONS from U, elsewhere from what condense left in X.
    subroutine recover(self, u, x)

@@ -20,8 +20,8 @@ module equations
    private
 
    public :: equation_system, start_equations, form_body_stiffness, add_bar, lock_unknown, condense_load, &
-             form_structure_stiffness, solve_equations, forces_in_bodies, recover_displacements, solve_coupled, &
-             solve_coupled_again
+             form_structure_stiffness, solve_equations, solve_by_last_factor, forces_in_bodies, recover_displacements, &
+             solve_coupled, solve_coupled_again
 
    integer, parameter  :: digits = 7              ! of an iterative solution within an iteration
    integer, parameter  :: most_kept = 24          ! directions of earlier coupled systems
@@ -189,6 +189,20 @@ contains
       call system%put(x, u)
       if (moves) u = u + moved
    end subroutine solve_equations
+
+   !> Displacements U of retained nodes under the forces F on them, by the factor of the last stiffness or of an earlier one: the caller
+   !! corrects them. No later solution depends on this one.
+   subroutine solve_by_last_factor(system, f, u)
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: f(:, :) !! of retained nodes [force]
+      real(wp), intent(out)              :: u(:, :) !! likewise [length]; zero on held components
+      real(wp), allocatable :: x(:)
+
+      allocate (x(system%n), source=0.0_wp)
+      call system%gather(f, x)
+      call system%precondition(x)
+      call system%put(x, u)
+   end subroutine solve_by_last_factor
 
    !> F = [k_b] {U} on the free components of retained nodes, [k_b] condensed on these; zero on held components.
    subroutine forces_in_bodies(system, u, f)

@@ -40,7 +40,7 @@ module tree_solver
       logical, allocatable, private :: in_joint(:) !! (n_nodes) nodes whose stiffness changes in the run or is added to the bodies
    contains
       procedure :: lay_out, start, form_bodies, add_to_bodies, condense, form_structure, solve, multiply, recover
-      procedure :: forget_factors, forget_past, solve_by_factor, multiply_by_factor
+      procedure :: forget_factors, forget_past, precondition, solve_by_factor, multiply_by_factor
    end type tree_solver_type
 
 contains
@@ -248,6 +248,14 @@ contains
       x(self%equations) = u(self%equations)
       call sweep(self%fronts, refactored=.false., up=.false., x=x)
    end subroutine recover
+
+   subroutine precondition(self, x)
+      class(tree_solver_type), intent(in) :: self
+      real(wp), contiguous, intent(inout) :: x(:)
+
+      x(self%locked) = 0.0_wp
+      call solve_refactored(self%fronts, x)
+   end subroutine precondition
 
    subroutine solve_by_factor(self, x)
       class(tree_solver_type), intent(in) :: self

@@ -1,7 +1,7 @@
-# Viscous dampers, B of CBUSH and CDAMP1 to CDAMP4, in a response: [k] - omega^2 [m] + i omega [b] solved by hand.
+# Viscous dampers, B of CBUSH, CDAMP1 to CDAMP4 and CVISC, in a response: [k] - omega^2 [m] + i omega [b] solved by hand.
 
-answers() { awk -F, -v node="$2" 'NR > 1 && $3 == node && $4 == "x" { print $2, $5, $6 }' "$work/$1.response.csv"; } # NAME NODE
-# listed WORDS WITHIN AWK NAME NODE: AWK computes RE and IM of each of these answers and calls check
+answers() { awk -F, -v node="$2" -v along="${3:-x}" 'NR > 1 && $3 == node && $4 == along { print $2, $5, $6 }' "$work/$1.response.csv"; } # NAME NODE [DIRECTION]
+# listed WORDS WITHIN AWK NAME NODE [DIRECTION]: AWK computes RE and IM of each of these answers and calls check
 listed() {
    judge "$1" -v pi="$pi" -v within="$2" 'function times(a, b) { re = a[1]*b[1] - a[2]*b[2]; im = a[1]*b[2] + a[2]*b[1] }
       function over(a, b,   s) { s = b[1]^2 + b[2]^2; re = (a[1]*b[1] + a[2]*b[2])/s; im = (a[2]*b[1] - a[1]*b[2])/s }
@@ -10,7 +10,7 @@ listed() {
          if (!(($2*cos(p) - re)^2 + ($2*sin(p) - im)^2 <= within^2*(re^2 + im^2 + size^2))) print $0 ", expected " re " " im
          n++
       }
-      { w = 2*pi*$1 } END { print "checked " n } '"$3" <(answers "$4" "$5")
+      { w = 2*pi*$1 } END { print "checked " n } '"$3" <(answers "$4" "$5" "${6:-x}")
 }
 asked='SUBCASE 1\n  MODES = 5\n  DLOAD = 20\n  FREQUENCY = 7\n  RESPONSE = SET 1\nBEGIN BULK'
 
@@ -39,6 +39,17 @@ run bush_away 3 && says 'a support that accelerates for ever' "$work/bush_away.l
 sed 's/^FREQ,.*/FREQ,7,10.0,1000.0/; s/^+,,B,4.0/+,,B,8.0/' "$work/bush_modes.bdf" > "$work/bush_peak.bdf"
 run bush_peak && near 'B of a bush: a peak that is missed' "$(sed -n 's/.*ITS PEAK BETWEEN .*: AT \([^ ]*\) NODE.*/\1/p' "$work/bush_peak.out")" \
    "$natural*sqrt(1 - 8^2/(6000*0.02)/2)" 1e-5
+
+# ---- A mass on a bush, K1 6000, K6 9000, and two CVISC: CE 4 along (0.6, 0.8, 0), CR 3 about z; an arm of 1 shows the rotation
+printf '%b\n' 'SOL 108\nCEND\nMODEL = SPACE\nSPC = 1\nDLOAD = 20\nFREQ = 7\nSET 1 = 1,5\nRESPONSE = SET 1\nBEGIN BULK' \
+   'GRID,1,,0.0,0.0,0.0\nGRID,2,,0.0,0.0,0.0\nGRID,3,,3.0,4.0,0.0\nGRID,4,,0.0,0.0,9.0\nGRID,5,,1.0,0.0,0.0\nRBE2,9,1,123456,5' \
+   'CBUSH,1,7,1,2,,,,0\nPBUSH,7,K,6000.0,6000.0,6000.0,,,9000.0\nCVISC,2,8,1,3\nCVISC,3,9,1,4\nPVISC,8,4.0,,,9,5.0,3.0\nCONM2,4,1,,0.02\n+,,,,,,0.05' \
+   'SPC1,1,2345,1\nSPC1,1,123456,2,3,4\nFREQ,7,30.0,100.0,1000.0\nDAREA,30,1,1,3.0\nDAREA,30,1,6,2.0\nRLOAD1,20,30,,,3.0\nENDDATA' > "$work/cvisc.bdf"
+run cvisc && {
+   listed 'CE of a CVISC' 1e-10 '{ a[1] = 9; a[2] = 0; b[1] = 6000 - 0.02*w^2; b[2] = w*4*0.36; over(a, b); check() }' cvisc 1
+   listed 'CR of a CVISC' 1e-10 '{ a[1] = 6; a[2] = 0; b[1] = 9000 - 0.05*w^2; b[2] = w*3; over(a, b); check() }' cvisc 5 y
+   same 'CVISC has an effect' "$(grep -c 'without effect.*CVISC' "$work/cvisc.out")" 0
+}
 
 # ---- Two masses: 3000 and B 2 to the ground, 5000 and B 6 between, PARAM G 0.02. The force 3 acts on the second mass.
 chain() { # NAME CONTROL CARDS

@@ -109,6 +109,45 @@ MODEL = SPACE;SPC = 1;SUBCASE 1;  TEMPERATURE(LOAD) = 5;BEGIN BULK;GRID,1,,0.0,0
 CBAR,1,1,1,2,0.0,1.0,0.0;PBAR,1,1,800.0,1.0+5,1.0+5,1.5+5;MAT1,1,210000.0,,0.3,,1.2-5,20.0;SPC1,1,123456,1;SPC1,1,12345,2;TEMPD,5,70.0;ENDDATA
 DECK
 run warm_beam && near 'a warm beam, held' "$(beam_force warm_beam 1 1 1)" '-210000*800*1.2e-5*50' 3e-6
+# TEMPRB: gradients along y and z, linear along the beam. Free: v'' = -alpha TP1, w'' = -alpha TP2; held: sigma = -E alpha (T + TP1 y + TP2 z)
+for model in PLANE SPACE; do
+   [ $model = PLANE ] && z='' || z=0.3,0.6
+   cards warm_bar <<DECK
+MODEL = $model;SPC = 1;SUBCASE 1;  TEMPERATURE(LOAD) = 5;  INCR = 1;BEGIN BULK;JINCR,1,,LIST,0.25,0.75;GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0
+CBAR,1,1,1,2,0.0,1.0,0.0;PBARL,1,1,,BAR;+,20.0,40.0;MAT1,1,210000.0,,0.3,,1.2-5,20.0;SPC1,1,123456,1;TEMPRB,5,1,70.0,90.0,0.2,0.5,$z;TEMPD,5,-999.0;ENDDATA
+DECK
+   run warm_bar && {
+      near "$model: a beam warm on one side, along" "$(moved warm_bar 2 1)" '1.2e-5*60*500' 3e-6
+      near "$model: a beam warm on one side, along y" "$(moved warm_bar 2 2)" '-1.2e-5*500^2*(0.2/3 + 0.5/6)' 3e-6
+      near "$model: a beam warm on one side, its slope" "$(rotation warm_bar 2 $([ $model = PLANE ] && echo 1 || echo 3))" '-1.2e-5*500*0.35' 3e-6
+      near "$model: a beam warm on one side, no moment" "$(beam_force warm_bar 1 1 6)" 0 0 1e-4
+   }
+   [ $model = SPACE ] && near 'along z' "$(moved warm_bar 2 3)" '-1.2e-5*500^2*(0.3/3 + 0.6/6)' 3e-6
+   sed -e 's/^SPC1.*/&\nSPC1,1,23456,2/' -e 's/^TEMPD.*//' -e 's/0.2,0.5,0.3,0.6/0.5,0.5,0.3,0.3/; s/0.2,0.5/0.5,0.5/' "$work/warm_bar.bdf" > "$work/warm_bar_held.bdf"
+   run warm_bar_held && {
+      near "$model: a beam warm on one side, held: moment" "$(beam_force warm_bar_held 1 1 6)" "210000*$i1*1.2e-5*0.5" 3e-6
+      near "$model: a beam warm on one side, held: stress" "$(beam_stress warm_bar_held 1 1 1)" "-210000*1.2e-5*(0.5*20 + ${z:+1}0*0.3)" 3e-6
+   }
+done
+# a CBEAM whose section changes, free; rods in a line, by the mean of both ends
+cards warm_taper <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;  TEMPERATURE(LOAD) = 5;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0
+CBEAM,1,1,1,2,0.0,1.0,0.0;PBEAM,1,1,800.0,1.0+5,0.4+5;+;+,NO,1.0,400.0,0.3+5,0.2+5;MAT1,1,210000.0,,0.3,,1.2-5,20.0;SPC1,1,123456,1;TEMPRB,5,1,70.0,90.0,0.2,0.5,0.3,0.6;ENDDATA
+DECK
+sed -i 's/^+$/+,,,,,,,,/' "$work/warm_taper.bdf"
+run warm_taper && {
+   near 'a tapered beam warm on one side, along' "$(moved warm_taper 2 1)" '1.2e-5*60*500' 3e-6
+   near 'along y' "$(moved warm_taper 2 2)" '-1.2e-5*500^2*(0.2/3 + 0.5/6)' 3e-6
+   near 'along z' "$(moved warm_taper 2 3)" '-1.2e-5*500^2*(0.3/3 + 0.6/6)' 3e-6
+}
+cards warm_rods <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;  TEMPERATURE(LOAD) = 5;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0;GRID,3,,1000.0,0.0,0.0
+CROD,1,1,1,2;CONROD,2,2,3,1,50.0;PROD,1,1,50.0;MAT1,1,210000.0,,0.3,,1.2-5,20.0;SPC1,1,123,1;SPC1,1,23,2,3;TEMPRB,5,1,70.0,90.0;+;+,2
+ENDDATA
+DECK
+sed -i 's/^+$/+,,,,,,,,/' "$work/warm_rods.bdf"
+run warm_rods && near 'warm rods' "$(moved warm_rods 3 1)" '1.2e-5*60*1000' 3e-6
+
 {
    printf 'MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  MODES = 3\nBEGIN BULK\nEIGRL,3,,,6\n'
    for k in 0 1 2 3 4 5 6 7 8; do printf 'GRID,%d,,%s,0.0,0.0\n' $((k + 1)) "$((125 * k)).0"; done
@@ -281,6 +320,47 @@ run wall && {
    near 'a wall on its edge: force' "$(value wall print 'sum(force)')" 3600 1e-7
    near 'a wall on its edge: moment about its middle' "$(value wall print 'sum(force*y)')" -4800 1e-6
    near 'a wall on its edge: highest pressure' "$(value wall print 'max(pressure)')" '3 + 6*4800/(100*12^2)/(1 + 2/8^2)' 3e-3
+}
+
+# ---- a second-order edge under FORCEM, PLOADM, RBE3M and joints: 1/6, 2/3, 1/6 of the force at its nodes, evenly pressed ----
+
+# edge8 NAME LINES: a sheet of 10 x 10 x 1, as one CQUAD8 or two CTRIA6, held at x = 0 where LINES say so, loaded at x = 10, u = F/100 there
+edge8() {
+   cards "$1" <<DECK
+MODEL = SPACE;METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,10.0,0.0,0.0;GRID,3,,10.0,10.0,0.0;GRID,4,,0.0,10.0,0.0
+GRID,5,,5.0,0.0,0.0;GRID,6,,10.0,5.0,0.0;GRID,7,,5.0,10.0,0.0;GRID,8,,0.0,5.0,0.0;PSHELL,1,1,1.0,1,,1;MAT1,1,1000.0,,0.0
+SPC1,1,3456,1,2,3,4;SPC1,1,3456,5,6,7,8;SPC1,1,2,1,2,5;PMARK,7;CBAR,9,7,2,3;$2;ENDDATA
+DECK
+}
+sheet8='CQUAD8,1,1,1,2,3,4,5,6;+,7,8'
+sheet6='GRID,9,,5.0,5.0,0.0;SPC1,1,3456,9;CTRIA6,1,1,1,2,3,5,6,9;CTRIA6,2,1,1,3,4,9,7,8'
+pressed8='FORCE,1,1,,16.66666666666667,1.0,0.0,0.0;FORCE,1,4,,16.66666666666667,1.0,0.0,0.0;FORCE,1,8,,66.66666666666667,1.0,0.0,0.0;JNORM,1,1.-3,1.0,1.+6;PJOINT,1,1,1,1;JSHEAR,1,1.+5'
+for sheet in "$sheet8" "$sheet6"; do
+   words="an edge of ${sheet:0:6}"
+   for load in 'FORCEM,1,100.0,1.0,0.0,0.0,7' 'PLOADM,1,-10.0,7' 'GRID,90,,20.0,5.0,0.0;RBE3M,70,90,1,123456,7;FORCE,1,90,,100.0,1.0,0.0,0.0'; do
+      edge8 edge8 "$sheet;SPC1,1,1,1,4,8;$load"
+      run edge8 && for node in 2 6 3; do near "$words, ${load%%,*}: node $node" "$(moved edge8 $node 1)" 0.1 1e-6; done
+   done
+   edge8 edge8_joint "$sheet;$pressed8;JOINT,1,1,7"
+   run edge8_joint && ask "$words pressed evenly" edge8_joint all 'pressure = 10 within 1e-7 and lambda = 0.01 within 1e-10 and area > 0'
+   for side in 7,8 8,7; do # a solid of another mesh behind the joint
+      edge8 edge8_joint "$sheet;$pressed8;JOINT,1,1,$side;PMARK,8;PMARK,18;BLOCK3,1,2,2,3,2,10.0,0.0,-0.5;+,20.0,10.0,0.5,,,,1001,1001;+,8,18;PSOLID,2,1;SPCM,1,123,18"
+      run edge8_joint && ask "$words pressed evenly on a solid, sides $side" edge8_joint all 'pressure = 10 within 1e-7 and area > 0'
+   done
+done
+
+# ---- linear triangles beside shells of second order, pulled evenly: their drilling rotations bow no edge that these do not bow ----
+
+cards mixed <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;  LOAD = 1;  OUTPUT = LAST, STRESS;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,10.0,0.0,0.0;GRID,3,,10.0,10.0,0.0
+GRID,4,,0.0,10.0,0.0;GRID,12,,20.0,0.0,0.0;GRID,13,,20.0,10.0,0.0;GRID,22,,30.0,0.0,0.0;GRID,23,,30.0,10.0,0.0;GRID,5,,5.0,0.0,0.0;GRID,6,,10.0,5.0,0.0
+GRID,7,,5.0,10.0,0.0;GRID,8,,0.0,5.0,0.0;GRID,14,,25.0,0.0,0.0;GRID,15,,25.0,5.0,0.0;GRID,16,,20.0,5.0,0.0;CQUAD8,1,1,1,2,3,4,5,6;+,7,8;CTRIA3,2,1,2,12,13
+CTRIA3,3,1,2,13,3;CTRIA6,4,1,12,22,13,14,15,16;CTRIA3,5,1,22,23,13;PSHELL,1,1,1.0,1,,1;MAT1,1,1000.0,,0.3;SPC1,1,13456,1,4,8;SPC1,1,2,1
+FORCE,1,22,,50.0,1.0,0.0,0.0;FORCE,1,23,,50.0,1.0,0.0,0.0;ENDDATA
+DECK
+run mixed && {
+   for node in 22 23; do near "linear triangles beside second order: node $node" "$(moved mixed $node 1)" 0.3 1e-6; done
+   for e in 1 2 3 4 5; do near "linear triangles beside second order: stress in $e" "$(shell_stress mixed $e 2 7)" 10 1e-6; done
 }
 
 # ---- a square tube of shells, with rigid ends, beside the same as one beam: bent, twisted, oscillating ----

@@ -21,6 +21,7 @@ free_line relief "$section\nSUPORT,1,123456\nFORCE,10,13,,30.0,1.0,0.0,0.0\nFORC
    near 'a free beam: its end' "$(moved_in relief 2 13 2)" "$(across 120)" 1e-5
    near 'a free beam: half' "$(moved_in relief 2 7 2)" "$(across 60)" 1e-5
    near 'a free body: no reactions' "$(awk '/^ FREE / { for (i = 3; i <= NF; i++) s += $i^2; n++ } END { print n - 2 + s }' "$work/relief.log")" 0 0 1e-9
+   same 'a free body: COUPMASS has an effect' "$(grep -c 'without effect.*COUPMASS' "$work/relief.log")" 0
    says 'a free body: its acceleration' "$work/relief.log" "PARAM INREL = -1: stage 2 has the inertia forces of the acceleration 0, $(number '30/(0.01*4*120)' | awk '{ printf "%g", $1 }'), 0 of the centre of mass"
 }
 

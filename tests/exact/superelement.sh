@@ -86,6 +86,35 @@ superelement_block whole "$superelement_case" "$superelement_held\n$superelement
    for j in 1 2 3 4; do near "read back: mode $j" "$(mode back $j frequency)" "$(mode whole $j frequency)" 1e-3; done
 }
 
+# ---- QSET beside nodes with rotations: a cantilever condensed on its end, read back: its deflection, its modes
+superelement_turned() { table "$1" 'ROTATIONS OF REFERENCE NODES' | awk -v node="$2" -v c="$3" '$1 == node { v = $(1 + c) } END { print v }'; } # NAME NODE C
+superelement_beams rotating 'SPC = 1\nOUTPUT = NONE, DMIG\nMETHOD = 5' 'EIGRL,5,,,8\nASET1,123456,5\nSPOINT,101,THRU,108\nQSET1,0,101,THRU,108' && {
+   near 'QSET: the stiffness of the end' "$(superelement_term rotating KAAX 5 3 5 3)" '12*2.1E5*800/400^3' 1e-9
+   near 'QSET: no stiffness between the end and a mode' "$(superelement_matrix rotating KAAX | awk '($1 == 5) != ($3 == 5) { w += $5^2 } END { print sqrt(w) }')" 0 0 1e-9
+   superelement_ends='SET 7 = 5\nWATCH = SET 7\nSPC = 1\nLOAD = 10\nMETHOD = 6\nSUBCASE 1\n'
+   superelement_end_load='FORCE,10,5,,10.0,1.0,2.0,3.0\nMOMENT,10,5,,100.0,1.0,-2.0,0.5\nEIGRL,6,,,4'
+   superelement_beams end_whole "$superelement_ends" "$superelement_end_load"
+   printf '%b\n' "MODEL = SPACE\nK2GG = KAAX\nM2GG = MAAX\n${superelement_ends/SPC = 1\\n/}BEGIN BULK\nGRID,5,,400.0,0.0,0.0\nSPOINT,101,THRU,108" "$superelement_end_load" > "$work/end_back.bdf"
+   { cat "$work/rotating.dmig"; echo ENDDATA; } >> "$work/end_back.bdf"
+   run end_back && for c in 1 2 3; do
+      near "a node with rotations read back: along $c" "$(moved end_back 5 $c)" "$(moved end_whole 5 $c)" 3e-6
+      near "a node with rotations read back: about $c" "$(superelement_turned end_back 5 $c)" "$(superelement_turned end_whole 5 $c)" 3e-6
+   done
+   for j in 1 2 3 4; do near "a node with rotations read back: mode $j" "$(mode end_back $j frequency)" "$(mode end_whole $j frequency)" 1e-3; done
+}
+
+# ---- a block on a joint: condensed on the node that moves its top, in series with the block: the slope of unloading, or the tangent under load
+superelement_on_joint() { # NAME EXPONENT LOAD [STIFFNESS]
+   printf '%b\n' "MODEL = SPACE\nMETHOD = NEWTON\nSUBCASE 1\n  LOAD = 10\n  OUTPUT = LAST, DMIG\n${4:+  STIFFNESS = $4\n}BEGIN BULK" \
+      'BLOCK3,1,1,2,2,2,0.0,0.0,0.0\n+,10.0,10.0,20.0\n+,,,,,5,6\nPSOLID,1,1\nMAT1,1,1000.0,,0.0,1.0-6\nPMARK,5\nPMARK,6\nGRID,90,,5.0,5.0,20.0\nRBE2M,9,90,123456,6' \
+      "JOINT,1,1,5\nPJOINT,1,1,1,1\nJNORM,1,0.02,$2,400.0\nJSHEAR,1,100.0\nFORCE,10,90,,$3,0.0,0.0,-1.0\nASET1,123,90\nENDDATA" > "$work/$1.bdf"
+   run "$1"
+}
+superelement_on_joint joint_line 1.0 500.0 &&
+   near 'a joint: its slope of unloading in series' "$(superelement_term joint_line KAAX 90 3 90 3)" '1/(20/(1000*100) + 1/(400*100))' 1e-8
+superelement_on_joint joint_bent 0.5 500.0 LOAD && # d lambda/dp = m c p^(m - 1), p = 5
+   near 'a joint that stiffens: its tangent in series' "$(superelement_term joint_bent KAAX 90 3 90 3)" '1/(20/(1000*100) + 0.5*0.02*5^(-0.5)/100)' 1e-6
+
 # ---- what cannot be
 superelement_beams bare 'SPC = 1\nOUTPUT = LAST, DMIG\nLOAD = 10' 'FORCE,10,5,,10.0,1.0,2.0,3.0' 2 && says 'no ASET' "$work/bare.log" 'DMIG needs ASET'
 superelement_beams held 'SPC = 1\nOUTPUT = LAST, DMIG\nLOAD = 10' 'FORCE,10,5,,10.0,1.0,2.0,3.0\nASET1,123456,1' 2 &&
