@@ -188,6 +188,8 @@ module tolerances
    real(wp), parameter :: iwan_difference = 1.0e-5_wp !! of these unknowns: differences in place of derivatives
    real(wp), parameter :: not_fixed = 1.0e-3_wp      !! of a derivative: no less fixes an unknown; of beta, of the largest d: counts as none
    real(wp), parameter :: search_difference = 1.0e-2_wp !! of an unknown of --structure: differences in place of derivatives; a run has three digits
+   real(wp), parameter :: beside_tol = 1.0e-6_wp     !! of the largest load: unbalanced force of a run beside another; SEARCH_DIFFERENCE moves 1E-2
+   real(wp), parameter :: search_modes = 1.0e-8_wp   !! of nu, by Lanczos, in --structure: the error of a frequency is far below its deviation
    real(wp), parameter :: search_settled = 1.0e-4_wp !! of its sum of squares: change in the last step, far below one deviation
    real(wp), parameter :: round_settled = 1.0e-2_wp  !! of the same in a round; of one: between rows predicted and in full, a tenth of a deviation
    real(wp), parameter :: worth_a_round = 4.0e-2_wp  !! less in the sum of squares: the minimum is within a fifth of a deviation

@@ -349,7 +349,7 @@ contains
       logical, intent(in)   :: is_central
       real(wp), intent(out) :: derivatives(:, :)
       type(answer_type), allocatable :: answers(:)
-      real(wp) :: before(size(value)), ends(2), points(size(y), 2*size(task%search%free)), step
+      real(wp) :: before(size(value)), ends(2), points(size(y), 0:2*size(task%search%free)), step
       integer  :: j, k, sides
 
       associate (free => task%search%free, parameters => task%data%parameters)
@@ -366,23 +366,22 @@ contains
                points(free(j), size(free) + j) = min(ends(2), max(ends(1), y(free(j)) - step))
             end associate
          end do
-         call run_all(task%data, task%structure, outer_value(spread(parameters, 2, sides*size(free)), &
-                      points(:, :sides*size(free))), task%cores, answers, task%near)
-         task%search%n_runs = task%search%n_runs + size(answers)
+         call run_all(task%data, task%structure, outer_value(spread(parameters, 2, 1 + sides*size(free)), &
+                      points(:, :sides*size(free))), task%cores, answers, task%near, together=.true.)
+         task%search%n_runs = task%search%n_runs + size(answers) - merge(0, 1, answers(1)%fault == '')
          derivatives = 0.0_wp
          do j = 1, size(free)
-            do k = j, size(answers), size(free)
-               if (answers(k)%fault == '') cycle
-               answers(k)%value = value
+            do k = j, size(answers) - 1, size(free)
+               if (answers(k + 1)%fault == '') cycle
+               answers(k + 1)%value = value
                points(free(j), k) = y(free(j))
             end do
-            k = size(free) + j
-            ends = [points(free(j), j), y(free(j))]
+            k = merge(size(free) + j, 0, is_central)
+            ends = points(free(j), [j, k])
             before = value
-            if (is_central) ends(2) = points(free(j), k)
-            if (is_central) before = answers(k)%value
+            if (is_central) before = answers(k + 1)%value
             if (abs(ends(1) - ends(2)) > 0.0_wp) derivatives(:, j) = &
-               differences(task%data, task%data%rows%value + answers(j)%value - before)/(ends(1) - ends(2))
+               differences(task%data, task%data%rows%value + answers(j + 1)%value - before)/(ends(1) - ends(2))
          end do
       end associate
    end subroutine differentiate

@@ -24,7 +24,7 @@ module structure_answers
    use shear_loops, only: oscillation_stiffness
    use stage_plan, only: merged, stage_plan_type
    use text_tools, only: integer_text
-   use tolerances, only: close_modes, least_mac
+   use tolerances, only: close_modes, least_mac, search_modes
    use watched_nodes, only: find_watched, state_at_end, watch_answer, watch_state
    implicit none
    private
@@ -104,7 +104,7 @@ contains
             return
          end if
          allocate (whole, source=analysis)
-         needs_forces = any(of_modes) .and. .not. (present(near) .and. is_predicted(data, s, plan))
+         needs_forces = any(of_modes) .and. .not. is_predicted(data, s, plan)
          if (needs_forces .or. allocated(plan%stages(s)%watched) .or. any(data%rows%kind == a_bolt) .or. &
              any(abs(whole%now%moved) > 0.0_wp)) then
             call recover_bodies(model, structure%system, whole)
@@ -227,6 +227,7 @@ contains
          end if
          call start_oscillation(loose, analysis, structure%system, vibration%on_loading, oscillating, failure)
          oscillating%is_counted = .false.
+         oscillating%tolerance = search_modes
          if (vibration%most > 0 .and. .not. allocated(vibration%response)) vibration%most = vibration%most + spare_modes
          call find_natural_modes(loose, oscillating, vibration, spectrum, shifted, failure)
          if (failure%raised) return

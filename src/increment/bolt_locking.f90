@@ -19,13 +19,18 @@ contains
 
    !> Lock the bolts that the completed stage has tightened, if they are not yet locked. The inelastic part of the bar forces becomes
    !! a load, and the overlap of solid bolts a prescribed displacement. Bolts that stage NEXT tightens again have been released.
-   subroutine lock_bolts(model, system, analysis, next)
+   !! IS_BESIDE: the equations are those of another analysis too, which has locked the bolts in them.
+   subroutine lock_bolts(model, system, analysis, next, is_beside)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout)    :: analysis
       integer, intent(in), optional         :: next !! default: none
+      logical, intent(in), optional         :: is_beside
       integer :: again, i
+      logical :: locks
 
+      locks = .true.
+      if (present(is_beside)) locks = .not. is_beside
       again = 0
       if (present(next)) again = next
       do i = 1, n_bars(model%mesh)
@@ -38,7 +43,7 @@ contains
             end associate
             ! the loads contain the thermal tension from now on
             analysis%rest_tension(i) = analysis%rest_tension(i) - thermal_tension(bar, analysis%now%temperature)
-            call add_bar(model, i, system)
+            if (locks) call add_bar(model, i, system)
          end associate
       end do
       do i = 1, n_sections(model%mesh)
@@ -50,7 +55,7 @@ contains
             analysis%now%load(1, section%node) = analysis%now%load(1, section%node) - &
                                                 section%tightening%preload_in(analysis%stage)
             analysis%now%moved(1, section%node) = overlap_now(model, analysis, i)
-            call lock_unknown(section%node, 1, system)
+            if (locks) call lock_unknown(section%node, 1, system)
          end associate
       end do
    end subroutine lock_bolts

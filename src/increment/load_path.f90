@@ -19,11 +19,12 @@ module load_path
 contains
 
    !> Start the next stage from the end of the present one: the joint keeps its history, and bolts tightened in this stage are
-   !! locked. A stage that was restarted within continues.
-   subroutine start_stage(model, system, analysis)
+   !! locked. A stage that was restarted within continues. IS_BESIDE as in lock_bolts.
+   subroutine start_stage(model, system, analysis, is_beside)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout) :: analysis
+      logical, intent(in), optional      :: is_beside
       integer :: i, stage
 
       if (analysis%goes_on) then
@@ -31,7 +32,7 @@ contains
          return
       end if
       stage = analysis%next
-      call lock_bolts(model, system, analysis, stage)
+      call lock_bolts(model, system, analysis, stage, is_beside)
       analysis%next = stage + 1
       analysis%stage = stage
       analysis%increment = 0

@@ -21,6 +21,7 @@ module path_error
    private
 
    public :: note_start, go_to_start, measure_path, is_within, error_size, distance
+   public :: approach ! for runs beside another one
 
    integer, parameter  :: most_corrections = 8       ! where the error decides on the division
    integer, parameter  :: some_corrections = 4       ! where it is only printed

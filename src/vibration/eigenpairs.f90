@@ -11,7 +11,7 @@ module eigenpairs
    use model_data, only: model_type
    use node_coupling, only: displacements, forces_on_unknowns
    use text_tools, only: integer_text
-   use tolerances, only: lanczos_tolerance, massless, settled_shape
+   use tolerances, only: massless, settled_shape
    implicit none
    private
 
@@ -62,12 +62,13 @@ contains
    end function needs_all
 
    !> The N eigenvalues LAMBDA next above the shift of SYSTEM, ascending, and their vectors X, x^T [m] x = 1; fewer where fewer
-   !! exist. Where N is the number of unknowns, the shift must be below all eigenvalues.
-   subroutine find_eigenpairs(model, mass, system, n, lambda, x, failure)
+   !! exist. Where N is the number of unknowns, the shift must be below all eigenvalues. TOLERANCE: of 1/(lambda - sigma), relative.
+   subroutine find_eigenpairs(model, mass, system, n, tolerance, lambda, x, failure)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
       class(equation_system), intent(in) :: system   !! factorised
       integer, intent(in)                :: n
+      real(wp), intent(in)               :: tolerance
       real(wp), allocatable, intent(out) :: lambda(:) !! [1/time^2]
       real(wp), allocatable, intent(out) :: x(:, :)   !! (equations, n)
       type(failure_type), intent(inout)  :: failure
@@ -75,7 +76,7 @@ contains
       integer :: first, i, info, status
 
       if (n < system%n) then
-         call iterate(model, mass, system, n, lambda, x, failure)
+         call iterate(model, mass, system, n, tolerance, lambda, x, failure)
          if (failure%raised) return
          do first = 2, size(lambda) ! few, and almost sorted
             do i = first, 2, -1
@@ -112,11 +113,12 @@ contains
    end subroutine find_eigenpairs
 
    !> The N next above the shift by ARPACK. Where fewer vectors have mass, ARPACK reports it and has found a basis of all of them.
-   subroutine iterate(model, mass, system, n, lambda, x, failure)
+   subroutine iterate(model, mass, system, n, tolerance, lambda, x, failure)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
       class(equation_system), intent(in) :: system
       integer, intent(in)                :: n
+      real(wp), intent(in)               :: tolerance
       real(wp), allocatable, intent(out) :: lambda(:), x(:, :)
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: v(:, :), residual(:), work(:), small_work(:)
@@ -138,7 +140,7 @@ contains
       ido = 0
       info = 1 ! given start vector: every run is the same
       do
-         call dsaupd(ido, 'G', system%n, 'LA', n, lanczos_tolerance, residual, columns, v, system%n, parameters, places, work, &
+         call dsaupd(ido, 'G', system%n, 'LA', n, tolerance, residual, columns, v, system%n, parameters, places, work, &
                      small_work, size(small_work), info)
          if (ido == 99) exit
          associate (from => places(1), to => places(2), of_mass => places(3))
@@ -156,7 +158,7 @@ contains
       end if
       if (info == restarts_used_up .and. parameters(5) == 0 .and. system%shift > 0.0_wp) info = 0 ! all may be below the shift
       if (parameters(5) > 0 .and. (info == 0 .or. info == restarts_used_up)) &
-         call dseupd(.true., 'A', chosen, lambda, x, system%n, system%shift, 'G', system%n, 'LA', n, lanczos_tolerance, residual, &
+         call dseupd(.true., 'A', chosen, lambda, x, system%n, system%shift, 'G', system%n, 'LA', n, tolerance, residual, &
                      columns, v, system%n, parameters, places, work, small_work, size(small_work), info)
       if (info /= 0) then
          call failure%raise('MODES: of '//integer_text(n)//' modes '//integer_text(parameters(5))//' were found in '// &

@@ -23,7 +23,7 @@ module natural_modes
    use stage_plan, only: vibration_plan_type
    use structural_elements, only: unit_tension
    use text_tools, only: integer_text
-   use tolerances, only: barely_held, off_the_pole, rigid_motion, wide_gap, zero_at_shift, zero_eigenvalue
+   use tolerances, only: barely_held, lanczos_tolerance, off_the_pole, rigid_motion, wide_gap, zero_at_shift, zero_eigenvalue
    implicit none
    private
 
@@ -40,6 +40,7 @@ module natural_modes
       type(mass_matrix_type) :: mass
       class(equation_system), allocatable :: started !! ordered, without a matrix
       logical :: is_counted = .true.         !! prove by a count that no mode is missing
+      real(wp) :: tolerance = lanczos_tolerance !! of the eigenvalues, as in find_eigenpairs
    end type oscillating_type
 
    type, public :: spectrum_type
@@ -207,7 +208,7 @@ contains
          n = min(n, structure%started%n - 1)
          if (.not. allocated(system)) call factorise_at(model, structure, spectrum%shift, system, failure)
          if (.not. failure%raised .and. (trial > 1 .or. .not. allocated(spectrum%lambda))) &
-            call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
+            call find_eigenpairs(model, structure%mass, system, n, structure%tolerance, spectrum%lambda, spectrum%x, failure)
          if (failure%raised) return
          if (spectrum%shift < 0.0_wp) call count_rigid(model, structure, system, spectrum) ! an earlier trial may have missed one
          spectrum%lambda(:spectrum%n_rigid) = 0.0_wp
@@ -339,7 +340,7 @@ contains
                call system%solve_by_factor(spectrum%at_rest(:, i))
             end do
          end if
-         call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
+         call find_eigenpairs(model, structure%mass, system, n, structure%tolerance, spectrum%lambda, spectrum%x, failure)
          return
       end if
 
@@ -357,7 +358,7 @@ contains
       do trial = 1, most_trials
          call factorise_at(model, structure, spectrum%shift, system, failure)
          if (failure%raised) return
-         call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
+         call find_eigenpairs(model, structure%mass, system, n, structure%tolerance, spectrum%lambda, spectrum%x, failure)
          if (failure%raised) return
          call count_rigid(model, structure, system, spectrum)
          if (spectrum%n_rigid == size(spectrum%lambda)) exit
