@@ -334,7 +334,7 @@ contains
             if (failure%raised) return
             answer%mode(i) = m
             answer%value(i) = frequencies(m)
-            answer%shapes(:, i) = stage%u(:, m)
+            if (size(answer%shapes, 1) > 0) answer%shapes(:, i) = stage%u(:, m)
             answer%off_number(i) = 0.0_wp
             k = row%mode - stage%n_before
             if (row%kind == a_frequency .and. size(row%shape) == 0 .and. row%amplitude <= 0.0_wp .and. k > 0 .and. &

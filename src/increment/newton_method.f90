@@ -374,6 +374,8 @@ contains
                     ', from node '//integer_text(joint_node_id(model, joint%first, 1))// &
                     ' on, and does not hold the load in the direction of its movement'
             if (attempt%missing > 0.0_wp) words = words//': '//real_text(attempt%missing)//' of force are missing'
+            if (attempt%loose == 0 .and. all(attempt%worst > 0)) &
+               words = words//', most at '//unknown_name(model, attempt%worst(1), attempt%worst(2))
          end associate
       else if (attempt%imprecise) then
          words = words//': '//no_balance
