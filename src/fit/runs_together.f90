@@ -34,7 +34,6 @@ contains
       integer(c_int), parameter :: at_once = 1, sigkill = 9 ! at_once: WNOHANG
       integer(c_int) :: child(size(values, 2)), status, stream(size(values, 2))
       logical :: beside(size(values, 2)), waits(size(values, 2))
-      integer, allocatable :: group(:)
       integer :: i, k
 
       allocate (answers(size(values, 2)))
@@ -53,9 +52,10 @@ contains
             if (child(k) == 0) then
                call open_line('', quiet=.true., in_lines=.false.)
                call use_threads(max(1, cores/size(child)))
-               group = pack([(i, i = 1, size(beside))], [(i == k .or. (beside(i) .and. k == 1), i = 1, size(beside))])
-               call run_structure(data, values(:, group), structure, answers(:size(group)), near)
-               call send(int(stream(k)), answers(:size(group)))
+               associate (group => group_of(k))
+                  call run_structure(data, values(:, group), structure, answers(:size(group)), near)
+                  call send(int(stream(k)), answers(:size(group)))
+               end associate
                call end_run(0)
             end if
          else
@@ -66,8 +66,7 @@ contains
             if (interrupt_so_far() /= 0) status = c_kill(child(k), sigkill)
             if (c_waitpid(child(k), status, at_once) == 0) cycle
             child(k) = 0
-            group = pack([(i, i = 1, size(beside))], [(i == k .or. (beside(i) .and. k == 1), i = 1, size(beside))])
-            call receive(int(stream(k)), group, answers)
+            call receive(int(stream(k)), group_of(k), answers)
             if (k > 1) cycle
             do i = 2, size(beside)
                if (beside(i)) waits(i) = answers(i)%fault /= ''
@@ -80,6 +79,18 @@ contains
          answers(k)%set = values(:, k)
          if (.not. allocated(answers(k)%fault)) answers(k)%fault = 'interrupted'
       end do
+
+   contains
+
+      !> The runs of the process of run K: itself, and those beside the first one.
+      pure function group_of(k) result(group)
+         integer, intent(in)  :: k
+         integer :: group(merge(1 + count(beside), 1, k == 1))
+         integer :: i
+
+         group = pack([(i, i = 1, size(beside))], [(i == k .or. (beside(i) .and. k == 1), i = 1, size(beside))])
+      end function group_of
+
    end subroutine run_all
 
    !> Whether the run with the second of two sets of VALUES can be beside that with the first one.

@@ -321,7 +321,7 @@ contains
          analysis%record%follows_path = .true. ! with all corrections
          analysis%tolerance = beside_tol*first%tolerance/first%load_tolerance
          allocate (before, source=analysis%states)
-         call approach(model, system, attempt%load, analysis%u + first%du, before, analysis, attempt, trial)
+         call approach(model, system, analysis%now%condensed_load, analysis%u + first%du, before, analysis, attempt, trial)
          if (analysis%moves .or. .not. first%record%is_whole .or. .not. trial%size <= analysis%tolerance) then
             fault = 'no equilibrium beside another run'
          else

@@ -238,9 +238,9 @@ contains
       attempt%n_limits = settled - 1 ! two problems more before the exact laws try again
    end function falls_back
 
-   !> Whether the body moves on under the present limits, a joint leaves its place, many iterations have not solved their problem,
-   !! or the exact laws have failed to finish again and again.
-   !! A joint has left its place where its ends have moved by more than the largest joint is wide.
+   !> End the ATTEMPT where the body moves on under the present limits, where many iterations have not solved their problem, where the
+   !! exact laws have failed to finish again and again, or where a joint leaves its place: its ends have moved by more than the largest
+   !! joint is wide.
    subroutine judge_limits(model, system, analysis, now, attempt)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system

@@ -17,7 +17,7 @@ module newton_method
    use path_error, only: measure_path, note_start, path_start_type
    use shear_stiffness, only: shear_state
    use stage_plan, only: stage_plan_type, where_in_plan
-   use text_tools, only: integer_text, real_text
+   use text_tools, only: integer_text, one_of, real_text
    use tolerances, only: least_share
    use unknowns, only: unknown_name
    implicit none
@@ -370,7 +370,7 @@ contains
       if (max(attempt%loose, attempt%leaves) > 0) then
          associate (joint => model%joints%list(merge(attempt%loose, attempt%leaves, attempt%loose > 0)))
             words = words//': joint '//integer_text(joint%id)// &
-                    trim(merge(' slips or is open at all its nodes', ' moves by more than its size      ', attempt%loose > 0))// &
+                    one_of(attempt%loose > 0, ' slips or is open at all its nodes', ' moves by more than its size')// &
                     ', from node '//integer_text(joint_node_id(model, joint%first, 1))// &
                     ' on, and does not hold the load in the direction of its movement'
             if (attempt%missing > 0.0_wp) words = words//': '//real_text(attempt%missing)//' of force are missing'

@@ -93,7 +93,7 @@ contains
          half = trial%u
       end if
       call follow_way(model, system, start, half, analysis, way)
-      call approach(model, system, attempt%load, analysis%u, way, analysis, attempt, trial)
+      call approach(model, system, (attempt%load), analysis%u, way, analysis, attempt, trial)
       way = trial%states
       do i = 1, size(way)
          call rest_when_open(way(i), joint_movement(system%interface(i), trial%u))
