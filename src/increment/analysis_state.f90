@@ -65,6 +65,7 @@ module analysis_state
       logical  :: lets_go = .false.                 !! any element is open in one of both states only
       logical  :: slides = .false.                  !! a joint slips at all its nodes that press
       real(wp) :: displacement = 0.0_wp             !! then: largest difference of a displacement, of the largest displacement [-]
+      logical  :: unseen = .false.                  !! the way may hold what its points do not show
    end type path_error_type
 
    !> The record of the last increment for output; no later result depends on it.

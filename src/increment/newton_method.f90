@@ -3,7 +3,7 @@
 !! of INCR is divided only where it does not converge. The whole increment is then repeated from the result of its parts, so that
 !! the answer does not depend on the division.
 module newton_method
-   use analysis_state, only: all_held, analysis_type, free_norm
+   use analysis_state, only: all_held, analysis_type, free_norm, path_error_type
    use equations, only: equation_system, form_structure_stiffness
    use equation_solver, only: failure_type
    use joint_laws, only: element_state, is_apart, stiffness_at_rest, stiffness_matrices
@@ -14,7 +14,7 @@ module newton_method
    use newton_trial, only: attempt_type
    use node_coupling, only: forces_on_unknowns
    use normal_stiffness, only: at_rest, branch_name, branch_open
-   use path_error, only: measure_path, note_start, path_start_type
+   use path_error, only: grading, measure_path, note_start, path_start_type
    use shear_stiffness, only: shear_state
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, one_of, real_text
@@ -211,8 +211,9 @@ contains
       logical, intent(in)                  :: follows, measures
       type(element_state), allocatable :: way(:)
       type(path_start_type) :: start
+      type(path_error_type) :: error
       real(wp), allocatable :: half(:, :), u_start(:, :)
-      integer  :: before_open
+      integer :: before_open
 
       allocate (u_start, source=analysis%u)
       before_open = count(analysis%states%normal%branch == branch_open)
@@ -220,11 +221,16 @@ contains
       if (follows) then
          call follow_path(model, analysis, system, attempt)
       else
-         if (measures) call note_start(analysis, start)
-         if (measures) allocate (way, source=analysis%states)
+         if (measures) then
+            call note_start(analysis, start)
+            allocate (way, source=analysis%states)
+         end if
          call reach(model, analysis, system, attempt, [0.0_wp, 1.0_wp])
-         if (measures .and. attempt%converged) &
-            call measure_path(model, system, start, 1.0_wp, analysis, attempt, way, analysis%record%path_error, half)
+         if (measures .and. attempt%converged) then
+            call measure_path(model, system, start, [0.0_wp, 1.0_wp], grading(model, start, analysis), analysis, attempt, way, &
+                              error, half)
+            analysis%record%path_error = error
+         end if
       end if
       if (attempt%converged) then
          analysis%du = analysis%u - u_start
@@ -238,8 +244,8 @@ contains
 
    !> Go from equilibrium to equilibrium between ENDS of the increment by ATTEMPTs: commit an attempt that converges, divide one that
    !! does not. What was divided is repeated as a whole, from its start and the displacements that its parts have reached: the laws
-   !! depend on the path, and rounding decides on the division. If the whole does not converge, the parts stand. The first attempt
-   !! starts from GUESS, unless this is poor.
+   !! depend on the path, and rounding decides on the division. If the whole does not converge, the parts stand. With a GUESS
+   !! nothing is divided.
    subroutine reach(model, analysis, system, attempt, ends, guess)
       type(model_type), intent(in)         :: model
       type(analysis_type), intent(inout)   :: analysis
@@ -253,10 +259,9 @@ contains
 
       if (present(guess)) then
          call try_part(model, system, analysis, 1.0_wp - ends(2), attempt, guess)
-         if (attempt%converged) then
-            analysis%record%n_parts = analysis%record%n_parts + 1
-            return
-         end if
+         if (.not. attempt%converged) call try_part(model, system, analysis, 1.0_wp - ends(2), attempt)
+         if (attempt%converged) analysis%record%n_parts = analysis%record%n_parts + 1
+         return
       end if
       done = ends(1)
       part = ends(2) - ends(1)

@@ -4,8 +4,10 @@
 !! The path is found without a factorisation. The displacements half way follow from the mean of both ends under the mean load, by
 !! corrections with the factor of the last iteration. The exact laws are followed along the parabola through the three states up to
 !! three quarters of it, and from there to the equilibrium at its end, by corrections again. These states go on from part to part.
+!! Where elements with shear are pressed from nearly nothing, shear and pressure grow together from there, and the first of equal parts
+!! is like the whole. The parts are graded then: the pressure grows from part to part by shares of itself.
 module path_error
-   use analysis_state, only: analysis_type, path_error_type, turning_point
+   use analysis_state, only: analysis_type, free_norm, path_error_type, turning_point
    use equation_solver, only: coupled_tally, failure_type
    use equations, only: equation_system, solve_by_last_factor, solve_coupled_again
    use interface_operator, only: joint_movement
@@ -14,18 +16,24 @@ module path_error
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate_at, trial_type
-   use normal_stiffness, only: branch_open
+   use normal_stiffness, only: branch_load, branch_open
    use straight_laws, only: loose_joints
    use tolerances, only: equal_shares, loose_direction, no_contact, on_the_path
    implicit none
    private
 
-   public :: note_start, go_to_start, measure_path, is_within, error_size, distance
+   public :: note_start, go_to_start, grading, share_of, measure_path, change_since, expect, is_within, error_size, distance
    public :: approach ! for runs beside another one
 
    integer, parameter  :: most_corrections = 8       ! where the error decides on the division
    integer, parameter  :: some_corrections = 4       ! where it is only printed
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
+   real(wp), parameter :: from_nothing = 0.01_wp     ! share of the last pressure at the start of an element: parts are graded below it
+   real(wp), parameter :: by_few = 0.1_wp            ! share of the shear that such elements bear: below it parts are equal
+   real(wp), parameter :: least_start = 1.0e-4_wp    ! likewise: nothing before it counts
+   real(wp), parameter :: found = 0.1_wp             ! share of a part's load that may be unbalanced half way
+   integer, parameter  :: grade = 5                  ! power of the load along graded parts
+   real(wp), parameter, public :: none = 1.0_wp      ! as grading: equal parts
 
    !> What an attempt changes when it is committed.
    type, public :: path_start_type
@@ -69,13 +77,47 @@ contains
       analysis%record%kind = start%kind
    end subroutine go_to_start
 
-   !> Follow the WAY from the start of the increment along the committed ATTEMPT at a PART of it, from START, whose displacements
-   !! HALF way are found. ERROR is that of the committed states from the end of the WAY.
-   subroutine measure_path(model, system, start, part, analysis, attempt, way, error, half)
+   !> The share of the load at which graded parts would begin, to the power of one over GRADE [-]: the least pressure at the START over
+   !! that at the end, of the elements that bear shear at the end. If those pressed from nothing bear little of it, parts are equal.
+   pure real(wp) function grading(model, start, analysis) result(e)
+      type(model_type), intent(in)      :: model
+      type(path_start_type), intent(in) :: start
+      type(analysis_type), intent(in)   :: analysis
+      real(wp) :: counts, least, ratio, shear(2)
+      integer  :: i
+
+      least = 1.0_wp
+      shear = 0.0_wp
+      counts = analysis%path_tolerance*maxval(analysis%states%normal%pressure)
+      do i = 1, size(analysis%states)
+         associate (after => analysis%states(i), area => model%joints%element(i)%area)
+            if (.not. (norm2(after%shear%tau) > counts .and. after%normal%pressure > counts)) cycle
+            ratio = start%states(i)%normal%pressure/after%normal%pressure
+            least = min(least, ratio)
+            shear = shear + area*norm2(after%shear%tau)*[1.0_wp, merge(1.0_wp, 0.0_wp, ratio < from_nothing)]
+         end associate
+      end do
+      e = none
+      if (shear(2) > by_few*shear(1)) e = max(least, least_start)**(1.0_wp/grade)
+   end function grading
+
+   !> The share of the increment's load at S of its parts, graded from E.
+   elemental real(wp) function share_of(s, e) result(share)
+      real(wp), intent(in) :: s !! [-], 0 to 1
+      real(wp), intent(in) :: e !! of grading
+
+      share = s
+      if (e < none .and. s > 0.0_wp .and. s < 1.0_wp) share = ((e + (1.0_wp - e)*s)**grade - e**grade)/(1.0_wp - e**grade)
+   end function share_of
+
+   !> Follow the WAY from the start of the increment along the committed ATTEMPT at the part between ENDS of it, graded from E, from
+   !! START, whose displacements HALF way are found. ERROR is that of the committed states from the end of the WAY.
+   subroutine measure_path(model, system, start, ends, e, analysis, attempt, way, error, half)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system   !! with the factor of the last iteration; returned as it was
       type(path_start_type), intent(inout)  :: start    !! likewise
-      real(wp), intent(in)                  :: part     !! of the increment [-]
+      real(wp), intent(in)                  :: ends(2)  !! of the part, before grading [-], 0 to 1
+      real(wp), intent(in)                  :: e        !! of grading
       type(analysis_type), intent(inout)    :: analysis !! likewise
       type(attempt_type), intent(inout)     :: attempt  !! likewise
       type(element_state), allocatable, intent(inout) :: way(:)
@@ -83,14 +125,20 @@ contains
       real(wp), allocatable, intent(out)    :: half(:, :) !! (dimension, retained) [length]
       type(trial_type) :: trial
       type(coupled_tally) :: tally
-      integer :: i
+      logical  :: is_found  ! the state half way
+      real(wp) :: shares(3) ! of the increment's load at the start, half way and at the end
+      integer  :: i
 
-      half = 0.5_wp*(start%u + analysis%u)
+      shares = share_of([ends(1), 0.5_wp*sum(ends), ends(2)], e)
+      half = start%u + (shares(2) - shares(1))/(shares(3) - shares(1))*(analysis%u - start%u)
       if (size(way) == 0) return
+      is_found = .true.
       tally = system%coupled
       if (attempt%iteration > 0) then ! otherwise there may be no factor
-         call approach(model, system, attempt%load - 0.5_wp*part*analysis%change, half, start%states, analysis, attempt, trial)
+         call approach(model, system, attempt%load - (shares(3) - shares(2))*analysis%change, half, start%states, analysis, &
+                       attempt, trial)
          half = trial%u
+         is_found = trial%size <= max(found*free_norm((shares(3) - shares(1))*analysis%change, analysis%held), analysis%tolerance)
       end if
       call follow_way(model, system, start, half, analysis, way)
       call approach(model, system, (attempt%load), analysis%u, way, analysis, attempt, trial)
@@ -100,8 +148,34 @@ contains
       end do
       error = difference(model, analysis%states, way, analysis%path_tolerance)
       error%displacement = distance(trial%u, analysis%u)
+      call look_ahead(model, system, (shares(3) - shares(1))*analysis%change, attempt, analysis, error%unseen)
+      error%unseen = error%unseen .or. .not. is_found
       system%coupled = tally
    end subroutine measure_path
+
+   !> Whether the committed state TURNS back: if the part's CHANGE of load went on, an element on the loading branch would be let go by
+   !! more than PATHTOL. It has been pressed more before, between the points of the way.
+   subroutine look_ahead(model, system, change, attempt, analysis, turns)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      real(wp), intent(in)                  :: change(:, :) !! (dimension, retained) [force]
+      type(attempt_type), intent(in)        :: attempt
+      type(analysis_type), intent(in)       :: analysis
+      logical, intent(inout)                :: turns
+      real(wp) :: direction(size(change, 1), size(change, 2)), movement(3), largest
+      type(failure_type) :: failure
+      integer :: i
+
+      if (attempt%iteration == 0) return
+      call correction(model, system, merge(0.0_wp, change, analysis%held), attempt%coupled, direction, failure)
+      if (failure%raised) return
+      largest = max(maxval(analysis%states%normal%lambda_a), maxval(analysis%states%normal%lambda))
+      do i = 1, size(analysis%states)
+         if (analysis%states(i)%normal%branch /= branch_load) cycle
+         movement = joint_movement(system%interface(i), direction)
+         turns = turns .or. movement(3) < -analysis%path_tolerance*largest
+      end do
+   end subroutine look_ahead
 
    !> The TRIAL near equilibrium under the LOAD, to which the states BEFORE lead: from the displacements U by a few corrections with
    !! the factor of the last iteration. The factor is that of the end of the increment; what the corrections so far have changed in the
@@ -206,6 +280,10 @@ contains
             at(:, 3) = analysis%movement(:, i)
             do k = 1, 3
                movement = matmul(at, weights(:, k))
+               associate (ends => at(:, max(1, k - 1):min(k, 2) + 1))
+                  ! no further than its ends: a parabola through uneven steps turns by itself
+                  movement = min(max(movement, minval(ends, dim=2)), maxval(ends, dim=2))
+               end associate
                call follow_element(model%joints%list(element%joint)%law, element%area, along(i), movement, after, tangent)
                call rest_when_open(after, movement)
                along(i) = after
@@ -235,6 +313,7 @@ contains
             associate (area => model%joints%element(i)%area, a => states(i)%normal, b => way(i)%normal)
                is_open = [a%branch, b%branch] == branch_open
                if (all(is_open)) cycle
+               error%unseen = error%unseen .or. abs(max(a%pressure, a%p_a) - max(b%pressure, b%p_a)) > tolerance*p
                squares = squares + area*([a%lambda - b%lambda, a%pressure - b%pressure]/[lambda, p])**2
                if (.not. any(is_open)) cycle
                error%lets_go = error%lets_go .or. max(a%pressure, b%pressure) > no_contact*p
@@ -247,6 +326,30 @@ contains
          error%contact = max(error%contact, open_area/model%joints%list(j)%area)
       end do
    end function difference
+
+   !> The difference of the states from those at the end of the LAST division.
+   pure type(path_error_type) function change_since(model, last, analysis) result(change)
+      type(model_type), intent(in)      :: model
+      type(path_start_type), intent(in) :: last
+      type(analysis_type), intent(in)   :: analysis
+
+      change = difference(model, analysis%states, last%states, analysis%path_tolerance)
+      change%displacement = distance(analysis%u, last%u)
+   end function change_since
+
+   !> The ERROR is not below what further divisions would change, if each changes Q of the one before: of a geometric series. Contact
+   !! comes and goes at once: any division sees it.
+   elemental subroutine expect(change, q, error)
+      type(path_error_type), intent(in)    :: change !! of the last division
+      real(wp), intent(in)                 :: q      !! [-], < 1
+      type(path_error_type), intent(inout) :: error
+
+      associate (rest => q/(1.0_wp - q))
+         error%deflection = max(error%deflection, rest*change%deflection)
+         error%pressure = max(error%pressure, rest*change%pressure)
+         error%displacement = max(error%displacement, rest*change%displacement)
+      end associate
+   end subroutine expect
 
    !> Whether a joint slides in STATES: it is loose, and an element of it slips.
    pure logical function slides(model, states)
@@ -265,15 +368,17 @@ contains
       distance = maxval(abs(a - b))/max(maxval(abs(a)), maxval(abs(b)), tiny(1.0_wp))
    end function distance
 
-   !> Whether the ERROR of an increment in N_PARTS is within TOLERANCE. An increment in which a joint slides, or an element is let go, of
-   !! whatever pressure, is not taken in one part.
-   pure logical function is_within(error, n_parts, tolerance)
+   !> Whether the ERROR of an increment in N_PARTS is within TOLERANCE. An increment whose parts are graded is not taken in one part, nor
+   !! one in which a joint slides, an element is let go, of whatever pressure, or the way may hold more than its points show. Of two
+   !! graded parts the second is nearly the whole: they count as one.
+   pure logical function is_within(error, n_parts, e, tolerance)
       type(path_error_type), intent(in) :: error
       integer, intent(in)               :: n_parts
+      real(wp), intent(in)              :: e         !! of grading
       real(wp), intent(in)              :: tolerance !! PATHTOL
 
-      is_within = n_parts > 1 .or. .not. (error%lets_go .or. error%slides)
-      if (is_within) is_within = error_size(error) <= tolerance*(1.0_wp + equal_shares)
+      is_within = error_size(error) <= tolerance*(1.0_wp + equal_shares) .and. &
+                  n_parts >= merge(2, 1, e < none)*merge(2, 1, error%lets_go .or. error%slides .or. error%unseen)
    end function is_within
 
    !> The ERROR as a number to compare with PATHTOL. Displacements count where a joint slides.

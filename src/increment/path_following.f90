@@ -1,12 +1,13 @@
-!> Follows the path in the increment of a stage without INCR: NEWTON divides it into ever more equal parts until its end no longer
-!! depends on them.
+!> Follows the path in the increment of a stage without INCR: NEWTON divides it into ever more parts, equal or graded, until its end
+!! no longer depends on them.
 submodule(newton_method) path_following
    use analysis_state, only: path_error_type
-   use path_error, only: distance, error_size, go_to_start, is_within
+   use path_error, only: change_since, error_size, expect, go_to_start, grading, is_within, none, share_of
    implicit none
 
    integer, parameter  :: most_parts = 64   ! of an increment
    real(wp), parameter :: falling = 0.75_wp ! of the error of path with half as many parts: one that is larger does not fall
+   real(wp), parameter :: second_order = 0.25_wp, first_order = 0.5_wp ! of the change of the last division: the change of the next
 
    !> Displacements that the last division has found.
    type :: known_type
@@ -26,30 +27,34 @@ contains
       type(attempt_type), intent(inout)     :: attempt
       type(known_type), allocatable :: known(:)
       type(path_start_type) :: first, last
-      type(path_error_type) :: error
-      real(wp), allocatable :: u(:, :)      ! (dimension, retained) at the end of the last division [length]
-      integer :: n
-      logical :: falls, is_whole
+      type(path_error_type) :: error, change
+      real(wp) :: e, q, size_before
+      integer  :: n
+      logical  :: falls, is_whole
 
       analysis%record%follows_path = .true.
       call note_start(analysis, first)
       allocate (known(1))
+      e = none
       n = 0
       is_whole = .true.
       do
          analysis%record%is_whole = .true.
-         call reach_in_parts(model, analysis, system, attempt, known)
+         call reach_in_parts(model, analysis, system, attempt, e, known)
          if (.not. attempt%converged) exit
-         associate (displacement => analysis%record%path_error%displacement)
-            ! of second order: the error is about a third of the distance from the last division
-            if (n > 0) displacement = max(displacement, distance(analysis%u, u)/3.0_wp)
-         end associate
-         u = analysis%u
-         falls = n < 2 .or. error_size(analysis%record%path_error) < max(falling*error_size(error), analysis%path_tolerance)
+         if (n > 0) then
+            change = change_since(model, last, analysis)
+            q = merge(first_order, second_order, analysis%record%path_error%unseen)
+            if (n > 1) q = min(max(error_size(change)/size_before, second_order), falling)
+            size_before = max(error_size(change), tiny(1.0_wp))
+            ! one part cannot see what is let go: what two equal ones change tells nothing of the next change
+            if (n > 1 .or. e < none .or. .not. error%lets_go) call expect(change, q, analysis%record%path_error)
+         end if
+         falls = n < 8 .or. error_size(analysis%record%path_error) < max(falling*error_size(error), analysis%path_tolerance)
          n = size(known)
          is_whole = analysis%record%is_whole
          error = analysis%record%path_error
-         if (is_within(error, n, analysis%path_tolerance) .or. .not. falls .or. 2*n > most_parts) exit
+         if (is_within(error, n, e, analysis%path_tolerance) .or. .not. falls .or. 2*n > most_parts) exit
          call note_start(analysis, last)
          call go_to_start(first, analysis)
          call halve_parts(known)
@@ -62,15 +67,17 @@ contains
       analysis%record%n_parts = n
    end subroutine follow_path
 
-   !> Reach the end of the increment in equal parts, as many as KNOWN has, with the error of path there.
-   subroutine reach_in_parts(model, analysis, system, attempt, known)
+   !> Reach the end of the increment in parts, as many as KNOWN has, with the error of path there.
+   subroutine reach_in_parts(model, analysis, system, attempt, e, known)
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(inout)    :: analysis
       class(equation_system), intent(inout) :: system
       type(attempt_type), intent(inout)     :: attempt
+      real(wp), intent(inout)               :: e        !! of grading; one part decides on it
       type(known_type), intent(inout)       :: known(:) !! of the last division; becomes that of this one
       type(element_state), allocatable :: way(:)
       type(path_start_type) :: start
+      type(path_error_type) :: error
       real(wp) :: ends(2)
       integer  :: k, n
 
@@ -81,14 +88,15 @@ contains
          analysis%record%n_parts = k - 1
          call note_start(analysis, start)
          if (allocated(known(k)%u)) then
-            call reach(model, analysis, system, attempt, ends, known(k)%u)
+            call reach(model, analysis, system, attempt, share_of(ends, e), known(k)%u)
          else
             call reach(model, analysis, system, attempt, ends)
          end if
          if (.not. attempt%converged) return
          known(k)%u = analysis%u
-         call measure_path(model, system, start, ends(2) - ends(1), analysis, attempt, way, analysis%record%path_error, &
-                           known(k)%half)
+         if (n == 1) e = grading(model, start, analysis)
+         call measure_path(model, system, start, ends, e, analysis, attempt, way, error, known(k)%half)
+         analysis%record%path_error = error
       end do
    end subroutine reach_in_parts
 

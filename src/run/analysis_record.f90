@@ -265,13 +265,14 @@ contains
       type(restart_stream_type), intent(inout) :: stream
       type(path_error_type), intent(inout)     :: error
 
-      call stream%part('path_error_type', 2)
+      call stream%part('path_error_type', 3)
       call stream%item('deflection', error%deflection)
       call stream%item('pressure', error%pressure)
       call stream%item('contact', error%contact)
       call stream%item('lets_go', error%lets_go)
       call stream%item('slides', error%slides)
       call stream%item('displacement', error%displacement)
+      call stream%item('unseen', error%unseen)
    end subroutine record_path_error
 
    subroutine record_condition(stream, condition)
