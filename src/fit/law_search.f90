@@ -6,13 +6,12 @@
 !! i-th frequency there: where modes have changed places they are paired anew, and close neighbours are exchanged to see what is less.
 !! Source: J. J. More, The Levenberg-Marquardt algorithm, Lecture Notes in Mathematics 630 (1978) 105-116.
 module law_search
-   use equation_solver, only: failure_type
    use fit_statistics, only: statistics_type, weigh
    use incomplete_results, only: interrupt_so_far
    use kinds, only: wp
    use measured_data, only: differences, inner_value, measured_type, outer_value, unknown_of, y_of
+   use mode_rows, only: answer_type, exchange_modes, is_of_modes, is_predicted, match_again, structure_type
    use runs_together, only: run_all
-   use structure_answers, only: answer_type, exchange_modes, is_of_modes, is_predicted, match_rows, structure_type
    use terminal, only: show_line
    use text_tools, only: integer_text, real_text
    use tolerances, only: at_bound, far_better, round_settled, search_difference, search_settled, &
@@ -186,20 +185,11 @@ contains
    subroutine pair_again(y, ok)
       real(wp), intent(in) :: y(:)
       logical, intent(out) :: ok
-      type(failure_type) :: failure
-      integer :: s
 
       ok = task%is_predicted .and. allocated(task%paired%value)
       if (ok) ok = all(abs(y - task%paired_y) <= 0.0_wp)
-      if (.not. ok) return
-      task%last = task%paired
-      do s = 1, size(task%structure%plan%stages)
-         associate (of_modes => is_of_modes(task%data%rows) .and. task%data%rows%stage == task%structure%plan%stages(s)%id)
-            ok = ok .and. is_predicted(task%data, s, task%structure%plan)
-            if (ok .and. any(of_modes)) call match_rows(task%data, s, of_modes, task%structure, task%last, failure)
-         end associate
-      end do
-      ok = ok .and. .not. failure%raised
+      if (ok) task%last = task%paired
+      if (ok) call match_again(task%data, task%structure, task%last, ok)
    end subroutine pair_again
 
    !> Take what has been found with one pairing of the modes as the best answer.
@@ -283,6 +273,7 @@ contains
             if (.not. allocated(search%first%value)) search%first = answers(1)
             if (.not. allocated(task%structure%shapes)) task%structure%shapes = answers(1)%shapes
             task%last = answers(1)
+            task%structure%known = answers(1)%stages
          end if
          square = sum(differences(task%data, task%last%value)**2)
          if (square < task%square) then
