@@ -209,7 +209,8 @@ contains
 
    !> The lowest eigenpairs by subspace iteration from vectors near them, without shift: each step solves for all vectors at once, and
    !! Rayleigh and Ritz find the best combinations. Two vectors of no symmetry are added, by which a mode comes in that the start lacks.
-   !! IS_FOUND: the residual of the first N is so small that its square, the order of the error, is within TOLERANCE of 1/lambda.
+   !! IS_FOUND: the residual of the first N is so small that its square, the order of the error, is within TOLERANCE of 1/lambda, and
+   !! that of the others within its root: they are near modes.
    !! Source: Bathe, Finite Element Procedures, Prentice Hall 1996, section 11.6.
    subroutine improve_eigenpairs(model, mass, system, near, n, tolerance, lambda, x, is_found)
       type(model_type), intent(in)       :: model
@@ -244,7 +245,8 @@ contains
          end do
          a = matmul(transpose(y), of_mass) ! Y^T [k] Y
          b = matmul(transpose(y), of_y)
-         if (step > 1) is_found = all([(b(i, i) - 2.0_wp*nu(i)*a(i, i) + nu(i)**2 <= tolerance*nu(i)**2, i = 1, n)])
+         if (step > 1) is_found = all([(b(i, i) - 2.0_wp*nu(i)*a(i, i) + nu(i)**2 <= &
+                                        merge(tolerance, sqrt(tolerance), i <= n)*nu(i)**2, i = 1, m - 2)])
          nu = sqrt([(a(i, i), i = 1, m)])
          a = a/spread(nu, 1, m)/spread(nu, 2, m)
          b = b/spread(nu, 1, m)/spread(nu, 2, m)
