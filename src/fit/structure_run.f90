@@ -202,7 +202,7 @@ contains
       associate (first => walks(1), stages => walks(1)%structure%plan%stages)
          do s = 1, maxval(findloc_of(stages%id, data%rows%stage))
             do k = 1, size(walks)
-               call go_to_stage(s, walks(k), system, failure)
+               if (answers(k)%fault == '') call go_to_stage(s, walks(k), system, failure)
             end do
             do i = 1, size(stages(s)%fractions)
                if (.not. failure%raised) call go_an_increment(first%structure, system, first%analysis, failure)
