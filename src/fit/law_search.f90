@@ -14,8 +14,7 @@ module law_search
    use runs_together, only: run_all
    use terminal, only: show_line
    use text_tools, only: integer_text, real_text
-   use tolerances, only: at_bound, far_better, round_settled, search_difference, search_settled, &
-                         undetermined, worth_a_round
+   use tolerances, only: at_bound, far_better, round_settled, search_difference, search_settled, undetermined, worth_a_round
    implicit none
    private
 
@@ -117,18 +116,16 @@ contains
       n_again = 0
       do while (task%search%fault == '' .and. interrupt_so_far() == 0 .and. size(task%search%free) > 0)
          call judge(k, left)
-         if (k == 0 .and. (left <= worth_a_round .or. n_again == most_again)) exit
-         if (k == 0) then
-            n_again = n_again + 1
-            call minimise(task%search%y)
-            call take_found(task%search%by_number)
-            cycle
-         end if
-         task%search%free = pack(task%search%free, task%search%free /= k)
-         if (task%search%is_at_bound(k)) cycle
-         task%search%is_held(k) = .true.
          y = task%search%y
-         y(k) = inner_value(data%parameters(k), data%parameters(k)%start)
+         if (k == 0) then
+            if (left <= worth_a_round .or. n_again == most_again) exit
+            n_again = n_again + 1
+         else
+            task%search%free = pack(task%search%free, task%search%free /= k)
+            if (task%search%is_at_bound(k)) cycle
+            task%search%is_held(k) = .true.
+            y(k) = inner_value(data%parameters(k), data%parameters(k)%start)
+         end if
          call minimise(y)
          call take_found(task%search%by_number)
       end do
@@ -261,9 +258,7 @@ contains
          if (is_known) is_known = all(abs(y - search%y) <= 0.0_wp)
          if (is_known) task%last = search%best
          if (.not. (is_known .or. allocated(task%structure%shapes))) call pair_again(y, is_known)
-         if (is_known) then
-            if (.not. allocated(task%structure%shapes)) task%structure%shapes = task%last%shapes
-         else
+         if (.not. is_known) then
             call run_all(task%data, task%structure, reshape(outer_value(task%data%parameters, y), [size(y), 1]), &
                          task%cores, answers)
             search%n_runs = search%n_runs + 1
@@ -271,10 +266,10 @@ contains
             if (.not. allocated(search%first%value)) search%fault = answers(1)%fault
             if (answers(1)%fault /= '') return
             if (.not. allocated(search%first%value)) search%first = answers(1)
-            if (.not. allocated(task%structure%shapes)) task%structure%shapes = answers(1)%shapes
             task%last = answers(1)
             task%structure%known = answers(1)%stages
          end if
+         if (.not. allocated(task%structure%shapes)) task%structure%shapes = task%last%shapes
          square = sum(differences(task%data, task%last%value)**2)
          if (square < task%square) then
             task%y = y
