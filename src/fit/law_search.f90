@@ -21,7 +21,7 @@ module law_search
    public :: seek
 
    integer, parameter  :: most_runs = 100          ! of a round, without those for derivatives
-   integer, parameter  :: few_runs = 10            ! ... of one with predicted frequencies
+   integer, parameter  :: few_runs = 20            ! ... of one with predicted frequencies
    integer, parameter  :: most_rounds = 30, most_backs = 4, most_again = 2
    real(wp), parameter :: failed = 1.0e8_wp        ! times the deviation: the difference of a run that has failed
    real(wp), parameter :: first_step = 0.7_wp      ! of an unknown
