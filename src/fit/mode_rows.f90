@@ -1,6 +1,6 @@
-!> The modes that the rows of a measured file mean, and what runs of a structure share and answer. A mode is followed by its shape: that
-!! of the largest MAC (x^T y)^2/(x^T x y^T y) with the shape given, or with that of a run before; without one, the mode is that of its
-!! number.
+!> The modes that the rows of a measured file mean, and what runs of a structure share and answer. A mode is followed by its
+!! shape: that of the largest MAC (x^T y)^2/(x^T x y^T y) with the shape given, or with that of a run before; without one, the
+!! mode is that of its number.
 module mode_rows
    use deck_input, only: deck_type
    use deck_parameters, only: parameter_type

@@ -5,6 +5,8 @@
 !!
 !! The error of a frequency is of second order in the part of its shape that the space lacks. K of a stage needs no element: a mode
 !! phi of any stage has [k] phi = lambda [m] phi there, and between stages only joints and bolts differ.
+!!
+!! Modes of a run in full begin with those of the last one, by inverse iteration with the factor that the increments have.
 module mode_span
    use analysis_state, only: analysis_type
    use blas_lapack, only: dsygv
@@ -39,9 +41,9 @@ module mode_span
 
 contains
 
-   !> The N lowest modes of STRUCTURE without shift, in the numbering of SHIFTED: the equations SYSTEM of the increments, whose bodies
-   !! are condensed, with the joints under oscillation. From shapes NEAR by subspace iteration until N_SURE of them are settled, else by
-   !! the Lanczos method. IS_FOUND: false where the structure is not held, or is small.
+   !> The N lowest modes of STRUCTURE without shift, in the numbering of SHIFTED: the equations SYSTEM of the increments, whose
+   !! bodies are condensed, with the joints under oscillation. From shapes NEAR by subspace iteration until N_SURE of them are
+   !! settled, else by the Lanczos method. IS_FOUND: false where the structure is not held, or is small.
    subroutine find_modes_again(model, analysis, system, structure, near, n_sure, n, spectrum, shifted, is_found)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis

@@ -255,8 +255,8 @@ contains
       call self%solve_by_factor(x)
    end subroutine precondition
 
-   !> Replace every column of X, over all equations, by [k]^-1 times it, as solve_by_factor does; zero where LOCKED. The abstract type
-   !! takes one column after the other.
+   !> Replace every column of X, over all equations, by [k]^-1 times it, as solve_by_factor does; zero where LOCKED. The
+   !! abstract type takes one column after the other.
    subroutine solve_many(self, x)
       class(equation_system), intent(in)  :: self
       real(wp), contiguous, intent(inout) :: x(:, :) !! (n, columns)

@@ -224,8 +224,8 @@ contains
       end do
    end subroutine refactored_times_vector
 
-   !> [L S L^T]^-1 X on all equations for the columns of X, zero where locked. The panel of a front is read once for several columns;
-   !! others are those of other threads.
+   !> [L S L^T]^-1 X on all equations for the columns of X, zero where locked. The panel of a front is read once for several
+   !! columns; others are those of other threads.
    subroutine solve_columns(tree, x)
       type(front_tree_type), intent(in)   :: tree
       real(wp), contiguous, intent(inout) :: x(:, :) !! (n, columns)

@@ -207,10 +207,10 @@ contains
       x = matmul(v, t(:, n:n - i + 1:-1))
    end subroutine solve_in_subspace
 
-   !> The lowest eigenpairs by subspace iteration from vectors near them, without shift: each step solves for all vectors at once, and
-   !! Rayleigh and Ritz find the best combinations. Two vectors of no symmetry are added, by which a mode comes in that the start lacks.
-   !! IS_FOUND: the residual of the first N is so small that its square, the order of the error, is within TOLERANCE of 1/lambda, and
-   !! that of the others within its root: they are near modes.
+   !> The lowest eigenpairs by subspace iteration from vectors near them, without shift: each step solves for all vectors at
+   !! once, and Rayleigh and Ritz find the best combinations. Two vectors of no symmetry are added, by which a mode comes in that
+   !! the start lacks. IS_FOUND: the residual of the first N is so small that its square, the order of the error, is within
+   !! TOLERANCE of 1/lambda, and that of the others within its root: they are near modes.
    !! Source: Bathe, Finite Element Procedures, Prentice Hall 1996, section 11.6.
    subroutine improve_eigenpairs(model, mass, system, near, n, tolerance, lambda, x, is_found)
       type(model_type), intent(in)       :: model
