@@ -333,6 +333,14 @@ holds 'a mode beyond those of EIGRL' awk '$1 != "$" || $3 + 0 == 0 { next } NR =
    $2 == 4 { m++; if ($5 / start[$2] > 1.000001 || $5 / start[$2] < 0.999999) bad = 1 }
    END { exit bad || m != 2 }' four found
 
+# ---- the modes of jointfem while a solid bolt is tightened, and with it locked: by the factor of the increments, then near those ----
+awk '/^JNORM/ && !n++ { $0 = "JNORM   1       ${C}    0.5     2.0+5" } { print } /^SUBCASE/ { print "MODES = 77" } /^BEGIN BULK/ { print "EIGRL,77,,,3" }
+   ' "$input/solid_bolt.bdf" | sed 's/^MAT1\(.*\)0\.3 *$/MAT1\10.3     7.8-9/' > solid.bdf
+"$jointfem" -q --set C=1.0E-3 solid.bdf > log 2>&1
+{ echo 'parameter,C,1.0E-3'; awk -F, 'NR > 1 { printf "frequency,%.12g,1%%,stage=%d,mode=%d\n", $3, $1, $2 }' solid.modes.csv; } > solid.csv
+seek solid.bdf --measured solid.csv
+holds 'a solid bolt: modes as in the table' awk '/^\$ +[0-9]+ / { n++; if ($5 / $3 > 1.000001 || $5 / $3 < 0.999999) bad = 1 } END { exit bad || n != 6 }' found
+
 # ---- every kind of row, against the tables of jointfem: bolts, pairs, loss factors, responses, shapes, a backbone ----
 sed 's/ 8000\.0 / ${P}   /' "$input/column_modes_08.bdf" > kinds.bdf
 cp -R "$input/vibration" .
