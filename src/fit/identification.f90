@@ -15,10 +15,10 @@ module identification
    use law_search, only: search_type, seek
    use machine, only: use_threads
    use measured_data, only: differences, measured_type, outer_value, read_measured
+   use mode_rows, only: structure_type
    use omp_lib, only: omp_get_max_threads
    use openblas, only: prepare_libraries
    use output_file, only: output_file_type
-   use structure_answers, only: structure_type
    use structure_run, only: start_structure
    use terminal, only: clear_line, complain_of_input, open_line, version
    use text_tools, only: integer_text, one_of, plural, real_text

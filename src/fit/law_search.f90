@@ -6,24 +6,22 @@
 !! i-th frequency there: where modes have changed places they are paired anew, and close neighbours are exchanged to see what is less.
 !! Source: J. J. More, The Levenberg-Marquardt algorithm, Lecture Notes in Mathematics 630 (1978) 105-116.
 module law_search
-   use equation_solver, only: failure_type
    use fit_statistics, only: statistics_type, weigh
    use incomplete_results, only: interrupt_so_far
    use kinds, only: wp
    use measured_data, only: differences, inner_value, measured_type, outer_value, unknown_of, y_of
+   use mode_rows, only: answer_type, exchange_modes, is_of_modes, is_predicted, match_again, structure_type
    use runs_together, only: run_all
-   use structure_answers, only: answer_type, exchange_modes, is_of_modes, is_predicted, match_rows, structure_type
    use terminal, only: show_line
    use text_tools, only: integer_text, real_text
-   use tolerances, only: at_bound, far_better, round_settled, search_difference, search_settled, &
-                         undetermined, worth_a_round
+   use tolerances, only: at_bound, far_better, round_settled, search_difference, search_settled, undetermined, worth_a_round
    implicit none
    private
 
    public :: seek
 
    integer, parameter  :: most_runs = 100          ! of a round, without those for derivatives
-   integer, parameter  :: few_runs = 10            ! ... of one with predicted frequencies
+   integer, parameter  :: few_runs = 20            ! ... of one with predicted frequencies
    integer, parameter  :: most_rounds = 30, most_backs = 4, most_again = 2
    real(wp), parameter :: failed = 1.0e8_wp        ! times the deviation: the difference of a run that has failed
    real(wp), parameter :: first_step = 0.7_wp      ! of an unknown
@@ -118,18 +116,16 @@ contains
       n_again = 0
       do while (task%search%fault == '' .and. interrupt_so_far() == 0 .and. size(task%search%free) > 0)
          call judge(k, left)
-         if (k == 0 .and. (left <= worth_a_round .or. n_again == most_again)) exit
-         if (k == 0) then
-            n_again = n_again + 1
-            call minimise(task%search%y)
-            call take_found(task%search%by_number)
-            cycle
-         end if
-         task%search%free = pack(task%search%free, task%search%free /= k)
-         if (task%search%is_at_bound(k)) cycle
-         task%search%is_held(k) = .true.
          y = task%search%y
-         y(k) = inner_value(data%parameters(k), data%parameters(k)%start)
+         if (k == 0) then
+            if (left <= worth_a_round .or. n_again == most_again) exit
+            n_again = n_again + 1
+         else
+            task%search%free = pack(task%search%free, task%search%free /= k)
+            if (task%search%is_at_bound(k)) cycle
+            task%search%is_held(k) = .true.
+            y(k) = inner_value(data%parameters(k), data%parameters(k)%start)
+         end if
          call minimise(y)
          call take_found(task%search%by_number)
       end do
@@ -186,20 +182,11 @@ contains
    subroutine pair_again(y, ok)
       real(wp), intent(in) :: y(:)
       logical, intent(out) :: ok
-      type(failure_type) :: failure
-      integer :: s
 
       ok = task%is_predicted .and. allocated(task%paired%value)
       if (ok) ok = all(abs(y - task%paired_y) <= 0.0_wp)
-      if (.not. ok) return
-      task%last = task%paired
-      do s = 1, size(task%structure%plan%stages)
-         associate (of_modes => is_of_modes(task%data%rows) .and. task%data%rows%stage == task%structure%plan%stages(s)%id)
-            ok = ok .and. is_predicted(task%data, s, task%structure%plan)
-            if (ok .and. any(of_modes)) call match_rows(task%data, s, of_modes, task%structure, task%last, failure)
-         end associate
-      end do
-      ok = ok .and. .not. failure%raised
+      if (ok) task%last = task%paired
+      if (ok) call match_again(task%data, task%structure, task%last, ok)
    end subroutine pair_again
 
    !> Take what has been found with one pairing of the modes as the best answer.
@@ -271,9 +258,7 @@ contains
          if (is_known) is_known = all(abs(y - search%y) <= 0.0_wp)
          if (is_known) task%last = search%best
          if (.not. (is_known .or. allocated(task%structure%shapes))) call pair_again(y, is_known)
-         if (is_known) then
-            if (.not. allocated(task%structure%shapes)) task%structure%shapes = task%last%shapes
-         else
+         if (.not. is_known) then
             call run_all(task%data, task%structure, reshape(outer_value(task%data%parameters, y), [size(y), 1]), &
                          task%cores, answers)
             search%n_runs = search%n_runs + 1
@@ -281,9 +266,10 @@ contains
             if (.not. allocated(search%first%value)) search%fault = answers(1)%fault
             if (answers(1)%fault /= '') return
             if (.not. allocated(search%first%value)) search%first = answers(1)
-            if (.not. allocated(task%structure%shapes)) task%structure%shapes = answers(1)%shapes
             task%last = answers(1)
+            task%structure%known = answers(1)%stages
          end if
+         if (.not. allocated(task%structure%shapes)) task%structure%shapes = task%last%shapes
          square = sum(differences(task%data, task%last%value)**2)
          if (square < task%square) then
             task%y = y

@@ -5,18 +5,26 @@
 !!
 !! The error of a frequency is of second order in the part of its shape that the space lacks. K of a stage needs no element: a mode
 !! phi of any stage has [k] phi = lambda [m] phi there, and between stages only joints and bolts differ.
+!!
+!! Modes of a run in full begin with those of the last one, by inverse iteration with the factor that the increments have.
 module mode_span
+   use analysis_state, only: analysis_type
    use blas_lapack, only: dsygv
+   use eigenpairs, only: find_eigenpairs, improve_eigenpairs, needs_all
+   use equation_solver, only: equation_system, failure_type
+   use equations, only: add_bar, form_structure_stiffness, lock_unknown
    use interface_operator, only: joint_movement
+   use joint_laws, only: stiffness_matrices
    use kinds, only: wp
    use mass_matrix, only: mass_matrix_type, mass_times
-   use model_data, only: model_type
+   use model_data, only: model_type, n_bars, n_sections
+   use natural_modes, only: oscillating_type, spectrum_type
    use structural_elements, only: add_bar_forces
-   use tolerances, only: in_the_span
+   use tolerances, only: barely_held, in_the_span
    implicit none
    private
 
-   public :: span_modes, find_spanned
+   public :: find_modes_again, span_modes, find_spanned
 
    !> The modes of a stage, and what the modes of all stages are in it.
    type, public :: stage_modes
@@ -32,6 +40,42 @@ module mode_span
    end type stage_modes
 
 contains
+
+   !> The N lowest modes of STRUCTURE without shift, in the numbering of SHIFTED: the equations SYSTEM of the increments, whose
+   !! bodies are condensed, with the joints under oscillation. From shapes NEAR by subspace iteration until N_SURE of them are
+   !! settled, else by the Lanczos method. IS_FOUND: false where the structure is not held, or is small.
+   subroutine find_modes_again(model, analysis, system, structure, near, n_sure, n, spectrum, shifted, is_found)
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(in)    :: analysis
+      class(equation_system), intent(in) :: system
+      type(oscillating_type), intent(in) :: structure
+      real(wp), intent(in)               :: near(:, :) !! (components of all nodes, modes; 0: none) [length]
+      integer, intent(in)                :: n_sure, n
+      type(spectrum_type), intent(out)   :: spectrum
+      class(equation_system), allocatable, intent(out) :: shifted
+      logical, intent(out)               :: is_found
+      type(failure_type) :: failure
+      integer :: i
+
+      is_found = .false.
+      if (needs_all(system, n)) return
+      allocate (shifted, source=system)
+      do i = 1, n_bars(model%mesh)
+         if (structure%is_elastic(i) .and. .not. analysis%is_elastic(i)) call add_bar(model, i, shifted)
+      end do
+      do i = 1, n_sections(model%mesh)
+         if (structure%is_locked(i) .and. .not. analysis%is_locked(i)) call lock_unknown(model%mesh%sections(i)%node, 1, shifted)
+      end do
+      call form_structure_stiffness(model, stiffness_matrices(structure%k), 'natural modes', shifted, failure)
+      if (failure%raised) return
+      if (shifted%weakest < barely_held) return
+      if (size(near, 2) >= n) call improve_eigenpairs(model, structure%mass, shifted, near, n_sure, structure%tolerance, &
+                                                      spectrum%lambda, spectrum%x, is_found)
+      if (.not. is_found) call find_eigenpairs(model, structure%mass, shifted, n + 3, structure%tolerance, spectrum%lambda, &
+                                               spectrum%x, failure)
+      is_found = .not. failure%raised
+      if (is_found) spectrum%n_wanted = min(n, size(spectrum%lambda))
+   end subroutine find_modes_again
 
    !> Fill [K], [B] and the places of the STAGES that have modes. A stage shares the modes of those with the same supports and
    !! pretension sections held.

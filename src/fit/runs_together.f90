@@ -10,7 +10,7 @@ module runs_together
    use measured_data, only: measured_type
    use openblas, only: c_fork, c_waitpid
    use side_by_side, only: c_kill, c_memfd_create, streams_at
-   use structure_answers, only: answer_type, is_predicted, structure_type
+   use mode_rows, only: answer_type, is_predicted, structure_type
    use structure_run, only: run_structure
    use terminal, only: open_line
    use text_tools, only: integer_text

@@ -1,81 +1,35 @@
 !> The answers of a structure to the rows of a measured file, at the end of a stage. Near a run with modes, their frequencies follow
-!! from the change of the joint stiffness alone, in the space of the modes of that run. A mode is followed by its shape: that of the
-!! largest MAC (x^T y)^2/(x^T x y^T y) with the shape given, or with that of a run before; without one, the mode is that of its number.
+!! from the change of the joint stiffness alone, in the space of the modes of that run. Those of a run in full begin near them.
 module structure_answers
    use analysis_state, only: analysis_type
    use backbone, only: backbone_type, find_loop, start_backbone
    use bolt_locking, only: bar_tension, section_tension
-   use deck_input, only: deck_type
-   use deck_parameters, only: parameter_type
    use element_mapping, only: two_pi
    use equation_solver, only: equation_system, failure_type
    use equations, only: recover_displacements
    use free_structure, only: release_supports
    use kinds, only: wp
    use load_path, only: recover_bodies
-   use measured_data, only: a_bolt, a_displacement, a_frequency, a_loss, a_phase, a_stiffness, an_amplitude, measured_row, &
-                            measured_type
+   use measured_data, only: a_bolt, a_displacement, a_frequency, a_loss, a_phase, a_stiffness, measured_type
+   use mode_rows, only: answer_type, is_of_modes, is_predicted, match_rows, shapes_near, structure_type
    use mode_values, only: evaluate_modes, modes_type
    use modal_response, only: find_response, response_type
-   use mode_span, only: find_spanned, stage_modes
+   use mode_span, only: find_modes_again, find_spanned
    use model_data, only: model_type
    use node_coupling, only: displacements, forces_on_unknowns
-   use natural_modes, only: find_natural_modes, oscillating_type, spectrum_type, start_oscillation
+   use natural_modes, only: find_natural_modes, spectrum_type, start_oscillation
    use shear_loops, only: oscillation_stiffness
-   use stage_plan, only: merged, stage_plan_type
-   use text_tools, only: integer_text
-   use tolerances, only: close_modes, least_mac, search_modes
+   use stage_plan, only: merged
+   use tolerances, only: search_modes
    use watched_nodes, only: find_watched, state_at_end, watch_answer, watch_state
    implicit none
    private
 
-   public :: take_stage, exchange_modes, is_of_modes, is_predicted, mac_of, match_rows
+   public :: take_stage
 
    integer, parameter :: spare_modes = 4 ! beyond those of the deck: modes that change places stay among those found
 
-   !> What the runs share.
-   type, public :: structure_type
-      character(:), allocatable :: path, watched
-      type(parameter_type), allocatable :: set(:)    !! of --set, which stay
-      type(deck_type)       :: deck
-      type(model_type)      :: model
-      type(stage_plan_type) :: plan
-      class(equation_system), allocatable :: system  !! its bodies formed for the start
-      logical, allocatable  :: keeps_bodies(:)       !! (parameters) the bodies do not depend on it
-      type(oscillating_type) :: oscillating(0:1)     !! with and without supports
-      real(wp), allocatable :: shapes(:, :)          !! (components, rows) of the modes that are followed; or not allocated:
-      integer, allocatable  :: numbers(:)            !! (rows) of the modes
-   end type structure_type
-
-   type, public :: answer_type
-      real(wp), allocatable :: set(:)                !! (parameters) their values
-      character(:), allocatable :: fault             !! why the run failed, '': it did not
-      real(wp), allocatable :: value(:)              !! (rows)
-      real(wp), allocatable :: off_number(:)         !! (rows) frequency of the mode with the number of the row, less VALUE
-      real(wp), allocatable :: mac(:)                !! (rows) of modes, else 1
-      integer, allocatable  :: mode(:)               !! (rows) place of the mode among those found, 0: none
-      type(stage_modes), allocatable :: stages(:)    !! of a run in full
-      real(wp), allocatable :: shapes(:, :)          !! (components, rows) of the modes
-   end type answer_type
-
 contains
-
-   !> Whether ROW needs the modes of its stage.
-   elemental logical function is_of_modes(row)
-      type(measured_row), intent(in) :: row
-
-      is_of_modes = any(row%kind == [a_frequency, a_loss, an_amplitude, a_phase])
-   end function is_of_modes
-
-   !> MAC of two shapes: 1 where they are proportional, 0 where they are orthogonal.
-   pure real(wp) function mac_of(x, y) result(mac)
-      real(wp), intent(in) :: x(:), y(:)
-      real(wp) :: scale
-
-      mac = 0.0_wp
-      scale = sum(x**2)*sum(y**2)
-      if (scale > 0.0_wp) mac = sum(x*y)**2/scale
-   end function mac_of
 
    !> The answers to the rows of stage S at its end, AT_END where nodes are watched; BEFORE is the end of the stage from which S
    !! started.
@@ -151,16 +105,6 @@ contains
       end associate
    end subroutine take_stage
 
-   !> Whether all that the rows want of the modes of stage S of PLAN are frequencies of small oscillation.
-   pure logical function is_predicted(data, s, plan)
-      type(measured_type), intent(in)   :: data
-      integer, intent(in)               :: s
-      type(stage_plan_type), intent(in) :: plan
-
-      is_predicted = all(data%rows%stage /= plan%stages(s)%id .or. .not. is_of_modes(data%rows) .or. &
-                         (data%rows%kind == a_frequency .and. data%rows%amplitude <= 0.0_wp))
-   end function is_predicted
-
    !> The frequencies of the rows OF_MODES of stage S from the modes of the run NEAR.
    subroutine predict(s, of_modes, structure, analysis, near, answer)
       integer, intent(in)              :: s
@@ -209,7 +153,9 @@ contains
       type(modes_type), allocatable :: modes
       type(response_type)    :: response
       class(equation_system), allocatable :: shifted
-      integer :: f, i
+      real(wp), allocatable :: near(:, :)
+      logical :: is_held
+      integer :: f, i, n_sure
 
       associate (vibration => structure%plan%stages(s)%vibration, rows => data%rows, nodes => loose%mesh%node_table, &
                  oscillating => structure%oscillating(merge(1, 0, structure%plan%stages(s)%vibration%free)), &
@@ -225,28 +171,41 @@ contains
             end do
             vibration%response%nodes = [(max(1, nodes%find(rows(i)%nodes(1))), i = 1, size(rows))]
          end if
-         call start_oscillation(loose, analysis, structure%system, vibration%on_loading, oscillating, failure)
+         is_held = is_predicted(data, s, structure%plan) .and. vibration%most > 0 .and. .not. (allocated(vibration%response) .or. &
+            vibration%free .or. vibration%has_lowest .or. vibration%has_highest)
+         n_sure = max(vibration%most, maxval(structure%numbers, of_modes))
+         if (vibration%most > 0 .and. .not. allocated(vibration%response)) vibration%most = vibration%most + spare_modes
          oscillating%is_counted = .false.
          oscillating%tolerance = search_modes
-         if (vibration%most > 0 .and. .not. allocated(vibration%response)) vibration%most = vibration%most + spare_modes
-         call find_natural_modes(loose, oscillating, vibration, spectrum, shifted, failure)
-         if (failure%raised) return
-         allocate (modes)
-         call evaluate_modes(loose, analysis, oscillating, vibration, spectrum, shifted, modes)
-         if (allocated(vibration%response)) &
-            call find_response(loose, oscillating, vibration%response, spectrum, modes, shifted, response, failure)
-         if (failure%raised) return
-         stage%is_free = vibration%free
-         stage%is_elastic = oscillating%is_elastic
-         stage%is_locked = oscillating%is_locked
-         stage%n_before = modes%n_before
-         stage%k = reshape(oscillating%k, [size(oscillating%k)])
-         stage%lambda = modes%modes%lambda
-         allocate (stage%u(size(loose%freedoms%held), size(modes%modes)))
-         do i = 1, size(modes%modes)
-            stage%u(:, i) = reshape(modes%modes(i)%u, [size(modes%modes(i)%u)])/sqrt(modes%modes(i)%mass)
+         near = shapes_near(s, structure, answer)
+         do
+            call start_oscillation(loose, analysis, structure%system, vibration%on_loading, oscillating, failure, is_held)
+            if (is_held) call find_modes_again(loose, analysis, structure%system, oscillating, near, n_sure, vibration%most, &
+                                               spectrum, shifted, is_held)
+            if (.not. is_held) then
+               call start_oscillation(loose, analysis, structure%system, vibration%on_loading, oscillating, failure)
+               call find_natural_modes(loose, oscillating, vibration, spectrum, shifted, failure)
+               if (failure%raised) return
+               near = near(:, :0)
+            end if
+            allocate (modes)
+            call evaluate_modes(loose, analysis, oscillating, vibration, spectrum, shifted, modes)
+            stage%is_free = vibration%free
+            stage%is_elastic = oscillating%is_elastic
+            stage%is_locked = oscillating%is_locked
+            stage%n_before = modes%n_before
+            stage%k = reshape(oscillating%k, [size(oscillating%k)])
+            stage%lambda = modes%modes%lambda
+            stage%u = reshape([(modes%modes(i)%u/sqrt(modes%modes(i)%mass), i = 1, size(modes%modes))], &
+                              [size(loose%freedoms%held), size(modes%modes)])
+            call match_rows(data, s, of_modes, structure, answer, failure)
+            if (size(near, 2) == 0 .or. (.not. failure%raised .and. maxval(answer%mode, of_modes) <= n_sure)) exit
+            near = near(:, :0) ! a mode beyond those that are settled: begin without shapes
+            failure = failure_type()
+            deallocate (modes)
          end do
-         call match_rows(data, s, of_modes, structure, answer, failure)
+         if (.not. failure%raised .and. allocated(vibration%response)) &
+            call find_response(loose, oscillating, vibration%response, spectrum, modes, shifted, response, failure)
          if (failure%raised) return
          do i = 1, size(rows)
             if (.not. of_modes(i)) cycle
@@ -299,83 +258,5 @@ contains
       end subroutine take_backbone
 
    end subroutine take_modes
-
-   !> The modes of stage S of ANSWER that the rows OF_MODES mean, their MAC with the shape given or that of the start, and their
-   !! frequencies.
-   subroutine match_rows(data, s, of_modes, structure, answer, failure)
-      type(measured_type), intent(in)    :: data
-      integer, intent(in)                :: s
-      logical, intent(in)                :: of_modes(:)
-      type(structure_type), intent(in)   :: structure
-      type(answer_type), intent(inout)   :: answer
-      type(failure_type), intent(inout)  :: failure
-      real(wp) :: macs(size(answer%stages(s)%lambda)), frequencies(size(answer%stages(s)%lambda))
-      integer  :: d, i, k, m, p
-
-      d = structure%model%mesh%dimension
-      frequencies = sqrt(max(0.0_wp, answer%stages(s)%lambda))/two_pi
-      do i = 1, size(of_modes)
-         associate (row => data%rows(i), stage => answer%stages(s))
-            if (.not. of_modes(i) .or. row%frequency > 0.0_wp) cycle
-            m = structure%numbers(i) - stage%n_before
-            if (m < 1 .or. m > size(macs)) m = 0
-            answer%mac(i) = 1.0_wp
-            if (size(row%shape) > 0 .or. allocated(structure%shapes)) then
-               do k = 1, size(macs)
-                  if (size(row%shape) == 0) macs(k) = mac_of(stage%u(:, k), structure%shapes(:, i))
-                  if (size(row%shape) > 0) macs(k) = mac_of(row%shape, [(stage%u(d*(structure%model%mesh%node_table%find( &
-                     row%at(1, p)) - 1) + row%at(2, p), k), p = 1, size(row%shape))])
-               end do
-               m = maxloc(macs, dim=1)
-               answer%mac(i) = macs(m)
-               if (size(row%shape) == 0 .and. macs(m) < least_mac) m = 0
-            end if
-            if (m == 0) call failure%raise('mode '//integer_text(row%mode)//' is not among those found')
-            if (failure%raised) return
-            answer%mode(i) = m
-            answer%value(i) = frequencies(m)
-            if (size(answer%shapes, 1) > 0) answer%shapes(:, i) = stage%u(:, m)
-            answer%off_number(i) = 0.0_wp
-            k = row%mode - stage%n_before
-            if (row%kind == a_frequency .and. size(row%shape) == 0 .and. row%amplitude <= 0.0_wp .and. k > 0 .and. &
-                k <= size(macs) .and. k /= m) answer%off_number(i) = frequencies(k) - frequencies(m)
-         end associate
-      end do
-   end subroutine match_rows
-
-   !> Exchange the NUMBERS of a mode with rows and of one beside it that ANSWER has close to it; IS_TRIED (rows, below and above).
-   !! OFF is the usual difference of a row over its deviation, 1 or more: so many times further may close modes be from each other.
-   subroutine exchange_modes(data, structure, answer, off, numbers, is_tried)
-      type(measured_type), intent(in)  :: data
-      type(structure_type), intent(in) :: structure
-      type(answer_type), intent(in)    :: answer
-      real(wp), intent(in)             :: off
-      integer, intent(inout)           :: numbers(:)
-      logical, intent(inout)           :: is_tried(:, :)
-      integer :: at, k, other, s, side
-
-      associate (rows => data%rows, stages => structure%plan%stages%id)
-         do k = 1, size(rows)
-            if (rows(k)%kind /= a_frequency .or. rows(k)%amplitude > 0.0_wp .or. size(rows(k)%shape) > 0) cycle
-            s = findloc(stages, rows(k)%stage, dim=1)
-            do side = 1, 2
-               at = answer%mode(k) + 2*side - 3
-               other = rows(k)%mode + 2*side - 3
-               if (is_tried(k, side) .or. min(at, other) < 1 .or. at > size(answer%stages(s)%lambda)) cycle
-               associate (omega => sqrt(max(0.0_wp, answer%stages(s)%lambda([at, answer%mode(k)]))))
-                  if (abs(omega(1) - omega(2)) > two_pi*close_modes*off*rows(k)%deviation) cycle
-               end associate
-               where (rows%stage == rows(k)%stage .and. rows%mode == other)
-                  numbers = rows(k)%mode
-                  is_tried(:, 3 - side) = .true.
-               elsewhere (rows%stage == rows(k)%stage .and. rows%mode == rows(k)%mode)
-                  numbers = other
-                  is_tried(:, side) = .true.
-               end where
-               return
-            end do
-         end do
-      end associate
-   end subroutine exchange_modes
 
 end module structure_answers

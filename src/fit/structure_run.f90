@@ -16,6 +16,7 @@ module structure_run
    use kinds, only: wp
    use load_path, only: recover_bodies, start_increment, start_stage
    use measured_data, only: a_bolt, a_loss, a_stiffness, measured_row, measured_type
+   use mode_rows, only: answer_type, is_of_modes, structure_type
    use mode_span, only: span_modes
    use model_build, only: build_model
    use newton_method, only: close_gaps, crosses_gaps, newton_increment, seat_joints
@@ -23,7 +24,7 @@ module structure_run
    use path_error, only: approach
    use stage_plan, only: factorisations_of
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
-   use structure_answers, only: answer_type, is_of_modes, structure_type, take_stage
+   use structure_answers, only: take_stage
    use text_tools, only: integer_text
    use tolerances, only: beside_tol
    use watched_nodes, only: start_watched, watch_state
@@ -201,7 +202,7 @@ contains
       associate (first => walks(1), stages => walks(1)%structure%plan%stages)
          do s = 1, maxval(findloc_of(stages%id, data%rows%stage))
             do k = 1, size(walks)
-               call go_to_stage(s, walks(k), system, failure)
+               if (answers(k)%fault == '') call go_to_stage(s, walks(k), system, failure)
             end do
             do i = 1, size(stages(s)%fractions)
                if (.not. failure%raised) call go_an_increment(first%structure, system, first%analysis, failure)
@@ -216,7 +217,7 @@ contains
             end do
             if (failure%raised) return
          end do
-         i = merge(0, 1, allocated(first%structure%oscillating(0)%started))
+         i = merge(0, 1, allocated(first%structure%oscillating(0)%mass%first))
          call span_modes(first%structure%model, first%structure%oscillating(i)%mass, answers(1)%stages)
       end associate
    end subroutine run_structure

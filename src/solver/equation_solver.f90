@@ -98,7 +98,7 @@ module equation_solver
       procedure(form_structure), deferred   :: form_structure
       procedure(multiply_vector), deferred  :: multiply
       procedure(use_of_factor), deferred    :: solve_by_factor, multiply_by_factor
-      procedure :: number_unknowns, report_fault, held_now, gather, put, condense, solve, precondition, recover, &
+      procedure :: number_unknowns, report_fault, held_now, gather, put, condense, solve, precondition, recover, solve_many, &
                    forget_factors, forget_past
    end type equation_system
 
@@ -254,6 +254,20 @@ contains
 
       call self%solve_by_factor(x)
    end subroutine precondition
+
+   !> Replace every column of X, over all equations, by [k]^-1 times it, as solve_by_factor does; zero where LOCKED. The
+   !! abstract type takes one column after the other.
+   subroutine solve_many(self, x)
+      class(equation_system), intent(in)  :: self
+      real(wp), contiguous, intent(inout) :: x(:, :) !! (n, columns)
+      integer :: i
+
+      do i = 1, size(x, 2)
+         x(self%locked, i) = 0.0_wp
+         call self%solve_by_factor(x(:, i))
+         x(self%locked, i) = 0.0_wp
+      end do
+   end subroutine solve_many
 
    !> The displacements X of all equations: at the EQUATIONS from U, elsewhere from what condense left in X.
    subroutine recover(self, u, x)

@@ -4,7 +4,7 @@
 !! Independent subtrees are tasks of OpenMP. On the way up every front keeps its contributions to the rows beyond until its
 !! parent adds those of all its children in their order: no digit depends on the number of threads.
 module front_solve
-   use blas_lapack, only: dgemv, dtrmv
+   use blas_lapack, only: dgemm, dgemv, dtrmv, dtrsm
    use front_tree, only: climb, front_tree_type, front_type, task_work
    use front_assembly, only: children_done, is_tiled
    use front_kernel, only: substitute, substitute_back
@@ -17,8 +17,9 @@ module front_solve
    private
 
    integer, parameter :: few_rows = 150 ! of a front whose product with a vector is no task
+   integer, parameter :: together = 5   ! columns that are solved at once, whatever the number of threads
 
-   public :: sweep, solve_refactored, refactored_times_vector, factor_times_vector
+   public :: sweep, solve_refactored, solve_columns, refactored_times_vector, factor_times_vector
 
 contains
 
@@ -222,6 +223,44 @@ contains
          end associate
       end do
    end subroutine refactored_times_vector
+
+   !> [L S L^T]^-1 X on all equations for the columns of X, zero where locked. The panel of a front is read once for several
+   !! columns; others are those of other threads.
+   subroutine solve_columns(tree, x)
+      type(front_tree_type), intent(in)   :: tree
+      real(wp), contiguous, intent(inout) :: x(:, :) !! (n, columns)
+      real(wp), allocatable :: own(:, :), beyond(:, :)
+      integer :: c, f, last
+
+      !$omp parallel do default(shared) private(own, beyond, f, last) schedule(dynamic) if(tree%is_parallel)
+      do c = 1, size(x, 2), together
+         last = min(size(x, 2), c + together - 1)
+         associate (y => x(:, c:last), m => last - c + 1)
+            do f = 1, size(tree%fronts)
+               associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
+                  own = y(first:first + p - 1, :)
+                  where (spread(tree%locked(first:first + p - 1), 2, m)) own = 0.0_wp
+                  call dtrsm('L', 'L', 'N', 'N', p, m, 1.0_wp, front%panel, p + r, own, p)
+                  y(first:first + p - 1, :) = own
+                  beyond = y(front%rows, :)
+                  if (r > 0) call dgemm('N', 'N', r, m, p, -1.0_wp, front%panel(p + 1, 1), p + r, own, p, 1.0_wp, beyond, r)
+                  y(front%rows, :) = beyond
+               end associate
+            end do
+            do f = size(tree%fronts), 1, -1
+               associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
+                  own = y(first:first + p - 1, :)
+                  if (allocated(front%negative)) own(front%negative, :) = -own(front%negative, :)
+                  beyond = y(front%rows, :)
+                  if (r > 0) call dgemm('T', 'N', p, m, r, -1.0_wp, front%panel(p + 1, 1), p + r, beyond, r, 1.0_wp, own, p)
+                  call dtrsm('L', 'L', 'T', 'N', p, m, 1.0_wp, front%panel, p + r, own, p)
+                  y(first:first + p - 1, :) = own
+               end associate
+            end do
+         end associate
+      end do
+      !$omp end parallel do
+   end subroutine solve_columns
 
    !> X = L S L^T X on all equations, zero where locked: the product with the factorised matrix.
    subroutine factor_times_vector(tree, x)

@@ -9,7 +9,7 @@ module tree_solver
                            note_factor, note_failure, note_solution, note_steps, price_in_steps
    use front_factor, only: add_to_refactored, factorise_refactored, factorise_static
    use front_layout, only: choose_layout, front_layout_type
-   use front_solve, only: factor_times_vector, refactored_times_vector, solve_refactored, sweep
+   use front_solve, only: solve_columns, factor_times_vector, refactored_times_vector, solve_refactored, sweep
    use front_tree, only: front_tree_type, start_front_tree
    use kinds, only: long, wp
    use memory_need, only: check_memory
@@ -40,7 +40,7 @@ module tree_solver
       logical, allocatable, private :: in_joint(:) !! (n_nodes) nodes whose stiffness changes in the run or is added to the bodies
    contains
       procedure :: lay_out, start, form_bodies, add_to_bodies, condense, form_structure, solve, multiply, recover
-      procedure :: forget_factors, forget_past, precondition, solve_by_factor, multiply_by_factor
+      procedure :: forget_factors, forget_past, precondition, solve_by_factor, solve_many, multiply_by_factor
    end type tree_solver_type
 
 contains
@@ -266,6 +266,13 @@ contains
       call solve_refactored(self%fronts, x)
       call sweep(self%fronts, refactored=.false., up=.false., x=x)
    end subroutine solve_by_factor
+
+   subroutine solve_many(self, x)
+      class(tree_solver_type), intent(in) :: self
+      real(wp), contiguous, intent(inout) :: x(:, :)
+
+      call solve_columns(self%fronts, x)
+   end subroutine solve_many
 
    subroutine multiply_by_factor(self, x)
       class(tree_solver_type), intent(in) :: self

@@ -15,7 +15,7 @@ module eigenpairs
    implicit none
    private
 
-   public :: find_eigenpairs, residual_displacements, needs_all, all_displacements, on_equations
+   public :: find_eigenpairs, improve_eigenpairs, residual_displacements, needs_all, all_displacements, on_equations
 
    interface
 
@@ -47,6 +47,7 @@ module eigenpairs
 
    integer, parameter  :: small = 150                !! unknowns of a structure that is solved in full
    integer, parameter  :: most_restarts = 500
+   integer, parameter  :: most_steps = 6          !! of subspace iteration, which then costs more than a new search
    integer, parameter  :: worth_threads = 20000      !! unknowns
    integer, parameter  :: zero_vector = -9, exhausted = -9999 ! codes of ARPACK: no more vectors with mass
    integer, parameter  :: restarts_used_up = 1                           ! likewise: restarts used up, perhaps there are no more
@@ -205,6 +206,64 @@ contains
       lambda = system%shift + 1.0_wp/nu(n:n - i + 1:-1)
       x = matmul(v, t(:, n:n - i + 1:-1))
    end subroutine solve_in_subspace
+
+   !> The lowest eigenpairs by subspace iteration from vectors near them, without shift: each step solves for all vectors at
+   !! once, and Rayleigh and Ritz find the best combinations. Two vectors of no symmetry are added, by which a mode comes in that
+   !! the start lacks. IS_FOUND: the residual of the first N is so small that its square, the order of the error, is within
+   !! TOLERANCE of 1/lambda, and that of the others within its root: they are near modes.
+   !! Source: Bathe, Finite Element Procedures, Prentice Hall 1996, section 11.6.
+   subroutine improve_eigenpairs(model, mass, system, near, n, tolerance, lambda, x, is_found)
+      type(model_type), intent(in)       :: model
+      type(mass_matrix_type), intent(in) :: mass
+      class(equation_system), intent(in) :: system     !! factorised without shift
+      real(wp), intent(in)               :: near(:, :) !! (components of all nodes, modes) [length]
+      integer, intent(in)                :: n          !! no more modes than in NEAR
+      real(wp), intent(in)               :: tolerance
+      real(wp), allocatable, intent(out) :: lambda(:)  !! (modes of NEAR, and two) ascending [1/time^2]
+      real(wp), allocatable, intent(out) :: x(:, :)    !! (equations, modes) x^T [m] x = 1
+      logical, intent(out)               :: is_found
+      real(wp), allocatable :: f(:, :), of_mass(:, :), of_y(:, :), y(:, :)
+      real(wp), dimension(size(near, 2) + 2, size(near, 2) + 2) :: a, b
+      real(wp) :: nu(size(a, 1)), work(34*size(a, 1))
+      integer  :: i, info, m, step
+
+      m = size(a, 1)
+      allocate (of_mass(system%n, m), of_y(system%n, m), y(system%n, m), f(model%mesh%dimension, model%mesh%n_nodes))
+      do i = 1, m - 2
+         call mass_times(model, mass, reshape(near(:, i), shape(f)), f)
+         of_mass(:, i) = on_equations(model, system, f)
+      end do
+      of_mass(:, m - 1) = 1.0_wp + 0.5_wp*sin(12.9898_wp*system%node + 78.233_wp*system%direction) ! as in iterate
+      of_mass(:, m) = cos(39.3468_wp*system%node + 11.135_wp*system%direction)
+      is_found = .false.
+      do step = 1, most_steps
+         y = of_mass
+         call system%solve_many(y)
+         of_y = y
+         do i = 1, m
+            call times_mass(model, mass, system, of_y(:, i))
+         end do
+         a = matmul(transpose(y), of_mass) ! Y^T [k] Y
+         b = matmul(transpose(y), of_y)
+         if (step > 1) is_found = all([(b(i, i) - 2.0_wp*nu(i)*a(i, i) + nu(i)**2 <= &
+                                        merge(tolerance, sqrt(tolerance), i <= n)*nu(i)**2, i = 1, m - 2)])
+         nu = sqrt([(a(i, i), i = 1, m)])
+         a = a/spread(nu, 1, m)/spread(nu, 2, m)
+         b = b/spread(nu, 1, m)/spread(nu, 2, m)
+         y = y/spread(nu, 1, system%n)
+         of_y = of_y/spread(nu, 1, system%n)
+         call dsygv(1, 'V', 'L', m, b, m, a, m, nu, work, size(work), info)
+         if (info == 0) info = merge(0, 1, nu(1) > massless*nu(m))
+         is_found = is_found .and. info == 0
+         if (info /= 0) return ! dependent, or without mass
+         nu = nu(m:1:-1)
+         b = b(:, m:1:-1)/spread(sqrt(nu), 1, m) ! x^T [k] x was 1
+         of_mass = matmul(of_y, b)
+         if (is_found) exit
+      end do
+      lambda = 1.0_wp/nu
+      x = matmul(y, b)
+   end subroutine improve_eigenpairs
 
    !> The displacements U under LOAD less the load that the MODES balance, rigid-body modes among them: the residual flexibility
    !! of an unsupported structure by inertia relief, [k] u = f - [m] phi (phi . f). Each iteration solves with the factor of

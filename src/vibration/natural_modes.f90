@@ -60,14 +60,15 @@ module natural_modes
 contains
 
    !> Stiffness and mass about the state of ANALYSIS, and the order of the equations. The solver is SKYLINE if SYSTEM is
-   !! SKYLINE, else TREE. Mass and equations that STRUCTURE has already stay.
-   subroutine start_oscillation(model, analysis, system, on_loading, structure, failure)
+   !! SKYLINE, else TREE. Mass and equations that STRUCTURE has already stay. IS_ORDERED: it needs no equations of its own.
+   subroutine start_oscillation(model, analysis, system, on_loading, structure, failure, is_ordered)
       type(model_type), intent(in)        :: model
       type(analysis_type), intent(in)     :: analysis
       class(equation_system), intent(in)  :: system
       logical, intent(in)                 :: on_loading !! STIFFNESS = LOAD
       type(oscillating_type), intent(inout) :: structure
       type(failure_type), intent(inout)   :: failure
+      logical, intent(in), optional       :: is_ordered
       integer :: i
 
       if (.not. allocated(structure%k)) allocate (structure%k(3, size(model%joints%element)))
@@ -79,8 +80,11 @@ contains
                                i = 1, n_bars(model%mesh))]
       structure%is_locked = [(analysis%is_locked(i) .or. model%mesh%sections(i)%tightening%is_in(analysis%stage), i = 1, &
                               n_sections(model%mesh))]
+      if (.not. allocated(structure%mass%first)) call form_mass(model, structure%mass)
       if (allocated(structure%started)) return
-      call form_mass(model, structure%mass)
+      if (present(is_ordered)) then
+         if (is_ordered) return
+      end if
       call start_equations(model, structure%started, failure, &
                            merge(solver_skyline, solver_tree, system%description%name == 'SKYLINE'), factorisations=1, shift=0.0_wp)
    end subroutine start_oscillation

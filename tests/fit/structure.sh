@@ -210,6 +210,12 @@ seek free.bdf --measured free.csv
 holds 'no equilibrium at the start: status 3' [ $status -eq 3 ]
 says 'no equilibrium at the start' stderr 'with the start values: ' 'nothing found'
 
+# ---- a difference below MU fails, as nothing holds the block there; above it MU has no effect ----
+sed 's/^parameter.*/parameter,MU,0.1805/' slide.csv > free.csv
+seek free.bdf --measured free.csv
+holds 'no equilibrium beside the start: status 0' [ $status -eq 0 ]
+says 'no equilibrium beside the start' found 'HELD: the rows do not determine it'
+
 # ---- a mass on one element in closed form: the start has its modes, along and across, in the other order; two rows allow both ----
 cat > mass.bdf << 'END'
 METHOD = NEWTON
@@ -282,6 +288,12 @@ near 'a backbone: MU' MU 0.1 1e-3
 near 'a backbone: KS' KS 5e3 1e-3
 near 'a backbone: K0' K0 300 1e-3
 
+sed '/^CELAS2/d' loop.bdf > free.bdf
+grep -v ,KS, loop.csv > free.csv
+seek free.bdf --measured free.csv
+holds 'a backbone beyond what friction holds: status 3' [ $status -eq 3 ]
+says 'a backbone beyond what friction holds' stderr 'with the start values: backbone: '
+
 # ---- rows that a deck has no answer to ----
 refused() { # DECK FRAGMENT ROW
    { grep ^parameter "$1.csv"; echo "$3"; echo "$3"; echo "$3"; echo "$3"; } > bad.csv
@@ -308,6 +320,26 @@ awk '/^\*A column\.\*/ { on = 1 } on && /^```/ { n++ } on && n == 1 && /^\$/ { p
 holds 'the column: the table of the manual' awk '$1 != "$" || $3 + 0 == 0 { next } NR == FNR { value[$2] = $4; deviation[$2] = $5; n++; next }
    $2 in value { m++; if ($4 / value[$2] > 1.002 || $4 / value[$2] < 0.998 || $5 / deviation[$2] > 1.01 || $5 / deviation[$2] < 0.99) bad = 1 }
    END { exit bad || n != 4 || m != 4 }' manual found
+
+# ---- a mode by its shape beyond those of EIGRL: the same frequencies as where EIGRL has it ----
+{ grep ^parameter,C "$input/measured/column.csv"; grep 'mode=1$' "$input/measured/column.csv"
+  echo 'frequency,3900.0,10%,stage=3,shape=413:x:1.0,shape=407:x:-0.4'; } > shape.csv
+seek "$input/measured/column.bdf" --measured shape.csv --set M=0.5 --set K0=50.0 --set K1=100.0
+cp found four
+sed 's/^EIGRL,4,,,4/EIGRL,4,,,1/' "$input/measured/column.bdf" > shape.bdf
+seek shape.bdf --measured shape.csv --set M=0.5 --set K0=50.0 --set K1=100.0
+holds 'a mode beyond those of EIGRL' awk '$1 != "$" || $3 + 0 == 0 { next } NR == FNR { start[$2] = $5; now[$2] = $4; next }
+   $2 == "C" { m++; if ($4 / now[$2] > 1.0005 || $4 / now[$2] < 0.9995) bad = 1 } # unsettled modes: 1.7E-3
+   $2 == 4 { m++; if ($5 / start[$2] > 1.000001 || $5 / start[$2] < 0.999999) bad = 1 }
+   END { exit bad || m != 2 }' four found
+
+# ---- the modes of jointfem while a solid bolt is tightened, and with it locked: by the factor of the increments, then near those ----
+awk '/^JNORM/ && !n++ { $0 = "JNORM   1       ${C}    0.5     2.0+5" } { print } /^SUBCASE/ { print "MODES = 77" } /^BEGIN BULK/ { print "EIGRL,77,,,3" }
+   ' "$input/solid_bolt.bdf" | sed 's/^MAT1\(.*\)0\.3 *$/MAT1\10.3     7.8-9/' > solid.bdf
+"$jointfem" -q --set C=1.0E-3 solid.bdf > log 2>&1
+{ echo 'parameter,C,1.0E-3'; awk -F, 'NR > 1 { printf "frequency,%.12g,1%%,stage=%d,mode=%d\n", $3, $1, $2 }' solid.modes.csv; } > solid.csv
+seek solid.bdf --measured solid.csv
+holds 'a solid bolt: modes as in the table' awk '/^\$ +[0-9]+ / { n++; if ($5 / $3 > 1.000001 || $5 / $3 < 0.999999) bad = 1 } END { exit bad || n != 6 }' found
 
 # ---- every kind of row, against the tables of jointfem: bolts, pairs, loss factors, responses, shapes, a backbone ----
 sed 's/ 8000\.0 / ${P}   /' "$input/column_modes_08.bdf" > kinds.bdf
