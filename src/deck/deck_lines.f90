@@ -117,9 +117,9 @@ contains
 
       n = 0
       if (line(:min(1, len(line))) /= '=') return
-      if (scan(line, ', ') == 2 .and. (index(line, ',') > 0 .or. len(line) > 8)) then
-         steps = entries_of(line)
-         n = 1
+      if (scan(line, ', ') == 2) then
+         if (index(line, ',') > 0 .or. len(line) > 8) n = 1
+         if (n == 1) steps = entries_of(line)
          return
       end if
       call parse_integer(inside(trim(line(2:))), n, ok)
@@ -148,6 +148,7 @@ contains
                entry = words
                cycle
             end if
+            if (entry == '') entry = '0'
             call parse_integer(trim(entry), i_value, was_integer)
             call parse_integer(inside(words(2:)), i_step, of_integers)
             if (was_integer .and. of_integers) then

@@ -20,7 +20,8 @@ module structure_answers
    use mode_span, only: find_spanned, stage_modes
    use model_data, only: model_type
    use node_coupling, only: displacements, forces_on_unknowns
-   use natural_modes, only: find_natural_modes, oscillating_type, spectrum_type, start_oscillation
+   use natural_modes, only: find_natural_modes, spectrum_type
+   use oscillating_structure, only: oscillating_type, start_oscillation
    use shear_loops, only: oscillation_stiffness
    use stage_plan, only: merged, stage_plan_type
    use text_tools, only: integer_text

@@ -28,7 +28,8 @@ module mode_values
    use connected_bodies, only: find_bodies
    use mesh_queries, only: is_shell, n_points
    use model_data, only: bar_nodes, model_type, n_bars
-   use natural_modes, only: oscillating_type, spectrum_type
+   use natural_modes, only: spectrum_type
+   use oscillating_structure, only: oscillating_type
    use normal_curve, only: normal_tangent
    use normal_stiffness, only: branch_open
    use shear_loops, only: loss_of_element
