@@ -303,6 +303,7 @@ contains
          card = ''
          if (n > 0 .and. k > 0) card = text%card_part(k)
          text%lines(text%n)%length = 0
+         text%lines(text%n)%comma = 0
          do k = 1, max(n, 1)
             if (card /= '') card = repeated(card, steps)
             if (card == '') then

@@ -103,7 +103,8 @@ contains
          end do
          do d = 1, size(participation, 1)
             if (next == last) exit
-            if (norm2(participation(d, next:last)) > weak_participation*sqrt(mass)) call give_to_one((participation(d, next:last)))
+            if (norm2(participation(d, next:last)) > weak_participation*sqrt(max(mass, 0.0_wp))) &
+               call give_to_one((participation(d, next:last)))
          end do
          do while (next < last) ! the first component and node, in their order, whose displacement in all modes is almost
                                 ! the largest
