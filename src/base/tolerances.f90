@@ -35,6 +35,7 @@ module tolerances
    real(wp), parameter :: parallel_in_mesh = 1.0e-3_wp !! sine: planes, bolts, supports of a mesh with three or more good digits
    real(wp), parameter :: edgewise_face = 1.0e-6_wp  !! sine: a face seen along itself covers no area
    real(wp), parameter :: level_tangent = 1.0e-6_wp  !! angle [rad] of a tangent, share of an edge: its edge counts as straight
+   real(wp), parameter :: plane_shell = 1.0e-4_wp    !! of the size of a shell of eight nodes: they lie in a plane, by the digits of a mesh
    real(wp), parameter :: closed_joint = 1.0e-6_wp   !! of the area: the sum of normals of a joint that faces all ways
    real(wp), parameter :: balanced = 1.0e-6_wp       !! of the sum of forces: a load with this resultant is self-equilibrated
 

@@ -12,13 +12,13 @@ module body_loads
    use isoparametric, only: body_forces
    use kinds, only: wp
    use load_data, only: gravity_card
-   use mass_matrix, only: bar_mass, scalar_mass
+   use mass_matrix, only: area_mass, bar_mass, scalar_mass
    use mesh_queries, only: element_points, is_beam, is_scalar_point, is_shell, n_points, node_kind
    use model_data, only: a_point, freedoms_type, mesh_type, stage_load_type
    use model_kind, only: space_hint
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity
-   use structural_elements, only: onto_own
+   use structural_elements, only: add_bubble_load, onto_own
    use tapered_beam, only: beam_station
    use text_tools, only: integer_text, one_of
    use tolerances, only: past_the_end, zero_component
@@ -212,6 +212,7 @@ contains
             end if
             force(:d, corners) = force(:d, corners) + f(:, :size(corners))
             call add_section_share(mesh, e, corners, f, force)
+            if (is_shell(mesh, e)) call add_bubble_load(mesh, e, a(:, :size(corners))*spread(area_mass(mesh, e), 1, 3), force)
          end associate
       end do
       do e = 1, mesh%n_elements

@@ -20,9 +20,9 @@ module free_structure
 
 contains
 
-   !> Support the structure if it has no supports and some stage has MODES(FREE) or METHOD = set: all components of a node with
+   !> Support the structure if it has no supports and some stage has MODES(FREE) or METHOD = set, or INREL = -2: all components of a node with
    !! rotations, else 3, 2 and 1 components of three distant nodes of the largest body. Dependent nodes and nodes with CD are skipped.
-   !! With METHOD = set supports that leave rigid-body motions are completed.
+   !! With METHOD = set and with INREL = -2 supports that leave rigid-body motions are completed.
    subroutine hold_free_structure(deck, mesh, joints, freedoms)
       type(checked_deck), intent(in)  :: deck
       type(mesh_type), intent(in) :: mesh
@@ -32,14 +32,16 @@ contains
       integer, allocatable :: dependent(:)
       logical  :: may_be(mesh%n_nodes)
       real(wp) :: along(3), off(mesh%n_nodes), turn(3)
-      logical  :: are_free(size(deck%control%stages)), is_held
+      logical  :: are_free(size(deck%control%stages)), is_held, relieved
 
+      relieved = deck%bulk%parameters%relief == -2
       associate (asked => deck%control%stages%vibration)
          are_free = asked%free .or. asked%by_method
          is_held = any(freedoms%held(:, :mesh%n_nodes - n_sections(mesh)))
          if (is_held) are_free = asked%by_method .and. size(deck%bulk%suport) == 0 .and. .not. mesh%axisymmetric
+         are_free = are_free .or. relieved
          if (.not. any(are_free .and. deck%shares([(i, i = 1, size(asked))]))) return
-         if (any(asked%modes%id /= 0 .and. .not. are_free .and. deck%shares([(i, i = 1, size(asked))]))) return
+         if (.not. relieved .and. any(asked%modes%id /= 0 .and. .not. are_free .and. deck%shares([(i, i = 1, size(asked))]))) return
       end associate
       if (any(deck%bulk%spring%nodes(1) == 0 .or. deck%bulk%spring%nodes(2) == 0)) return ! a grounded spring
       do i = 1, size(joints%element)
@@ -223,7 +225,7 @@ contains
       real(wp) :: force(3), moment(3), of_forces, of_moments, arm ! sums of amounts: the scales of rounding
       integer  :: i, s
 
-      if (.not. freedoms%floats) return
+      if (.not. freedoms%floats .or. deck%bulk%parameters%relief_line > 0) return ! inertia forces will balance the loads
       arm = maxval(maxval(mesh%x, dim=2) - minval(mesh%x, dim=2))
       do s = 1, size(history%stages)
          if (.not. deck%shares(s)) cycle

@@ -1,9 +1,12 @@
-!> Inertia relief, PARAM INREL = -1: a free structure under loads that do not balance themselves accelerates as a rigid body.
+!> Inertia relief, PARAM INREL: a free structure under loads that do not balance themselves accelerates as a rigid body.
 !!
 !! The inertia forces -[m] {a} of its accelerations are added to the loads of each stage, so that the components of SUPORT, to which all
 !! displacements are relative, have no reactions. With the rigid-body motions [R] that the other supports leave,
 !!
 !!    {a} = [R] ([R]^T [m] [R])^-1 [R]^T {F}
+!!
+!! INREL = -2 needs no SUPORT: any components hold the structure, and {u} is then without the mean motion of the masses,
+!! [R]^T [m] {u} = 0.
 !!
 !! Source: MSC Nastran, Linear Static Analysis User's Guide, inertia relief.
 module inertia_relief
@@ -12,11 +15,12 @@ module inertia_relief
    use free_structure, only: beside
    use interface_operator, only: named_node
    use kinds, only: wp
-   use mass_matrix, only: form_mass, mass_matrix_type, mass_times, total_mass
-   use mesh_queries, only: n_points, node_kind, place_in_kind, point_of
+   use mass_matrix, only: area_mass, form_mass, mass_matrix_type, mass_times, total_mass
+   use mesh_queries, only: element_points, is_shell, n_points, node_kind, place_in_kind, point_of
    use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, model_type, n_sections, supported
    use numbers, only: identity
    use stage_plan, only: stage_plan_type
+   use structural_elements, only: add_bubble_load
    use text_tools, only: integer_text, real_text
    use tolerances, only: balanced
    use unknowns, only: motions_at, n_motions, node_axes
@@ -32,7 +36,7 @@ contains
    !! base or a grounded spring supports, one without mass; components of SUPORT that do not hold just its motions.
    subroutine relieve(deck, model, plan, joints, sets, history)
       type(checked_deck), intent(in)    :: deck
-      type(model_type), intent(in)      :: model   !! mesh, and freedoms of any set
+      type(model_type), intent(inout)   :: model   !! mesh, and freedoms of any set; rigid and mean are set
       type(stage_plan_type), intent(in) :: plan
       type(joints_type), intent(in)     :: joints
       type(freedoms_type), intent(in)   :: sets(:) !! of the plan
@@ -41,10 +45,14 @@ contains
       real(wp), allocatable :: r(:, :, :), mr(:, :, :) ! (dimension, n_nodes, motions): about the centre of mass, rotations by 1/extent
       real(wp), allocatable :: g(:, :), inverse(:, :), n(:, :)
       real(wp) :: a(n_motions(model%mesh%dimension)), centre(3), extent, force(3), whole, inertia(6)
+      real(wp) :: inside(3, model%mesh%n_nodes)     ! on the bubbles of shells
       integer  :: c, d, k, s
       logical  :: ok
+      character(:), allocatable :: name
 
-      if (size(deck%bulk%suport) == 0) call report('expected SUPORT, the components to which displacements are relative')
+      name = 'PARAM INREL = '//integer_text(deck%bulk%parameters%relief)
+      if (size(deck%bulk%suport) == 0 .and. deck%bulk%parameters%relief == -1) &
+         call report('expected SUPORT, the components to which displacements are relative')
       if (any(deck%bulk%spring%nodes(1) == 0 .or. deck%bulk%spring%nodes(2) == 0) .or. &
           any([(named_node(joints%element(k), 2) == 0, k = 1, size(joints%element))])) &
          call report('a grounded spring or a rigid base supports the structure; expected a free one')
@@ -78,15 +86,27 @@ contains
             call invert(matmul(matmul(transpose(n), g), n), inverse, ok)
             if (.not. ok) call report('a rigid-body motion moves no mass; expected RHO on MAT1, or CONM2')
             if (.not. ok) return
+            if (deck%bulk%parameters%relief == -2 .and. .not. allocated(model%mean)) then
+               model%rigid = reshape(matmul(reshape(r, [size(r)/size(a), size(a)]), n), [d, size(r, 2), size(n, 2)])
+               model%mean = reshape(matmul(reshape(mr, [size(r)/size(a), size(a)]), matmul(n, inverse)), shape(model%rigid))
+            end if
             a = [(sum([(dot_product(loads%force(:d, k), r(:, loads%node(k), c)), k = 1, loads%n)]), c = 1, size(a))]
             a = matmul(n, matmul(inverse, matmul(transpose(n), a)))
             deallocate (inverse)
+            inside = 0.0_wp
+            do k = 1, model%mesh%n_elements
+               if (.not. is_shell(model%mesh, k)) cycle
+               associate (nodes => element_points(model%mesh, k))
+                  call add_bubble_load(model%mesh, k, -spread(area_mass(model%mesh, k), 1, 3)*reshape( &
+                     matmul(reshape(r(:, nodes, :), [d*size(nodes), size(a)]), a), [d, size(nodes)]), inside)
+               end associate
+            end do
             do k = 1, size(mr, 2)
-               force = 0.0_wp
-               force(:d) = -matmul(mr(:, k, :), a)
+               force = inside(:, k)
+               force(:d) = force(:d) - matmul(mr(:, k, :), a)
                if (any(abs(force) > 0.0_wp)) call add_force(k, force, loads)
             end do
-            call deck%errors%warn('PARAM INREL = -1: stage '//integer_text(s)//' has the inertia forces of the acceleration '// &
+            call deck%errors%warn(name//': stage '//integer_text(s)//' has the inertia forces of the acceleration '// &
                listed(a(:d))//' of the centre of mass and the angular acceleration '//listed(a(d + 1:)/extent))
          end associate
       end do
@@ -96,7 +116,7 @@ contains
       subroutine report(words)
          character(*), intent(in) :: words
 
-         call deck%errors%add(deck%bulk%parameters%relief_line, 'PARAM INREL = -1: '//words)
+         call deck%errors%add(deck%bulk%parameters%relief_line, name//': '//words)
       end subroutine report
 
       pure function listed(values) result(words)

@@ -1,5 +1,6 @@
 !> The matrices of K2GG and M2GG: stiffness and mass between components of nodes, from DMIG cards.
 module matrix_build
+   use case_control, only: matrix_term
    use deck_check, only: checked_deck
    use kinds, only: wp
    use mesh_queries, only: n_points
@@ -24,11 +25,10 @@ contains
       real(wp), allocatable :: a(:, :), t(:)
       integer :: d, i, k
 
-      do k = 1, 2
-         if (deck%control%matrices(k) == '') cycle
-         call assemble(deck, k, mesh, nodes, a)
+      do k = 1, size(deck%control%matrices)
+         call assemble(deck, deck%control%matrices(k), mesh, nodes, a)
          if (size(nodes) == 0 .or. deck%errors%any()) cycle
-         if (k == 2) then
+         if (deck%control%matrices(k)%of_mass) then
             allocate (masses(size(mesh%masses) + 1))
             masses(:size(mesh%masses)) = mesh%masses
             associate (mass => masses(size(masses)))
@@ -56,10 +56,10 @@ contains
       end do
    end subroutine build_matrices
 
-   !> The matrix A of key K, K2GG or M2GG, between the displacements of NODES, components of the first node first.
-   subroutine assemble(deck, k, mesh, nodes, a)
+   !> The matrix A of TERM, its factor included, between the displacements of NODES, components of the first node first.
+   subroutine assemble(deck, term, mesh, nodes, a)
       type(checked_deck), intent(in)     :: deck
-      integer, intent(in)                :: k
+      type(matrix_term), intent(in)      :: term
       type(mesh_type), intent(in)        :: mesh
       integer, allocatable, intent(out)  :: nodes(:)
       real(wp), allocatable, intent(out) :: a(:, :) !! [force/length], [force x time^2/length]
@@ -70,10 +70,10 @@ contains
       d = mesh%dimension
       at = 0
       allocate (nodes(0), a(0, 0))
-      associate (cards => deck%bulk%matrices%dmig, name => deck%control%matrices(k))
+      associate (cards => deck%bulk%matrices%dmig, name => term%name)
          h = findloc(cards%name == name .and. cards%form > 0, .true., dim=1)
          if (h == 0) then
-            call deck%errors%add(deck%control%matrix_lines(k), 'there is no DMIG '//trim(name)//' with a header (GJ = 0)')
+            call deck%errors%add(term%line, 'there is no DMIG '//trim(name)//' with a header (GJ = 0)')
             return
          end if
          do pass = 1, 2 ! the nodes, the terms
@@ -94,6 +94,7 @@ contains
             end do
             if (pass == 1) a = reshape([real(wp) ::], [d*size(nodes), d*size(nodes)], pad=[0.0_wp])
          end do
+         a = term%factor*a
          if (norm2(a - transpose(a)) > zero_component_along*norm2(a)) call deck%errors%add(cards(h)%line, &
             'DMIG '//trim(name)//' is not symmetric, as a stiffness or mass is; IFO = 6 needs one of two equal terms')
       end associate

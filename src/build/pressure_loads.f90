@@ -12,6 +12,8 @@ module pressure_loads
    use mesh_queries, only: element_points, is_shell
    use model_data, only: mesh_type, surface_type
    use node_coupling, only: add_section_share
+   use shell_element, only: node_normal
+   use structural_elements, only: add_bubble_load
    use surface_build, only: side_influence
    use surface_sides, only: side_corners
    use text_tools, only: integer_text, one_of
@@ -319,8 +321,8 @@ contains
       type(pressed_side), intent(in) :: pressed
       real(wp), intent(in)           :: factor
       real(wp), intent(inout)        :: force(:, :)       !! (3, n_nodes) [force]
-      real(wp) :: f(mesh%dimension, max_side_nodes), p(max_side_nodes)
-      integer  :: c, n, nodes(max_side_nodes)
+      real(wp) :: f(mesh%dimension, max_side_nodes), p(max_side_nodes), q(3, max_side_nodes)
+      integer  :: c, k, n, nodes(max_side_nodes)
 
       associate (e => pressed%element, s => pressed%side, d => mesh%dimension, &
                  kind => element_table(mesh%element_kind(pressed%element)), &
@@ -343,6 +345,12 @@ contains
          end if
          force(:d, nodes(:n)) = force(:d, nodes(:n)) + f(:, :n)
          call add_section_share(mesh, e, nodes(:n), f, force)
+         if (s > 0) return
+         do k = 1, n
+            q(:, k) = p(k)*pressed%direction
+            if (.not. norm2(pressed%direction) > 0.0_wp) q(:, k) = -p(k)*node_normal(mesh%x(:, nodes(:n)), k)
+         end do
+         call add_bubble_load(mesh, e, q(:, :n), force)
       end associate
    end subroutine add_pressure
 

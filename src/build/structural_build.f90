@@ -93,7 +93,7 @@ contains
       end do
       do i = 1, size(deck%bulk%matrices%dmig)
          associate (card => deck%bulk%matrices%dmig(i))
-            if (all(deck%control%matrices /= card%name) .or. .not. allocated(card%nodes)) cycle
+            if (all(deck%control%matrices%name /= card%name) .or. .not. allocated(card%nodes)) cycle
             if (card%component > 3) call turn(card%node, 1.0_wp)
             do k = 1, size(card%nodes)
                if (card%components(k) > 3) call turn(card%nodes(k), 1.0_wp)

@@ -23,6 +23,14 @@ module case_control
    character(12), parameter :: motions(5) = [character(12) :: 'DISPLACEMENT', 'VECTOR', 'SVECTOR', 'VELOCITY', 'ACCELERATION']
    integer, parameter  :: all_nodes = -2 ! number of the set of DISPLACEMENT = ALL, -1 that of --watch
 
+   !> A matrix that K2GG or M2GG adds.
+   type, public :: matrix_term
+      logical      :: of_mass = .false.                  !! M2GG
+      character(8) :: name = ''                          !! of DMIG
+      real(wp)     :: factor = 1.0_wp
+      integer      :: line = 0
+   end type matrix_term
+
    type, public :: case_control_type
       character(:), allocatable :: title
       character(8) :: length_unit = '', force_unit = ''  !! labels only
@@ -41,8 +49,7 @@ module case_control
       logical :: refused = .false.                       !! a kind of analysis that is not available: the only error
       logical :: is_static = .false.                     !! SOL of statics: METHOD = set has no effect
       logical :: is_direct = .false.                     !! SOL 108: its response needs no MODES
-      character(8) :: matrices(2) = ''                   !! K2GG, M2GG: names of DMIG
-      integer :: matrix_lines(2) = 0
+      type(matrix_term), allocatable :: matrices(:)      !! K2GG, M2GG
       logical :: lumped = .false.                        !! MASS = LUMPED: the mass of elements is lumped at their nodes
       logical :: mass_is_given = .false.                 !! MASS is given
       integer :: model = 0, model_line = 0               !! MODEL, 0: not given
@@ -86,7 +93,7 @@ contains
       past_cend = .false.
       control%title = ''
       control%tolerance = 0.0_wp
-      allocate (control%stages(0), control%sets(0))
+      allocate (control%stages(0), control%sets(0), control%matrices(0))
       common%label = ''
       keys_seen = '|'
       found_bulk = .false.
@@ -234,11 +241,7 @@ contains
       case ('TITLE')
          control%title = entry%value
       case ('K2GG', 'M2GG')
-         n = merge(1, 2, entry%key == 'K2GG')
-         control%matrices(n) = upper(entry%value)
-         control%matrix_lines(n) = entry%line
-         if (entry%value == '' .or. len(entry%value) > 8 .or. scan(entry%value, ' *,') > 0) &
-            call value_error(entry, 'the name of one matrix of DMIG cards', errors)
+         call read_matrices(entry, control%matrices, errors)
       case ('UNITS')
          call read_units(entry, control, errors)
       case ('METHOD')
@@ -285,6 +288,37 @@ contains
          control%echo_asked = control%echo
       end select
    end subroutine read_entry
+
+   !> Add the terms of K2GG or M2GG, 'A', '2.0*A', '2.0*A, 3.0*B', to MATRICES.
+   subroutine read_matrices(entry, matrices, errors)
+      type(entry_type), intent(in)                    :: entry
+      type(matrix_term), allocatable, intent(inout)   :: matrices(:)
+      type(deck_error_list), intent(inout)            :: errors
+      character(:), allocatable :: rest, name
+      type(matrix_term) :: term
+      integer :: comma, times
+      logical :: ok
+
+      term%of_mass = entry%key == 'M2GG'
+      term%line = entry%line
+      rest = upper(entry%value)//','
+      do while (rest /= '')
+         comma = index(rest, ',')
+         name = trim(adjustl(rest(:comma - 1)))
+         rest = trim(rest(comma + 1:))
+         times = index(name, '*')
+         term%factor = 1.0_wp
+         ok = .true.
+         if (times > 0) call parse_real(trim(name(:times - 1)), term%factor, ok)
+         name = trim(adjustl(name(times + 1:)))
+         if (.not. ok .or. name == '' .or. len(name) > 8 .or. scan(name, ' *') > 0) then
+            call value_error(entry, 'names of matrices of DMIG cards, each with a factor or none: A, or 2.0*A, 3.0*B', errors)
+            return
+         end if
+         term%name = name
+         matrices = [matrices, term]
+      end do
+   end subroutine read_matrices
 
    subroutine read_units(entry, control, errors)
       type(entry_type), intent(in)           :: entry

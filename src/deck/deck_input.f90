@@ -254,7 +254,7 @@ contains
          do cursor = 1, merge(0, size(bulk%matrices%retained), any(deck%control%stages%output%dmig))
             call bulk%ignored%wait('ASET', bulk%matrices%retained(cursor)%line, .false., warning=not_reduced)
          end do
-         do cursor = 1, merge(size(bulk%matrices%dmig), 0, all(deck%control%matrices == ''))
+         do cursor = 1, merge(size(bulk%matrices%dmig), 0, size(deck%control%matrices) == 0)
             call bulk%ignored%add('DMIG')
          end do
          call fill_defaults(bulk)

@@ -1,13 +1,15 @@
 !> Scans a line of a deck for its end, its card part and its first comma; interprets an INCLUDE: recognises its line, finds whether its
-!! name goes on on the next line, and takes the name.
+!! name goes on on the next line, and takes the name; interprets a line that repeats the card before it with some fields changed.
+!! Source of the last: MSC Nastran, Getting Started Guide, replication of bulk data.
 module deck_lines
    use, intrinsic :: iso_fortran_env, only: int8
-   use kinds, only: long
-   use text_tools, only: upper
+   use field_rules, only: parse_integer, parse_real
+   use kinds, only: long, wp
+   use text_tools, only: integer_text, upper
    implicit none
    private
 
-   public :: scan_line, is_include, is_open, file_named_by
+   public :: scan_line, is_include, is_open, file_named_by, repeats_of, repeated
 
    !> Place of a line. Its card part is the line without its comment ($ to the end) and without trailing blanks.
    type, public :: line_place
@@ -15,6 +17,8 @@ module deck_lines
       integer       :: length = 0 !! of the card part
       integer       :: comma  = 0 !! column of the first comma in the card part up to column 72, 0: none
    end type line_place
+
+   integer, parameter :: n_fields = 9, entry_width = 32
 
    ! classes of bytes
    integer, parameter :: plain = 0, line_feed = 1, carriage_return = 2, dollar = 3, comma = 4, control = 5
@@ -103,5 +107,96 @@ contains
          path = path(2:merge(closing, 0, len(path) == closing + 1))
       end if
    end function file_named_by
+
+   !> How many cards LINE repeats: 0 where it repeats none, 1 for '=, *(1), =, ==', N for '=(N)' and '=N', which repeat the STEPS of a
+   !! line before; -1 where these cannot be read.
+   integer function repeats_of(line, steps) result(n)
+      character(*), intent(in) :: line
+      character(entry_width), intent(inout) :: steps(n_fields) !! the entries of LINE where it has some
+      logical :: ok
+
+      n = 0
+      if (line(:min(1, len(line))) /= '=') return
+      if (scan(line, ', ') == 2) then
+         if (index(line, ',') > 0 .or. len(line) > 8) n = 1
+         if (n == 1) steps = entries_of(line)
+         return
+      end if
+      call parse_integer(inside(trim(line(2:))), n, ok)
+      if (.not. ok .or. n < 1 .or. steps(1) == '') n = -1
+   end function repeats_of
+
+   !> CARD, a line of one card, in free field with its entries changed by STEPS: '=' keeps an entry, '==' this one and all others, *(D) adds
+   !! D to it, anything else replaces it. Empty: an entry is no number, or CARD no line that can be repeated.
+   function repeated(card, steps) result(line)
+      character(*), intent(in) :: card
+      character(entry_width), intent(in) :: steps(n_fields)
+      character(:), allocatable :: line
+      character(entry_width) :: entries(n_fields)
+      real(wp) :: step, value
+      integer  :: k, i_step, i_value
+      logical  :: ok, of_integers, was_integer
+
+      entries = entries_of(card)
+      line = ''
+      if (entries(1) == '' .or. scan(entries(1)(:1), '+*=') > 0 .or. index(entries(1), '*') > 0) return
+      do k = 1, n_fields
+         associate (entry => entries(k), words => steps(k))
+            if (words == '==') exit
+            if (words == '=') cycle
+            if (index(words, '*') /= 1) then
+               entry = words
+               cycle
+            end if
+            if (entry == '') entry = '0'
+            call parse_integer(trim(entry), i_value, was_integer)
+            call parse_integer(inside(words(2:)), i_step, of_integers)
+            if (was_integer .and. of_integers) then
+               entry = integer_text(i_value + i_step)
+               cycle
+            end if
+            call parse_real(trim(entry), value, ok)
+            if (ok) call parse_real(inside(words(2:)), step, ok)
+            if (.not. ok) return
+            write (entry, '(es24.16)') value + step
+            entry = adjustl(entry)
+         end associate
+      end do
+      line = trim(entries(1))
+      do k = 2, n_fields
+         line = line//','//trim(entries(k))
+      end do
+   end function repeated
+
+   !> WORDS without the parentheses around them.
+   pure function inside(words)
+      character(*), intent(in)  :: words
+      character(:), allocatable :: inside
+
+      inside = trim(adjustl(words))
+      if (len(inside) < 2) return
+      if (inside(:1) == '(' .and. inside(len(inside):) == ')') inside = inside(2:len(inside) - 1)
+   end function inside
+
+   !> The entries of LINE in free field or in fields of eight columns, capitals.
+   pure function entries_of(line) result(entries)
+      character(*), intent(in) :: line
+      character(entry_width)   :: entries(n_fields)
+      integer :: first, k, last
+
+      entries = ''
+      first = 1
+      do k = 1, n_fields
+         if (first > len(line)) return
+         if (index(line, ',') > 0) then
+            last = first + index(line(first:)//',', ',') - 2
+            entries(k) = upper(adjustl(line(first:last)))
+            first = last + 2
+         else
+            entries(k) = upper(adjustl(line(first:min(first + 7, len(line)))))
+            first = first + 8
+         end if
+      end do
+   end function entries_of
 
 end module deck_lines

@@ -1,10 +1,10 @@
-!> Reads the lines of a deck in order and inserts INCLUDE files in their place.
+!> Reads the lines of a deck in order and inserts INCLUDE files, and cards that a line repeats, in their place.
 module deck_text
    use c_library, only: is_regular_file, read_all_bytes, true_path
    use checksum, only: add_to_checksum, no_bytes
    use terminal, only: standard_input
    use deck_errors, only: deck_error_list
-   use deck_lines, only: file_named_by, is_include, is_open, line_place, scan_line
+   use deck_lines, only: file_named_by, is_include, is_open, line_place, repeated, repeats_of, scan_line
    use deck_parameters, only: fill_parameters, parameter_type
    use kinds, only: long
    use lists, only: first_not_below
@@ -240,7 +240,9 @@ contains
       integer(long) :: start, next, length
       character(:), allocatable :: statement ! an INCLUDE so far; empty: none
       logical :: starts_part
+      character(32) :: steps(9)    ! of the line that repeated a card last
 
+      steps = ''
       length = len(text%files(me)%bytes, long)
       if (me == 1 .and. len_trim(text%files(me)%bytes) == 0) then
          call errors%add(0, 'the deck is empty')
@@ -257,11 +259,9 @@ contains
       do while (start <= length)
          number = number + 1
          if (starts_part) then
-            text%n_parts = text%n_parts + 1
-            text%parts(text%n_parts) = part_type(text%n + 1, me, number)
+            call start_part()
          end if
-         if (text%n == size(text%lines)) text%lines = [text%lines, text%lines]
-         text%n = text%n + 1
+         call add_line()
          call scan_line(text%files(me)%bytes, start, text%lines(text%n), next, bad)
          if (bad >= 0) then
             call errors%add(text%n, 'byte '//integer_text(bad)//' on this line is no text: a deck is a text file')
@@ -269,11 +269,56 @@ contains
             return
          end if
          call take_include(next > length)
+         call take_repeats()
          start = next
       end do
-      if (me == 1 .and. length > 0) text%ends_whole = text%files(1)%bytes(length:) == achar(10)
+      if (me == 1 .and. length > 0) text%ends_whole = text%files(1)%bytes(length:length) == achar(10)
 
    contains
+
+      subroutine start_part()
+         if (text%n_parts == size(text%parts)) text%parts = [text%parts, text%parts]
+         text%n_parts = text%n_parts + 1
+         text%parts(text%n_parts) = part_type(text%n + 1, me, number)
+      end subroutine start_part
+
+      subroutine add_line()
+         if (text%n == size(text%lines)) text%lines = [text%lines, text%lines]
+         text%n = text%n + 1
+      end subroutine add_line
+
+      !> Where the line read last repeats the card before it, it becomes blank, and the cards follow it: they stand behind the bytes of
+      !! the file and have the number of this line.
+      subroutine take_repeats()
+         character(:), allocatable :: card
+         integer(long) :: after, at
+         integer :: k, n
+
+         n = repeats_of(text%card_part(text%n), steps)
+         if (n == 0) return
+         k = text%n - 1
+         do while (k > 1 .and. text%lines(max(k, 1))%length == 0)
+            k = k - 1
+         end do
+         card = ''
+         if (n > 0 .and. k > 0) card = text%card_part(k)
+         text%lines(text%n)%length = 0
+         text%lines(text%n)%comma = 0
+         do k = 1, max(n, 1)
+            if (card /= '') card = repeated(card, steps)
+            if (card == '') then
+               call errors%add(text%n, 'the card before cannot be repeated so; expected a card of one line, and =, ==, '// &
+                               '*(number), an entry, or =(number) behind such a line')
+               return
+            end if
+            at = len(text%files(me)%bytes, long) + 2
+            text%files(me)%bytes = text%files(me)%bytes//achar(10)//card
+            call start_part()
+            call add_line()
+            call scan_line(text%files(me)%bytes, at, text%lines(text%n), after, bad)
+         end do
+         starts_part = .true.
+      end subroutine take_repeats
 
       !> Follow the INCLUDE on the line read last, or on it and the lines before it, which are blank lines from then on.
       subroutine take_include(is_last)

@@ -44,7 +44,8 @@ module nastran_compatibility
       real(wp) :: mass_factor = 1.0_wp        !! WTMASS: densities are multiplied by it
       real(wp) :: damping = 0.0_wp            !! G: overall structural damping [-]
       integer  :: mass_line = 0               !! line of COUPMASS, 0: not given
-      integer  :: relief_line = 0             !! line of INREL = -1, 0: not given
+      integer  :: relief_line = 0             !! line of INREL, 0: not given
+      integer  :: relief = 0                  !! its value: -1 with SUPORT, -2 without
       logical  :: holds_idle = .true.         !! AUTOSPC: components without stiffness are held
       logical  :: lumped = .false.            !! COUPMASS below 1
       logical  :: is_structural = .false.     !! KDAMP = -1: the damping of SDAMPING is structural
@@ -126,7 +127,8 @@ contains
       case default
          if (name == 'INREL' .and. (.not. is_integer .or. number /= 0)) then
             parameters%relief_line = line
-            if (number /= -1) expected = '0, or -1 with SUPORT: inertia relief, of which -2 has the same forces and stresses'
+            parameters%relief = number
+            if (all(number /= [-1, -2])) expected = '0, or inertia relief: -1 with SUPORT, -2 without'
          else if (name == 'LGDISP' .and. (.not. is_integer .or. number > 0)) then
             call ignored%wait('PARAM LGDISP', line, .false., need=always, warning='displacements are small here')
          else

@@ -13,10 +13,11 @@ module shell_curved
    use quadrature, only: gauss, integration_rule, mass_rule
    use shape_functions, only: shape_derivatives, shape_values
    use shell_membrane, only: shell_law
+   use tolerances, only: plane_shell
    implicit none
    private
 
-   public :: curved_strains, map_curved, surface_kind, surface_normal, tangents
+   public :: bubble, bubble_forces, curved_strains, find_bubble, map_curved, surface_kind, surface_normal, tangents
 
    integer, parameter, public :: most_columns = 54              !! of strains: 6 of each node, 6 of the bubble
    real(wp), parameter :: h = sqrt(0.6_wp)                      ! three Gauss points: -h, 0, h
@@ -34,6 +35,7 @@ module shell_curved
       integer  :: kind = 0, n = 0                               !! nodes
       real(wp) :: offset = 0.0_wp
       real(wp) :: x(3, 8) = 0.0_wp, director(3, 9) = 0.0_wp     !! that of the bubble last
+      real(wp) :: weights(8) = 0.0_wp, bubble_axes(3, 3) = 0.0_wp !! by find_bubble
       real(wp) :: along(3) = 0.0_wp                             !! direction x of the strains: of the material, or of r at the centre
       real(wp) :: tied(8, most_columns, 16) = 0.0_wp
       real(wp) :: mean(6, most_columns) = 0.0_wp                !! to be added to the strains
@@ -47,6 +49,72 @@ contains
 
       surface_kind = merge(kind_quad8, kind_tria6, n == 8)
    end function surface_kind
+
+   !> The bubble of eight nodes at a POINT: 1 at the centre, 0 along the sides.
+   pure real(wp) function bubble(point)
+      real(wp), intent(in) :: point(3)
+
+      bubble = (1.0_wp - point(1)**2)*(1.0_wp - point(2)**2)
+   end function bubble
+
+   !> The bubble of the displacements of an element with nodes X. In a plane element the displacements of the nodes alone decide its
+   !! amplitude in the plane, by WEIGHTS: a displacement of second degree in the coordinates is exact, as it is without the bubble
+   !! where opposite sides are parallel. An amplitude of its own would be condensed without its inertia, which is as large as that of
+   !! all nodes. AXES are the directions of free amplitudes: normal to the element, and in a curved one along it.
+   !! Source of the weights: R. H. MacNeal, R. L. Harder, Eight nodes or nine?, Int. J. Numer. Meth. Engng 33 (1992) 1049-1058.
+   pure subroutine find_bubble(x, weights, axes)
+      real(wp), intent(in)  :: x(:, :)            !! (3, 8) [length]
+      real(wp), intent(out) :: weights(8), axes(3, 3)
+      real(wp) :: at(3, 8), basis(8, 6), n(max_nodes), q(8), value(6)
+      integer  :: i, k
+
+      call shape_values(kind_quad8, centre_point(:, kind_quad8), n)
+      axes(:, :2) = tangents(x, centre_point(:, kind_quad8))
+      axes(:, 3) = cross(axes(:, 1), axes(:, 2))
+      axes(:, 2) = cross(axes(:, 3), axes(:, 1))
+      do i = 1, 3
+         axes(:, i) = axes(:, i)/max(norm2(axes(:, i)), tiny(1.0_wp))
+      end do
+      at = matmul(transpose(axes), x - spread(matmul(x, n(:8)), 2, 8))
+      weights = 0.0_wp
+      if (maxval(abs(at(3, :))) > plane_shell*maxval(abs(at))) return
+      axes(:, :2) = 0.0_wp
+      do k = 1, 6                                 ! 1, x, y, then xx, xy, yy: the least weights that give each at the centre
+         if (k == 1) q = 1.0_wp
+         if (k == 2 .or. k == 3) q = at(k - 1, :)
+         if (k > 3) q = at(merge(1, 2, k < 6), :)*at(merge(1, 2, k < 5), :)
+         value(k) = merge(-dot_product(n(:8), q), 0.0_wp, k > 3)
+         do i = 1, k - 1
+            associate (part => dot_product(basis(:, i), q))
+               value(k) = value(k) - part*value(i)
+               q = q - part*basis(:, i)
+            end associate
+         end do
+         associate (left => max(norm2(q), tiny(1.0_wp)))
+            value(k) = value(k)/left
+            basis(:, k) = q/left
+         end associate
+         weights = weights + value(k)*basis(:, k)
+      end do
+   end subroutine find_bubble
+
+   !> Forces F on the amplitudes of the bubble, of displacements along its axes, under the load Q at the nodes.
+   pure function bubble_forces(map, q) result(f)
+      type(curved_map), intent(in) :: map
+      real(wp), intent(in)         :: q(:, :)     !! (3, 8) [force/length^2]
+      real(wp) :: f(3), a(3, 2), n(max_nodes)
+      type(integration_rule) :: rule
+      integer  :: p
+
+      f = 0.0_wp
+      call mass_rule(map%kind, rule)
+      do p = 1, rule%n
+         a = tangents(map%x(:, :map%n), rule%point(:, p))
+         call shape_values(map%kind, rule%point(:, p), n)
+         f = f + rule%weight(p)*norm2(cross(a(:, 1), a(:, 2)))*bubble(rule%point(:, p))*matmul(q, n(:map%n))
+      end do
+      f = matmul(f, map%bubble_axes)
+   end function bubble_forces
 
    !> The derivatives with respect to r and s of the position of the nodes X, at a POINT.
    pure function tangents(x, point) result(a)
@@ -87,6 +155,7 @@ contains
       do i = 1, map%n
          map%director(:, i) = surface_normal(x, i)
       end do
+      if (map%n == 8) call find_bubble(x, map%weights, map%bubble_axes)
       call shape_values(map%kind, centre_point(:, map%kind), n)
       do i = 1, map%n
          map%director(:, 9) = map%director(:, 9) + n(i)*map%director(:, i)
@@ -117,7 +186,7 @@ contains
       real(wp), intent(in)            :: point(3)
       real(wp), intent(out)           :: b(8, most_columns), twist(most_columns), a(3, 2)
       real(wp), intent(out), optional :: da(3, 2) !! change of A per height
-      real(wp) :: dn(3, max_nodes), n(max_nodes), dv(3, 2), g(3, 2), normal(3), v(3), w(3, 2)
+      real(wp) :: dn(3, max_nodes), n(max_nodes), dv(3, 2), g(3, 2), normal(3), v(3), w(3, 2), of_u(8, 3), of_twist(3)
       integer  :: c, i, m
 
       m = map%n
@@ -132,40 +201,45 @@ contains
       normal = normal/norm2(normal)
       b = 0.0_wp
       twist = 0.0_wp
+      dn(:2, 9) = 0.0_wp
       if (m == 8) then                            ! the bubble
-         n(9) = (1.0_wp - point(1)**2)*(1.0_wp - point(2)**2)
+         n(9) = bubble(point)
          dn(:2, 9) = -2.0_wp*point(:2)*[1.0_wp - point(2)**2, 1.0_wp - point(1)**2]
          m = 9
       end if
       do i = 1, m
          c = 3*i - 2
-         if (i == 9) c = 49
-         associate (p => dn(1, i), q => dn(2, i))
-            b(:, c:c + 2) = transpose(reshape([p*a(:, 1), q*a(:, 2), q*a(:, 1) + p*a(:, 2), &
-                                              p*dv(:, 1), q*dv(:, 2), q*dv(:, 1) + p*dv(:, 2), p*v, q*v], [3, 8]))
-            twist(c:c + 2) = -0.5_wp*(p*g(:, 1) + q*g(:, 2))
-         end associate
+         if (i < 9) then
+            dn(:2, i) = dn(:2, i) + map%weights(i)*dn(:2, 9)
+            call displace(dn(:, i), b(:, c:c + 2), twist(c:c + 2))
+            dn(:2, i) = dn(:2, i) - map%weights(i)*dn(:2, 9)
+         end if
+         call displace(dn(:, i), of_u, of_twist)
          associate (director => map%director(:, i), at => merge(52, 3*(map%n + i) - 2, i == 9))
             w = reshape([cross(director, a(:, 1)), cross(director, a(:, 2))], [3, 2]) ! of the rotation of the fibre
             b(4:8, at:at + 2) = transpose(reshape([dn(1, i)*w(:, 1), dn(2, i)*w(:, 2), dn(2, i)*w(:, 1) + dn(1, i)*w(:, 2), &
                                                   n(i)*w(:, 1), n(i)*w(:, 2)], [3, 5]))
-            call add_offset(b(:, c:c + 2), b(:, at:at + 2), director)
-            twist(at:at + 2) = n(i)*normal + map%offset*cross(director, twist(c:c + 2))
+            do c = 1, 8                           ! the displacement of the mean surface is u + theta x offset director
+               b(c, at:at + 2) = b(c, at:at + 2) + map%offset*cross(director, of_u(c, :))
+            end do
+            twist(at:at + 2) = n(i)*normal + map%offset*cross(director, of_twist)
+            if (i < 9) cycle
+            b(:, 49:51) = matmul(of_u, map%bubble_axes)
+            twist(49:51) = matmul(of_twist, map%bubble_axes)
          end associate
       end do
 
    contains
 
-      !> The displacement of the mean surface is u + theta x offset DIRECTOR.
-      pure subroutine add_offset(of_u, of_theta, director)
-         real(wp), intent(in)    :: of_u(8, 3), director(3)
-         real(wp), intent(inout) :: of_theta(8, 3)
-         integer :: k
+      !> Strains and twist of displacements with the derivatives D.
+      pure subroutine displace(d, b, twist)
+         real(wp), intent(in)  :: d(:)
+         real(wp), intent(out) :: b(8, 3), twist(3)
 
-         do k = 1, 8
-            of_theta(k, :) = of_theta(k, :) + map%offset*cross(director, of_u(k, :))
-         end do
-      end subroutine add_offset
+         b = transpose(reshape([d(1)*a(:, 1), d(2)*a(:, 2), d(2)*a(:, 1) + d(1)*a(:, 2), &
+                                d(1)*dv(:, 1), d(2)*dv(:, 2), d(2)*dv(:, 1) + d(1)*dv(:, 2), d(1)*v, d(2)*v], [3, 8]))
+         twist = -0.5_wp*(d(1)*g(:, 1) + d(2)*g(:, 2))
+      end subroutine displace
 
    end subroutine covariant
 

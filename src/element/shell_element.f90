@@ -11,15 +11,16 @@ module shell_element
    use numbers, only: cross
    use quadrature, only: body_rule, integration_rule, mass_rule
    use shape_functions, only: shape_derivatives, shape_values
-   use shell_curved, only: curved_map, curved_strains, map_curved, most_columns, surface_kind, surface_normal, tangents
+   use shell_curved, only: bubble, bubble_forces, curved_map, curved_strains, find_bubble, map_curved, most_columns, surface_kind, &
+                           surface_normal, tangents
    use shell_membrane, only: corner_kind, drilling_stiffness, flat_coordinates, membrane_at, shell_frame, shell_frame_of, &
                              shell_law, thickness_at
    use shell_plate, only: plate_strains
    implicit none
    private
 
-   public :: form, kind_of, map_of, node_normal, node_thickness, section_heat, section_stiffness, shell_products, shell_stiffness, &
-             shell_strains, shell_thermal_forces
+   public :: form, kind_of, map_of, node_normal, node_thickness, section_heat, section_stiffness, shell_bubble_load, &
+             shell_products, shell_stiffness, shell_strains, shell_thermal_forces
 
    integer, parameter, public :: most_shell_nodes = 8
 
@@ -155,11 +156,12 @@ contains
    end function section_heat
 
    !> [K] and the thermal forces F of an element with the amplitudes condensed; the rows of these keep what gives their values.
-   pure subroutine form(law, map, rise, slope, k, f)
+   pure subroutine form(law, map, rise, slope, k, f, load)
       type(shell_law), intent(in) :: law
       type(shell_map), intent(in) :: map
       real(wp), intent(in)        :: rise(:), slope  !! (nodes) [temperature], [temperature/length]
       real(wp), intent(out)       :: k(most_columns, most_columns), f(most_columns)
+      real(wp), intent(in), optional :: load(:, :)   !! (3, nodes) [force/length^2] on the bubble, added to F
       type(shell_point) :: at(map%rule%n)
       real(wp) :: area, c(8, 8), g, n(max_nodes), cb(8, most_columns)
       integer  :: i, j, m, p
@@ -188,6 +190,7 @@ contains
             f(:m) = f(:m) + w*matmul(section_heat(law, at(p), dot_product(n(:map%n), rise), slope), b)
          end associate
       end do
+      if (present(load) .and. map%n == 8) f(49:51) = f(49:51) + bubble_forces(map%curved, load)
       do i = m, 6*map%n + 1, -1
          if (.not. k(i, i) > 0.0_wp) k(i, i) = 1.0_wp ! an amplitude of the membrane of a shell that bends alone is zero
          f(:i - 1) = f(:i - 1) - k(:i - 1, i)*f(i)/k(i, i)
@@ -237,6 +240,20 @@ contains
       f(:, :2*map%n) = reshape(whole(:6*map%n), [3, 2*map%n])
    end subroutine shell_thermal_forces
 
+   !> Nodal forces and moments F of the share of a LOAD that acts on the bubble of eight nodes.
+   pure subroutine shell_bubble_load(law, x, load, f)
+      type(shell_law), intent(in) :: law
+      real(wp), intent(in)        :: x(:, :)         !! (3, nodes) [length]
+      real(wp), intent(in)        :: load(:, :)      !! (3, nodes) [force/length^2]
+      real(wp), intent(inout)     :: f(:, :)         !! (3, 2 nodes) [force], [force length], set here
+      type(shell_map) :: map
+      real(wp) :: k(most_columns, most_columns), whole(most_columns)
+
+      map = map_of(law, x)
+      call form(law, map, spread(0.0_wp, 1, map%n), 0.0_wp, k, whole, load)
+      f(:, :2*map%n) = reshape(whole(:6*map%n), [3, 2*map%n])
+   end subroutine shell_bubble_load
+
    !> The unit normal of an element at its node I.
    pure function node_normal(x, i) result(normal)
       real(wp), intent(in) :: x(:, :)                !! (3, nodes) [length]
@@ -268,24 +285,27 @@ contains
       real(wp), intent(in)    :: values(:)           !! (nodes) [per area]
       real(wp), intent(inout) :: m(:, :)             !! (nodes, nodes), set here
       type(integration_rule) :: rule
-      real(wp) :: a(3, 2), dn(3, max_nodes), n(max_nodes), j(2, 2), volume
+      real(wp) :: a(3, 2), axes(3, 3), dn(3, max_nodes), n(max_nodes), j(2, 2), q, volume, weights(8)
       integer  :: i, p, s
 
       s = size(x, 2)
       m(:s, :s) = 0.0_wp
+      if (s == 8) call find_bubble(x, weights, axes)
       call mass_rule(kind_of(s), rule)
       do p = 1, rule%n
          call shape_values(kind_of(s), rule%point(:, p), n)
+         q = dot_product(n(:s), values)
          if (s <= 4) then
             call shape_derivatives(kind_of(s), rule%point(:, p), dn)
             j = matmul(dn(:2, :s), transpose(flat_coordinates(x)))
             volume = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
          else
+            if (s == 8) n(:8) = n(:8) + bubble(rule%point(:, p))*weights
             a = tangents(x, rule%point(:, p))
             volume = norm2(cross(a(:, 1), a(:, 2)))
          end if
          do i = 1, s
-            m(:s, i) = m(:s, i) + rule%weight(p)*volume*dot_product(n(:s), values)*n(:s)*n(i)
+            m(:s, i) = m(:s, i) + rule%weight(p)*volume*q*n(:s)*n(i)
          end do
       end do
    end subroutine shell_products

@@ -17,7 +17,8 @@ module structure_answers
    use mode_span, only: find_modes_again, find_spanned
    use model_data, only: model_type
    use node_coupling, only: displacements, forces_on_unknowns
-   use natural_modes, only: find_natural_modes, spectrum_type, start_oscillation
+   use natural_modes, only: find_natural_modes, spectrum_type
+   use oscillating_structure, only: oscillating_type, start_oscillation
    use shear_loops, only: oscillation_stiffness
    use stage_plan, only: merged
    use tolerances, only: search_modes

@@ -200,10 +200,17 @@ contains
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
-      real(wp), allocatable :: on_unknowns(:, :), q(:, :)
+      real(wp), allocatable :: mean(:), on_unknowns(:, :), q(:, :)
+      integer :: i
 
       call recover(model, system, analysis, analysis%now, analysis%u, q, analysis%all_unbalanced)
       analysis%all_u = displacements(model, q)
+      if (allocated(model%mean)) then
+         mean = [(sum(model%mean(:, :, i)*analysis%all_u), i = 1, size(model%mean, 3))]
+         do i = 1, size(mean)
+            analysis%all_u = analysis%all_u - mean(i)*model%rigid(:, :, i)
+         end do
+      end if
       analysis%u = q(:, system%retained)
       allocate (on_unknowns, source=forces_on_unknowns(model, analysis%all_unbalanced))
       analysis%unbalanced = on_unknowns(:, system%retained)

@@ -19,7 +19,7 @@ module mass_matrix
    implicit none
    private
 
-   public :: bar_mass, scalar_mass, n_masses, form_mass, mass_times, total_mass
+   public :: area_mass, bar_mass, scalar_mass, n_masses, form_mass, mass_times, total_mass
    public :: coupled_dynamic_stiffness, coupled_bar_mass, coupled_point_mass, mass_nodes
 
    integer, parameter :: worth_threads = 10000 ! number of nodes from which on threads are used
@@ -42,6 +42,17 @@ contains
       n_masses = size(model%mesh%masses)
    end function n_masses
 
+   !> Mass per area at the nodes of shell E [force time^2/length^3].
+   pure function area_mass(mesh, e) result(m)
+      type(mesh_type), intent(in) :: mesh
+      integer, intent(in)         :: e
+      real(wp) :: m(element_table(mesh%element_kind(e))%n_nodes)
+
+      associate (property => mesh%properties(mesh%element_property(e)))
+         m = property%rho*node_thickness(mesh%structural%shells(mesh%structural%place(e)), size(m)) + property%extra_mass
+      end associate
+   end function area_mass
+
    !> Mass between the points of element E (no beam), the same for every component of their displacements [force time^2/length].
    !! Of a shell: between its corners, and between its rotations the rotary inertia of the thickness, divided by the arms; the
    !! drilling rotation has this inertia too. Lumped mass has no rotary inertia.
@@ -56,7 +67,7 @@ contains
          if (is_shell(mesh, e)) then
             associate (x => mesh%x(:, corners), t => node_thickness(mesh%structural%shells(mesh%structural%place(e)), n))
                m(:2*n, :2*n) = 0.0_wp
-               call shell_products(x, property%rho*t + property%extra_mass, m(:n, :n))
+               call shell_products(x, area_mass(mesh, e), m(:n, :n))
                if (.not. mesh%lumped) call shell_products(x, property%rho*t**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
             end associate
             do i = n + 1, 2*n

@@ -305,13 +305,14 @@ module model_data
       type(stage_load_type), allocatable :: stages(:)
    end type history_type
 
-   !> The model, in parts. Each is made by one routine of model_build from those before it.
+   !> The model, in parts.
    type, public :: model_type
       type(mesh_type)     :: mesh
       type(joints_type)   :: joints
       type(freedoms_type) :: freedoms
       type(freedoms_type), allocatable :: sets(:) !! of the stages, where SPC or MPC differ; FREEDOMS is the one in force
       integer :: supports = 1                !! its position
+      real(wp), allocatable :: rigid(:, :, :), mean(:, :, :) !! (dimension, n_nodes, motions) of inertia_relief
       type(history_type)  :: history
       type(text_item), allocatable :: warnings(:) !! about the model, found while it was built
    end type model_type

@@ -6,12 +6,13 @@ module structural_elements
    use kinds, only: wp
    use mesh_queries, only: element_points
    use model_data, only: a_spring, bar_nodes, bar_type, mesh_type, model_type, temperature_type
+   use shell_element, only: shell_bubble_load
    use shell_recovery, only: shell_stresses
    use temperatures, only: element_rise, element_slope
    implicit none
    private
 
-   public :: structural_stress, nodal_values, between_own, onto_own
+   public :: structural_stress, nodal_values, between_own, onto_own, add_bubble_load
    public :: bar_elongation, thermal_tension, add_axial_force, add_bar_forces, bar_stiffness, unit_tension, matrix_forces
 
    integer, parameter, public :: most_own = 16 !! own nodes of an element: its nodes and their rotations
@@ -65,6 +66,24 @@ contains
          f(:d, :size(t, 2)/d) = reshape(matmul(reshape(nodal, [size(t, 1)]), t), [d, size(t, 2)/d])
       end associate
    end subroutine onto_own
+
+   !> Add to FORCE what a load Q per area [force/length^2] on the bubble of shell E exerts on its nodes, if it has eight.
+   pure subroutine add_bubble_load(mesh, e, q, force)
+      type(mesh_type), intent(in) :: mesh
+      integer, intent(in)         :: e
+      real(wp), intent(in)        :: q(:, :)      !! (3, nodes)
+      real(wp), intent(inout)     :: force(:, :)  !! (3, n_nodes) [force]
+      real(wp) :: f(3, most_own), nodal(3, most_own)
+
+      associate (nodes => element_points(mesh, e))
+         if (size(nodes) /= most_own/2) return
+         call shell_bubble_load(mesh%structural%shells(mesh%structural%place(e)), mesh%x(:, nodes), q, nodal)
+         call onto_own(mesh, e, nodal, f)
+         associate (own => [nodes, mesh%rotations(mesh%rotation_of(nodes))%node])
+            force(:, own) = force(:, own) + f
+         end associate
+      end associate
+   end subroutine add_bubble_load
 
    !> The nodal values (3, 2 corners) of element E for displacements U of its own nodes [length], [rad].
    pure function nodal_values(model, e, u) result(values)

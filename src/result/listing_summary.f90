@@ -129,7 +129,8 @@ contains
       associate (n_springs => count(model%mesh%bars%kind == a_spring, kind=long))
          if (any(model%mesh%bars%kind == a_bar)) call count_line(file, 'BARS, BOLTS INCLUDED', &
                                                                  count(model%mesh%bars%kind == a_bar, kind=long))
-         if (any(model%mesh%bars%kind == a_matrix)) call count_line(file, 'MATRICES OF STIFFNESS (K2GG)', 1_long)
+         if (any(model%mesh%bars%kind == a_matrix)) call count_line(file, 'MATRICES OF STIFFNESS (K2GG)', &
+                                                                    count(model%mesh%bars%kind == a_matrix, kind=long))
          if (n_springs > 0) call count_line(file, 'SPRINGS, ONE A DIRECTION', n_springs)
       end associate
       if (n_sections(model%mesh) > 0) call count_line(file, 'SOLID BOLTS', size(model%mesh%sections, kind=long))

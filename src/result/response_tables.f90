@@ -2,7 +2,8 @@
 !! above the modes. The CSV files are NAME.response.csv and, of one node against another, NAME.between.response.csv.
 module response_tables
    use kinds, only: wp
-   use modal_response, only: phase_of, response_type
+   use modal_response, only: response_type
+   use modal_superposition, only: phase_of
    use mode_values, only: modes_type
    use model_data, only: model_type
    use numbers, only: first_largest

@@ -29,7 +29,8 @@ module run_boxes
    use mode_values, only: evaluate_modes, modes_type
    use model_build, only: build_model
    use model_data, only: model_type
-   use natural_modes, only: find_natural_modes, oscillating_type, spectrum_type, start_oscillation
+   use natural_modes, only: find_natural_modes, spectrum_type
+   use oscillating_structure, only: oscillating_type, start_oscillation
    use newton_method, only: seat_joints
    use openblas, only: prepare_libraries, tell_kernel
    use nx_translation, only: translate_contacts

@@ -6,7 +6,7 @@ module structure_reduction
    use dmig_file, only: list_superelement
    use equation_solver, only: equation_system
    use model_data, only: model_type
-   use natural_modes, only: oscillating_type, start_oscillation
+   use oscillating_structure, only: oscillating_type, start_oscillation
    use run_of_deck, only: run_type
    use stage_plan, only: stage_plan_type, where_in_plan
    use superelement, only: reduce_structure, reduced_type

@@ -11,7 +11,7 @@ module enforced_motion
    use kinds, only: wp
    use mass_matrix, only: mass_times
    use model_data, only: model_type
-   use natural_modes, only: factorise_at, oscillating_type
+   use oscillating_structure, only: factorise_at, oscillating_type
    use node_coupling, only: displacements
    use stage_plan, only: wave_type
    use structural_elements, only: add_bar_forces

@@ -28,7 +28,8 @@ module mode_values
    use connected_bodies, only: find_bodies
    use mesh_queries, only: is_shell, n_points
    use model_data, only: bar_nodes, model_type, n_bars
-   use natural_modes, only: oscillating_type, spectrum_type
+   use natural_modes, only: spectrum_type
+   use oscillating_structure, only: oscillating_type
    use normal_curve, only: normal_tangent
    use normal_stiffness, only: branch_open
    use shear_loops, only: loss_of_element
@@ -102,7 +103,8 @@ contains
          end do
          do d = 1, size(participation, 1)
             if (next == last) exit
-            if (norm2(participation(d, next:last)) > weak_participation*sqrt(mass)) call give_to_one((participation(d, next:last)))
+            if (norm2(participation(d, next:last)) > weak_participation*sqrt(max(mass, 0.0_wp))) &
+               call give_to_one((participation(d, next:last)))
          end do
          do while (next < last) ! the first component and node, in their order, whose displacement in all modes is almost
                                 ! the largest

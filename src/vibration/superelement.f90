@@ -13,7 +13,8 @@ module superelement
    use kinds, only: wp
    use mass_matrix, only: mass_times
    use model_data, only: model_type
-   use natural_modes, only: factorise_at, find_natural_modes, oscillating_type, spectrum_type
+   use natural_modes, only: find_natural_modes, spectrum_type
+   use oscillating_structure, only: factorise_at, oscillating_type
    use stage_plan, only: vibration_plan_type
    use superelement_build, only: retained_type
    use unknowns, only: unknown_name

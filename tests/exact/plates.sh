@@ -445,3 +445,41 @@ for kind in CQUAD4 CTRIA3; do
    near "$kind without membrane" "$(moved bends_$kind 3 3)" "$(moved bends_${kind}1 3 3)" 2e-6
    says "$kind without membrane: idle components" "$work/bends_$kind.log" 'components of nodes without stiffness are held (PARAM AUTOSPC)'
 done
+
+# ---- CQUAD8 under loads per area and with their masses: a strip of N along x, or a quarter of a cylinder (R = 100) about z, nu = 0 ----
+# eights NAME N SHAPE CARDS [CONTROL]
+eights() {
+   { printf '%b\n' "MODEL = SPACE\n${5:-SPC = 1\nSUBCASE 1\n  LOAD = 1}\nBEGIN BULK\nPSHELL,1,1,1.0,1,,1\nMAT1,1,1.0+5,,0.0,1.0-3"
+      awk -v n="$2" -v shape="$3" 'BEGIN {
+         for (i = 0; i <= 2*n; i++) for (j = 0; j < 3; j++) {
+            if (i % 2 && j == 1) continue
+            id[i, j] = ++k; a = i*atan2(1, 0)/(2*n); x = 50*i/n
+            if (shape == "skewed" && i > 0 && i < 2*n) x += 4*(i % 4 == 2 ? j - 1 : i % 2 ? 0 : 1 - j)
+            if (shape != "cylinder") printf "GRID,%d,,%.10f,%.1f,0.0\n", k, x, 15*j
+            if (shape == "cylinder") printf "GRID,%d,,%.10f,%.10f,%.1f\n", k, 100*cos(a), 100*sin(a), 25*j
+            if (i == 0) printf "SPC1,1,%s,%d\n", shape == "cylinder" ? 246 : 123456, k
+            if (i == 2*n && shape == "cylinder") printf "SPC1,1,156,%d\n", k
+         }
+         for (e = 1; e <= n; e++) { i = 2*e
+            printf "CQUAD8,%d,1,%d,%d,%d,%d,%d,%d\n,%d,%d\n", e, id[i-2, 0], id[i, 0], id[i, 2], id[i-2, 2], id[i-1, 0], id[i, 1], id[i-1, 2], id[i-2, 1] }
+         printf "SPC1,1,3,1,THRU,%d\n", k }'
+      printf '%b\n' "$4\nENDDATA"; } > "$work/$1.bdf"
+   run "$1"
+}
+# spread_of NAME FROM: least and largest displacement: along x of nodes at x = FROM, radial with FROM = r
+spread_of() { table "$1" 'DISPLACEMENTS OF NODES' | awk -v from="$2" '$1 ~ /^[0-9]+$/ && NF > 5 && (from == "r" || $2 == from) {
+   v = from == "r" ? ($2*$5 + $3*$6)/sqrt($2^2 + $3^2) : $5; if (!n++ || v < a) a = v; if (n == 1 || v > b) b = v } END { print a, b }'; }
+both() { set -- "$1" $(spread_of "$2" "$3") "$4" "$5"; near "$1: least" "$2" "$4" "$5"; near "$1: largest" "$3" "$4" "$5"; }
+for n in 1 2 4; do
+   eights eights_weight $n strip 'GRAV,1,,1000.0,1.0,0.0,0.0' && both "$n CQUAD8 under their weight" eights_weight 1.00000E+02 '1*100^2/(2e5)' 2e-6
+done
+eights eights_skewed 4 skewed 'GRAV,1,,1000.0,1.0,0.0,0.0' && both 'CQUAD8, trapezoids, under their weight' eights_skewed 1.00000E+02 '1*100^2/(2e5)' 2.5e-3
+# f = k/(4 L) sqrt(E/rho); elements of second order with consistent masses: their error falls with the fourth power of the length
+eights eights_modes 2 strip 'EIGRL,1,,,1\nSPC1,2,23456,1,THRU,13\nSPCADD,3,1,2' 'SOL = 103\nSPC = 3\nMETHOD = 1' && near 'two CQUAD8: f along the strip' \
+   "$(awk -F, 'NR == 2 { print $3 }' "$work/eights_modes.modes.csv")" '1e8^0.5/400' 3e-4
+for n in 2 4; do
+   eights eights_blown $n cylinder "PLOAD2,1,1.0,1,THRU,$n" && both "$n CQUAD8 round a quarter, pressed" eights_blown r '100^2/1e5' 4.5e-3
+   eights eights_spun $n cylinder 'RFORCE,1,,,1.0,0.0,0.0,1.0' && both "$n CQUAD8 round a quarter, turning" eights_spun r '(2*3.14159265)^2*1e-3*100^3/1e5' 4e-3
+done
+eights eights_falls 2 cylinder 'GRAV,1,,1000.0,1.0,0.5,0.3\nPARAM,INREL,-2' 'SUBCASE 1\n  LOAD = 1' && \
+   near 'free CQUAD8 that fall: no displacement' "$(spread_of eights_falls r | tr ' ' '-')" 0 0 1e-9

@@ -38,3 +38,22 @@ sed 's/^MAT1.*/MAT1,1,9000.0,,0.25/' "$work/relief.bdf" > "$work/relief_massless
 run relief_massless 2 && says 'no mass' "$work/relief_massless.log" 'a rigid-body motion moves no mass'
 sed 's/^ENDDATA/CELAS2,99,1.0,1,1\n&/' "$work/relief.bdf" > "$work/relief_spring.bdf"
 run relief_spring 2 && says 'a grounded spring' "$work/relief_spring.log" 'a grounded spring or a rigid base'
+
+# ---- INREL = -2: without SUPORT, and displacements without the mean motion of the masses. The mean of x^2 between nodes L/12 apart is
+# L^2 (1/3 + 1/(6 12^2)), so that the pulled end moves by F L/(E A) (1/2 - 1/6 - 1/1728) and the other by the rest. Across: the same beam
+# as with SUPORT but for a rigid motion, without displacement and rotation of the masses
+sed '/^SUPORT/d; s/INREL,-1/INREL,-2/' "$work/relief.bdf" > "$work/relief_mean.bdf"
+run relief_mean && {
+   near 'without SUPORT: the pulled end' "$(moved_in relief_mean 1 13 1)" '30*120/(9000*4)*(1/3 - 1/1728)' 1e-5
+   near 'without SUPORT: the other end' "$(moved_in relief_mean 1 1 1)" '-30*120/(9000*4)*(1/6 + 1/1728)' 1e-5
+   near 'without SUPORT: bent as with it' "$(moved_in relief_mean 2 1 2) - 2*$(moved_in relief_mean 2 7 2) + $(moved_in relief_mean 2 13 2)" \
+      "$(across 120) - 2*$(across 60)" 1e-4
+   near 'without SUPORT: no mean motion' "($(for i in $(seq 13); do echo "$(moved_in relief_mean 2 $i 2)*$([ $i = 1 ] || [ $i = 13 ] && echo 0.5 || echo 1)"; done | paste -sd+))/12/$(moved_in relief_mean 2 13 2)" \
+      0 0 0.02
+   says 'without SUPORT: its acceleration' "$work/relief_mean.log" "PARAM INREL = -2: stage 1 has the inertia forces of the acceleration $(number '30/(0.01*4*120)' | awk '{ printf "%g", $1 }'), 0, 0 of the centre of mass"
+}
+
+# ---- The same line of replicated cards: in free field and in fields of eight columns
+{ printf 'MODEL = SPACE\nSUBCASE 1\n  LOAD = 10\nBEGIN BULK\nPARAM,INREL,-1\nMAT1,1,9000.0,,0.25,0.01\nGRID,1,,0.0,0.0,0.0\n=,*(1),=,*(10.),==\n$ eleven more\n=(11)\n'
+   printf 'CBAR    1       1       1       2       0.0     1.0     0.0\n=       *1      =       *(1)    *(1)    ==\n=10\n%s\n%b\n' "$section" 'SUPORT,1,123456\nFORCE,10,12,,1.0,0.0,1.0\n=,=,13,=,*29.0,1.0\nFORCE,10,12,,-1.0,0.0,1.0\nENDDATA'; } > "$work/relief_repeated.bdf"
+run relief_repeated && near 'replicated cards' "$(moved_in relief_repeated 1 13 1)" '30*120/(2*9000*4)' 1e-5

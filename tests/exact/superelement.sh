@@ -68,7 +68,7 @@ superelement_held='SPC1,1,123,1,9,25,33'
 superelement_force='FORCE,10,28,,1.0,3.0,1.0,-2.0\nFORCE,10,4,,1.0,0.0,5.0,1.0'
 superelement_back() { # NAME CASE CARDS: the corners, the DMIG cards of free
    {
-      printf '%b\n' "MODEL = SPACE\nK2GG = KAAX\nM2GG = MAAX\n$2\nBEGIN BULK"
+      printf '%b\n' "MODEL = SPACE\nK2GG = 0.75*KAAX, .25*KAAX\nM2GG = MAAX\n$2\nBEGIN BULK"
       awk 'BEGIN { for (z = 0; z < 3; z += 2) for (y = 0; y < 3; y += 2) for (x = 0; x < 4; x += 3)
          print "GRID," 1 + x + 4*y + 12*z ",," 10.0*x "," 10.0*y "," 10.0*z }'
       cat "$work/free.dmig"

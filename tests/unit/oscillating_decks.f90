@@ -5,7 +5,7 @@ module oscillating_decks
    use dense_structure, only: dense_bodies, dense_joints, dense_mass, free_rows
    use kinds, only: wp
    use model_data, only: model_type
-   use natural_modes, only: oscillating_type, start_oscillation
+   use oscillating_structure, only: oscillating_type, start_oscillation
    use text_tools, only: integer_text
    implicit none
    private
