@@ -28,6 +28,7 @@ module given_limits
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
    real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave
    integer, parameter  :: most_flat = 4        ! such trials, one behind the other
+   real(wp), parameter :: hardly_falls = 0.97_wp ! of the work
    integer, parameter  :: most_trials = 20     ! of a line search
    integer, parameter  :: patience = 40        ! iterations in which a problem is solved
    integer, parameter  :: most_returns = 10    ! of the exact laws: their limits have no equilibrium in common
@@ -47,6 +48,7 @@ contains
       attempt%n_limits = 0
       attempt%n_returns = 0
       attempt%runs = .false.
+      attempt%n_moving = 0
       attempt%leaves = 0
       attempt%bearable = 1.0_wp
       attempt%asked = attempt%load - analysis%body
@@ -136,7 +138,7 @@ contains
       type(trial_type), intent(inout)    :: next
       type(trial_type), allocatable :: there
       real(wp), allocatable :: body(:, :)
-      real(wp) :: first, released, work, low(2), high(2) ! steps and the works there
+      real(wp) :: farthest, first, released, work, low(2), high(2) ! steps and the works there
       integer  :: flat, i
       logical  :: is_least
 
@@ -146,7 +148,11 @@ contains
       first = sum(now%residual*direction, mask=.not. analysis%held)
       low = [0.0_wp, first]
       high = [-1.0_wp, 0.0_wp]
-      attempt%step = 1.0_wp
+      farthest = step_off_the_joint(model, system, direction)
+      if (moves_on()) attempt%n_moving = attempt%n_moving + 1
+      attempt%runs = attempt%n_moving >= merge(1, 2, attempt%only > 0)
+      if (attempt%runs) return
+      attempt%step = min(1.0_wp, farthest)
       do i = 1, most_trials
          next%u = now%u + attempt%step*direction
          next%body = now%body + attempt%step*body
@@ -165,14 +171,14 @@ contains
          if (work > 0.0_wp) then
             flat = merge(flat + 1, 0, work > (1.0_wp - same_work)*low(2))
             low = [attempt%step, work]
-            if (flat == most_flat .and. high(1) < 0.0_wp) exit
+            if (high(1) < 0.0_wp .and. (flat == most_flat .or. attempt%step >= farthest)) exit
          else
             high = [attempt%step, work]
          end if
          if (high(1) < 0.0_wp) then ! beyond it
             attempt%step = longest*low(1)
             if (work < first) attempt%step = min(attempt%step, low(1)*first/(first - work))
-            attempt%step = max(attempt%step, 2.0_wp*low(1))
+            attempt%step = min(max(attempt%step, 2.0_wp*low(1)), farthest)
          else
             attempt%step = (low(1)*high(2) - high(1)*low(2))/(high(2) - low(2))
             associate (margin => 0.1_wp*(high(1) - low(1)))
@@ -182,13 +188,34 @@ contains
       end do
       attempt%released = 0.0_wp
       if (first > 0.0_wp) then
-         if (high(1) < 0.0_wp) call note_missing(low(2))
+         attempt%runs = high(1) < 0.0_wp
+         if (attempt%runs) call note_missing(low(2))
          return
       end if
       next = now ! the energy does not fall along this direction
       attempt%step = 0.0_wp
 
    contains
+
+      !> Whether the body moves on along DIRECTION: from a thousandth to a hundredth of the way off its joint the work hardly falls.
+      logical function moves_on()
+         real(wp) :: work(2)
+         integer  :: k
+
+         moves_on = .false.
+         if (farthest > 100.0_wp .or. .not. first > 0.0_wp) return
+         do k = 1, 2
+            attempt%step = 1.0e-4_wp*10.0_wp**k*farthest
+            next%u = now%u + attempt%step*direction
+            next%body = now%body + attempt%step*body
+            call evaluate(model, system, attempt, analysis, next)
+            if (.not. next%size < huge(1.0_wp)) return
+            work(k) = sum(next%residual*direction, mask=.not. analysis%held)
+         end do
+         moves_on = work(1) > 0.0_wp .and. work(2) > hardly_falls*work(1) .and. sum(attempt%asked*direction) > 0.0_wp
+         if (moves_on) call note_missing(work(2))
+         attempt%step = min(1.0_wp, farthest)
+      end function moves_on
 
       !> The energy released from NOW to NEXT, by the trapezoidal rule on the WORK of the unbalanced forces there and between.
       real(wp) function released_energy(work) result(released)
@@ -210,16 +237,46 @@ contains
       !> The limits do not bear the load: the WORK of the unbalanced forces does not vanish however far the body moves.
       subroutine note_missing(work)
          real(wp), intent(in) :: work
-         real(wp) :: asked
+         real(wp) :: asked, farthest_way, way
+         integer  :: i
 
-         attempt%runs = .true.
          asked = sum(attempt%asked*direction, mask=.not. analysis%held)
-         attempt%bearable = max(0.0_wp, min(1.0_wp, 1.0_wp - work/max(asked, work)))
-         if (attempt%missing <= 0.0_wp) attempt%missing = (work + attempt%left*sum(analysis%change*direction, &
-                                                mask=.not. analysis%held))/max(maxval(abs(direction)), tiny(1.0_wp))
+         if (work < asked) attempt%bearable = min(attempt%bearable, 1.0_wp - work/asked)
+         attempt%missing = (work + attempt%left*sum(analysis%change*direction, mask=.not. analysis%held))/maxval(abs(direction))
+         farthest_way = 0.0_wp
+         do i = 1, size(system%interface)
+            way = norm2(joint_movement(system%interface(i), direction))
+            if (way > farthest_way) attempt%leaves = model%joints%element(i)%joint
+            farthest_way = max(farthest_way, way)
+         end do
       end subroutine note_missing
 
    end subroutine minimise
+
+   !> The step along DIRECTION at which an interface element has moved by the width of the largest joint: no body finds hold beyond it.
+   pure real(wp) function step_off_the_joint(model, system, direction) result(step)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: direction(:, :) !! (dimension, retained) [length]
+      real(wp) :: width
+      integer  :: i
+
+      step = huge(1.0_wp)
+      width = joint_width(model)
+      if (.not. width > 0.0_wp) return
+      do i = 1, size(system%interface)
+         associate (way => norm2(joint_movement(system%interface(i), direction)))
+            if (way*step > width) step = width/way
+         end associate
+      end do
+   end function step_off_the_joint
+
+   !> Twice the distance of the farthest interface element from the centroid of its joint [length].
+   pure real(wp) function joint_width(model)
+      type(model_type), intent(in) :: model
+
+      joint_width = 2.0_wp*maxval(model%joints%list%frame%extent)
+   end function joint_width
 
    !> Whether an iteration of the exact laws from NOW to NEXT does not converge. New limits at NOW follow then.
    logical function falls_back(model, system, analysis, attempt, now, next)
@@ -252,7 +309,7 @@ contains
 
       attempt%ends = attempt%ends .or. attempt%runs .or. attempt%iteration - attempt%since > patience .or. &
                      attempt%n_returns > most_returns
-      width = 2.0_wp*maxval(model%joints%list%frame%extent)
+      width = joint_width(model)
       if (attempt%ends .or. .not. (allocated(attempt%seen) .and. width > 0.0_wp)) return
       do i = 1, size(system%interface)
          if (norm2(joint_movement(system%interface(i), now%u) - analysis%movement(:, i)) <= width) cycle

@@ -32,7 +32,14 @@ module newton_method
    integer, parameter  :: most_of_path = 10000    ! iterations in all parts of an increment: 1 + 2 + ... + 64 equal ones have fewer
    integer, parameter  :: most_of_increment = 2000 ! likewise in an increment of INCR: it is given up
    real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
-   integer, parameter  :: most_cuts = 3           ! to the share of a load that the limits seem to bear, without one that they bear
+   integer, parameter  :: most_cuts = 5           ! to the share of a load that the limits seem to bear, without one that they bear
+   integer, parameter  :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4 ! ways of an attempt
+   real(wp), parameter :: just_below = 0.999_wp   ! of the limit: an answer that shows it to three digits
+   real(wp), parameter :: below_limit = 0.9_wp   ! of this share: so near to their limit joints do not yet slip everywhere
+   real(wp), parameter :: above_limit = 1.05_wp   ! of it
+   real(wp), parameter :: agreement = 0.08_wp     ! of the limit: estimates of it that differ by less are one
+   real(wp), parameter :: near_limit = 0.03_wp    ! of the load borne so far: where so much more is too much, the limit is found
+   real(wp), parameter :: least_cut = 0.1_wp      ! of a part: a cut leaves at least this, as limits may grow with the load
 
    interface
       !> Go from equilibrium to equilibrium along the path, see path_following.
@@ -248,7 +255,7 @@ contains
       real(wp), intent(in)                 :: ends(2) !! done before and after [-], 0 to 1
       real(wp), intent(in), optional       :: guess(:, :) !! (dimension, retained) displacements at the end [length]
       type(analysis_type), allocatable :: whole
-      real(wp) :: done, left, part
+      real(wp) :: done, last_limit, left, limit, part
       integer  :: n_cut
 
       if (present(guess)) then
@@ -261,6 +268,8 @@ contains
       done = ends(1)
       part = ends(2) - ends(1)
       n_cut = 0
+      limit = ends(2)
+      attempt%only = 0
       do while (done < ends(2))
          part = min(part, ends(2) - done)
          left = 1.0_wp - ends(2)
@@ -269,19 +278,36 @@ contains
          if (attempt%converged) then
             done = done + part
             part = 2.0_wp*part
+            if (n_cut > 0) attempt%only = sticking
+            if (attempt%only > 0) part = max(above_limit*limit - done, near_limit*done)
             n_cut = 0
             analysis%record%n_parts = analysis%record%n_parts + 1
-         else if (merge(attempt%bearable*part > least_share .and. n_cut < most_cuts, part > 0.5_wp**most_halvings, &
-                        attempt%runs)) then
+         else if (attempt%n_moving > 0) then
+            last_limit = limit
+            limit = done + attempt%bearable*part
+            if (n_cut == most_cuts .or. part <= least_share .or. (done > ends(1) .and. &
+                (abs(limit - last_limit) <= agreement*(limit - ends(1)) .or. part <= near_limit*(done - ends(1))))) then
+               call approach_limit(model, system, analysis, attempt, just_below*min(limit, last_limit), done)
+               attempt%left_over = 1.0_wp - done
+               return
+            end if
             n_cut = n_cut + 1
             if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
-            part = part*merge(0.999_wp*attempt%bearable, 0.5_wp, attempt%runs)
+            if (done > ends(1)) attempt%only = sticking
+            part = part*merge(0.5_wp, 1.0_wp, n_cut > 1)
+            part = max(below_limit*(min(limit, done + part) - ends(1)) + ends(1) - done, near_limit*(done - ends(1)), &
+                       least_cut*part)
+         else if (part > 0.5_wp**most_halvings) then
+            if (.not. allocated(whole)) allocate (whole, source=analysis)
+            part = 0.5_wp*part
+            attempt%only = 0
          else
             attempt%left_over = 1.0_wp - done
             return
          end if
       end do
       if (.not. allocated(whole)) return
+      attempt%only = 0
       whole%record = analysis%record
       whole%tolerance = analysis%tolerance
       call try_part(model, system, whole, 1.0_wp - ends(2), attempt, analysis%u)
@@ -294,6 +320,25 @@ contains
       end if
    end subroutine reach
 
+   !> Go on from the share DONE of the increment to the share SHARE, just below the limit, if straight laws lead there.
+   subroutine approach_limit(model, system, analysis, attempt, share, done)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      type(analysis_type), intent(inout)    :: analysis
+      type(attempt_type), intent(in)        :: attempt !! that found the limit
+      real(wp), intent(in)                  :: share   !! [-]
+      real(wp), intent(inout)               :: done    !! [-]
+      type(attempt_type), allocatable :: last
+
+      if (share <= done) return
+      allocate (last, source=attempt)
+      last%only = straight
+      call try_part(model, system, analysis, 1.0_wp - share, last)
+      if (.not. last%converged) return
+      analysis%record%n_parts = analysis%record%n_parts + 1
+      done = share
+   end subroutine approach_limit
+
    !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
    !! extrapolated last increment if this one continues it, otherwise from the committed state. If they do not lead quickly to
    !! equilibrium, the attempt is repeated with given limits of friction: from the best trial of the straight laws if this has left
@@ -305,7 +350,6 @@ contains
       real(wp), intent(in)                  :: left
       type(attempt_type), intent(inout)     :: attempt
       real(wp), intent(in), optional        :: from(:, :) !! (dimension, retained) initial displacements, supports moved [length]
-      integer, parameter :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4
       type(failure_type) :: none
       real(wp), allocatable :: u(:, :)
       real(wp) :: first
@@ -324,6 +368,7 @@ contains
          return
       end if
       do way = merge(extrapolated, straight, attempt%growth > 0.0_wp), sticking
+         if (attempt%only > 0 .and. way /= attempt%only) cycle
          if (way == from_best .and. .not. attempt%least < promising*first) cycle
          if (way /= extrapolated) attempt%growth = 0.0_wp
          attempt%moves = analysis%moves
@@ -342,7 +387,7 @@ contains
          if (present(from)) u = from
          if (way == from_best) u = attempt%best
          call iterate(model, system, analysis, attempt, u)
-         if (attempt%converged .or. (way == from_best .and. attempt%runs)) exit
+         if (attempt%converged) exit
          if (way == straight) first = attempt%sizes(0)
          if (allocated(u)) deallocate (u)
       end do
