@@ -49,6 +49,7 @@ contains
       attempt%n_returns = 0
       attempt%runs = .false.
       attempt%n_moving = 0
+      attempt%n_still = 0
       attempt%leaves = 0
       attempt%bearable = 1.0_wp
       attempt%asked = attempt%load - analysis%body
@@ -150,7 +151,7 @@ contains
       high = [-1.0_wp, 0.0_wp]
       farthest = step_off_the_joint(model, system, direction)
       if (moves_on()) attempt%n_moving = attempt%n_moving + 1
-      attempt%runs = attempt%n_moving >= merge(1, 2, attempt%only > 0)
+      attempt%runs = attempt%n_moving >= merge(1, 2, attempt%is_limited)
       if (attempt%runs) return
       attempt%step = min(1.0_wp, farthest)
       do i = 1, most_trials
@@ -237,11 +238,13 @@ contains
       !> The limits do not bear the load: the WORK of the unbalanced forces does not vanish however far the body moves.
       subroutine note_missing(work)
          real(wp), intent(in) :: work
-         real(wp) :: asked, farthest_way, way
+         real(wp) :: asked, bearable, farthest_way, way
          integer  :: i
 
          asked = sum(attempt%asked*direction, mask=.not. analysis%held)
-         if (work < asked) attempt%bearable = min(attempt%bearable, 1.0_wp - work/asked)
+         bearable = max(0.0_wp, 1.0_wp - work/max(asked, work))
+         if (attempt%n_moving > 0 .and. bearable >= attempt%bearable) return
+         attempt%bearable = bearable
          attempt%missing = (work + attempt%left*sum(analysis%change*direction, mask=.not. analysis%held))/maxval(abs(direction))
          farthest_way = 0.0_wp
          do i = 1, size(system%interface)
@@ -307,8 +310,8 @@ contains
       real(wp) :: width
       integer  :: i
 
-      attempt%ends = attempt%ends .or. attempt%runs .or. attempt%iteration - attempt%since > patience .or. &
-                     attempt%n_returns > most_returns
+      attempt%ends = attempt%ends .or. attempt%runs .or. attempt%n_still > 1 .or. &
+                     attempt%iteration - attempt%since > patience .or. attempt%n_returns > most_returns
       width = joint_width(model)
       if (attempt%ends .or. .not. (allocated(attempt%seen) .and. width > 0.0_wp)) return
       do i = 1, size(system%interface)

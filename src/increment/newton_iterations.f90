@@ -133,6 +133,7 @@ contains
 
       if (allocated(attempt%seen) .and. .not. attempt%moves) then
          call minimise(model, system, analysis, attempt, now, direction, next)
+         attempt%n_still = merge(0, attempt%n_still + 1, attempt%step > 0.0_wp)
          return
       end if
       if (searches .and. .not. attempt%moves) then

@@ -34,8 +34,9 @@ module newton_method
    real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
    integer, parameter  :: most_cuts = 5           ! to the share of a load that the limits seem to bear, without one that they bear
    integer, parameter  :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4 ! ways of an attempt
+   integer, parameter  :: most_before_limit = 45  ! iterations after which a limit is not approached
    real(wp), parameter :: just_below = 0.999_wp   ! of the limit: an answer that shows it to three digits
-   real(wp), parameter :: below_limit = 0.9_wp   ! of this share: so near to their limit joints do not yet slip everywhere
+   real(wp), parameter :: below_limit = 0.85_wp  ! of this share: so near to their limit joints do not yet slip everywhere
    real(wp), parameter :: above_limit = 1.05_wp   ! of it
    real(wp), parameter :: agreement = 0.08_wp     ! of the limit: estimates of it that differ by less are one
    real(wp), parameter :: near_limit = 0.03_wp    ! of the load borne so far: where so much more is too much, the limit is found
@@ -255,8 +256,9 @@ contains
       real(wp), intent(in)                 :: ends(2) !! done before and after [-], 0 to 1
       real(wp), intent(in), optional       :: guess(:, :) !! (dimension, retained) displacements at the end [length]
       type(analysis_type), allocatable :: whole
-      real(wp) :: done, last_limit, left, limit, part
+      real(wp) :: done, left, limit, missing, part
       integer  :: n_cut
+      logical  :: agrees
 
       if (present(guess)) then
          call try_part(model, system, analysis, 1.0_wp - ends(2), attempt, guess)
@@ -268,7 +270,9 @@ contains
       done = ends(1)
       part = ends(2) - ends(1)
       n_cut = 0
-      limit = ends(2)
+      limit = -1.0_wp
+      missing = 0.0_wp
+      attempt%is_limited = .false.
       attempt%only = 0
       do while (done < ends(2))
          part = min(part, ends(2) - done)
@@ -277,37 +281,36 @@ contains
          call try_part(model, system, analysis, left, attempt)
          if (attempt%converged) then
             done = done + part
-            part = 2.0_wp*part
-            if (n_cut > 0) attempt%only = sticking
-            if (attempt%only > 0) part = max(above_limit*limit - done, near_limit*done)
+            part = merge(max(above_limit*limit - done, near_limit*done), 2.0_wp*part, attempt%is_limited)
             n_cut = 0
             analysis%record%n_parts = analysis%record%n_parts + 1
-         else if (attempt%n_moving > 0) then
-            last_limit = limit
-            limit = done + attempt%bearable*part
-            if (n_cut == most_cuts .or. part <= least_share .or. (done > ends(1) .and. &
-                (abs(limit - last_limit) <= agreement*(limit - ends(1)) .or. part <= near_limit*(done - ends(1))))) then
-               call approach_limit(model, system, analysis, attempt, just_below*min(limit, last_limit), done)
+         else if (attempt%runs .or. attempt%n_moving > 0) then
+            agrees = done > ends(1) .and. abs(limit - done - attempt%bearable*part) <= agreement*(limit - ends(1))
+            if (n_cut == most_cuts .or. agrees .or. part <= max(least_share, near_limit*(done - ends(1)))) then
+               if (agrees) attempt%missing = missing
+               limit = min(limit, done + attempt%bearable*part)
+               call approach_limit(model, system, analysis, attempt, just_below*limit, done)
                attempt%left_over = 1.0_wp - done
                return
             end if
+            limit = done + attempt%bearable*part
+            missing = attempt%missing
             n_cut = n_cut + 1
             if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
-            if (done > ends(1)) attempt%only = sticking
+            attempt%is_limited = .true.
             part = part*merge(0.5_wp, 1.0_wp, n_cut > 1)
             part = max(below_limit*(min(limit, done + part) - ends(1)) + ends(1) - done, near_limit*(done - ends(1)), &
                        least_cut*part)
          else if (part > 0.5_wp**most_halvings) then
             if (.not. allocated(whole)) allocate (whole, source=analysis)
             part = 0.5_wp*part
-            attempt%only = 0
          else
             attempt%left_over = 1.0_wp - done
             return
          end if
       end do
       if (.not. allocated(whole)) return
-      attempt%only = 0
+      attempt%is_limited = .false.
       whole%record = analysis%record
       whole%tolerance = analysis%tolerance
       call try_part(model, system, whole, 1.0_wp - ends(2), attempt, analysis%u)
@@ -330,7 +333,7 @@ contains
       real(wp), intent(inout)               :: done    !! [-]
       type(attempt_type), allocatable :: last
 
-      if (share <= done) return
+      if (share <= done .or. analysis%record%n_iterations > most_before_limit) return
       allocate (last, source=attempt)
       last%only = straight
       call try_part(model, system, analysis, 1.0_wp - share, last)
