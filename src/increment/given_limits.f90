@@ -28,7 +28,10 @@ module given_limits
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
    real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave
    integer, parameter  :: most_flat = 4        ! such trials, one behind the other
-   real(wp), parameter :: hardly_falls = 0.97_wp ! of the work
+   ! a body that moves on, in widths of the largest joint
+   real(wp), parameter :: near_by = 1.0e-3_wp, farther_off = 1.0e-2_wp ! movements between which
+   real(wp), parameter :: hardly_falls = 0.97_wp ! of the work is left
+   integer, parameter  :: most_moving = 2      ! such directions; one where given limits have not borne a part of the increment before
    integer, parameter  :: most_trials = 20     ! of a line search
    integer, parameter  :: patience = 40        ! iterations in which a problem is solved
    integer, parameter  :: most_returns = 10    ! of the exact laws: their limits have no equilibrium in common
@@ -127,7 +130,7 @@ contains
    !> The step along DIRECTION from NOW to NEXT at which the energy under the given limits is (almost) least: where the work of the
    !! unbalanced forces on DIRECTION, which falls all the way, has fallen to CLOSE of the first. A full step that goes beyond is taken
    !! too where the energy rises by no more than the last step has released: a step that ends at the first kinks goes too short a way.
-   !! Where the work has not fallen after many extensions, the body moves without end.
+   !! Where the work hardly falls over the size of a joint, or after many extensions, the body moves on.
    !! Source: Grippo, Lampariello, Lucidi, SIAM J. Numer. Anal. 23 (1986) 707-716, with a memory of one step.
    subroutine minimise(model, system, analysis, attempt, now, direction, next)
       type(model_type), intent(in)       :: model
@@ -151,7 +154,7 @@ contains
       high = [-1.0_wp, 0.0_wp]
       farthest = step_off_the_joint(model, system, direction)
       if (moves_on()) attempt%n_moving = attempt%n_moving + 1
-      attempt%runs = attempt%n_moving >= merge(1, 2, attempt%is_limited)
+      attempt%runs = attempt%n_moving >= merge(1, most_moving, attempt%is_limited)
       if (attempt%runs) return
       attempt%step = min(1.0_wp, farthest)
       do i = 1, most_trials
@@ -191,6 +194,7 @@ contains
       if (first > 0.0_wp) then
          attempt%runs = high(1) < 0.0_wp
          if (attempt%runs) call note_missing(low(2))
+         if (attempt%runs) attempt%n_moving = attempt%n_moving + 1
          return
       end if
       next = now ! the energy does not fall along this direction
@@ -198,24 +202,24 @@ contains
 
    contains
 
-      !> Whether the body moves on along DIRECTION: from a thousandth to a hundredth of the way off its joint the work hardly falls.
+      !> Whether the body moves on along DIRECTION: the work falls so little that it would last over a third of the width of a joint.
       logical function moves_on()
          real(wp) :: work(2)
          integer  :: k
 
          moves_on = .false.
-         if (farthest > 100.0_wp .or. .not. first > 0.0_wp) return
+         if (farther_off*farthest > 1.0_wp .or. .not. first > 0.0_wp) return
          do k = 1, 2
-            attempt%step = 1.0e-4_wp*10.0_wp**k*farthest
+            attempt%step = merge(near_by, farther_off, k == 1)*farthest
             next%u = now%u + attempt%step*direction
             next%body = now%body + attempt%step*body
             call evaluate(model, system, attempt, analysis, next)
             if (.not. next%size < huge(1.0_wp)) return
             work(k) = sum(next%residual*direction, mask=.not. analysis%held)
          end do
-         moves_on = work(1) > 0.0_wp .and. work(2) > hardly_falls*work(1) .and. sum(attempt%asked*direction) > 0.0_wp
+         moves_on = work(1) > 0.0_wp .and. work(2) > hardly_falls*work(1) .and. &
+                    sum(attempt%asked*direction, mask=.not. analysis%held) > 0.0_wp
          if (moves_on) call note_missing(work(2))
-         attempt%step = min(1.0_wp, farthest)
       end function moves_on
 
       !> The energy released from NOW to NEXT, by the trapezoidal rule on the WORK of the unbalanced forces there and between.
@@ -235,10 +239,12 @@ contains
          released = attempt%step*released/n
       end function released_energy
 
-      !> The limits do not bear the load: the WORK of the unbalanced forces does not vanish however far the body moves.
+      !> The limits do not bear the load: the WORK of the unbalanced forces does not vanish however far the body moves. Of the
+      !! directions the one along which they bear least counts. Source: upper bound theorem of limit analysis, Prager, Hodge, Theory of
+      !! Perfectly Plastic Solids, Wiley 1951.
       subroutine note_missing(work)
          real(wp), intent(in) :: work
-         real(wp) :: asked, bearable, farthest_way, way
+         real(wp) :: asked, bearable
          integer  :: i
 
          asked = sum(attempt%asked*direction, mask=.not. analysis%held)
@@ -246,12 +252,8 @@ contains
          if (attempt%n_moving > 0 .and. bearable >= attempt%bearable) return
          attempt%bearable = bearable
          attempt%missing = (work + attempt%left*sum(analysis%change*direction, mask=.not. analysis%held))/maxval(abs(direction))
-         farthest_way = 0.0_wp
-         do i = 1, size(system%interface)
-            way = norm2(joint_movement(system%interface(i), direction))
-            if (way > farthest_way) attempt%leaves = model%joints%element(i)%joint
-            farthest_way = max(farthest_way, way)
-         end do
+         i = maxloc([(norm2(joint_movement(system%interface(i), direction)), i = 1, size(system%interface))], dim=1)
+         attempt%leaves = model%joints%element(i)%joint
       end subroutine note_missing
 
    end subroutine minimise
