@@ -3,7 +3,8 @@
 !! limits of friction a line search follows the direction of an iteration.
 module newton_iterations
    use analysis_state, only: analysis_type, force_noise, free_norm, iteration_record, record_iteration
-   use equations, only: equation_system, forces_in_bodies, solve_coupled_again, solve_equations
+   use coupled_equations, only: solve_coupled_again
+   use equations, only: equation_system, forces_in_bodies, solve_equations
    use given_limits, only: falls_back, give_first_limits, is_exact, judge_limits, minimise, renew_limits, take_exact_laws
    use kinds, only: wp
    use load_path, only: support_force
