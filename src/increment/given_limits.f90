@@ -217,8 +217,8 @@ contains
             if (.not. next%size < huge(1.0_wp)) return
             work(k) = sum(next%residual*direction, mask=.not. analysis%held)
          end do
-         moves_on = work(1) > 0.0_wp .and. work(2) > hardly_falls*work(1) .and. &
-                    sum(attempt%asked*direction, mask=.not. analysis%held) > 0.0_wp
+         moves_on = work(1) > 0.0_wp .and. work(2) > hardly_falls*work(1) .and. & ! and by the load that the part adds
+                    work(2) < sum(attempt%asked*direction, mask=.not. analysis%held)
          if (moves_on) call note_missing(work(2))
       end function moves_on
 
