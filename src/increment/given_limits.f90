@@ -15,7 +15,7 @@ module given_limits
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate, trial_type
    use normal_stiffness, only: branch_load, branch_open
-   use tolerances, only: pressure_floor, same_work
+   use tolerances, only: farther_off, near_by, pressure_floor, same_work
    implicit none
    private
 
@@ -28,9 +28,7 @@ module given_limits
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
    real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave
    integer, parameter  :: most_flat = 4        ! such trials, one behind the other
-   ! a body that moves on, in widths of the largest joint
-   real(wp), parameter :: near_by = 1.0e-3_wp, farther_off = 1.0e-2_wp ! movements between which
-   real(wp), parameter :: hardly_falls = 0.97_wp ! of the work is left
+   real(wp), parameter :: hardly_falls = 0.97_wp ! of the work is left from NEAR_BY to FARTHER_OFF: a body moves on
    integer, parameter  :: most_moving = 2      ! such directions; one where given limits have not borne a part of the increment before
    integer, parameter  :: most_trials = 20     ! of a line search
    integer, parameter  :: patience = 40        ! iterations in which a problem is solved
