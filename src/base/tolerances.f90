@@ -112,6 +112,8 @@ module tolerances
    real(wp), parameter :: least_rho = 1.0e-3_wp      !! of the first rho: a softer straight law gains nothing
    real(wp), parameter :: stand_in_stiffness = 1.0e-7_wp !! of the elastic stiffness: of an element that has none, to hold its body
    real(wp), parameter :: same_work = 1.0e-3_wp      !! of the work of the last trial: what falls less in a tenfold step does not fall
+   real(wp), parameter :: near_by = 1.0e-3_wp        !! of the width of the largest joint: far more than elastic slip
+   real(wp), parameter :: farther_off = 1.0e-2_wp    !! of it: a body that still moves on; the rest of the way is extrapolated
    real(wp), parameter :: shortest_step = 1.0e-6_wp  !! of a direction that leads far away: the step is not shortened below it
    real(wp), parameter :: least_share = 1.0e-3_wp    !! of an increment: limits of friction that bear less of it are at their end
    real(wp), parameter :: on_the_path = 1.0e-4_wp    !! of the residual of the first guess: left at a state of the path, far below PATHTOL

@@ -10,7 +10,7 @@ module mode_rows
    use measured_data, only: a_frequency, a_loss, a_phase, an_amplitude, measured_row, measured_type
    use mode_span, only: stage_modes
    use model_data, only: model_type
-   use natural_modes, only: oscillating_type
+   use oscillating_structure, only: oscillating_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text
    use tolerances, only: close_modes, least_mac

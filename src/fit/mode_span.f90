@@ -18,7 +18,8 @@ module mode_span
    use kinds, only: wp
    use mass_matrix, only: mass_matrix_type, mass_times
    use model_data, only: model_type, n_bars, n_sections
-   use natural_modes, only: oscillating_type, spectrum_type
+   use natural_modes, only: spectrum_type
+   use oscillating_structure, only: oscillating_type
    use structural_elements, only: add_bar_forces
    use tolerances, only: barely_held, in_the_span
    implicit none

@@ -15,7 +15,7 @@ module given_limits
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate, trial_type
    use normal_stiffness, only: branch_load, branch_open
-   use tolerances, only: pressure_floor, same_work
+   use tolerances, only: farther_off, near_by, pressure_floor, same_work
    implicit none
    private
 
@@ -28,6 +28,8 @@ module given_limits
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
    real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave
    integer, parameter  :: most_flat = 4        ! such trials, one behind the other
+   real(wp), parameter :: hardly_falls = 0.97_wp ! of the work is left from NEAR_BY to FARTHER_OFF: a body moves on
+   integer, parameter  :: most_moving = 2      ! such directions; one where given limits have not borne a part of the increment before
    integer, parameter  :: most_trials = 20     ! of a line search
    integer, parameter  :: patience = 40        ! iterations in which a problem is solved
    integer, parameter  :: most_returns = 10    ! of the exact laws: their limits have no equilibrium in common
@@ -47,6 +49,8 @@ contains
       attempt%n_limits = 0
       attempt%n_returns = 0
       attempt%runs = .false.
+      attempt%n_moving = 0
+      attempt%n_still = 0
       attempt%leaves = 0
       attempt%bearable = 1.0_wp
       attempt%asked = attempt%load - analysis%body
@@ -124,7 +128,7 @@ contains
    !> The step along DIRECTION from NOW to NEXT at which the energy under the given limits is (almost) least: where the work of the
    !! unbalanced forces on DIRECTION, which falls all the way, has fallen to CLOSE of the first. A full step that goes beyond is taken
    !! too where the energy rises by no more than the last step has released: a step that ends at the first kinks goes too short a way.
-   !! Where the work has not fallen after many extensions, the body moves without end.
+   !! Where the work hardly falls over the size of a joint, or after many extensions, the body moves on.
    !! Source: Grippo, Lampariello, Lucidi, SIAM J. Numer. Anal. 23 (1986) 707-716, with a memory of one step.
    subroutine minimise(model, system, analysis, attempt, now, direction, next)
       type(model_type), intent(in)       :: model
@@ -136,7 +140,7 @@ contains
       type(trial_type), intent(inout)    :: next
       type(trial_type), allocatable :: there
       real(wp), allocatable :: body(:, :)
-      real(wp) :: first, released, work, low(2), high(2) ! steps and the works there
+      real(wp) :: farthest, first, released, work, low(2), high(2) ! steps and the works there
       integer  :: flat, i
       logical  :: is_least
 
@@ -146,7 +150,11 @@ contains
       first = sum(now%residual*direction, mask=.not. analysis%held)
       low = [0.0_wp, first]
       high = [-1.0_wp, 0.0_wp]
-      attempt%step = 1.0_wp
+      farthest = step_off_the_joint(model, system, direction)
+      if (moves_on()) attempt%n_moving = attempt%n_moving + 1
+      attempt%runs = attempt%n_moving >= merge(1, most_moving, attempt%is_limited)
+      if (attempt%runs) return
+      attempt%step = min(1.0_wp, farthest)
       do i = 1, most_trials
          next%u = now%u + attempt%step*direction
          next%body = now%body + attempt%step*body
@@ -165,14 +173,14 @@ contains
          if (work > 0.0_wp) then
             flat = merge(flat + 1, 0, work > (1.0_wp - same_work)*low(2))
             low = [attempt%step, work]
-            if (flat == most_flat .and. high(1) < 0.0_wp) exit
+            if (high(1) < 0.0_wp .and. (flat == most_flat .or. attempt%step >= farthest)) exit
          else
             high = [attempt%step, work]
          end if
          if (high(1) < 0.0_wp) then ! beyond it
             attempt%step = longest*low(1)
             if (work < first) attempt%step = min(attempt%step, low(1)*first/(first - work))
-            attempt%step = max(attempt%step, 2.0_wp*low(1))
+            attempt%step = min(max(attempt%step, 2.0_wp*low(1)), farthest)
          else
             attempt%step = (low(1)*high(2) - high(1)*low(2))/(high(2) - low(2))
             associate (margin => 0.1_wp*(high(1) - low(1)))
@@ -182,13 +190,35 @@ contains
       end do
       attempt%released = 0.0_wp
       if (first > 0.0_wp) then
-         if (high(1) < 0.0_wp) call note_missing(low(2))
+         attempt%runs = high(1) < 0.0_wp
+         if (attempt%runs) call note_missing(low(2))
+         if (attempt%runs) attempt%n_moving = attempt%n_moving + 1
          return
       end if
       next = now ! the energy does not fall along this direction
       attempt%step = 0.0_wp
 
    contains
+
+      !> Whether the body moves on along DIRECTION: the work falls so little that it would last over a third of the width of a joint.
+      logical function moves_on()
+         real(wp) :: work(2)
+         integer  :: k
+
+         moves_on = .false.
+         if (farther_off*farthest > 1.0_wp .or. .not. first > 0.0_wp) return
+         do k = 1, 2
+            attempt%step = merge(near_by, farther_off, k == 1)*farthest
+            next%u = now%u + attempt%step*direction
+            next%body = now%body + attempt%step*body
+            call evaluate(model, system, attempt, analysis, next)
+            if (.not. next%size < huge(1.0_wp)) return
+            work(k) = sum(next%residual*direction, mask=.not. analysis%held)
+         end do
+         moves_on = work(1) > 0.0_wp .and. work(2) > hardly_falls*work(1) .and. & ! and by the load that the part adds
+                    work(2) < sum(attempt%asked*direction, mask=.not. analysis%held)
+         if (moves_on) call note_missing(work(2))
+      end function moves_on
 
       !> The energy released from NOW to NEXT, by the trapezoidal rule on the WORK of the unbalanced forces there and between.
       real(wp) function released_energy(work) result(released)
@@ -207,19 +237,49 @@ contains
          released = attempt%step*released/n
       end function released_energy
 
-      !> The limits do not bear the load: the WORK of the unbalanced forces does not vanish however far the body moves.
+      !> The limits do not bear the load: the WORK of the unbalanced forces does not vanish however far the body moves. Of the
+      !! directions the one along which they bear least counts. Source: upper bound theorem of limit analysis, Prager, Hodge, Theory of
+      !! Perfectly Plastic Solids, Wiley 1951.
       subroutine note_missing(work)
          real(wp), intent(in) :: work
-         real(wp) :: asked
+         real(wp) :: asked, bearable
+         integer  :: i
 
-         attempt%runs = .true.
          asked = sum(attempt%asked*direction, mask=.not. analysis%held)
-         attempt%bearable = max(0.0_wp, min(1.0_wp, 1.0_wp - work/max(asked, work)))
-         if (attempt%missing <= 0.0_wp) attempt%missing = (work + attempt%left*sum(analysis%change*direction, &
-                                                mask=.not. analysis%held))/max(maxval(abs(direction)), tiny(1.0_wp))
+         bearable = max(0.0_wp, 1.0_wp - work/max(asked, work))
+         if (attempt%n_moving > 0 .and. bearable >= attempt%bearable) return
+         attempt%bearable = bearable
+         attempt%missing = (work + attempt%left*sum(analysis%change*direction, mask=.not. analysis%held))/maxval(abs(direction))
+         i = maxloc([(norm2(joint_movement(system%interface(i), direction)), i = 1, size(system%interface))], dim=1)
+         attempt%leaves = model%joints%element(i)%joint
       end subroutine note_missing
 
    end subroutine minimise
+
+   !> The step along DIRECTION at which an interface element has moved by the width of the largest joint: no body finds hold beyond it.
+   pure real(wp) function step_off_the_joint(model, system, direction) result(step)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: direction(:, :) !! (dimension, retained) [length]
+      real(wp) :: width
+      integer  :: i
+
+      step = huge(1.0_wp)
+      width = joint_width(model)
+      if (.not. width > 0.0_wp) return
+      do i = 1, size(system%interface)
+         associate (way => norm2(joint_movement(system%interface(i), direction)))
+            if (way*step > width) step = width/way
+         end associate
+      end do
+   end function step_off_the_joint
+
+   !> Twice the distance of the farthest interface element from the centroid of its joint [length].
+   pure real(wp) function joint_width(model)
+      type(model_type), intent(in) :: model
+
+      joint_width = 2.0_wp*maxval(model%joints%list%frame%extent)
+   end function joint_width
 
    !> Whether an iteration of the exact laws from NOW to NEXT does not converge. New limits at NOW follow then.
    logical function falls_back(model, system, analysis, attempt, now, next)
@@ -250,9 +310,9 @@ contains
       real(wp) :: width
       integer  :: i
 
-      attempt%ends = attempt%ends .or. attempt%runs .or. attempt%iteration - attempt%since > patience .or. &
-                     attempt%n_returns > most_returns
-      width = 2.0_wp*maxval(model%joints%list%frame%extent)
+      attempt%ends = attempt%ends .or. attempt%runs .or. attempt%n_still > 1 .or. &
+                     attempt%iteration - attempt%since > patience .or. attempt%n_returns > most_returns
+      width = joint_width(model)
       if (attempt%ends .or. .not. (allocated(attempt%seen) .and. width > 0.0_wp)) return
       do i = 1, size(system%interface)
          if (norm2(joint_movement(system%interface(i), now%u) - analysis%movement(:, i)) <= width) cycle

@@ -3,7 +3,8 @@
 !! limits of friction a line search follows the direction of an iteration.
 module newton_iterations
    use analysis_state, only: analysis_type, force_noise, free_norm, iteration_record, record_iteration
-   use equations, only: equation_system, forces_in_bodies, solve_coupled_again, solve_equations
+   use coupled_equations, only: solve_coupled_again
+   use equations, only: equation_system, forces_in_bodies, solve_equations
    use given_limits, only: falls_back, give_first_limits, is_exact, judge_limits, minimise, renew_limits, take_exact_laws
    use kinds, only: wp
    use load_path, only: support_force
@@ -133,6 +134,7 @@ contains
 
       if (allocated(attempt%seen) .and. .not. attempt%moves) then
          call minimise(model, system, analysis, attempt, now, direction, next)
+         attempt%n_still = merge(0, attempt%n_still + 1, attempt%step > 0.0_wp)
          return
       end if
       if (searches .and. .not. attempt%moves) then

@@ -6,11 +6,12 @@ module newton_method
    use analysis_state, only: all_held, analysis_type, free_norm, path_error_type
    use equations, only: equation_system, form_structure_stiffness
    use equation_solver, only: failure_type
+   use increment_parts, only: is_given_up, reach
    use joint_laws, only: element_state, is_apart, stiffness_at_rest, stiffness_matrices
    use kinds, only: wp
    use load_path, only: go_back
    use model_data, only: joint_node_id, model_type
-   use newton_iterations, only: idle, iterate
+   use newton_iterations, only: idle
    use newton_trial, only: attempt_type
    use node_coupling, only: forces_on_unknowns
    use normal_stiffness, only: at_rest, branch_name, branch_open
@@ -18,21 +19,14 @@ module newton_method
    use shear_stiffness, only: shear_state
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, one_of, real_text
-   use tolerances, only: least_share
    use unknowns, only: unknown_name
    implicit none
    private
 
    public :: newton_increment, seat_joints, crosses_gaps, close_gaps
-   public :: reach ! for path_following
 
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
-   integer, parameter  :: most_halvings = 12
-   integer, parameter  :: most_of_path = 10000    ! iterations in all parts of an increment: 1 + 2 + ... + 64 equal ones have fewer
-   integer, parameter  :: most_of_increment = 2000 ! likewise in an increment of INCR: it is given up
-   real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
-   integer, parameter  :: most_cuts = 3           ! to the share of a load that the limits seem to bear, without one that they bear
 
    interface
       !> Go from equilibrium to equilibrium along the path, see path_following.
@@ -242,124 +236,6 @@ contains
       end if
    end subroutine find_equilibrium
 
-   !> Go from equilibrium to equilibrium between ENDS of the increment by ATTEMPTs: commit an attempt that converges, divide one that
-   !! does not. What was divided is repeated as a whole, from its start and the displacements that its parts have reached: the laws
-   !! depend on the path, and rounding decides on the division. If the whole does not converge, the parts stand. With a GUESS
-   !! nothing is divided.
-   subroutine reach(model, analysis, system, attempt, ends, guess)
-      type(model_type), intent(in)         :: model
-      type(analysis_type), intent(inout)   :: analysis
-      class(equation_system), intent(inout) :: system
-      type(attempt_type), intent(inout)    :: attempt
-      real(wp), intent(in)                 :: ends(2) !! done before and after [-], 0 to 1
-      real(wp), intent(in), optional       :: guess(:, :) !! (dimension, retained) displacements at the end [length]
-      type(analysis_type), allocatable :: whole
-      real(wp) :: done, left, part
-      integer  :: n_cut
-
-      if (present(guess)) then
-         call try_part(model, system, analysis, 1.0_wp - ends(2), attempt, guess)
-         if (.not. attempt%converged) call try_part(model, system, analysis, 1.0_wp - ends(2), attempt)
-         if (attempt%converged) analysis%record%n_parts = analysis%record%n_parts + 1
-         return
-      end if
-      done = ends(1)
-      part = ends(2) - ends(1)
-      n_cut = 0
-      do while (done < ends(2))
-         part = min(part, ends(2) - done)
-         left = 1.0_wp - ends(2)
-         if (done + part < ends(2)) left = 1.0_wp - done - part
-         call try_part(model, system, analysis, left, attempt)
-         if (attempt%converged) then
-            done = done + part
-            part = 2.0_wp*part
-            n_cut = 0
-            analysis%record%n_parts = analysis%record%n_parts + 1
-         else if (merge(attempt%bearable*part > least_share .and. n_cut < most_cuts, part > 0.5_wp**most_halvings, &
-                        attempt%runs)) then
-            n_cut = n_cut + 1
-            if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
-            part = part*merge(0.999_wp*attempt%bearable, 0.5_wp, attempt%runs)
-         else
-            attempt%left_over = 1.0_wp - done
-            return
-         end if
-      end do
-      if (.not. allocated(whole)) return
-      whole%record = analysis%record
-      whole%tolerance = analysis%tolerance
-      call try_part(model, system, whole, 1.0_wp - ends(2), attempt, analysis%u)
-      if (attempt%converged) then
-         analysis = whole
-      else
-         attempt%converged = .true.
-         analysis%record = whole%record
-         analysis%record%is_whole = .false.
-      end if
-   end subroutine reach
-
-   !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
-   !! extrapolated last increment if this one continues it, otherwise from the committed state. If they do not lead quickly to
-   !! equilibrium, the attempt is repeated with given limits of friction: from the best trial of the straight laws if this has left
-   !! less than their first, and if that fails too, from a structure in which nothing slips, unless these limits do not bear the load.
-   subroutine try_part(model, system, analysis, left, attempt, from)
-      type(model_type), intent(in)          :: model
-      class(equation_system), intent(inout) :: system
-      type(analysis_type), intent(inout)    :: analysis
-      real(wp), intent(in)                  :: left
-      type(attempt_type), intent(inout)     :: attempt
-      real(wp), intent(in), optional        :: from(:, :) !! (dimension, retained) initial displacements, supports moved [length]
-      integer, parameter :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4
-      type(failure_type) :: none
-      real(wp), allocatable :: u(:, :)
-      real(wp) :: first
-      integer  :: way
-
-      attempt%left = left
-      attempt%load = analysis%now%condensed_load - left*analysis%change
-      if (attempt%seats) analysis%states%normal%gap = merge((1.0_wp - left)*model%joints%element%gap, model%joints%element%gap, &
-                                                            model%joints%element%gap < 0.0_wp)
-      attempt%least = huge(1.0_wp)
-      first = 0.0_wp
-      attempt%converged = .false.
-      if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states)), source=0)
-      if (is_given_up(analysis)) then
-         attempt%trouble = none
-         return
-      end if
-      do way = merge(extrapolated, straight, attempt%growth > 0.0_wp), sticking
-         if (way == from_best .and. .not. attempt%least < promising*first) cycle
-         if (way /= extrapolated) attempt%growth = 0.0_wp
-         attempt%moves = analysis%moves
-         attempt%move = merge(analysis%now%moved(:, system%retained) - left*analysis%move - analysis%u, 0.0_wp, &
-                              system%number(:, system%retained) == 0)
-         attempt%with_limits = way >= from_best
-         attempt%from_best = way == from_best
-         if (allocated(attempt%seen)) deallocate (attempt%seen)
-         attempt%iteration = 0
-         attempt%gain = 1.0_wp
-         attempt%n_slow = 0
-         attempt%flips = 0
-         attempt%largest_noise = 0.0_wp
-         attempt%converged = .false.
-         attempt%trouble = none
-         if (present(from)) u = from
-         if (way == from_best) u = attempt%best
-         call iterate(model, system, analysis, attempt, u)
-         if (attempt%converged .or. (way == from_best .and. attempt%runs)) exit
-         if (way == straight) first = attempt%sizes(0)
-         if (allocated(u)) deallocate (u)
-      end do
-   end subroutine try_part
-
-   !> Whether the increment has taken more iterations than one that ends.
-   pure logical function is_given_up(analysis)
-      type(analysis_type), intent(in) :: analysis
-
-      is_given_up = analysis%record%n_iterations >= merge(most_of_path, most_of_increment, analysis%record%follows_path)
-   end function is_given_up
-
    !> No part of the increment is small enough: report the cause as far as known, and the element with the most changes of branch.
    subroutine give_up(model, analysis, attempt, failure)
       type(model_type), intent(in)      :: model
@@ -375,7 +251,7 @@ contains
       if (max(attempt%loose, attempt%leaves) > 0) then
          associate (joint => model%joints%list(merge(attempt%loose, attempt%leaves, attempt%loose > 0)))
             words = words//': joint '//integer_text(joint%id)// &
-                    one_of(attempt%loose > 0, ' slips or is open at all its nodes', ' moves by more than its size')// &
+                    one_of(attempt%loose > 0, ' slips or is open at all its nodes', ' moves without finding hold')// &
                     ', from node '//integer_text(joint_node_id(model, joint%first, 1))// &
                     ' on, and does not hold the load in the direction of its movement'
             if (attempt%missing > 0.0_wp) words = words//': '//real_text(attempt%missing)//' of force are missing'

@@ -32,6 +32,8 @@ module newton_trial
       logical  :: seats = .false.                 !! interference at rest without load
       real(wp) :: seat_force = 0.0_wp             !! then the reference force: p_av on the pressed elements [force]
       logical  :: with_limits = .false.           !! friction by a sequence of given limits
+      logical  :: is_limited = .false.            !! given limits have not borne a part of the increment
+      integer  :: only = 0                        !! the only way of newton_method that is tried, 0: all
       logical  :: from_best = .false.             !! the first ones are those of BEST; otherwise nothing slips at first
       ! the course of the iterations
       integer  :: iteration = 0
@@ -60,6 +62,8 @@ module newton_trial
       integer  :: since = 0                       !! iteration at which the present ones were given
       real(wp) :: released = 0.0_wp               !! energy that the last step under them has released [force*length]
       real(wp), allocatable :: asked(:, :)        !! the load that the part adds, (dimension, retained) [force]
+      integer  :: n_still = 0                     !! the last steps that released no energy
+      integer  :: n_moving = 0                    !! steps along which a body moved on
       logical  :: runs = .false.                  !! the body moves without end: the limits do not bear the load
       integer  :: leaves = 0                      !! then the joint that has left its place, 0: none
       real(wp) :: bearable = 1.0_wp               !! share of the load of the part that they bear [-]

@@ -8,8 +8,9 @@
 !! is like the whole. The parts are graded then: the pressure grows from part to part by shares of itself.
 module path_error
    use analysis_state, only: analysis_type, free_norm, path_error_type, turning_point
+   use coupled_equations, only: solve_coupled_again
    use equation_solver, only: coupled_tally, failure_type
-   use equations, only: equation_system, solve_by_last_factor, solve_coupled_again
+   use equations, only: equation_system, solve_by_last_factor
    use interface_operator, only: joint_movement
    use joint_laws, only: element_state, follow_element, force_of, rest_when_open
    use joint_work, only: joint_energy

@@ -11,7 +11,8 @@
 !! used on rigid joints by Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375.
 module straight_laws
    use analysis_state, only: analysis_type, free_norm
-   use equations, only: equation_system, form_structure_stiffness, solve_coupled, solve_equations
+   use coupled_equations, only: solve_coupled
+   use equations, only: equation_system, form_structure_stiffness, solve_equations
    use held_parts, only: find_held_parts, is_needed
    use interface_operator, only: add_force, joint_movement
    use joint_laws, only: element_state, force_of, friction_limit, is_apart, joint_law, stiffness_at_rest

@@ -52,6 +52,30 @@ for push in 20.2 30.0 60.0; do
    small_block missing-$push NEWTON 5 100.0 $push 3 && near "5 elements pushed by $push of 20: missing" \
       "$(sed -n 's/.*: \([0-9.E+-]*\) of force are missing.*/\1/p' "$work/missing-$push.log")" "$push - 20" 1e-2
 done
+# Two blocks on each other, pressed by 1000; the upper one slips on the lower one at 150. In one increment: within 60 iterations.
+stacked() { # NAME PUSH STATUS
+   cards "$1" <<END
+METHOD = NEWTON;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 4;  INCR = 1
+BEGIN BULK;BLOCK2,1,1,12,2,0.,0.;+,120.,20.;+,20,,21;BLOCK2,2,1,8,2,20.,20.;+,100.,30.,,,,,101,101;+,22,,23
+PMARK,20;PMARK,21;PMARK,22;PMARK,23;PSHELL,1,1,10.;MAT1,1,210000.,,0.3;JOINT,1,1,20;JOINT,2,2,22,21
+PJOINT,1,1,1,,0.3;PJOINT,2,1,1,,0.15;JNORM,1,8.-3,0.5,95000.;JSHEAR,1,1000.,3000.
+FORCEM,1,1000.,0.,-1.,0.,23;FORCEM,2,1.,$2,0.,0.,23;LOAD,4,1.,1.,1,1.,2;JINCR,1,1;ENDDATA
+END
+   rm -f "$work/$1".*.csv "$work/$1".out
+   "$program" -q -o "$work" --summary "$work/$1.summary" "$work/$1.bdf" > "$work/$1.log" 2>&1
+   same "two blocks, pushed by $2 of 150: status" $? $3
+}
+for push in 300. 1350.; do
+   stacked stacked-$push $push 3
+   near "two blocks, pushed by $push of 150: missing" \
+      "$(sed -n 's/.*: \([0-9.E+-]*\) of force are missing.*/\1/p' "$work/stacked-$push.log")" "$push - 150" 1e-2
+   judge "two blocks, pushed by $push of 150: iterations" '
+      BEGIN { FS = "," }
+      NR == 1 { for (i = 1; i <= NF; i++) if ($i == "iterations") at = i; next }
+      $at < 1 || $at > 60 { print $at " iterations" }
+      END { print "checked " NR - 1 }' "$work/stacked-$push.summary"
+done
+stacked stacked-held 149. 0
 for elements in 1 2 5; do
    small_block pulled-$elements NEWTON $elements -1.0 0.0 3 && says "$elements elements pulled off, NEWTON: names a node" "$work/pulled-$elements.log" 'node [0-9]'
    small_block sticks NEWTON $elements 100.0 19.8 0 &&
