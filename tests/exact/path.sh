@@ -29,12 +29,31 @@ while read -r deck many stages; do
       done
    done
    same "$deck: contact, without INCR and in $many increments" "$(contact $deck.path)" "$(contact $deck.path$many)"
-   holds "$deck: iterations, of those of one increment" "$(iterations $deck.path) <= 2.5*$(iterations $deck.path1)"
+   # the joint of the bracket is pressed from nothing and opens at its rim meanwhile: seven parts in all, not three
+   holds "$deck: iterations, of those of one increment" \
+      "$(iterations $deck.path) <= $([ $deck = bracket ] && echo 2.75 || echo 2.5)*$(iterations $deck.path1)"
 done <<'DECKS'
 prism_newton 640 1
 prism3d 20 1
 bracket 8 2
 column_foot 10 3
+DECKS
+
+# Elements that are pressed, let go and slip on the way: one increment sees none of it at its start, half way and its end.
+while read -r deck many stage; do
+   in_increments $deck && in_increments $deck 1 && in_increments $deck $many || continue
+   for name in path path1; do
+      for column in lambda pressure; do
+         off=$(value $deck.$name rows stage=$stage with "$work/$deck.path$many.joint.csv" on stage on increment=$many on element \
+            print "sqrt(sum(area*($column - other.$column)^2)/sum(area))/max(other.$column)")
+         [ $name = path1 ] || holds "$deck, stage $stage: $column of all elements, without INCR and in $many increments" "$off <= 1e-3"
+      done
+   done
+   holds "$deck, stage $stage: p in one increment is farther away" "$off > 1e-3"
+done <<'DECKS'
+lap_joint 100 2
+flange_pair 300 2
+cantilever_cases 100 2
 DECKS
 
 # The error of one increment, as printed, is near the true one: of lambda and p the root mean square, of contact the area.
