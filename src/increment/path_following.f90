@@ -36,6 +36,7 @@ contains
       call note_start(analysis, first)
       allocate (known(1))
       e = none
+      size_before = 0.0_wp
       n = 0
       is_whole = .true.
       do

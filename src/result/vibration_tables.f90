@@ -86,7 +86,7 @@ contains
                        column('MASS ALONG '//axes(:d), 'es15.5')])
       do m = 1, size(modes%modes)
          part = main_part(model, modes%modes(m)%energy)
-         associate (mode => modes%modes(m), largest => sqrt(modes%mass/modes%modes(m)%mass))
+         associate (mode => modes%modes(m), largest => sqrt(max(modes%mass, 0.0_wp)/modes%modes(m)%mass))
             call table%put('stage', page%stage_id)
             call table%put('mode', modes%n_before + m)
             call table%put('frequency', mode%frequency)

@@ -1,4 +1,5 @@
-# NEWTON without INCR follows the path: its answer is that of many increments, for at most 2.5 times the iterations of one.
+# NEWTON without INCR follows the path: its answer is that of many increments, for at most 2.5 times the iterations of one where no
+# element turns back on the way.
 # With INCR its error of path is printed, and is the true one; above 1 % it is warned of. ALL=yes in the environment: the bracket too.
 
 # iterations NAME; contact NAME: the smallest share of the last stage; off NAME COLUMN STAGE
