@@ -338,17 +338,21 @@ contains
       change%displacement = distance(analysis%u, last%u)
    end function change_since
 
-   !> The ERROR is not below what further divisions would change, if each changes Q of the one before: of a geometric series. Contact
-   !! comes and goes at once: any division sees it.
-   elemental subroutine expect(change, q, error)
-      type(path_error_type), intent(in)    :: change !! of the last division
-      real(wp), intent(in)                 :: q      !! [-], < 1
+   !> The ERROR is what further divisions would change, if each changes Q of the one before (a geometric series). Unless this IS_KNOWN,
+   !! the error along the way counts too, and contact, which comes and goes at once, by it alone.
+   elemental subroutine expect(change, q, is_known, error)
+      type(path_error_type), intent(in)    :: change   !! of the last division
+      real(wp), intent(in)                 :: q        !! [-], < 1
+      logical, intent(in)                  :: is_known !! the changes fall as those of a series do
       type(path_error_type), intent(inout) :: error
+      real(wp) :: along
 
+      along = merge(0.0_wp, 1.0_wp, is_known)
       associate (rest => q/(1.0_wp - q))
-         error%deflection = max(error%deflection, rest*change%deflection)
-         error%pressure = max(error%pressure, rest*change%pressure)
-         error%displacement = max(error%displacement, rest*change%displacement)
+         error%deflection = max(along*error%deflection, rest*change%deflection)
+         error%pressure = max(along*error%pressure, rest*change%pressure)
+         error%displacement = max(along*error%displacement, rest*change%displacement)
+         if (is_known) error%contact = rest*change%contact
       end associate
    end subroutine expect
 

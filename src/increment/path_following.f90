@@ -30,7 +30,7 @@ contains
       type(path_error_type) :: error, change
       real(wp) :: e, q, size_before
       integer  :: n
-      logical  :: falls, is_whole
+      logical  :: falls, is_known, is_whole
 
       analysis%record%follows_path = .true.
       call note_start(analysis, first)
@@ -45,11 +45,15 @@ contains
          if (.not. attempt%converged) exit
          if (n > 0) then
             change = change_since(model, last, analysis)
-            q = merge(first_order, second_order, analysis%record%path_error%unseen)
-            if (n > 1) q = min(max(error_size(change)/size_before, second_order), falling)
+            is_known = .false.
+            q = merge(first_order, second_order, error%unseen)
+            if (n > 1) then
+               is_known = error_size(change) <= first_order*size_before
+               q = min(max(error_size(change)/size_before, second_order), falling)
+            end if
             size_before = max(error_size(change), tiny(1.0_wp))
             ! one part cannot see what is let go: what two equal ones change tells nothing of the next change
-            if (n > 1 .or. e < none .or. .not. error%lets_go) call expect(change, q, analysis%record%path_error)
+            if (n > 1 .or. e < none .or. .not. error%lets_go) call expect(change, q, is_known, analysis%record%path_error)
          end if
          falls = n < 8 .or. error_size(analysis%record%path_error) < max(falling*error_size(error), analysis%path_tolerance)
          n = size(known)
