@@ -116,6 +116,7 @@ module tolerances
    real(wp), parameter :: farther_off = 1.0e-2_wp    !! of it: a body that still moves on; the rest of the way is extrapolated
    real(wp), parameter :: shortest_step = 1.0e-6_wp  !! of a direction that leads far away: the step is not shortened below it
    real(wp), parameter :: least_share = 1.0e-3_wp    !! of an increment: limits of friction that bear less of it are at their end
+   real(wp), parameter :: least_start = 1.0e-4_wp    !! of an element's last pressure: nothing before it counts on a graded path
    real(wp), parameter :: on_the_path = 1.0e-4_wp    !! of the residual of the first guess: left at a state of the path, far below PATHTOL
    real(wp), parameter :: equal_shares = 1.0e-6_wp   !! of a limit: the rounding of a sum of areas
    real(wp), parameter :: no_contact = 1.0e-6_wp     !! of the largest pressure: an element pressed by less may as well be open

@@ -19,7 +19,7 @@ module path_error
    use newton_trial, only: attempt_type, evaluate_at, trial_type
    use normal_stiffness, only: branch_load, branch_open
    use straight_laws, only: loose_joints
-   use tolerances, only: equal_shares, loose_direction, no_contact, on_the_path
+   use tolerances, only: equal_shares, least_start, loose_direction, no_contact, on_the_path
    implicit none
    private
 
@@ -31,7 +31,6 @@ module path_error
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
    real(wp), parameter :: from_nothing = 0.01_wp     ! share of the last pressure at the start of an element: parts are graded below it
    real(wp), parameter :: by_few = 0.1_wp            ! share of the shear that such elements bear: below it parts are equal
-   real(wp), parameter :: least_start = 1.0e-4_wp    ! likewise: nothing before it counts
    real(wp), parameter :: found = 0.1_wp             ! share of a part's load that may be unbalanced half way
    integer, parameter  :: grade = 5                  ! power of the load along graded parts
    real(wp), parameter, public :: none = 1.0_wp      ! as grading: equal parts
