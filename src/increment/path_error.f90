@@ -7,7 +7,7 @@
 !! Where elements with shear are pressed from nearly nothing, shear and pressure grow together from there, and the first of equal parts
 !! is like the whole. The parts are graded then: the pressure grows from part to part by shares of itself.
 module path_error
-   use analysis_state, only: analysis_type, free_norm, path_error_type, turning_point
+   use analysis_state, only: analysis_type, path_error_type, turning_point
    use coupled_equations, only: solve_coupled_again
    use equation_solver, only: coupled_tally, failure_type
    use equations, only: equation_system, solve_by_last_factor
@@ -31,7 +31,6 @@ module path_error
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
    real(wp), parameter :: from_nothing = 0.01_wp     ! share of the last pressure at the start of an element: parts are graded below it
    real(wp), parameter :: by_few = 0.1_wp            ! share of the shear that such elements bear: below it parts are equal
-   real(wp), parameter :: found = 0.1_wp             ! share of a part's load that may be unbalanced half way
    integer, parameter  :: grade = 5                  ! power of the load along graded parts
    real(wp), parameter, public :: none = 1.0_wp      ! as grading: equal parts
 
@@ -125,20 +124,17 @@ contains
       real(wp), allocatable, intent(out)    :: half(:, :) !! (dimension, retained) [length]
       type(trial_type) :: trial
       type(coupled_tally) :: tally
-      logical  :: is_found  ! the state half way
       real(wp) :: shares(3) ! of the increment's load at the start, half way and at the end
       integer  :: i
 
       shares = share_of([ends(1), 0.5_wp*sum(ends), ends(2)], e)
       half = start%u + (shares(2) - shares(1))/(shares(3) - shares(1))*(analysis%u - start%u)
       if (size(way) == 0) return
-      is_found = .true.
       tally = system%coupled
       if (attempt%iteration > 0) then ! otherwise there may be no factor
          call approach(model, system, attempt%load - (shares(3) - shares(2))*analysis%change, half, start%states, analysis, &
                        attempt, trial)
          half = trial%u
-         is_found = trial%size <= max(found*free_norm((shares(3) - shares(1))*analysis%change, analysis%held), analysis%tolerance)
       end if
       call follow_way(model, system, start, half, analysis, way)
       call approach(model, system, (attempt%load), analysis%u, way, analysis, attempt, trial)
@@ -149,7 +145,6 @@ contains
       error = difference(model, analysis%states, way, analysis%path_tolerance)
       error%displacement = distance(trial%u, analysis%u)
       call look_ahead(model, system, (shares(3) - shares(1))*analysis%change, attempt, analysis, error%unseen)
-      error%unseen = error%unseen .or. .not. is_found
       system%coupled = tally
    end subroutine measure_path
 
