@@ -18,7 +18,7 @@ module mode_span
    use kinds, only: wp
    use mass_matrix, only: mass_matrix_type, mass_times
    use model_data, only: model_type, n_bars, n_sections
-   use natural_modes, only: spectrum_type
+   use natural_modes, only: beyond, spectrum_type
    use oscillating_structure, only: oscillating_type
    use structural_elements, only: add_bar_forces
    use tolerances, only: barely_held, in_the_span
@@ -72,7 +72,7 @@ contains
       if (shifted%weakest < barely_held) return
       if (size(near, 2) >= n) call improve_eigenpairs(model, structure%mass, shifted, near, n_sure, structure%tolerance, &
                                                       spectrum%lambda, spectrum%x, is_found)
-      if (.not. is_found) call find_eigenpairs(model, structure%mass, shifted, n + 3, structure%tolerance, spectrum%lambda, &
+      if (.not. is_found) call find_eigenpairs(model, structure%mass, shifted, n + beyond, structure%tolerance, spectrum%lambda, &
                                                spectrum%x, failure)
       is_found = .not. failure%raised
       if (is_found) spectrum%n_wanted = min(n, size(spectrum%lambda))

@@ -23,7 +23,7 @@ module path_error
    implicit none
    private
 
-   public :: note_start, go_to_start, grading, share_of, measure_path, change_since, expect, is_within, error_size, distance
+   public :: note_start, go_to_start, grading, share_of, measure_path, change_since, expect, is_within, error_size
    public :: approach ! for runs beside another one
 
    integer, parameter  :: most_corrections = 8       ! where the error decides on the division
@@ -144,7 +144,8 @@ contains
       end do
       error = difference(model, analysis%states, way, analysis%path_tolerance)
       error%displacement = distance(trial%u, analysis%u)
-      call look_ahead(model, system, (shares(3) - shares(1))*analysis%change, attempt, analysis, error%unseen)
+      if (analysis%record%follows_path .and. .not. error%unseen) &
+         call look_ahead(model, system, (shares(3) - shares(1))*analysis%change, attempt, analysis, error%unseen)
       system%coupled = tally
    end subroutine measure_path
 
@@ -156,11 +157,12 @@ contains
       real(wp), intent(in)                  :: change(:, :) !! (dimension, retained) [force]
       type(attempt_type), intent(in)        :: attempt
       type(analysis_type), intent(in)       :: analysis
-      logical, intent(inout)                :: turns
+      logical, intent(out)                  :: turns
       real(wp) :: direction(size(change, 1), size(change, 2)), movement(3), largest
       type(failure_type) :: failure
       integer :: i
 
+      turns = .false.
       if (attempt%iteration == 0) return
       call correction(model, system, merge(0.0_wp, change, analysis%held), attempt%coupled, direction, failure)
       if (failure%raised) return

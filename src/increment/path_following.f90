@@ -6,6 +6,7 @@ submodule(newton_method) path_following
    implicit none
 
    integer, parameter  :: most_parts = 64   ! of an increment
+   integer, parameter  :: first_parts = 8   ! with twice as many the error must fall, and from there on
    real(wp), parameter :: falling = 0.75_wp ! of the error of path with half as many parts: one that is larger does not fall
    real(wp), parameter :: second_order = 0.25_wp, first_order = 0.5_wp ! of the change of the last division: the change of the next
 
@@ -55,7 +56,8 @@ contains
             ! one part cannot see what is let go: what two equal ones change tells nothing of the next change
             if (n > 1 .or. e < none .or. .not. error%lets_go) call expect(change, q, is_known, analysis%record%path_error)
          end if
-         falls = n < 8 .or. error_size(analysis%record%path_error) < max(falling*error_size(error), analysis%path_tolerance)
+         falls = n < first_parts .or. &
+                 error_size(analysis%record%path_error) < max(falling*error_size(error), analysis%path_tolerance)
          n = size(known)
          is_whole = analysis%record%is_whole
          error = analysis%record%path_error

@@ -21,7 +21,7 @@ module natural_modes
 
    public :: find_natural_modes
 
-   integer, parameter  :: beyond = 3              ! extra modes: the last wanted one may have equals
+   integer, parameter, public :: beyond = 3              ! extra modes: the last wanted one may have equals
 
    type, public :: spectrum_type
       real(wp), allocatable :: lambda(:)          !! ascending, 0 for a rigid-body mode [1/time^2]
