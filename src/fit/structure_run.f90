@@ -21,13 +21,13 @@ module structure_run
    use model_build, only: build_model
    use newton_method, only: close_gaps, crosses_gaps, newton_increment, seat_joints
    use newton_trial, only: attempt_type, commit, trial_type
-   use path_error, only: approach
    use stage_plan, only: factorisations_of
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    use structure_answers, only: take_stage
    use text_tools, only: integer_text
    use tolerances, only: beside_tol
    use watched_nodes, only: start_watched, watch_state
+   use way_points, only: approach
    implicit none
    private
 
@@ -314,6 +314,7 @@ contains
       type(attempt_type) :: attempt
       type(trial_type)   :: trial
       type(element_state), allocatable :: before(:)
+      real(wp) :: enough
 
       associate (model => walk%structure%model, analysis => walk%analysis)
          call start_increment(walk%structure%plan, system, analysis)
@@ -322,7 +323,8 @@ contains
          analysis%record%follows_path = .true. ! with all corrections
          analysis%tolerance = beside_tol*first%tolerance/first%load_tolerance
          allocate (before, source=analysis%states)
-         call approach(model, system, analysis%now%condensed_load, analysis%u + first%du, before, analysis, attempt, trial)
+         call approach(model, system, analysis%now%condensed_load, analysis%u + first%du, before, analysis, attempt, trial, &
+                       enough)
          if (analysis%moves .or. .not. first%record%is_whole .or. .not. trial%size <= analysis%tolerance) then
             fault = 'no equilibrium beside another run'
          else
