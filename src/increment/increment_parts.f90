@@ -27,7 +27,7 @@ module increment_parts
    real(wp), parameter :: below_limit = 0.85_wp   ! of the limit load: the next state; nearer to it almost everything slips
    real(wp), parameter :: above_limit = 1.05_wp   ! of it: the state after that, which there is if the limit load is a wrong one
    real(wp), parameter :: just_below = 0.999_wp   ! of it: the last state, so that the answer shows the limit load to three digits
-   real(wp), parameter :: agreement = 0.08_wp     ! of it: two estimates that differ by less confirm each other
+   real(wp), parameter :: agreement = 0.1_wp      ! of it: two estimates that differ by less confirm each other
    real(wp), parameter :: near_limit = 0.03_wp    ! of the load borne so far: so much more is the least part
    integer, parameter  :: most_before = 45        ! iterations of an increment: after more of them there is no such last state
 
@@ -67,9 +67,13 @@ contains
          part = min(part, ends(2) - done)
          left = 1.0_wp - ends(2)
          if (done + part < ends(2)) left = 1.0_wp - done - part
+         attempt%expected = [1.0_wp, 0.0_wp]
+         if (done > ends(1) .and. attempt%is_limited) &
+            attempt%expected = (limit + [-1.0_wp, 1.0_wp]*agreement*(limit - ends(1)) - done)/part
          call try_part(model, system, analysis, left, attempt)
          if (attempt%converged) then
             done = done + part
+            attempt%is_limited = attempt%is_limited .and. done < above_limit*limit ! else it was a wrong limit
             part = merge(max(above_limit*limit - done, near_limit*done), 2.0_wp*part, attempt%is_limited)
             n_cut = 0
             analysis%record%n_parts = analysis%record%n_parts + 1
@@ -78,8 +82,7 @@ contains
          if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
          if (attempt%n_moving > 0) then
             estimate = done + attempt%bearable*part
-            agrees = done > ends(1) .and. attempt%is_limited .and. &
-                     abs(estimate - limit) <= agreement*(limit - ends(1))
+            agrees = is_expected(attempt)
             if (agrees .or. n_cut == most_cuts .or. part <= max(least_share, near_limit*(done - ends(1)))) then
                if (agrees) attempt%missing = missing ! of the larger part
                if (attempt%is_limited) estimate = min(estimate, limit)
@@ -136,7 +139,8 @@ contains
    !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
    !! extrapolated last increment if this one continues it, otherwise from the committed state. If they do not lead quickly to
    !! equilibrium, the attempt is repeated with given limits of friction: from the best trial of the straight laws if this has left
-   !! less than their first, and if that fails too, from a structure in which nothing slips.
+   !! less than their first, and if that fails too, from a structure in which nothing slips. This last way is the first one where the
+   !! part is expected to be above the limit load, as it shows this in fewer iterations.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -147,7 +151,7 @@ contains
       type(failure_type) :: none
       real(wp), allocatable :: u(:, :)
       real(wp) :: first
-      integer  :: way
+      integer  :: k, ways(4), way
 
       attempt%left = left
       attempt%load = analysis%now%condensed_load - left*analysis%change
@@ -163,7 +167,12 @@ contains
          attempt%trouble = none
          return
       end if
-      do way = merge(extrapolated, straight, attempt%growth > 0.0_wp), sticking
+      ways = [extrapolated, straight, from_best, sticking]
+      ! a part that is expected to be above the limit load: given limits show this in fewer iterations
+      if (attempt%expected(1) <= attempt%expected(2)) ways = [sticking, extrapolated, straight, from_best]
+      do k = 1, size(ways)
+         way = ways(k)
+         if (way == extrapolated .and. .not. attempt%growth > 0.0_wp) cycle
          if (attempt%only > 0 .and. way /= attempt%only) cycle
          if (way == from_best .and. .not. attempt%least < promising*first) cycle
          if (way /= extrapolated) attempt%growth = 0.0_wp
@@ -185,9 +194,17 @@ contains
          call iterate(model, system, analysis, attempt, u)
          if (attempt%converged) exit
          if (way == straight) first = attempt%sizes(0)
+         if (is_expected(attempt)) exit
          if (allocated(u)) deallocate (u)
       end do
    end subroutine try_part
+
+   !> Whether given limits have not borne the part, and bear the share of it that a larger part has let expect.
+   pure logical function is_expected(attempt)
+      type(attempt_type), intent(in) :: attempt
+
+      is_expected = attempt%n_moving > 0 .and. attempt%bearable >= attempt%expected(1) .and. attempt%bearable <= attempt%expected(2)
+   end function is_expected
 
    !> Whether the increment has taken more iterations than one that ends.
    pure logical function is_given_up(analysis)

@@ -24,6 +24,8 @@ module newton_iterations
    integer, parameter  :: quick = 8                    ! iterations along straight laws that must leave less than WORTH_WHILE
    integer, parameter  :: patience = 8                 ! iterations that must leave less than the same number before them
    real(wp), parameter :: progress = 0.9_wp            ! of it: the required reduction
+   integer, parameter  :: still = 3                    ! residuals one behind the other: they stand still
+   real(wp), parameter :: standstill = 0.01_wp         ! if they differ by less than this part of them
    real(wp), parameter :: half = 0.5_wp                ! of the residual of the load: a guess that leaves more is poor
    real(wp), parameter :: near = 10.0_wp               ! times the tolerance: rounding that is allowed where no iteration falls
    real(wp), parameter :: worth_while = 0.1_wp         ! of its residual: a correction that leaves more is the last one
@@ -287,6 +289,9 @@ contains
       integer :: n
 
       n = size(sizes)
+      leads_nowhere = n > still
+      if (leads_nowhere) leads_nowhere = maxval(sizes(n - still + 1:)) < (1.0_wp + standstill)*minval(sizes(n - still + 1:))
+      if (leads_nowhere) return
       leads_nowhere = n > patience
       if (leads_nowhere) leads_nowhere = minval(sizes(n - patience/2:n)) > away*sizes(1)
       if (leads_nowhere) return

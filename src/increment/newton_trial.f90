@@ -33,6 +33,7 @@ module newton_trial
       real(wp) :: seat_force = 0.0_wp             !! then the reference force: p_av on the pressed elements [force]
       logical  :: with_limits = .false.           !! friction by a sequence of given limits
       logical  :: is_limited = .false.            !! given limits have not borne a part of the increment
+      real(wp) :: expected(2) = [1.0_wp, 0.0_wp]  !! bounds of BEARABLE that agree with such a part, none if the first is larger [-]
       integer  :: only = 0                        !! the only way of increment_parts that is tried, 0: all
       logical  :: from_best = .false.             !! the first ones are those of BEST; otherwise nothing slips at first
       ! the course of the iterations
