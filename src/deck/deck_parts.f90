@@ -28,16 +28,15 @@ contains
    pure integer function part_of_begin(line) result(part)
       character(*), intent(in) :: line
       character(:), allocatable :: rest
-      integer :: at
       logical :: is_integer
 
       rest = adjustl(upper(line(6:)))
       if (index(rest, 'BULK') == 1) rest = adjustl(rest(5:))
       part = 0
       if (index(rest, 'SUPER') /= 1) return
-      at = index(rest, '=')
-      if (at == 0) return
-      call parse_integer(trim(adjustl(rest(at + 1:))), part, is_integer)
+      rest = adjustl(rest(6:))
+      if (index(rest, '=') == 1) rest = adjustl(rest(2:))
+      call parse_integer(trim(rest), part, is_integer)
       if (.not. is_integer .or. part < 1) part = 0
    end function part_of_begin
 

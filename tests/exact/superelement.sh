@@ -121,7 +121,7 @@ superelement_parts() { # NAME NODE: the second part has NODE for node 3
       'EIGRL,6,,,2\nPARAM,COUPMASS,1\nSEBULK,1,PRIMARY\nSEBULK,2,PRIMARY\nSECONCT,1,0\n,3,3\nGRID,3,,200.0,0.0,0.0\nFORCE,10,5,,10.0,0.0,0.0,1.0' \
       'BEGIN SUPER = 1\nGRDSET,,,,,,,24\nGRID,1,,0.0,0.0,0.0\nGRID,2,,100.0,0.0,0.0\nGRID,3,,200.0,0.0,0.0\nSPC1,1,123456,1' \
       'PBAR,1,1,100.0,800.0,900.0,1500.0\nMAT1,1,2.1E5,,0.3,7.85E-9\nCBAR,1,1,1,2,0.0,0.0,1.0\nCBAR,2,1,2,3,0.0,0.0,1.0' \
-      'begin bulk super=2\nGRDSET  ,,,,,,,24\nGRID*,'$2',,200.0,0.0\n*,0.0\nINCLUDE '"'halves\\\\two.inc'" \
+      'begin bulk super 2\nGRDSET  ,,,,,,,24\nGRID*,'$2',,200.0,0.0\n*,0.0\nINCLUDE '"'halves\\\\two.inc'" \
       "PBAR,1,1,100.0,800.0,900.0,1500.0\nMAT1,1,2.1E5,,0.3,7.85E-9\nCBAR,3,1,$2,4,0.0,0.0,1.0\nCBAR,4,1,4,5,0.0,0.0,1.0\n${3-}\nENDDATA" > "$work/$1.bdf"
    run "$1" "${4:-0}"
 }
