@@ -337,6 +337,8 @@ module bulk_data
    !> All cards of a deck.
    type, public :: bulk_data_type
       integer :: n_cards = 0                               !! number of cards of all kinds
+      integer, allocatable :: part_lines(:)                !! lines of BEGIN SUPER, where the parts of the deck begin
+      integer :: n_manual = 0                              !! parts whose nodes are joined to others by number alone
       type(ignored_entries_type) :: ignored                !! entries without effect, also of case control
       type(parameters_type) :: parameters
       type(grid_card), allocatable         :: grid(:)

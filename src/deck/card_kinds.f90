@@ -5,6 +5,7 @@ module card_kinds
    use deck_cards, only: card_name, card_type, check_first_field, is_continuation, loose_text, read_card
    use deck_errors, only: deck_error_list
    use deck_lines, only: is_include
+   use deck_parts, only: part_of_begin
    use deck_text, only: deck_text_type
    use, intrinsic :: iso_fortran_env, only: int16
    use kinds, only: long
@@ -59,6 +60,7 @@ contains
       loose = 0
       n_loose = 0
       is_open = .false.
+      allocate (bulk%part_lines(0))
       do while (cursor <= text%n)
          at = cursor
          cursor = cursor + 1
@@ -83,8 +85,12 @@ contains
             if (card_name(line, comma) == 'ENDDATA') then
                ended_file = file
             else if (upper(line(:min(6, len(line)))) == 'BEGIN') then
+               if (part_of_begin(line) > 0) then
+                  bulk%part_lines = [bulk%part_lines, at]
+                  cycle
+               end if
                errors%n = 0
-               call errors%add(at, 'a second BEGIN: there is one structure, without superelements; nothing of this deck is read')
+               call errors%add(at, 'a second BEGIN, expected a part: BEGIN SUPER = n; nothing of this deck is read')
                bulk%n_cards = -1
                return
             else

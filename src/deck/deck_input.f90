@@ -8,6 +8,7 @@ module deck_input
    use case_control, only: case_control_type, read_case_control
    use deck_errors, only: deck_error_list
    use deck_parameters, only: parameter_type
+   use deck_parts, only: check_parts, drop_repeated, read_part
    use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
    use, intrinsic :: iso_fortran_env, only: int16
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
@@ -117,6 +118,7 @@ contains
       call add(['TABLED1', 'TABLED2', 'TABLED3', 'TABLED4'], read_tabled)
       call add(['DMIG'], read_dmig)
       call add(['ASET ', 'ASET1', 'BSET ', 'BSET1', 'QSET ', 'QSET1'], read_retained)
+      call add(['SEBULK ', 'SECONCT'], read_part)
       call add(['PARAM'], read_parameter)
 
    contains
@@ -236,6 +238,7 @@ contains
       deck%bulk%parameters = deck%control%parameters
       call find_cards(deck%text, cursor, deck%kinds, deck%control%of_nastran .or. is_alone, kind_at, deck%bulk, errors)
       if (deck%bulk%n_cards < 0) return
+      if (size(deck%bulk%part_lines) > 0) call drop_repeated(deck%text, deck%kinds%name, kind_at, deck%kinds%n, deck%bulk, errors)
       call make_room(deck%kinds, deck%bulk)
       call read_all(deck%text, kind_at, deck%kinds, deck%bulk, errors)
       associate (bulk => deck%bulk, asked => deck%control%stages%vibration)
@@ -258,6 +261,7 @@ contains
             call bulk%ignored%add('DMIG')
          end do
          call fill_defaults(bulk)
+         if (size(bulk%part_lines) > 0) call check_parts(bulk, errors)
          call count_unused(bulk)
          call bulk%ignored%settle(any(asked%modes%id /= 0), any(asked%modes%id /= 0 .and. asked%frequency%id > 0), &
                                   any(deck%control%stages%warms_materials), &

@@ -93,11 +93,11 @@ contains
       if (is_open) is_open = index(statement(quote + 1:), statement(quote:quote)) == 0
    end function is_open
 
-   !> The name of the file in STATEMENT, an INCLUDE; empty where there is none.
+   !> The name of the file in STATEMENT, an INCLUDE, with slashes; empty where there is none.
    pure function file_named_by(statement) result(path)
       character(*), intent(in)  :: statement
       character(:), allocatable :: path
-      integer :: closing
+      integer :: closing, k
 
       path = adjustl(statement)
       path = trim(adjustl(path(8:)))
@@ -106,17 +106,28 @@ contains
          closing = index(path(2:), path(1:1))
          path = path(2:merge(closing, 0, len(path) == closing + 1))
       end if
+      do k = 1, len(path)
+         if (path(k:k) == '\') path(k:k) = '/' ! a deck from Windows
+      end do
    end function file_named_by
 
-   !> How many cards LINE repeats: 0 where it repeats none, 1 for '=, *(1), =, ==', N for '=(N)' and '=N', which repeat the STEPS of a
+   !> How many cards LINE repeats: 0 where it repeats none, 1 for '=, *(1), =, ==' and 'PBAR,102,=,==', N for '=(N)' and '=N', which repeat the STEPS of a
    !! line before; -1 where these cannot be read.
    integer function repeats_of(line, steps) result(n)
       character(*), intent(in) :: line
       character(entry_width), intent(inout) :: steps(n_fields) !! the entries of LINE where it has some
+      character(entry_width) :: entries(n_fields)
       logical :: ok
 
       n = 0
-      if (line(:min(1, len(line))) /= '=') return
+      if (line(:min(1, len(line))) /= '=') then
+         if (index(line, ',=') == 0) return
+         entries = entries_of(line) ! a card of its own name that keeps entries
+         if (.not. any(entries(2:) == '=' .or. entries(2:) == '==')) return
+         n = 1
+         steps = entries
+         return
+      end if
       if (scan(line, ', ') == 2) then
          if (index(line, ',') > 0 .or. len(line) > 8) n = 1
          if (n == 1) steps = entries_of(line)

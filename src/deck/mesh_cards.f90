@@ -66,6 +66,7 @@ contains
    subroutine read_grid_defaults(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
+      integer :: seid ! nothing is reduced
 
       associate (defaults => bulk%grid_defaults)
          call card%skip(['-'])
@@ -73,7 +74,7 @@ contains
          call card%blank(['-', '-', '-'])
          call card%field('CD', defaults%cd, default=0, least=0)
          call card%components('PS', defaults%ps, default=0)
-         call card%blank(['SEID'])
+         call card%field('SEID', seid, default=0, least=0)
          call card%finish(defaults%line)
       end associate
       if (card%i > 1) call card%errors%add(card%line, 'GRDSET: given twice; expected at most one in a deck')
@@ -83,6 +84,7 @@ contains
    subroutine read_grid(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
+      integer :: seid ! nothing is reduced
 
       associate (grid => bulk%grid(card%i))
          call card%field('ID', grid%id)
@@ -91,7 +93,7 @@ contains
          call card%field('CD', grid%cd, default=-1, least=-1)
          if (card%text_at(6) == '-1') call card%error('CD', '-1, a node of a fluid; there are no fluids')
          call card%components('PS', grid%ps, default=0)
-         call card%blank(['SEID'])
+         call card%field('SEID', seid, default=0, least=0)
          call card%finish(grid%line)
          grid%doubtful = card%is_faulty()
       end associate

@@ -23,7 +23,7 @@ module nastran_words
       'TRIM', 'FMETHOD', 'AESYMXZ', 'AESYMXY', 'AECONFIG', 'AEROF', 'APRESSURE', 'MONITOR', 'DIVERG', & ! air
       'CMETHOD', 'TSTEP', 'TSTEPNL', 'IC', 'RIGID', 'NLOPRM', 'BC', 'SEQDEP'] ! of other kinds of analysis
    ! of the bulk data: plots, and properties and materials of unsupported elements
-   character(8), parameter :: card_names(137) = [character(8) :: &
+   character(8), parameter :: card_names(141) = [character(8) :: &
       'MAT4', 'MAT5', 'DTI', 'BCTPARM', 'BGPARM', &
       'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBCOMP', &
       'PBEND', 'PBUSH1D', 'PCOMPS', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &
@@ -42,12 +42,15 @@ module nastran_words
       'MONPNT3', 'MONDSP1', 'DIVERG', 'CSSCHD', 'GUST', &
       ! sets of other kinds of analysis, which no key of statics, modes or response selects
       'TLOAD1', 'TLOAD2', 'TSTEP', 'TSTEP1', 'TSTEPNL', 'TIC', 'EIGB', 'EIGC', 'EIGP', 'TF', 'NLPCI', 'NLSTEP', 'RANDT1', &
-      'RANDPS', 'TABRND1', 'TABRNDG', 'DEFORM']
+      'RANDPS', 'TABRND1', 'TABRNDG', 'DEFORM', &
+      ! superelements, and points of controls without structure
+      'SELABEL', 'SETREE', 'SEBNDRY', 'EPOINT']
 
    ! with an effect on a response: springs that depend on the frequency
    character(6), parameter, public :: of_response(1) = [character(6) :: 'PELAST']
    ! with an effect on modes: reduction to some of the unknowns
-   character(6), parameter, public :: of_reduction(4) = [character(6) :: 'CSET', 'CSET1', 'OMIT', 'OMIT1']
+   character(7), parameter, public :: of_reduction(11) = [character(7) :: 'CSET', 'CSET1', 'OMIT', 'OMIT1', 'SESET', 'SEBSET', &
+      'SEBSET1', 'SECSET', 'SECSET1', 'SEQSET', 'SEQSET1']
 
    character(7), parameter :: own_cards(22) = [character(7) :: 'JOINT', 'CJOINT', 'PJOINT', 'JNORM', 'JSHEAR', 'JIWAN', 'JGAP', &
       'JINCR', 'JAMPL', 'BOLT', 'BLOCK2', 'BLOCK3', 'PMARK', 'NODEAT', 'SHELLTO', 'PAXIS', 'PLOADE', 'PLOADM', 'FORCEM', 'SPCM', &

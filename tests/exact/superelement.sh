@@ -115,6 +115,28 @@ superelement_on_joint joint_line 1.0 500.0 &&
 superelement_on_joint joint_bent 0.5 500.0 LOAD && # d lambda/dp = m c p^(m - 1), p = 5
    near 'a joint that stiffens: its tangent in series' "$(superelement_term joint_bent KAAX 90 3 90 3)" '1/(20/(1000*100) + 0.5*0.02*5^(-0.5)/100)' 1e-6
 
+# ---- the parts of a deck: a cantilever with the nodes 1 to 5 in two parts that share node 3, which the main bulk data have too
+superelement_parts() { # NAME NODE: the second part has NODE for node 3
+   printf '%b\n' 'SOL 103\nCEND\nSPC = 1\nMETHOD = 6\nLOAD = 10\nSUPER = ALL\nSET 7 = 5\nWATCH = SET 7\nBEGIN BULK' \
+      'EIGRL,6,,,2\nPARAM,COUPMASS,1\nSEBULK,1,PRIMARY\nSEBULK,2,PRIMARY\nSECONCT,1,0\n,3,3\nGRID,3,,200.0,0.0,0.0\nFORCE,10,5,,10.0,0.0,0.0,1.0' \
+      'BEGIN SUPER = 1\nGRDSET,,,,,,,24\nGRID,1,,0.0,0.0,0.0\nGRID,2,,100.0,0.0,0.0\nGRID,3,,200.0,0.0,0.0\nSPC1,1,123456,1' \
+      'PBAR,1,1,100.0,800.0,900.0,1500.0\nMAT1,1,2.1E5,,0.3,7.85E-9\nCBAR,1,1,1,2,0.0,0.0,1.0\nCBAR,2,1,2,3,0.0,0.0,1.0' \
+      'begin bulk super 2\nGRDSET  ,,,,,,,24\nGRID*,'$2',,200.0,0.0\n*,0.0\nINCLUDE '"'halves\\\\two.inc'" \
+      "PBAR,1,1,100.0,800.0,900.0,1500.0\nMAT1,1,2.1E5,,0.3,7.85E-9\nCBAR,3,1,$2,4,0.0,0.0,1.0\nCBAR,4,1,4,5,0.0,0.0,1.0\n${3-}\nENDDATA" > "$work/$1.bdf"
+   run "$1" "${4:-0}"
+}
+mkdir -p "$work/halves"
+printf 'GRID,4,,300.0,0.0,0.0\nGRID,5,,400.0,0.0,0.0\n' > "$work/halves/two.inc"
+superelement_parts parts 3 && {
+   near 'parts: the deflection' "$(moved parts 5 3)" '10*400^3/(3*2.1E5*800)' 1e-5
+   near 'parts: the first mode' "$(mode parts 1 frequency)" '1.8751041^2/(2*pi*400^2)*sqrt(2.1E5*800/(7.85E-9*100))' 1e-4
+   says 'parts: one structure' "$work/parts.log" 'BEGIN SUPER: 2 parts and the main bulk data are one structure, in one numbering; nothing is reduced'
+}
+superelement_parts parts_tied 13 'RBE2,99,3,1356,13' && {
+   near 'parts tied by RBE2: the deflection' "$(moved parts_tied 5 3)" '10*400^3/(3*2.1E5*800)' 1e-5
+   says 'nodes at one place' "$work/parts_tied.log" '1 pair of nodes of two parts at one place are not joined, the first 3 and 13'
+}
+
 # ---- what cannot be
 superelement_beams bare 'SPC = 1\nOUTPUT = LAST, DMIG\nLOAD = 10' 'FORCE,10,5,,10.0,1.0,2.0,3.0' 2 && says 'no ASET' "$work/bare.log" 'DMIG needs ASET'
 superelement_beams held 'SPC = 1\nOUTPUT = LAST, DMIG\nLOAD = 10' 'FORCE,10,5,,10.0,1.0,2.0,3.0\nASET1,123456,1' 2 &&
