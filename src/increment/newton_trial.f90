@@ -32,6 +32,7 @@ module newton_trial
       logical  :: seats = .false.                 !! interference at rest without load
       real(wp) :: seat_force = 0.0_wp             !! then the reference force: p_av on the pressed elements [force]
       logical  :: with_limits = .false.           !! friction by a sequence of given limits
+      logical  :: renews = .false.                !! an iteration at least: other runs go on with its factor
       logical  :: is_limited = .false.            !! given limits have not borne a part of the increment
       integer  :: only = 0                        !! the only way of increment_parts that is tried, 0: all
       logical  :: from_best = .false.             !! the first ones are those of BEST; otherwise nothing slips at first
