@@ -44,7 +44,7 @@ module mode_rows
       integer, allocatable  :: mode(:)               !! (rows) place of the mode among those found, 0: none
       type(stage_modes), allocatable :: stages(:)    !! of a run in full
       real(wp), allocatable :: shapes(:, :)          !! (components, rows) of the modes
-      real(wp), allocatable :: reached(:, :, :)      !! (dimension, retained, increments) displacements after each by NEWTON, or none
+      real(wp), allocatable :: reached(:, :, :)      !! (dimension, retained, increments) displacements by NEWTON, or none
    end type answer_type
 
 contains
