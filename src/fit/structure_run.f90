@@ -320,6 +320,8 @@ contains
       type(attempt_type) :: attempt
       type(trial_type)   :: trial
       type(element_state), allocatable :: before(:)
+      real(wp), allocatable :: u(:, :)
+      integer :: i
 
       associate (model => walk%structure%model, analysis => walk%analysis)
          call start_increment(walk%structure%plan, system, analysis)
@@ -328,7 +330,12 @@ contains
          analysis%record%follows_path = .true. ! with all corrections
          analysis%tolerance = beside_tol*first%tolerance/first%load_tolerance
          allocate (before, source=analysis%states)
-         call approach(model, system, analysis%now%condensed_load, analysis%u + first%du, before, analysis, attempt, trial)
+         u = analysis%u + first%du
+         do i = 1, 2 ! each leaves ON_THE_PATH of the residual where it begins, if that is more than the tolerance
+            call approach(model, system, analysis%now%condensed_load, u, before, analysis, attempt, trial)
+            if (trial%size <= analysis%tolerance) exit
+            u = trial%u
+         end do
          if (analysis%moves .or. .not. first%record%is_whole .or. .not. trial%size <= analysis%tolerance) then
             fault = 'no equilibrium beside another run'
          else
