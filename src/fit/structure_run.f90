@@ -21,13 +21,13 @@ module structure_run
    use model_build, only: build_model
    use newton_method, only: close_gaps, crosses_gaps, newton_increment, seat_joints
    use newton_trial, only: attempt_type, commit, trial_type
-   use path_error, only: approach
    use stage_plan, only: factorisations_of
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    use structure_answers, only: take_stage
    use text_tools, only: integer_text
    use tolerances, only: beside_tol
    use watched_nodes, only: start_watched, watch_state
+   use way_points, only: approach
    implicit none
    private
 
@@ -321,7 +321,8 @@ contains
       type(trial_type)   :: trial
       type(element_state), allocatable :: before(:)
       real(wp), allocatable :: u(:, :)
-      integer :: i
+      real(wp) :: enough
+      integer  :: i
 
       associate (model => walk%structure%model, analysis => walk%analysis)
          call start_increment(walk%structure%plan, system, analysis)
@@ -332,7 +333,7 @@ contains
          allocate (before, source=analysis%states)
          u = analysis%u + first%du
          do i = 1, 2 ! each leaves ON_THE_PATH of the residual where it begins, if that is more than the tolerance
-            call approach(model, system, analysis%now%condensed_load, u, before, analysis, attempt, trial)
+            call approach(model, system, analysis%now%condensed_load, u, before, analysis, attempt, trial, enough)
             if (trial%size <= analysis%tolerance) exit
             u = trial%u
          end do

@@ -14,7 +14,7 @@ module increment_parts
    implicit none
    private
 
-   public :: reach, is_given_up
+   public :: reach, try_part, is_given_up
 
    integer, parameter  :: most_halvings = 12
    integer, parameter  :: most_of_path = 10000    ! iterations in all parts of an increment: 1 + 2 + ... + 64 equal ones have fewer

@@ -1,33 +1,30 @@
 !> The error of path of METHOD = NEWTON: how far the end of an increment is from the limit of many increments.
 !! An increment, or a part of it, takes every interface element from its start to its end in one movement. An element that the load
 !! presses and lets go meanwhile, or whose shear and pressure do not grow in proportion, would come to another force along the path.
-!! The path is found without a factorisation. The displacements half way follow from the mean of both ends under the mean load, by
-!! corrections with the factor of the last iteration. The exact laws are followed along the parabola through the three states up to
-!! three quarters of it, and from there to the equilibrium at its end, by corrections again. These states go on from part to part.
+!! The displacements half way follow from the mean of both ends under the mean load. The exact laws are followed along the parabola
+!! through the three states up to three quarters of it, and from there to the equilibrium at its end. Both equilibria are found
+!! without a factorisation where corrections lead there. These states go on from part to part.
 !! Where elements with shear are pressed from nearly nothing, shear and pressure grow together from there, and the first of equal parts
 !! is like the whole. The parts are graded then: the pressure grows from part to part by shares of itself.
 module path_error
    use analysis_state, only: analysis_type, path_error_type, turning_point
-   use coupled_equations, only: solve_coupled_again
    use equation_solver, only: coupled_tally, failure_type
-   use equations, only: equation_system, solve_by_last_factor
+   use equations, only: equation_system
    use interface_operator, only: joint_movement
    use joint_laws, only: element_state, follow_element, force_of, rest_when_open
    use joint_work, only: joint_energy
    use kinds, only: wp
    use model_data, only: model_type
-   use newton_trial, only: attempt_type, evaluate_at, trial_type
+   use newton_trial, only: attempt_type
    use normal_stiffness, only: branch_load, branch_open
    use straight_laws, only: loose_joints
-   use tolerances, only: dependent_product, equal_shares, least_start, loose_direction, no_contact, on_the_path
+   use tolerances, only: equal_shares, least_start, no_contact
+   use way_points, only: correction, find_equilibrium
    implicit none
    private
 
    public :: note_start, go_to_start, grading, share_of, measure_path, change_since, expect, is_within, error_size
-   public :: approach ! for runs beside another one
 
-   integer, parameter  :: most_corrections = 8       ! where the error decides on the division
-   integer, parameter  :: some_corrections = 4       ! where it is only printed
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
    real(wp), parameter :: from_nothing = 0.01_wp     ! share of the last pressure at the start of an element: parts are graded below it
    real(wp), parameter :: by_few = 0.1_wp            ! share of the shear that such elements bear: below it parts are equal
@@ -122,30 +119,42 @@ contains
       type(element_state), allocatable, intent(inout) :: way(:)
       type(path_error_type), intent(out)    :: error
       real(wp), allocatable, intent(out)    :: half(:, :) !! (dimension, retained) [length]
-      type(trial_type) :: trial
       type(coupled_tally) :: tally
+      type(element_state), allocatable :: along(:), before(:)
+      real(wp), allocatable :: at_end(:, :)
       real(wp) :: shares(3) ! of the increment's load at the start, half way and at the end
+      logical  :: decides, found(2), surely
       integer  :: i
 
+      decides = analysis%record%follows_path .and. ends(2) - ends(1) >= 1.0_wp
+      allocate (before, source=way)
       shares = share_of([ends(1), 0.5_wp*sum(ends), ends(2)], e)
       half = start%u + (shares(2) - shares(1))/(shares(3) - shares(1))*(analysis%u - start%u)
       if (size(way) == 0) return
       tally = system%coupled
-      if (attempt%iteration > 0) then ! otherwise there may be no factor
-         call approach(model, system, attempt%load - (shares(3) - shares(2))*analysis%change, half, start%states, analysis, &
-                       attempt, trial)
-         half = trial%u
-      end if
-      call follow_way(model, system, start, half, analysis, way)
-      call approach(model, system, (attempt%load), analysis%u, way, analysis, attempt, trial)
-      way = trial%states
-      do i = 1, size(way)
-         call rest_when_open(way(i), joint_movement(system%interface(i), trial%u))
+      surely = .false.
+      do
+         found = .true.
+         if (attempt%iteration > 0) & ! otherwise there may be no factor
+            call find_equilibrium(model, system, attempt%left + shares(3) - shares(2), half, start%states, surely, &
+                                  analysis, attempt, along, found(1))
+         way = before
+         call follow_way(model, system, start, half, analysis, way)
+         at_end = analysis%u
+         call find_equilibrium(model, system, attempt%left, at_end, way, surely, analysis, attempt, along, found(2))
+         way = along
+         do i = 1, size(way)
+            call rest_when_open(way(i), joint_movement(system%interface(i), at_end))
+         end do
+         error = difference(model, analysis%states, way, analysis%path_tolerance)
+         error%displacement = distance(at_end, analysis%u)
+         if (analysis%record%follows_path .and. .not. error%unseen) &
+            call look_ahead(model, system, (shares(3) - shares(1))*analysis%change, attempt, analysis, error%unseen)
+         ! an increment is not taken in one part by a way that is not known
+         if (surely .or. all(found) .or. .not. decides) exit
+         if (.not. is_within(error, 1, e, analysis%path_tolerance)) exit
+         surely = .true.
       end do
-      error = difference(model, analysis%states, way, analysis%path_tolerance)
-      error%displacement = distance(trial%u, analysis%u)
-      if (analysis%record%follows_path .and. .not. error%unseen) &
-         call look_ahead(model, system, (shares(3) - shares(1))*analysis%change, attempt, analysis, error%unseen)
       system%coupled = tally
    end subroutine measure_path
 
@@ -173,93 +182,6 @@ contains
          turns = turns .or. movement(3) < -analysis%path_tolerance*largest
       end do
    end subroutine look_ahead
-
-   !> The TRIAL near equilibrium under the LOAD, to which the states BEFORE lead: from the displacements U by a few corrections with
-   !! the factor of the last iteration. The factor is that of the end of the increment; what the corrections so far have changed in the
-   !! residual replaces it where it errs. Source: Anderson, J. ACM 12 (1965) 547-560, in the form of Walker, Ni, SIAM J. Numer.
-   !! Anal. 49 (2011) 1715-1735, with the factor as preconditioner.
-   subroutine approach(model, system, load, u, before, analysis, attempt, trial)
-      type(model_type), intent(in)          :: model
-      class(equation_system), intent(inout) :: system
-      real(wp), intent(in)                  :: load(:, :), u(:, :)
-      type(element_state), allocatable, intent(inout) :: before(:) !! returned as they were
-      type(analysis_type), intent(inout)    :: analysis            !! likewise
-      type(attempt_type), intent(inout)     :: attempt             !! likewise
-      type(trial_type), intent(out)         :: trial
-      real(wp), allocatable :: goal(:, :) ! the load of the attempt
-      type(trial_type) :: next, last
-      type(failure_type) :: failure ! ends the corrections
-      real(wp) :: steps(size(u, 1), size(u, 2), most_corrections), gains(size(u, 1), size(u, 2), most_corrections)
-      real(wp) :: direction(size(u, 1), size(u, 2)), left(size(u, 1), size(u, 2)), share, enough
-      integer  :: first, i, k
-
-      allocate (goal, source=attempt%load)
-      attempt%load = load
-      call exchange_states(before, analysis%states)
-      call evaluate_at(model, system, attempt, analysis, u, trial)
-      enough = max(on_the_path*trial%size, analysis%tolerance)
-      last = trial
-      first = 1
-      do i = 1, merge(most_corrections, some_corrections, analysis%record%follows_path)
-         if (trial%size <= enough .or. attempt%iteration == 0) exit
-         left = merge(0.0_wp, last%residual, analysis%held)
-         steps(:, :, i) = 0.0_wp
-         do k = first, i - 1
-            share = sum(gains(:, :, k)*left)
-            left = left - share*gains(:, :, k)
-            steps(:, :, i) = steps(:, :, i) + share*steps(:, :, k)
-         end do
-         call correction(model, system, left, attempt%coupled, direction, failure)
-         if (failure%raised) exit
-         steps(:, :, i) = steps(:, :, i) + direction
-         call evaluate_at(model, system, attempt, analysis, last%u + steps(:, :, i), next)
-         if (.not. next%size < huge(1.0_wp)) exit
-         left = merge(0.0_wp, last%residual - next%residual, analysis%held)
-         gains(:, :, i) = left
-         do k = first, i - 1
-            share = sum(gains(:, :, k)*gains(:, :, i))
-            gains(:, :, i) = gains(:, :, i) - share*gains(:, :, k)
-            steps(:, :, i) = steps(:, :, i) - share*steps(:, :, k)
-         end do
-         share = norm2(gains(:, :, i))
-         if (share > dependent_product*norm2(left)) then
-            gains(:, :, i) = gains(:, :, i)/share
-            steps(:, :, i) = steps(:, :, i)/share
-         else
-            first = i + 1 ! the corrections before have all directions that there are, as in a joint of one element: without them
-         end if
-         last = next
-         if (last%size < trial%size) trial = last
-      end do
-      call exchange_states(before, analysis%states)
-      call move_alloc(goal, attempt%load)
-   end subroutine approach
-
-   subroutine exchange_states(a, b)
-      type(element_state), allocatable, intent(inout) :: a(:), b(:)
-      type(element_state), allocatable :: c(:)
-
-      call move_alloc(a, c)
-      call move_alloc(b, a)
-      call move_alloc(c, b)
-   end subroutine exchange_states
-
-   !> The DIRECTION that balances the RESIDUAL with the factor of the last iteration.
-   subroutine correction(model, system, residual, is_coupled, direction, failure)
-      type(model_type), intent(in)          :: model
-      class(equation_system), intent(inout) :: system
-      real(wp), intent(in)                  :: residual(:, :)
-      logical, intent(in)                   :: is_coupled
-      real(wp), intent(out)                 :: direction(:, :)
-      type(failure_type), intent(inout)     :: failure
-
-      if (is_coupled) then
-         direction = residual
-         call solve_coupled_again(model, loose_direction, system, direction, failure)
-      else
-         call solve_by_last_factor(system, residual, direction)
-      end if
-   end subroutine correction
 
    !> Follow the states ALONG the way from START over HALF up to three quarters of it.
    subroutine follow_way(model, system, start, half, analysis, along)

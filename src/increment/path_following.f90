@@ -49,7 +49,7 @@ contains
             is_known = .false.
             q = merge(first_order, second_order, error%unseen)
             if (n > 1) then
-               is_known = error_size(change) <= first_order*size_before
+               is_known = error_size(change) <= first_order*size_before .and. .not. analysis%record%path_error%unseen
                q = min(max(error_size(change)/size_before, second_order), falling)
             end if
             size_before = max(error_size(change), tiny(1.0_wp))

@@ -40,21 +40,23 @@ bracket 8 2
 column_foot 10 3
 DECKS
 
-# Elements that are pressed, let go and slip on the way: one increment sees none of it at its start, half way and its end.
-while read -r deck many stage; do
+# Elements that are pressed, let go and slip on the way: one increment sees none of it at its start, half way and its end. In stage 16
+# three of 21 are let go at once where others open: half way is found by iterations only, and parts come near by their number alone.
+while read -r deck many stage limit; do
    in_increments $deck && in_increments $deck 1 && in_increments $deck $many || continue
    for name in path path1; do
       for column in lambda pressure; do
          off=$(value $deck.$name rows stage=$stage with "$work/$deck.path$many.joint.csv" on stage on increment=$many on element \
-            print "sqrt(sum(area*($column - other.$column)^2)/sum(area))/max(other.$column)")
-         [ $name = path1 ] || holds "$deck, stage $stage: $column of all elements, without INCR and in $many increments" "$off <= 1e-3"
+            rows 'branch != "OPEN" or other.branch != "OPEN"' print "sqrt(sum(area*($column - other.$column)^2)/sum(area))/max(other.$column)")
+         [ $name = path1 ] || holds "$deck, stage $stage: $column of all elements, without INCR and in $many increments" "$off <= $limit"
       done
    done
    holds "$deck, stage $stage: p in one increment is farther away" "$off > 1e-3"
 done <<'DECKS'
-lap_joint 100 2
-flange_pair 300 2
-cantilever_cases 100 2
+lap_joint 100 2 1e-3
+flange_pair 300 2 1e-3
+cantilever_cases 100 2 1e-3
+cantilever_cases 100 16 4e-3
 DECKS
 
 # The error of one increment, as printed, is near the true one: of lambda and p the root mean square, of contact the area.

@@ -1,0 +1,154 @@
+!> Equilibria on the way between two states of METHOD = NEWTON, near known displacements: by corrections with the factor of the last
+!! iteration, and by iterations of their own where these fail.
+module way_points
+   use analysis_state, only: analysis_type
+   use coupled_equations, only: solve_coupled_again
+   use equation_solver, only: failure_type
+   use equations, only: equation_system, solve_by_last_factor
+   use increment_parts, only: try_part
+   use joint_laws, only: element_state
+   use kinds, only: wp
+   use model_data, only: model_type
+   use newton_trial, only: attempt_type, evaluate_at, trial_type
+   use tolerances, only: dependent_product, loose_direction, on_the_path
+   implicit none
+   private
+
+   public :: find_equilibrium, correction
+   public :: approach ! for runs beside another one
+
+   integer, parameter :: most_corrections = 8 ! where the error of path decides on the division
+   integer, parameter :: some_corrections = 4 ! where it is only printed
+
+contains
+
+   !> The equilibrium ALONG the way with LEFT of the increment to go, to which the states BEFORE lead: its displacements from U, and its
+   !! states. Where corrections do not find it but it must be found SURELY, it is reached as the end of a part is.
+   subroutine find_equilibrium(model, system, left, u, before, surely, analysis, attempt, along, is_found)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system   !! with the factor of the last iteration
+      real(wp), intent(in)                  :: left     !! of the load [-], 0 to 1
+      real(wp), allocatable, intent(inout)  :: u(:, :)  !! (dimension, retained) [length]
+      type(element_state), allocatable, intent(inout) :: before(:) !! returned as they were
+      logical, intent(in)                   :: surely   !! by iterations if need be
+      type(analysis_type), intent(inout)    :: analysis !! likewise, with the iterations made
+      type(attempt_type), intent(inout)     :: attempt  !! likewise
+      type(element_state), allocatable, intent(out)   :: along(:)
+      logical, intent(out)                  :: is_found
+      type(trial_type) :: trial
+      type(analysis_type), allocatable :: there
+      type(attempt_type), allocatable  :: own
+      real(wp) :: enough
+
+      call approach(model, system, analysis%now%condensed_load - left*analysis%change, u, before, analysis, attempt, trial, &
+                    enough)
+      is_found = trial%size <= enough
+      if (surely .and. .not. is_found .and. attempt%iteration > 0) then
+         allocate (there, source=analysis)
+         there%states = before
+         there%tolerance = enough
+         allocate (own, source=attempt)
+         own%growth = 0.0_wp
+         call try_part(model, system, there, left, own, trial%u)
+         analysis%record = there%record
+         attempt%coupled = own%coupled ! is the last factor
+         is_found = own%converged
+         if (is_found) then
+            call move_alloc(there%u, u)
+            call move_alloc(there%states, along)
+            return
+         end if
+      end if
+      call move_alloc(trial%u, u)
+      call move_alloc(trial%states, along)
+   end subroutine find_equilibrium
+
+   !> The TRIAL near equilibrium under the LOAD, to which the states BEFORE lead: from the displacements U by a few corrections with
+   !! the factor of the last iteration. The factor is that of the end of the increment; what the corrections so far have changed in the
+   !! residual replaces it where it errs. Source: Anderson, J. ACM 12 (1965) 547-560, in the form of Walker, Ni, SIAM J. Numer.
+   !! Anal. 49 (2011) 1715-1735, with the factor as preconditioner.
+   subroutine approach(model, system, load, u, before, analysis, attempt, trial, enough)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      real(wp), intent(in)                  :: load(:, :), u(:, :)
+      type(element_state), allocatable, intent(inout) :: before(:) !! returned as they were
+      type(analysis_type), intent(inout)    :: analysis            !! likewise
+      type(attempt_type), intent(inout)     :: attempt             !! likewise
+      type(trial_type), intent(out)         :: trial
+      real(wp), intent(out)                 :: enough !! residual below which the corrections end [force]
+      real(wp), allocatable :: goal(:, :) ! the load of the attempt
+      type(trial_type) :: next, last
+      type(failure_type) :: failure ! ends the corrections
+      real(wp) :: steps(size(u, 1), size(u, 2), most_corrections), gains(size(u, 1), size(u, 2), most_corrections)
+      real(wp) :: direction(size(u, 1), size(u, 2)), left(size(u, 1), size(u, 2)), share
+      integer  :: first, i, k
+
+      allocate (goal, source=attempt%load)
+      attempt%load = load
+      call exchange_states(before, analysis%states)
+      call evaluate_at(model, system, attempt, analysis, u, trial)
+      enough = max(on_the_path*trial%size, analysis%tolerance)
+      last = trial
+      first = 1
+      do i = 1, merge(most_corrections, some_corrections, analysis%record%follows_path)
+         if (trial%size <= enough .or. attempt%iteration == 0) exit
+         left = merge(0.0_wp, last%residual, analysis%held)
+         steps(:, :, i) = 0.0_wp
+         do k = first, i - 1
+            share = sum(gains(:, :, k)*left)
+            left = left - share*gains(:, :, k)
+            steps(:, :, i) = steps(:, :, i) + share*steps(:, :, k)
+         end do
+         call correction(model, system, left, attempt%coupled, direction, failure)
+         if (failure%raised) exit
+         steps(:, :, i) = steps(:, :, i) + direction
+         call evaluate_at(model, system, attempt, analysis, last%u + steps(:, :, i), next)
+         if (.not. next%size < huge(1.0_wp)) exit
+         left = merge(0.0_wp, last%residual - next%residual, analysis%held)
+         gains(:, :, i) = left
+         do k = first, i - 1
+            share = sum(gains(:, :, k)*gains(:, :, i))
+            gains(:, :, i) = gains(:, :, i) - share*gains(:, :, k)
+            steps(:, :, i) = steps(:, :, i) - share*steps(:, :, k)
+         end do
+         share = norm2(gains(:, :, i))
+         if (share > dependent_product*norm2(left)) then
+            gains(:, :, i) = gains(:, :, i)/share
+            steps(:, :, i) = steps(:, :, i)/share
+         else
+            first = i + 1 ! the corrections before have all directions that there are, as in a joint of one element: without them
+         end if
+         last = next
+         if (last%size < trial%size) trial = last
+      end do
+      call exchange_states(before, analysis%states)
+      call move_alloc(goal, attempt%load)
+   end subroutine approach
+
+   subroutine exchange_states(a, b)
+      type(element_state), allocatable, intent(inout) :: a(:), b(:)
+      type(element_state), allocatable :: c(:)
+
+      call move_alloc(a, c)
+      call move_alloc(b, a)
+      call move_alloc(c, b)
+   end subroutine exchange_states
+
+   !> The DIRECTION that balances the RESIDUAL with the factor of the last iteration.
+   subroutine correction(model, system, residual, is_coupled, direction, failure)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      real(wp), intent(in)                  :: residual(:, :)
+      logical, intent(in)                   :: is_coupled
+      real(wp), intent(out)                 :: direction(:, :)
+      type(failure_type), intent(inout)     :: failure
+
+      if (is_coupled) then
+         direction = residual
+         call solve_coupled_again(model, loose_direction, system, direction, failure)
+      else
+         call solve_by_last_factor(system, residual, direction)
+      end if
+   end subroutine correction
+
+end module way_points
