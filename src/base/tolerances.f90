@@ -199,6 +199,7 @@ module tolerances
    real(wp), parameter :: worth_a_round = 4.0e-2_wp  !! less in the sum of squares: the minimum is within a fifth of a deviation
    real(wp), parameter :: far_better = 9.0_wp        !! less in a sum of squares, three deviations: numbers of modes are those at the start
    real(wp), parameter :: in_the_span = 1.0e-6_wp    !! of a mode of mass 1 of another stage: what the modes of a stage lack of it
+   real(wp), parameter :: other_unit = 10.0_wp       !! a factor between a value and the measured one, and deviations: a row to check
    real(wp), parameter :: close_modes = 2.0_wp       !! deviations between two frequencies: noise may have exchanged the modes
    real(wp), parameter :: least_mac = 0.3_wp         !! MAC of a mode that is followed: two that mix have 0.5
    real(wp), parameter :: undetermined = 1.0e-3_wp   !! of the largest singular value: smaller ones are errors of these differences

@@ -14,7 +14,7 @@ module identification
    use kinds, only: wp
    use law_search, only: search_type, seek
    use machine, only: use_threads
-   use measured_data, only: differences, measured_type, outer_value, read_measured
+   use measured_data, only: a_phase, differences, measured_type, outer_value, read_measured
    use mode_rows, only: structure_type
    use omp_lib, only: omp_get_max_threads
    use openblas, only: prepare_libraries
@@ -22,6 +22,7 @@ module identification
    use structure_run, only: start_structure
    use terminal, only: clear_line, complain_of_input, open_line, version
    use text_tools, only: integer_text, one_of, plural, real_text
+   use tolerances, only: other_unit
    implicit none
    private
 
@@ -130,6 +131,7 @@ contains
             ': the mode is not that with the number of the row; SHAPE= of its points decides')
       end do
       call write_other(data, search, out)
+      call write_checks(data, search%best%value, after, out)
       call out%put('$')
       call out%put('$ parameter        start          now    deviation       two deviations      determined by the rows')
       do i = 1, size(data%parameters)
@@ -195,6 +197,23 @@ contains
       end do
       call out%put(words)
    end subroutine write_other
+
+   !> Write which rows may be mistakes: VALUE of the deck is OFF by many deviations, and has the other sign or another power of ten.
+   subroutine write_checks(data, value, off, out)
+      type(measured_type), intent(in)       :: data
+      real(wp), intent(in)                  :: value(:), off(:)
+      type(output_file_type), intent(inout) :: out
+      integer :: i
+
+      do i = 1, size(off)
+         associate (row => data%rows(i), least => min(abs(value(i)), abs(data%rows(i)%value)))
+            if (abs(off(i)) < other_unit .or. row%kind == a_phase .or. .not. least > 0.0_wp) cycle
+            if (value(i)*row%value < 0.0_wp) call out%put('$ check    row '//integer_text(i)//': the deck has the other sign')
+            if (least*other_unit < max(abs(value(i)), abs(row%value))) call out%put('$ check    row '//integer_text(i)// &
+               ': the deck has '//trim(adjustl(cell(abs(value(i)/row%value))))//' times the measured value; are their units equal?')
+         end associate
+      end do
+   end subroutine write_checks
 
    !> The rows with the largest SHARES of the variance of a parameter, as `1 (45 %), 3 (30 %)`.
    function leading(shares) result(words)

@@ -268,6 +268,7 @@ contains
             if (.not. allocated(search%first%value)) search%first = answers(1)
             task%last = answers(1)
             task%structure%known = answers(1)%stages
+            task%structure%reached = answers(1)%reached
          end if
          if (.not. allocated(task%structure%shapes)) task%structure%shapes = task%last%shapes
          square = sum(differences(task%data, task%last%value)**2)
@@ -317,7 +318,10 @@ contains
                             task%near)
                task%search%n_runs = task%search%n_runs + 1
                if (answers(1)%fault /= '') square = huge(square)
-               if (answers(1)%fault == '') task%last = answers(1)
+               if (answers(1)%fault == '') then
+                  task%last = answers(1)
+                  task%structure%reached = answers(1)%reached
+               end if
             else
                call run_at(y, square)
                if (square < huge(square)) task%near = task%last

@@ -67,7 +67,7 @@ contains
       logical, intent(out)                 :: readable
       type(entry_type), allocatable :: entries(:)
       character(:), allocatable :: line
-      integer :: i, n_parameters, n_rows
+      integer :: i, k, n_parameters, n_rows
 
       call read_deck_text(path, data%text, errors, readable)
       if (.not. readable) return
@@ -77,6 +77,11 @@ contains
       n_rows = 0
       do i = 1, merge(data%text%n, 0, data%text%is_text)
          line = data_part(data%text%line(i))
+         do ! 1 % is 1%, in the same columns
+            k = index(line, ' %')
+            if (k == 0) exit
+            line(k:k + 1) = '% '
+         end do
          call split_entries(line, entries, .false.)
          if (size(entries) == 0) cycle
          select case (upper(line(entries(1)%first:entries(1)%last)))
@@ -198,8 +203,9 @@ contains
             if (ok) ok = index(given, letters(key:key)) == 0 .or. letters(key:key) == 'H'
             if (.not. ok) then
                call errors%add(at, ''''//word//''': expected one of stage=2, mode=1, node=51, node=51-62, direction=y, bolt=1, '// &
-                  'amplitude=0.01, frequency=115, shape=51:y:1.0, each once but shape', entries(k)%first, entries(k)%last)
-               cycle
+                  'amplitude=0.01, frequency=115, shape=51:y:1.0, each once but shape, without blanks', entries(k)%first, &
+                  entries(k)%last)
+               return ! what lacks is no error then
             end if
             if (index(needs(row%kind)//may_have(row%kind), letters(key:key)) == 0) &
                call errors%add(at, trim(keys(key))//'= has no meaning in this row', entries(k)%first, entries(k)%last)

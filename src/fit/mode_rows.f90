@@ -32,6 +32,7 @@ module mode_rows
       real(wp), allocatable :: shapes(:, :)          !! (components, rows) of the modes that are followed; or not allocated:
       integer, allocatable  :: numbers(:)            !! (rows) of the modes
       type(stage_modes), allocatable :: known(:)     !! (stages) modes of the last run in full, where the next ones begin
+      real(wp), allocatable :: reached(:, :, :)      !! REACHED of the last run
    end type structure_type
 
    type, public :: answer_type
@@ -43,6 +44,7 @@ module mode_rows
       integer, allocatable  :: mode(:)               !! (rows) place of the mode among those found, 0: none
       type(stage_modes), allocatable :: stages(:)    !! of a run in full
       real(wp), allocatable :: shapes(:, :)          !! (components, rows) of the modes
+      real(wp), allocatable :: reached(:, :, :)      !! (dimension, retained, increments) displacements by NEWTON, or none
    end type answer_type
 
 contains

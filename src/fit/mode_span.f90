@@ -51,7 +51,8 @@ contains
       class(equation_system), intent(in) :: system
       type(oscillating_type), intent(in) :: structure
       real(wp), intent(in)               :: near(:, :) !! (components of all nodes, modes; 0: none) [length]
-      integer, intent(in)                :: n_sure, n
+      integer, intent(in)                :: n
+      integer, intent(inout)             :: n_sure     !! N by Lanczos
       type(spectrum_type), intent(out)   :: spectrum
       class(equation_system), allocatable, intent(out) :: shifted
       logical, intent(out)               :: is_found
@@ -72,8 +73,10 @@ contains
       if (shifted%weakest < barely_held) return
       if (size(near, 2) >= n) call improve_eigenpairs(model, structure%mass, shifted, near, n_sure, structure%tolerance, &
                                                       spectrum%lambda, spectrum%x, is_found)
-      if (.not. is_found) call find_eigenpairs(model, structure%mass, shifted, n + beyond, structure%tolerance, spectrum%lambda, &
-                                               spectrum%x, failure)
+      if (.not. is_found) then
+         call find_eigenpairs(model, structure%mass, shifted, n + beyond, structure%tolerance, spectrum%lambda, spectrum%x, failure)
+         n_sure = n
+      end if
       is_found = .not. failure%raised
       if (is_found) spectrum%n_wanted = min(n, size(spectrum%lambda))
    end subroutine find_modes_again

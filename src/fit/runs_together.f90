@@ -109,8 +109,8 @@ contains
 
    !> Write the ANSWERS to the stream of this process.
    subroutine send(stream, answers)
-      integer, intent(in)           :: stream
-      type(answer_type), intent(in) :: answers(:)
+      integer, intent(in)              :: stream
+      type(answer_type), intent(inout) :: answers(:)
       integer :: k, s, unit
 
       open (newunit=unit, file=streams_at//integer_text(stream), access='stream', action='write', status='old')
@@ -118,8 +118,9 @@ contains
          associate (answer => answers(k))
             write (unit) len(answer%fault), answer%fault
             if (answer%fault == '') then
-               write (unit) shape(answer%shapes), size(answer%stages), answer%value, answer%off_number, answer%mac, answer%mode, &
-                  answer%shapes
+               if (k > 1) answer%reached = reshape([real(wp) ::], [0, 0, 0])
+               write (unit) shape(answer%shapes), size(answer%stages), shape(answer%reached), answer%value, answer%off_number, &
+                  answer%mac, answer%mode, answer%shapes, answer%reached
                do s = 1, size(answer%stages)
                   associate (stage => answer%stages(s))
                      write (unit) allocated(stage%reduced)
@@ -137,7 +138,7 @@ contains
    subroutine receive(stream, group, answers)
       integer, intent(in)              :: stream, group(:)
       type(answer_type), intent(inout) :: answers(:)
-      integer :: k, length, n(2), rows(3), s, status, unit
+      integer :: k, length, n(2), path(3), rows(3), s, status, unit
       logical :: is_there, ok
 
       open (newunit=unit, file=streams_at//integer_text(stream), access='stream', action='read', status='old')
@@ -150,10 +151,10 @@ contains
                allocate (character(length) :: answer%fault)
                read (unit) answer%fault
                if (length == 0) then
-                  read (unit) rows
+                  read (unit) rows, path
                   allocate (answer%value(rows(2)), answer%off_number(rows(2)), answer%mac(rows(2)), answer%mode(rows(2)), &
-                            answer%shapes(rows(1), rows(2)), answer%stages(rows(3)))
-                  read (unit) answer%value, answer%off_number, answer%mac, answer%mode, answer%shapes
+                            answer%shapes(rows(1), rows(2)), answer%stages(rows(3)), answer%reached(path(1), path(2), path(3)))
+                  read (unit) answer%value, answer%off_number, answer%mac, answer%mode, answer%shapes, answer%reached
                   do s = 1, size(answer%stages)
                      associate (stage => answer%stages(s))
                         read (unit) is_there

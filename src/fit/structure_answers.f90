@@ -201,7 +201,9 @@ contains
                               [size(loose%freedoms%held), size(modes%modes)])
             call match_rows(data, s, of_modes, structure, answer, failure)
             if (size(near, 2) == 0 .or. (.not. failure%raised .and. maxval(answer%mode, of_modes) <= n_sure)) exit
-            near = near(:, :0) ! a mode beyond those that are settled: begin without shapes
+            near = stage%u ! a mode beyond those that are settled, which it is now; or one beyond those found: begin without shapes
+            n_sure = maxval(answer%mode, of_modes)
+            if (failure%raised) near = near(:, :0)
             failure = failure_type()
             deallocate (modes)
          end do

@@ -172,7 +172,7 @@ contains
    !> Run STRUCTURE with the first of the VALUES (parameters, runs) of its parameters, and beside it with the others, whose laws and
    !! loads alone differ: these follow its increments with its factors, and the FAULT of one that does not come to equilibrium so is
    !! no verdict. NEAR is the answer of a run nearby, whose modes serve where frequencies alone are asked for. The runs use up the
-   !! equations of STRUCTURE: they are the last of their process.
+   !! equations of STRUCTURE: they are the last of their process. The increments of the first one begin at REACHED of STRUCTURE.
    subroutine run_structure(data, values, structure, answers, near)
       type(measured_type), intent(in)         :: data
       real(wp), intent(in)                    :: values(:, :)
@@ -183,7 +183,7 @@ contains
       type(walk_type), allocatable :: walks(:)
       type(failure_type) :: failure
       logical :: is_near
-      integer :: i, k, s
+      integer :: at, i, k, last, s
 
       call move_alloc(structure%system, system)
       is_near = present(near)
@@ -200,12 +200,18 @@ contains
          if (answers(k)%fault /= '') return
       end do
       associate (first => walks(1), stages => walks(1)%structure%plan%stages)
-         do s = 1, maxval(findloc_of(stages%id, data%rows%stage))
+         last = maxval(findloc_of(stages%id, data%rows%stage))
+         at = merge(sum([(size(stages(s)%fractions), s = 1, last)]), 0, first%structure%deck%control%method == method_newton)
+         allocate (answers(1)%reached(size(first%analysis%u, 1), size(first%analysis%u, 2), at))
+         at = 0
+         do s = 1, last
             do k = 1, size(walks)
                if (answers(k)%fault == '') call go_to_stage(s, walks(k), system, failure)
             end do
             do i = 1, size(stages(s)%fractions)
-               if (.not. failure%raised) call go_an_increment(first%structure, system, first%analysis, failure)
+               at = at + 1
+               if (.not. failure%raised) &
+                  call go_an_increment(first%structure, system, first%analysis, at, answers(1)%reached, failure)
                do k = 2, merge(1, size(walks), failure%raised)
                   if (answers(k)%fault == '') call go_beside(first%analysis, walks(k), system, answers(k)%fault)
                end do
@@ -314,7 +320,9 @@ contains
       type(attempt_type) :: attempt
       type(trial_type)   :: trial
       type(element_state), allocatable :: before(:)
+      real(wp), allocatable :: u(:, :)
       real(wp) :: enough
+      integer  :: i
 
       associate (model => walk%structure%model, analysis => walk%analysis)
          call start_increment(walk%structure%plan, system, analysis)
@@ -323,8 +331,12 @@ contains
          analysis%record%follows_path = .true. ! with all corrections
          analysis%tolerance = beside_tol*first%tolerance/first%load_tolerance
          allocate (before, source=analysis%states)
-         call approach(model, system, analysis%now%condensed_load, analysis%u + first%du, before, analysis, attempt, trial, &
-                       enough)
+         u = analysis%u + first%du
+         do i = 1, 2 ! each leaves ON_THE_PATH of the residual where it begins, if that is more than the tolerance
+            call approach(model, system, analysis%now%condensed_load, u, before, analysis, attempt, trial, enough)
+            if (trial%size <= analysis%tolerance) exit
+            u = trial%u
+         end do
          if (analysis%moves .or. .not. first%record%is_whole .or. .not. trial%size <= analysis%tolerance) then
             fault = 'no equilibrium beside another run'
          else
@@ -342,12 +354,15 @@ contains
       at = [(findloc(list, ids(i), dim=1), i = 1, size(ids))]
    end function findloc_of
 
-   !> One increment, as in the flow chart of the main program.
-   subroutine go_an_increment(structure, system, analysis, failure)
+   !> One increment, as in the flow chart of the main program. NEWTON begins where the path of the last run was then.
+   subroutine go_an_increment(structure, system, analysis, at, reached, failure)
       type(structure_type), intent(in)   :: structure
       class(equation_system), allocatable, intent(inout) :: system
       type(analysis_type), intent(inout) :: analysis
+      integer, intent(in)                :: at            !! of all increments
+      real(wp), intent(inout)            :: reached(:, :, :) !! as in answer_type
       type(failure_type), intent(inout)  :: failure
+      logical :: is_known
 
       associate (model => structure%model, plan => structure%plan)
          call start_increment(plan, system, analysis)
@@ -363,7 +378,11 @@ contains
             end if
             call interface_stiffness(model, system, analysis, failure)
          case (method_newton)
-            call newton_increment(model, plan, analysis, system, failure)
+            is_known = allocated(structure%reached)
+            if (is_known) is_known = all(shape(structure%reached) == shape(reached))
+            if (is_known) call newton_increment(model, plan, analysis, system, failure, structure%reached(:, :, at))
+            if (.not. is_known) call newton_increment(model, plan, analysis, system, failure)
+            reached(:, :, at) = analysis%u
          case (method_back)
             call back_increment(model, plan, analysis, system, failure)
          end select

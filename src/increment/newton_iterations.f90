@@ -81,7 +81,7 @@ contains
             attempt%best = now%u
             attempt%least = now%size
          end if
-         if (attempt%converged .or. attempt%ends) exit
+         if ((attempt%converged .and. (attempt%iteration > 0 .or. .not. attempt%renews)) .or. attempt%ends) exit
          anew = attempt%iteration == 0
          if (attempt%with_limits) anew = anew .or. is_exact(attempt) .or. attempt%step < 1.0_wp
          if (anew) call laws_at(model, system, now, laws)

@@ -41,13 +41,15 @@ module newton_method
 contains
 
    !> One increment of the load, from equilibrium to equilibrium.
-   subroutine newton_increment(model, plan, analysis, system, failure)
+   subroutine newton_increment(model, plan, analysis, system, failure, guess)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
       type(analysis_type), intent(inout)   :: analysis !! NOW has the loads at the end of the increment
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
+      real(wp), intent(in), optional       :: guess(:, :) !! (dimension, retained) displacements at the end of a run nearby [length]
       type(attempt_type) :: attempt
+      real(wp), allocatable :: from(:, :)
       real(wp) :: k(3, size(analysis%states))
       integer  :: before(size(analysis%states)), i, j
       logical  :: lifted
@@ -66,7 +68,9 @@ contains
             attempt%growth = fractions(i)/fractions(i - 1)
          end associate
       end if
-      call find_equilibrium(model, analysis, system, attempt, failure, plan%stages(analysis%stage)%follows_path, plan%measures_path)
+      if (present(guess) .and. .not. analysis%moves) from = merge(analysis%u, guess, analysis%held)
+      call find_equilibrium(model, analysis, system, attempt, failure, plan%stages(analysis%stage)%follows_path, &
+                            plan%measures_path, from)
       if (failure%raised) then
          call go_back(plan, attempt%left_over, analysis)
          if (analysis%record%ends_early .and. .not. allocated(plan%stages(analysis%stage)%path)) &
@@ -196,18 +200,20 @@ contains
    end function is_idle
 
    !> Go from equilibrium to equilibrium: along the path, or in one step, whose error of path is MEASURED.
-   subroutine find_equilibrium(model, analysis, system, attempt, failure, follows, measures)
+   subroutine find_equilibrium(model, analysis, system, attempt, failure, follows, measures, guess)
       type(model_type), intent(in)         :: model
       type(analysis_type), intent(inout)   :: analysis
       class(equation_system), intent(inout) :: system
       type(attempt_type), intent(inout)    :: attempt
       type(failure_type), intent(inout)    :: failure
       logical, intent(in)                  :: follows, measures
+      real(wp), intent(in), optional       :: guess(:, :)
       type(element_state), allocatable :: way(:)
       type(path_start_type) :: start
       type(path_error_type) :: error
       real(wp), allocatable :: half(:, :), u_start(:, :)
-      integer :: before_open
+      real(wp) :: growth
+      integer  :: before_open
 
       allocate (u_start, source=analysis%u)
       before_open = count(analysis%states%normal%branch == branch_open)
@@ -219,7 +225,15 @@ contains
             call note_start(analysis, start)
             allocate (way, source=analysis%states)
          end if
-         call reach(model, analysis, system, attempt, [0.0_wp, 1.0_wp])
+         if (present(guess)) then
+            growth = attempt%growth
+            attempt%growth = 0.0_wp
+            attempt%renews = .true.
+            call reach(model, analysis, system, attempt, [0.0_wp, 1.0_wp], guess)
+            attempt%growth = growth
+            attempt%renews = .false.
+         end if
+         if (.not. attempt%converged) call reach(model, analysis, system, attempt, [0.0_wp, 1.0_wp])
          if (measures .and. attempt%converged) then
             call measure_path(model, system, start, [0.0_wp, 1.0_wp], grading(model, start, analysis), analysis, attempt, way, &
                               error, half)

@@ -32,6 +32,7 @@ module newton_trial
       logical  :: seats = .false.                 !! interference at rest without load
       real(wp) :: seat_force = 0.0_wp             !! then the reference force: p_av on the pressed elements [force]
       logical  :: with_limits = .false.           !! friction by a sequence of given limits
+      logical  :: renews = .false.                !! an iteration at least: other runs go on with its factor
       logical  :: is_limited = .false.            !! given limits have not borne a part of the increment
       real(wp) :: expected(2) = [1.0_wp, 0.0_wp]  !! bounds of BEARABLE that agree with such a part, none if the first is larger [-]
       integer  :: only = 0                        !! the only way of increment_parts that is tried, 0: all

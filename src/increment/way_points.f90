@@ -10,7 +10,7 @@ module way_points
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate_at, trial_type
-   use tolerances, only: loose_direction, on_the_path
+   use tolerances, only: dependent_product, loose_direction, on_the_path
    implicit none
    private
 
@@ -81,7 +81,7 @@ contains
       type(failure_type) :: failure ! ends the corrections
       real(wp) :: steps(size(u, 1), size(u, 2), most_corrections), gains(size(u, 1), size(u, 2), most_corrections)
       real(wp) :: direction(size(u, 1), size(u, 2)), left(size(u, 1), size(u, 2)), share
-      integer  :: i, k
+      integer  :: first, i, k
 
       allocate (goal, source=attempt%load)
       attempt%load = load
@@ -89,11 +89,12 @@ contains
       call evaluate_at(model, system, attempt, analysis, u, trial)
       enough = max(on_the_path*trial%size, analysis%tolerance)
       last = trial
+      first = 1
       do i = 1, merge(most_corrections, some_corrections, analysis%record%follows_path)
          if (trial%size <= enough .or. attempt%iteration == 0) exit
          left = merge(0.0_wp, last%residual, analysis%held)
          steps(:, :, i) = 0.0_wp
-         do k = 1, i - 1
+         do k = first, i - 1
             share = sum(gains(:, :, k)*left)
             left = left - share*gains(:, :, k)
             steps(:, :, i) = steps(:, :, i) + share*steps(:, :, k)
@@ -103,16 +104,20 @@ contains
          steps(:, :, i) = steps(:, :, i) + direction
          call evaluate_at(model, system, attempt, analysis, last%u + steps(:, :, i), next)
          if (.not. next%size < huge(1.0_wp)) exit
-         gains(:, :, i) = merge(0.0_wp, last%residual - next%residual, analysis%held)
-         do k = 1, i - 1
+         left = merge(0.0_wp, last%residual - next%residual, analysis%held)
+         gains(:, :, i) = left
+         do k = first, i - 1
             share = sum(gains(:, :, k)*gains(:, :, i))
             gains(:, :, i) = gains(:, :, i) - share*gains(:, :, k)
             steps(:, :, i) = steps(:, :, i) - share*steps(:, :, k)
          end do
          share = norm2(gains(:, :, i))
-         if (.not. share > 0.0_wp) exit
-         gains(:, :, i) = gains(:, :, i)/share
-         steps(:, :, i) = steps(:, :, i)/share
+         if (share > dependent_product*norm2(left)) then
+            gains(:, :, i) = gains(:, :, i)/share
+            steps(:, :, i) = steps(:, :, i)/share
+         else
+            first = i + 1 ! the corrections before have all directions that there are, as in a joint of one element: without them
+         end if
          last = next
          if (last%size < trial%size) trial = last
       end do

@@ -73,6 +73,9 @@ near 'one element: M' M 0.45 1e-5
 sd=$(awk 'BEGIN { print 0.01/sqrt(2*log(4)^2) }')
 holds "one element: deviation of M $sd" awk -v sd="$sd" '$2 == "M" { off = $5 / sd - 1; exit !(off < 1e-3 && off > -1e-3) }' found
 says 'one element: the card' found 'JNORM   1       '
+awk -F, -v OFS=, '/stage=1/ { $2 = -$2 } /stage=3/ { $2 = 1000*$2 } { sub("1%", "1 %"); print }' one.csv > units.csv
+seek one.bdf --measured units.csv
+says 'a wrong sign and a wrong unit' found 'check    row 1: the deck has the other sign' 'check    row 3: the deck has '
 seek one.bdf --measured one.csv --start C=0.1 --starts 3
 near 'one element: from three starts' C 8e-3 1e-4
 says 'one element: from three starts' found '3 of 3 have led to this sum of squares'
@@ -118,6 +121,8 @@ bad 'a shape without its value' 'frequency,1.0,1%,stage=1,shape=1:y' "'shape=1:y
 bad 'a shape that is no number' 'frequency,1.0,1%,stage=1,shape=1:y:z' "'shape=1:y:z': expected one of"
 bad 'no mode' 'frequency,1.0,1%,stage=1' 'expected MODE=, or SHAPE='
 bad 'two nodes without direction' 'stiffness,1.0,1%,stage=1,node=1-2' 'two nodes are those of a displacement or stiffness'
+bad 'blanks round =' 'displacement,1.0,1%,stage = 1,node=1,direction=y' "'stage': expected one of stage=2" 'without blanks'
+holds 'blanks round =: one error of the row' [ "$(grep -c 'DATA ERROR' stderr)" -eq 1 ]
 bad 'a line of one node' 'displacement,1.0,1%,stage=1,node=1,direction=line' 'direction=line is that of two nodes'
 sed 's/^frequency.*/displacement,1.0,1%,stage=1,node=413,direction=z/' "$input/measured/column.csv" > bad.csv
 seek "$input/measured/column.bdf" --measured bad.csv
@@ -316,10 +321,23 @@ seek "$input/measured/column.bdf" --measured "$input/measured/column.csv"
 holds 'the column: laws within two deviations' awk 'BEGIN { truth["C"] = 4.5e-3; truth["M"] = 0.5; truth["K0"] = 50; truth["K1"] = 100 }
    $1 == "$" && $2 in truth && $5 > 0 { n++; off = ($4 - truth[$2]) / $5; if (off > 2 || off < -2) bad = 1 } END { exit bad || n != 4 }' found
 says 'the column: modes' found 'have changed places'
-awk '/^\*A column\.\*/ { on = 1 } on && /^```/ { n++ } on && n == 1 && /^\$/ { print } n == 2 { exit }' "$input/README.md" > manual
-holds 'the column: the table of the manual' awk '$1 != "$" || $3 + 0 == 0 { next } NR == FNR { value[$2] = $4; deviation[$2] = $5; n++; next }
-   $2 in value { m++; if ($4 / value[$2] > 1.002 || $4 / value[$2] < 0.998 || $5 / deviation[$2] > 1.01 || $5 / deviation[$2] < 0.99) bad = 1 }
-   END { exit bad || n != 4 || m != 4 }' manual found
+# table_of TITLE: the table of parameters in the manual behind *TITLE.*, in `manual`; as_in_manual TITLE N: it has those of `found`, N
+table_of() {
+   awk -v title="*$1.*" 'index($0, title) == 1 { on = 1 } on && /^```/ { n++ } on && n == 1 && /^\$/ { print } n == 2 { exit }' "$input/README.md" > manual
+}
+as_in_manual() {
+   holds "$1: the table of the manual" awk -v size="$2" '$1 != "$" || $3 + 0 == 0 { next } NR == FNR { value[$2] = $4; deviation[$2] = $5; n++; next }
+      $2 in value { m++; if ($4 / value[$2] > 1.002 || $4 / value[$2] < 0.998 || $5 / deviation[$2] > 1.01 || $5 / deviation[$2] < 0.99) bad = 1 }
+      END { exit bad || n != size || m != size }' manual found
+}
+table_of 'A column'
+as_in_manual 'A column' 4
+
+# ---- the lap of the manual: the search stays at the values there ----
+table_of 'A beam with a lap'
+# shellcheck disable=SC2046
+seek "$input/measured/brake_reuss.bdf" --measured "$input/measured/brake_reuss.csv" $(awk '$3 + 0 > 0 { printf " --start %s=%s", $2, $4 }' manual)
+as_in_manual 'A beam with a lap' 2
 
 # ---- a mode by its shape beyond those of EIGRL: the same frequencies as where EIGRL has it ----
 { grep ^parameter,C "$input/measured/column.csv"; grep 'mode=1$' "$input/measured/column.csv"
