@@ -57,12 +57,10 @@ contains
       integer, intent(inout)               :: n(:)       !! number of cards of each kind
       type(bulk_data_type), intent(in)     :: bulk
       type(deck_error_list), intent(inout) :: errors
-      type(card_type)              :: card
-      type(deck_error_list)        :: said_later
       integer, allocatable         :: line(:), order(:)
       integer(int64), allocatable  :: key(:)
       logical :: has(2, 0:size(bulk%part_lines)), is_first
-      integer :: behind, i, j, k
+      integer :: i, j, k
 
       allocate (line(0))
       has = .false.
@@ -73,14 +71,9 @@ contains
             if (is_same_twice(name)) line = [line, i]
          end associate
       end do
-      allocate (key(size(line)), source=no_bytes)
+      allocate (key(size(line)))
       do i = 1, size(line)
-         behind = line(i)
-         call read_card(text, behind, card, said_later)
-         call add_to_checksum(card%name, key(i))
-         do k = 1, card%n
-            call add_to_checksum('|'//card%fields(k)%text(:card%fields(k)%length), key(i))
-         end do
+         key(i) = sum_of_card(text, line(i))
       end do
       call sorted_order(int(ibits(key, 0, 31)), order) ! equal cards keep their order
       do i = 1, size(line)
@@ -102,6 +95,24 @@ contains
          call errors%add(bulk%part_lines(findloc(has(1, 1:) .and. .not. has(2, 1:), .true., dim=1)), 'GRDSET holds for '// &
                          'all parts, and this part has none; expected the same GRDSET in each, or CP, CD and PS of GRID')
    end subroutine drop_repeated
+
+   !> The checksum of the card that begins on LINE, of its name and all its entries.
+   integer(int64) function sum_of_card(text, line) result(key)
+      type(deck_text_type), intent(in) :: text
+      integer, intent(in)              :: line
+      type(card_type), allocatable :: card
+      type(deck_error_list) :: said_later
+      integer :: behind, k
+
+      behind = line
+      allocate (card)
+      call read_card(text, behind, card, said_later)
+      key = no_bytes
+      call add_to_checksum(card%name, key)
+      do k = 1, card%n
+         call add_to_checksum('|'//card%fields(k)%text(:card%fields(k)%length), key)
+      end do
+   end function sum_of_card
 
    !> Whether a card NAME means the same when it is given twice. Two equal loads, masses or elements are two.
    pure logical function is_same_twice(name)
