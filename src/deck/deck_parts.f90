@@ -59,18 +59,20 @@ contains
       type(deck_error_list), intent(inout) :: errors
       integer, allocatable         :: line(:), order(:)
       integer(int64), allocatable  :: key(:)
+      logical, allocatable :: counts(:)
       logical :: has(2, 0:size(bulk%part_lines)), is_first
       integer :: i, j, k
 
-      allocate (line(0))
       has = .false.
+      allocate (counts(size(kind_at)), source=.false.)
       do i = 1, size(kind_at)
          if (kind_at(i) == 0) cycle
          associate (name => names(kind_at(i)))
             if (name == 'GRDSET') has(2, part_at(bulk, i)) = .true.
-            if (is_same_twice(name)) line = [line, i]
+            counts(i) = is_same_twice(name)
          end associate
       end do
+      line = pack([(i, i = 1, size(counts))], counts)
       allocate (key(size(line)))
       do i = 1, size(line)
          key(i) = sum_of_card(text, line(i))
