@@ -41,10 +41,9 @@ contains
             stage%from = given%from%id
             if (.not. plan%is_independent) stage%begins_at = s - 1
             if (stage%from > 0) stage%begins_at = findloc(deck%control%stages%id, stage%from, dim=1)
-            associate (first => deck%control%stages(plan%first_with))
-               stage%supports = findloc(first%supports%id == given%supports%id .and. first%equations%id == given%equations%id, &
-                                        .true., dim=1)
-            end associate
+            ! gfortran 12 loses the copies of an associate name with a vector subscript
+            stage%supports = findloc(deck%control%stages(plan%first_with)%supports%id == given%supports%id .and. &
+                                     deck%control%stages(plan%first_with)%equations%id == given%equations%id, .true., dim=1)
             if (stage%supports == 0) plan%first_with = [plan%first_with, s]
             if (stage%supports == 0) stage%supports = size(plan%first_with)
             call plan_sum()
