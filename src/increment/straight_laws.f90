@@ -356,7 +356,7 @@ contains
       type(normal_state), intent(in) :: before
       real(wp), intent(in)           :: goal   !! [force]
       real(wp), intent(in)           :: rho    !! > 0 [force/length]
-      real(wp) :: bounds(2), excess, p
+      real(wp) :: bounds(2), excess, k_n, p
       integer  :: step
 
       lambda = goal/rho
@@ -365,7 +365,7 @@ contains
       if (lambda <= before%lambda_a) return
       bounds = min([0.5_wp, 1.0_wp]*goal/area, loading_pressure(law, [0.5_wp, 1.0_wp]*goal/rho))
       p = bounds(2)
-      if (p <= 0.0_wp) then ! the pressure underflows: the law bears nothing at this lambda
+      if (p < tiny(p)) then ! the pressure underflows: the law bears nothing at this lambda
          lambda = goal/rho
          return
       end if
@@ -374,7 +374,8 @@ contains
          excess = area*p + rho*lambda - goal
          if (abs(excess) <= on_the_graph*goal) return
          bounds(merge(2, 1, excess > 0.0_wp)) = p
-         p = p - excess/(area + rho*area/normal_tangent(law, area, p, p_av=p))
+         k_n = normal_tangent(law, area, p, p_av=p) ! may underflow
+         p = p - excess*k_n/(area*(k_n + rho))
          if (p <= bounds(1) .or. p >= bounds(2)) p = 0.5_wp*sum(bounds)
       end do
    end function normal_rest
