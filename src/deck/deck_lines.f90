@@ -111,8 +111,8 @@ contains
       end do
    end function file_named_by
 
-   !> How many cards LINE repeats: 0 where it repeats none, 1 for '=, *(1), =, ==' and 'PBAR,102,=,==', N for '=(N)' and '=N', which repeat the STEPS of a
-   !! line before; -1 where these cannot be read.
+   !> How many cards LINE repeats: 0 where it repeats none, 1 for '=, *(1), =, ==' and 'PBAR,102,=,==', N for '=(N)' and '=N', which
+   !! repeat the STEPS of a line before; -1 where these cannot be read.
    integer function repeats_of(line, steps) result(n)
       character(*), intent(in) :: line
       character(entry_width), intent(inout) :: steps(n_fields) !! the entries of LINE where it has some

@@ -18,9 +18,9 @@ module deck_parts
 
    public :: part_of_begin, drop_repeated, check_parts, read_part
 
-   ! cards that mean the same when they are given twice: those of nodes, axes, properties, materials, tables, supports and sets
-   character(6), parameter :: same_twice(16) = [character(6) :: 'GRID', 'GRDSET', 'SPOINT', 'CORD', 'MAT', 'TABLE', 'TABDMP', &
-      'EIGR', 'SPC', 'SPC1', 'SPCADD', 'BAROR', 'BEAMOR', 'ASET', 'BSET', 'QSET']
+   ! cards that mean the same when they are given twice, by their first letters: nodes, axes, materials, tables, supports and sets
+   character(6), parameter :: same_twice(14) = [character(6) :: 'GRID', 'GRDSET', 'SPOINT', 'CORD', 'MAT', 'TABLE', 'TABDMP', &
+      'EIGR', 'SPC', 'BAROR', 'BEAMOR', 'ASET', 'BSET', 'QSET']
 
 contains
 

@@ -31,7 +31,7 @@ contains
       real(wp), allocatable, intent(inout)  :: u(:, :)  !! (dimension, retained) [length]
       type(element_state), allocatable, intent(inout) :: before(:) !! returned as they were
       logical, intent(in)                   :: surely   !! by iterations if need be
-      type(analysis_type), intent(inout)    :: analysis !! likewise, with the iterations made
+      type(analysis_type), intent(inout)    :: analysis !! returned as it was, but for the iterations made
       type(attempt_type), intent(inout)     :: attempt  !! likewise
       type(element_state), allocatable, intent(out)   :: along(:)
       logical, intent(out)                  :: is_found
@@ -51,7 +51,7 @@ contains
          own%growth = 0.0_wp
          call try_part(model, system, there, left, own, trial%u)
          analysis%record = there%record
-         attempt%coupled = own%coupled ! is the last factor
+         attempt%coupled = own%coupled ! as the last factor is
          is_found = own%converged
          if (is_found) then
             call move_alloc(there%u, u)

@@ -16,8 +16,9 @@ shift 2
 VARIANTS=$variant "$here/zoo.sh" - "$work" "$@" > /dev/null || exit 1
 verdict=0
 for machine; do
+   stage=1
    for direction in x y z; do
-      stage=$(echo xyz | awk -v d=$direction '{ print index($0, d) + 1 }')
+      stage=$((stage + 1))
       name=${machine}_${direction}_times_$factor
       awk -v stage="$stage" -v factor="$factor" '
          /^SUBCASE/ { left_out = $2 != 1 && $2 != stage }
@@ -27,12 +28,7 @@ for machine; do
          { print }' "$work/${machine}_$variant.bdf" > "$work/$name.bdf"
       timeout "${LIMIT:-300}" "$program" -q -o "$work" "$work/$name.bdf" > "$work/$name.said" 2>&1
       status=$?
-      iterations=$(awk -v stage="$stage" '
-         /^ CONVERGENCE HISTORY, STAGE / { on = $4 + 0 == stage; next }
-         /^ [A-Z]/ { on = 0 }
-         on && $2 == "..." { n += $3 }
-         on && $1 + 0 > 0 && NF >= 6 { n++ }
-         END { print n + 0 }' "$work/$name.out" 2> /dev/null)
+      iterations=$(awk -v only=$stage -f "$here/iterations.awk" "$work/$name.out" 2> /dev/null | awk '{ print $2 }')
       printf '%-12s %s %4s %5s  %s\n' "$machine" $direction $status "${iterations:-0}" \
          "$(sed -n 's/.*: \([-+.0-9E]* of force are missing\).*/\1/p' "$work/$name.said" | head -n 1)"
       case $status in

@@ -55,5 +55,5 @@ run relief_mean && {
 
 # ---- The same line of replicated cards: in free field and in fields of eight columns
 { printf 'MODEL = SPACE\nSUBCASE 1\n  LOAD = 10\nBEGIN BULK\nPARAM,INREL,-1\nMAT1,1,9000.0,,0.25,0.01\nGRID,1,,0.0,0.0,0.0\n=,*(1),=,*(10.),==\n$ eleven more\n=(11)\n'
-   printf 'CBAR    1       1       1       2       0.0     1.0     0.0\n=       *1      =       *(1)    *(1)    ==\n=10\n%s\n%b\n' "$section" 'SUPORT,1,123456\nFORCE,10,12,,1.0,0.0,1.0\nFORCE,=,13,=,*29.0,1.0\nFORCE,10,12,,-1.0,0.0,1.0\nENDDATA'; } > "$work/relief_repeated.bdf"
+   printf 'CBAR    1       1       1       2       0.0     1.0     0.0\n=       *1      =       *(1)    *(1)    ==\n=10\n%s\n%b\n' "$section" 'SUPORT,1,123456\nFORCE,10,12,,1.0,0.0,1.0\n=,=,13,=,*29.0,1.0\nFORCE,=,12,=,-1.0,0.0,1.0\nENDDATA'; } > "$work/relief_repeated.bdf"
 run relief_repeated && near 'replicated cards' "$(moved_in relief_repeated 1 13 1)" '30*120/(2*9000*4)' 1e-5
