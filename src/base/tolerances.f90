@@ -88,6 +88,7 @@ module tolerances
    real(wp), parameter :: least_tol = 1.0e-14_wp     !! the least TOL: rounding allows no less
    real(wp), parameter :: far_below_tol = 1.0e-3_wp  !! of TOL: below it another iteration is not worth while
    real(wp), parameter :: loose_direction = 1.0e-2_wp !! of the residual: what a direction may leave where solutions are dear
+   real(wp), parameter :: rough_direction = 0.1_wp   !! of it: the same where the next direction takes account of what is left
    real(wp), parameter :: tight_direction = 1.0e-4_wp !! of it: the same elsewhere
    real(wp), parameter :: finest_direction = 1.0e-12_wp !! of it: rounding allows no less
    real(wp), parameter :: krylov_residual = 1.0e-12_wp !! of the load: what the iterations of PETSC leave

@@ -18,7 +18,7 @@ module path_error
    use newton_trial, only: attempt_type
    use normal_stiffness, only: branch_load, branch_open
    use straight_laws, only: loose_joints
-   use tolerances, only: equal_shares, least_start, no_contact
+   use tolerances, only: equal_shares, least_start, loose_direction, no_contact
    use way_points, only: correction, find_equilibrium
    implicit none
    private
@@ -173,7 +173,7 @@ contains
 
       turns = .false.
       if (attempt%iteration == 0) return
-      call correction(model, system, merge(0.0_wp, change, analysis%held), attempt%coupled, direction, failure)
+      call correction(model, system, merge(0.0_wp, change, analysis%held), attempt%coupled, loose_direction, direction, failure)
       if (failure%raised) return
       largest = max(maxval(analysis%states%normal%lambda_a), maxval(analysis%states%normal%lambda))
       do i = 1, size(analysis%states)

@@ -10,15 +10,14 @@ module way_points
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate_at, trial_type
-   use tolerances, only: dependent_product, loose_direction, on_the_path
+   use tolerances, only: dependent_product, on_the_path, rough_direction
    implicit none
    private
 
    public :: find_equilibrium, correction
    public :: approach ! for runs beside another one
 
-   integer, parameter :: most_corrections = 8 ! where the error of path decides on the division
-   integer, parameter :: some_corrections = 4 ! where it is only printed
+   integer, parameter :: most_corrections = 8
 
 contains
 
@@ -90,7 +89,7 @@ contains
       enough = max(on_the_path*trial%size, analysis%tolerance)
       last = trial
       first = 1
-      do i = 1, merge(most_corrections, some_corrections, analysis%record%follows_path)
+      do i = 1, most_corrections
          if (trial%size <= enough .or. attempt%iteration == 0) exit
          left = merge(0.0_wp, last%residual, analysis%held)
          steps(:, :, i) = 0.0_wp
@@ -99,7 +98,7 @@ contains
             left = left - share*gains(:, :, k)
             steps(:, :, i) = steps(:, :, i) + share*steps(:, :, k)
          end do
-         call correction(model, system, left, attempt%coupled, direction, failure)
+         call correction(model, system, left, attempt%coupled, rough_direction, direction, failure)
          if (failure%raised) exit
          steps(:, :, i) = steps(:, :, i) + direction
          call evaluate_at(model, system, attempt, analysis, last%u + steps(:, :, i), next)
@@ -134,18 +133,20 @@ contains
       call move_alloc(c, b)
    end subroutine exchange_states
 
-   !> The DIRECTION that balances the RESIDUAL with the factor of the last iteration.
-   subroutine correction(model, system, residual, is_coupled, direction, failure)
+   !> The DIRECTION that balances the RESIDUAL with the factor of the last iteration, and of coupled equations but a share PRECISION
+   !! of it.
+   subroutine correction(model, system, residual, is_coupled, precision, direction, failure)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       real(wp), intent(in)                  :: residual(:, :)
       logical, intent(in)                   :: is_coupled
+      real(wp), intent(in)                  :: precision !! [-]
       real(wp), intent(out)                 :: direction(:, :)
       type(failure_type), intent(inout)     :: failure
 
       if (is_coupled) then
          direction = residual
-         call solve_coupled_again(model, loose_direction, system, direction, failure)
+         call solve_coupled_again(model, precision, system, direction, failure)
       else
          call solve_by_last_factor(system, residual, direction)
       end if
