@@ -10,7 +10,7 @@ module way_points
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate_at, trial_type
-   use tolerances, only: dependent_product, on_the_path, rough_direction
+   use tolerances, only: dependent_product, loose_direction, on_the_path, rough_direction
    implicit none
    private
 
@@ -98,7 +98,8 @@ contains
             left = left - share*gains(:, :, k)
             steps(:, :, i) = steps(:, :, i) + share*steps(:, :, k)
          end do
-         call correction(model, system, left, attempt%coupled, rough_direction, direction, failure)
+         call correction(model, system, left, attempt%coupled, &
+                         merge(loose_direction, rough_direction, analysis%record%follows_path), direction, failure)
          if (failure%raised) exit
          steps(:, :, i) = steps(:, :, i) + direction
          call evaluate_at(model, system, attempt, analysis, last%u + steps(:, :, i), next)
