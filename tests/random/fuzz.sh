@@ -39,7 +39,8 @@ for build in "$@"; do
    [ -x "${build#*=}" ] || { echo "no program: $build" >&2; exit 2; }
    builds+=("${build%%=*}=$(realpath "${build#*=}")")
 done
-export ASAN_OPTIONS=detect_leaks=1:max_allocation_size_mb=2000:allocator_may_return_null=1 LSAN_OPTIONS=exitcode=0 UBSAN_OPTIONS=print_stacktrace=1
+export ASAN_OPTIONS=detect_leaks=1:max_allocation_size_mb=2000:allocator_may_return_null=1:malloc_context_size=2 \
+   LSAN_OPTIONS=exitcode=0:print_suppressions=0:suppressions=$(cd "$here/../source" && pwd)/leaks.txt UBSAN_OPTIONS=print_stacktrace=1
 
 # the decks that others are made from: small ones; the meshes of Gmsh in every field format; a backbone of one amplitude
 mkdir -p "$folder/meshes"

@@ -17,6 +17,8 @@ shift
 [ $# -gt 0 ] || set -- address bad threads memcheck
 make=${MAKE:-make} fc=${FC:-gfortran} libraries=${LIBRARIES:--larpack -lmetis -lminpack -lopenblas}
 passed=0 failed=0
+# leaks.txt is compared with all callers that are noted: with the nearest alone
+short=malloc_context_size=2 not_ours=print_suppressions=0:suppressions=$PWD/tests/source/leaks.txt
 mkdir -p "$work/results"
 
 # verdict WHAT STATUS LOG PATTERN: LOG has nothing of PATTERN, and the exit status is one of the program's own
@@ -47,7 +49,7 @@ built() {
 address() {
    local deck log="$work/address-run.log"
    built address '-fsanitize=address,undefined -fno-omit-frame-pointer' '' || return
-   export ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1
+   export ASAN_OPTIONS=detect_leaks=1:$short LSAN_OPTIONS=$not_ours UBSAN_OPTIONS=print_stacktrace=1
    for deck in input/*.bdf; do
       "$work/address/jointfem" -q -o "$work/results" "$deck" > "$log" 2>&1
       verdict "address: $deck" $? "$log" 'ERROR: .*Sanitizer|runtime error'
@@ -64,7 +66,7 @@ address() {
 bad() {
    local log="$work/bad-run.log"
    built address '-fsanitize=address,undefined -fno-omit-frame-pointer' '' || return
-   LIMIT=600 ASAN_OPTIONS=detect_leaks=1:exitcode=99 UBSAN_OPTIONS=halt_on_error=1:exitcode=99 tests/bad/run.sh "$work/address/jointfem" > "$log" 2>&1
+   LIMIT=600 ASAN_OPTIONS=detect_leaks=1:$short:exitcode=99 LSAN_OPTIONS=$not_ours UBSAN_OPTIONS=halt_on_error=1:exitcode=99 tests/bad/run.sh "$work/address/jointfem" > "$log" 2>&1
    grep FAILED -A 6 "$log"
    set -- $(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$log" | tail -n 1 || echo 0 passed, 1 failed)
    passed=$((passed + ${1:-0})) failed=$((failed + ${3:-1}))
