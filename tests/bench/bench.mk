@@ -11,7 +11,7 @@ BENCH_PROGRAMS := $(BENCH_FOLDER)/dgemm_rate $(if $(BENCH_MPI),$(BENCH_FOLDER)/p
                   $(if $(MKLROOT),$(BENCH_FOLDER)/pardiso_once)
 
 .PHONY: bench
-bench: bin/jointfem $(BENCH_PROGRAMS) $(BENCH_MPI)
+bench: bin/jointfem bin/jointfit $(BENCH_PROGRAMS) $(BENCH_MPI)
 	@tests/bench/bench.sh bin/jointfem $(BENCH_FOLDER) $(MODELS)
 
 $(BENCH_FOLDER)/dgemm_rate $(BENCH_FOLDER)/write_matrix $(BENCH_FOLDER)/partition_plan: $(BENCH_FOLDER)/%: tests/bench/%.f90 $(RELEASE_OBJECTS)

@@ -6,8 +6,8 @@
 #
 # FOLDER  where the programs of the benchmark are and its files go; FOLDER/measured holds every figure, FOLDER/tables the tables
 # WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing, gmsh, lists,
-#         modes, foot, zoo, mpi; not of all: foot and mpi, which take hours, and zoo, which takes half an hour; FOOT_MODELS, ZOO_MODELS,
-#         MPI_SHAPES and THREAD_SHAPES are the models they measure
+#         modes, identify, foot, zoo, mpi; not of all: foot and mpi, which take hours, and zoo, which takes half an hour; FOOT_MODELS,
+#         ZOO_MODELS, MPI_SHAPES and THREAD_SHAPES are the models they measure
 #
 # Programs run one after another, on one thread unless said otherwise, ours and CHOLMOD in turn; of several runs the fastest
 # counts, long ones are not repeated. Status 1 where a run fails or CHOLMOD finds another answer.
@@ -27,10 +27,10 @@ wide='q4_4000x20 hex8_58x58x3 hex8_58x58x10'
 wanted=
 for word; do
    case $word in
-   all)   wanted="$wanted $small $large $wide gmsh friction threads crossing lists modes" ;;
+   all)   wanted="$wanted $small $large $wide gmsh friction threads crossing lists modes identify" ;;
    small) wanted="$wanted $small friction crossing" ;;
-   q4_*|hex8_*|over_*|friction|threads|crossing|gmsh|lists|modes|foot|zoo|mpi) wanted="$wanted $word" ;;
-   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh, lists, modes, foot, zoo, mpi nor a shape like q4_100x20, hex8_20x20x20" >&2
+   q4_*|hex8_*|over_*|friction|threads|crossing|gmsh|lists|modes|identify|foot|zoo|mpi) wanted="$wanted $word" ;;
+   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh, lists, modes, identify, foot, zoo, mpi nor a shape like q4_100x20, hex8_20x20x20" >&2
       exit 1 ;;
    esac
 done
@@ -263,6 +263,16 @@ measure_modes() {
    done
 }
 
+# ------------------------------------------------------------------ four parameters of a joint from frequencies, beside one factorisation
+measure_identify() {
+   local shape
+   for shape in "$@"; do
+      echo "bench: laws of $shape" >&2
+      "$here/identify.sh" "$program" "${program%jointfem}jointfit" "$work/identify" "$shape" > "$work/one" || fail "no laws of $shape"
+      record identify "$shape" "$work/one"
+   done
+}
+
 # ------------------------------------------------------------------ PETSC on one process and on two, beside TREE on as many threads
 measure_mpi() {
    local shape n name
@@ -428,6 +438,7 @@ for what in $wanted; do
    zoo)      measure_zoo ;;
    mpi)      measure_mpi ;;
    lists)    measure_lists over_20x20x8 over_24x17x8 over_24x24x8 ;;
+   identify) measure_identify hex8_11x11x64 hex8_20x20x23 ;;
    modes)    measure_modes q4_1000x200 hex8_40x40x40 hex8_50x50x50 ;;
    *)        measure_model "$what" ;;
    esac

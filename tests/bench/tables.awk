@@ -26,6 +26,7 @@ END {
    crossing()
    lists()
    modes()
+   identify()
    foot()
    zoo()
    mpi()
@@ -189,6 +190,19 @@ function modes(    i, m, once) {
       once = v["modes", m, "order"] + v["modes", m, "factor"] + v["modes", m, "increments"] # fronts that move: factorised there
       cells(label(m) ";" v["modes", m, "unknowns"] ";" seconds(v["modes", m, "order"]) ";" seconds(v["modes", m, "factor"]) ";" \
          seconds(v["modes", m, "increments"]) ";" seconds(v["modes", m, "modes"]) ";" ratio(v["modes", m, "modes"], once))
+   }
+   put()
+}
+
+function identify(    i, m) {
+   if (!rows["identify"]) return
+   title("Four parameters of a joint from twelve frequencies, user seconds, beside one factorisation")
+   head("model;unknowns;once;jointfit;jointfit/once;C;M;A11;A12")
+   for (i = 1; i <= rows["identify"]; i++) {
+      m = row["identify", i]
+      cells(label(m) ";" v["identify", m, "unknowns"] ";" seconds(v["identify", m, "once"]) ";" seconds(v["identify", m, "all"]) ";" \
+         ratio(v["identify", m, "all"], v["identify", m, "once"]) ";" v["identify", m, "C"] ";" v["identify", m, "M"] ";" \
+         v["identify", m, "A11"] ";" v["identify", m, "A12"])
    }
    put()
 }

@@ -32,6 +32,10 @@ deck hex8_3x2x4 3 145 60
 "$here/make_deck.sh" q4_6x3 AUTO NONE '' 7 > "$work/modes.bdf" && "$program" -q -o "$work" "$work/modes.bdf" > "$work/said" 2>&1 &&
    [ "$(wc -l < "$work/modes.modes.csv")" -eq 8 ]
 count 'a deck with seven modes' $?
+"$here/identify.sh" "$program" "${program%jointfem}jointfit" "$work/identify" hex8_2x2x4 > "$work/said" 2>&1 &&
+   awk '{ v[$1] = $2 } function off(name, truth) { return v[name] < 0.9*truth || v[name] > 1.1*truth }
+        END { exit off("C", 5e-3) || off("M", 0.5) || off("unknowns", 135) || !(v["all"] > 0) }' "$work/said"
+count 'four parameters from frequencies' $?
 deck over_4x3x2 '' 318 0      # 5 x 5 x 3 nodes over 4 x 4 x 3, 4 x 4 held, 3 components of the upper block
 deck over_3x3x2 '' 237 0
 
@@ -106,6 +110,10 @@ modes q4_20x4 factor 1
 modes q4_20x4 increments 0.5
 modes q4_20x4 modes 7
 modes q4_20x4 unknowns 400
+identify hex8_2x2x4 unknowns 135
+identify hex8_2x2x4 once 0.5
+identify hex8_2x2x4 all 10
+identify hex8_2x2x4 C 5.01E-03
 foot small_cut ends yes
 foot small_cut threads 2
 foot small_cut nodes 6895
@@ -144,6 +152,7 @@ row() {
    tr -s ' -' < "$work/tables" | grep -qE "$1"
    count "no row in $work/tables is like $1" $?
 }
+row '^\| hex8 2 x 2 x 4 \| 135 \| 0.50 \| 10.0 \| 20.0 \| 5.01E-03 \|'
 row '^\| Q4 20 x 4 \| 400 \| 0.50 \| 1.00 \| 0.50 \| 7.00 \| 3.50 \|$'
 row '^\| Q4 20 x 4 \| 400 \| - \| - \| - \| 0.20 \| 0.20 \| 0.80 \| 1.60 \| - \| - \| 4.00 \| \|$' # the factor without assembly
 row '^\| Q4 10 x 2 \| 100 \| - \| - \| - \| 0.10 \| 0.0500 \| 0.10 \| 0.40 \| - \| 12.0 \|' # three digits
