@@ -10,7 +10,7 @@ module nx_translation
    use lists, only: sorted_order
    use stage_entries, only: stage_type, vibration_entries_type
    use support_build, only: summed_sets
-   use text_tools, only: integer_text, one_of, real_text, text_item
+   use text_tools, only: append, integer_text, one_of, real_text
    use unit_watch, only: find_units
    implicit none
    private
@@ -44,7 +44,7 @@ contains
       type(bulk_data_type), intent(inout) :: bulk
       character(*), intent(in)            :: words
 
-      bulk%told = [bulk%told, text_item(words)]
+      call append(bulk%told, words)
    end subroutine tell
 
    !> The pairs of regions in contact, or those glued, that case control selects, as JOINT cards.

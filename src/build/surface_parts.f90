@@ -43,26 +43,40 @@ contains
                end if
                if (all(share >= whole_share .or. share <= 1.0_wp - whole_share)) & ! rims that rounding leaves do not count
                   share = merge(share, 0.0_wp, share >= whole_share)
-               if (any(share > 0.0_wp)) mesh%surfaces = [mesh%surfaces, part_of(mesh%surfaces(s), share > 0.0_wp, j)]
+               if (any(share > 0.0_wp)) call append_part(mesh%surfaces, s, share > 0.0_wp, j)
             end do
             deallocate (covered, share)
          end do
       end associate
    end subroutine divide_shared_surfaces
 
-   !> The sides of SURFACE that are MEANT, for JOINT card J.
-   pure type(surface_type) function part_of(surface, meant, j) result(part)
-      type(surface_type), intent(in) :: surface
-      logical, intent(in)            :: meant(:)
-      integer, intent(in)            :: j
+   !> Append the sides of surface S that are MEANT, for JOINT card J.
+   pure subroutine append_part(surfaces, s, meant, j)
+      type(surface_type), allocatable, intent(inout) :: surfaces(:)
+      integer, intent(in)                            :: s
+      logical, intent(in)                            :: meant(:) !! (sides of surface S)
+      integer, intent(in)                            :: j
+      type(surface_type), allocatable :: longer(:)
+      integer, allocatable :: kept(:)
       integer :: i
 
-      associate (kept => pack([(i, i = 1, surface%n)], meant))
-         part = surface_type(id=surface%id, n=size(kept), corners=surface%corners(kept), n_nodes=surface%n_nodes(kept), &
-                             nodes=surface%nodes(:, kept), element=surface%element(kept), other=surface%other(kept), &
-                             strip=surface%strip(kept), line=surface%line(kept), joint=j)
+      allocate (longer(size(surfaces) + 1))
+      longer(:size(surfaces)) = surfaces
+      kept = pack([(i, i = 1, surfaces(s)%n)], meant)
+      associate (whole => surfaces(s), part => longer(size(longer)))
+         part%id = whole%id
+         part%n = size(kept)
+         part%corners = whole%corners(kept)
+         part%n_nodes = whole%n_nodes(kept)
+         part%nodes = whole%nodes(:, kept)
+         part%element = whole%element(kept)
+         part%other = whole%other(kept)
+         part%strip = whole%strip(kept)
+         part%line = whole%line(kept)
+         part%joint = j
       end associate
-   end function part_of
+      call move_alloc(longer, surfaces)
+   end subroutine append_part
 
    !> The position of surface ID for JOINT card J: its part for this joint where it has one; 0: there is no such surface.
    pure integer function side_of_joint(mesh, j, id) result(s)

@@ -280,9 +280,11 @@ contains
       logical, intent(out)                   :: ok
       type(pair_reference), allocatable :: pairs(:)
       type(pair_reference) :: pair
+      type(number_set) :: own
       character(:), allocatable :: nodes, rest
       integer :: comma, s
 
+      own%id = own_set
       nodes = ''
       allocate (pairs(0))
       rest = list
@@ -298,7 +300,10 @@ contains
          rest = rest(min(comma + 1, len(rest) + 1):)
       end do
       if (.not. allocated(control%sets)) allocate (control%sets(0))
-      if (nodes /= '') control%sets = [control%sets, number_set(own_set, 0, nodes(2:))]
+      if (nodes /= '') then
+         own%text = nodes(2:)
+         control%sets = [control%sets, own]
+      end if
       do s = 1, size(control%stages)
          associate (stage => control%stages(s))
             if (.not. allocated(stage%pairs)) allocate (stage%pairs(0))

@@ -8,13 +8,24 @@ subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
    integer, intent(in)     :: m, n, k, lda, ldb, ldc
    real(wp), intent(in)    :: alpha, beta, a(lda, *), b(ldb, *)
    real(wp), intent(inout) :: c(ldc, *)
-   integer :: i, j, l
+   real(wp) :: factor
+   integer  :: i, j, l
 
-   if (transa /= 'N' .or. transb /= 'T' .or. abs(beta - 1.0_wp) > 0.0_wp) error stop 'plain_blas: another case of DGEMM'
    do j = 1, n
+      if (.not. abs(beta) > 0.0_wp) c(:m, j) = 0.0_wp
+      if (abs(beta) > 0.0_wp) c(:m, j) = beta*c(:m, j)
       do l = 1, k
+         if (transb == 'T') then
+            factor = alpha*b(j, l)
+         else
+            factor = alpha*b(l, j)
+         end if
          do i = 1, m
-            c(i, j) = c(i, j) + alpha*a(i, l)*b(j, l)
+            if (transa == 'T') then
+               c(i, j) = c(i, j) + factor*a(l, i)
+            else
+               c(i, j) = c(i, j) + factor*a(i, l)
+            end if
          end do
       end do
    end do
@@ -76,6 +87,15 @@ subroutine dtrsm(side, uplo, transa, diag, m, n, alpha, a, lda, b, ldb)
             end do
          end do
       end do
+   else if (side == 'L') then
+      do j = 1, n
+         do i = m, 1, -1
+            do l = i + 1, m
+               b(i, j) = b(i, j) - a(l, i)*b(l, j)
+            end do
+            b(i, j) = b(i, j)/a(i, i)
+         end do
+      end do
    else
       error stop 'plain_blas: another case of DTRSM'
    end if
@@ -124,3 +144,30 @@ subroutine dsymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
       end do
    end do
 end subroutine dsymv
+
+subroutine dtrsv(uplo, trans, diag, n, a, lda, x, incx)
+   use, intrinsic :: iso_fortran_env, only: wp => real64
+   implicit none
+   character, intent(in)   :: uplo, trans, diag
+   integer, intent(in)     :: n, lda, incx
+   real(wp), intent(in)    :: a(lda, *)
+   real(wp), intent(inout) :: x(*)
+   integer :: i, j
+
+   if (uplo /= 'L' .or. diag /= 'N' .or. incx /= 1) error stop 'plain_blas: another case of DTRSV'
+   if (trans == 'N') then
+      do j = 1, n
+         x(j) = x(j)/a(j, j)
+         do i = j + 1, n
+            x(i) = x(i) - a(i, j)*x(j)
+         end do
+      end do
+   else
+      do j = n, 1, -1
+         do i = j + 1, n
+            x(j) = x(j) - a(i, j)*x(i)
+         end do
+         x(j) = x(j)/a(j, j)
+      end do
+   end if
+end subroutine dtrsv
