@@ -135,7 +135,14 @@ subroutine dsymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
    real(wp), intent(inout) :: y(*)
    integer :: i, j
 
-   if (uplo /= 'L' .or. incx /= 1 .or. incy /= 1 .or. abs(beta - 1.0_wp) > 0.0_wp) error stop 'plain_blas: another case of DSYMV'
+   if (uplo /= 'L' .or. incx /= 1 .or. incy /= 1) error stop 'plain_blas: another case of DSYMV'
+   do i = 1, n
+      if (abs(beta) > 0.0_wp) then
+         y(i) = beta*y(i)
+      else
+         y(i) = 0.0_wp
+      end if
+   end do
    do j = 1, n
       y(j) = y(j) + alpha*a(j, j)*x(j)
       do i = j + 1, n
