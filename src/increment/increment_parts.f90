@@ -9,7 +9,7 @@ module increment_parts
    use kinds, only: wp
    use model_data, only: model_type
    use newton_iterations, only: iterate
-   use newton_trial, only: attempt_type
+   use newton_trial, only: attempt_type, most_iterations
    use tolerances, only: least_share
    implicit none
    private
@@ -21,6 +21,9 @@ module increment_parts
    integer, parameter  :: most_of_increment = 2000 ! likewise in an increment of INCR: it is given up
    real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
    integer, parameter  :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4 ! ways of an attempt
+   integer, parameter  :: quick = 5               ! straight, then from_best with few iterations
+   integer, parameter  :: most_of_quick = 8       ! these
+   integer, parameter  :: clear = 2               ! steps along which a body moves on
    ! where given limits of friction do not bear a part
    integer, parameter  :: most_cuts = 5           ! one behind the other, without a part that they bear
    real(wp), parameter :: least_cut = 0.1_wp      ! of a part: a cut leaves no less, as limits may grow with the load
@@ -30,6 +33,16 @@ module increment_parts
    real(wp), parameter :: agreement = 0.1_wp      ! of it: two estimates that differ by less confirm each other
    real(wp), parameter :: near_limit = 0.03_wp    ! of the load borne so far: so much more is the least part
    integer, parameter  :: most_before = 45        ! iterations of an increment: after more of them there is no such last state
+
+   !> What the attempts so far tell of the limit load of an increment.
+   type :: limit_search
+      real(wp) :: limit = 0.0_wp              !! estimate of the last part that was not borne, as a share of the load; 0: none [-]
+      real(wp) :: refused = huge(1.0_wp)      !! the least share that given limits have not borne [-]
+      real(wp) :: missing = 0.0_wp            !! then [force]
+      integer  :: leaves = 0                  !! then the joint that left its place
+      integer  :: n_cut = 0                   !! parts not borne since one was
+      integer  :: only = 0                    !! way of the next attempt, 0: all
+   end type limit_search
 
 contains
 
@@ -45,11 +58,9 @@ contains
       real(wp), intent(in)                 :: ends(2) !! done before and after [-], 0 to 1
       real(wp), intent(in), optional       :: guess(:, :) !! (dimension, retained) displacements at the end [length]
       type(analysis_type), allocatable :: whole
-      real(wp) :: done, left, part
-      real(wp) :: estimate, limit   ! of the limit load: now and from the last part that was not borne [-]
-      real(wp) :: missing           ! with the latter [force]
-      integer  :: n_cut
-      logical  :: agrees
+      type(limit_search) :: search
+      real(wp) :: done, estimate, left, part
+      logical  :: agrees, confirms
 
       if (present(guess)) then
          call try_part(model, system, analysis, 1.0_wp - ends(2), attempt, guess)
@@ -59,9 +70,6 @@ contains
       end if
       done = ends(1)
       part = ends(2) - ends(1)
-      n_cut = 0
-      limit = ends(1)
-      missing = 0.0_wp
       attempt%is_limited = .false.
       do while (done < ends(2))
          part = min(part, ends(2) - done)
@@ -69,39 +77,41 @@ contains
          if (done + part < ends(2)) left = 1.0_wp - done - part
          attempt%expected = [1.0_wp, 0.0_wp]
          if (done > ends(1) .and. attempt%is_limited) &
-            attempt%expected = (limit + [-1.0_wp, 1.0_wp]*agreement*(limit - ends(1)) - done)/part
+            attempt%expected = (ends(1) + [1.0_wp - agreement, 1.0_wp + agreement]*search%limit - done)/part
+         attempt%only = search%only
          call try_part(model, system, analysis, left, attempt)
          if (attempt%converged) then
             done = done + part
-            attempt%is_limited = attempt%is_limited .and. done < above_limit*limit ! else it was a wrong limit
-            part = merge(max(above_limit*limit - done, near_limit*done), 2.0_wp*part, attempt%is_limited)
-            n_cut = 0
             analysis%record%n_parts = analysis%record%n_parts + 1
+            call go_on(search, done - ends(1), attempt%is_limited, part)
             cycle
          end if
          if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
-         if (attempt%n_moving > 0) then
+         confirms = done + part - ends(1) > search%refused - least_share .and. is_near(search, done - ends(1))
+         if (attempt%n_moving > 0 .or. confirms) then
             estimate = done + attempt%bearable*part
             agrees = is_expected(attempt)
-            if (agrees .or. n_cut == most_cuts .or. part <= max(least_share, near_limit*(done - ends(1)))) then
-               if (agrees) attempt%missing = missing ! of the larger part
-               if (attempt%is_limited) estimate = min(estimate, limit)
+            if (agrees .or. confirms .or. search%n_cut == most_cuts .or. &
+                part <= max(least_share, near_limit*(done - ends(1)))) then
+               if (search%only /= 0 .and. .not. agrees) then
+                  search%only = 0 ! all ways have the last word
+                  cycle
+               end if
+               if (agrees .or. attempt%n_moving == 0) attempt%missing = search%missing ! of the larger part
+               if (attempt%n_moving == 0) attempt%leaves = search%leaves
+               if (attempt%is_limited) estimate = min(estimate, ends(1) + search%limit)
                call approach_limit(model, system, analysis, attempt, just_below*estimate, done)
                exit
             end if
-            limit = estimate
-            missing = attempt%missing
-            n_cut = n_cut + 1
-            attempt%is_limited = .true.
-            if (n_cut > 1) part = 0.5_wp*part
-            part = max(below_limit*(min(limit, done + part) - ends(1)) + ends(1) - done, near_limit*(done - ends(1)), &
-                       least_cut*part)
+            call cut(search, done - ends(1), attempt, part)
          else if (part > 0.5_wp**most_halvings) then
             part = 0.5_wp*part
+            search%only = 0
          else
             exit
          end if
       end do
+      attempt%only = 0
       attempt%left_over = 1.0_wp - done
       if (done < ends(2) .or. .not. allocated(whole)) return
       attempt%is_limited = .false.
@@ -116,6 +126,56 @@ contains
          analysis%record%is_whole = .false.
       end if
    end subroutine reach
+
+   !> The PART after one that was borne: twice as large, or towards the limit load, which is confirmed from a state near it.
+   pure subroutine go_on(search, done, is_limited, part)
+      type(limit_search), intent(inout) :: search
+      real(wp), intent(in)              :: done       !! since the start of the increment [-]
+      logical, intent(inout)            :: is_limited !! given limits have not borne a part; not if the load now is beyond it
+      real(wp), intent(inout)           :: part       !! [-]
+
+      search%only = 0
+      search%n_cut = 0
+      is_limited = is_limited .and. done < search%refused - least_share
+      if (.not. is_limited) then
+         part = 2.0_wp*part
+      else if (is_near(search, done)) then
+         part = search%refused - done
+      else if (done < above_limit*search%limit) then
+         part = min(max(above_limit*search%limit - done, near_limit*done), search%refused - done)
+      else
+         part = 0.5_wp*(search%refused - done)
+         search%only = sticking
+      end if
+   end subroutine go_on
+
+   !> Whether the share that was not borne is so near that a part up to it confirms this.
+   pure logical function is_near(search, done)
+      type(limit_search), intent(in) :: search
+      real(wp), intent(in)           :: done !! since the start of the increment [-]
+
+      is_near = search%refused - done <= agreement*done
+   end function is_near
+
+   !> The PART instead of one that given limits have not borne: to a state below the limit load, which is there by straight laws, or
+   !! where nothing tells the limit load, to half of the part or less.
+   pure subroutine cut(search, done, attempt, part)
+      type(limit_search), intent(inout) :: search
+      real(wp), intent(in)              :: done    !! since the start of the increment [-]
+      type(attempt_type), intent(inout) :: attempt
+      real(wp), intent(inout)           :: part    !! [-]
+
+      search%limit = merge(done + attempt%bearable*part, 0.0_wp, attempt%bearable > least_share)
+      search%refused = done + part
+      search%missing = attempt%missing
+      search%leaves = attempt%leaves
+      search%n_cut = search%n_cut + 1
+      if (search%n_cut > 1) part = 0.5_wp*part
+      part = max(below_limit*min(search%limit, done + part) - done, near_limit*done, &
+                 merge(0.5_wp, least_cut, attempt%is_limited)*part)
+      attempt%is_limited = .true.
+      search%only = merge(quick, sticking, search%limit > 0.0_wp)
+   end subroutine cut
 
    !> Go on from DONE to SHARE of the increment, just below the limit load, if straight laws lead there.
    subroutine approach_limit(model, system, analysis, attempt, share, done)
@@ -173,13 +233,14 @@ contains
       do k = 1, size(ways)
          way = ways(k)
          if (way == extrapolated .and. .not. attempt%growth > 0.0_wp) cycle
-         if (attempt%only > 0 .and. way /= attempt%only) cycle
+         if (attempt%only > 0 .and. way /= attempt%only .and. .not. (attempt%only == quick .and. way < sticking)) cycle
          if (way == from_best .and. .not. attempt%least < promising*first) cycle
          if (way /= extrapolated) attempt%growth = 0.0_wp
          attempt%moves = analysis%moves
          attempt%move = merge(analysis%now%moved(:, system%retained) - left*analysis%move - analysis%u, 0.0_wp, &
                               system%number(:, system%retained) == 0)
          attempt%with_limits = way >= from_best
+         attempt%most = merge(most_of_quick, most_iterations, attempt%only == quick .and. way == from_best)
          attempt%from_best = way == from_best
          if (allocated(attempt%seen)) deallocate (attempt%seen)
          attempt%iteration = 0
@@ -194,7 +255,7 @@ contains
          call iterate(model, system, analysis, attempt, u)
          if (attempt%converged) exit
          if (way == straight) first = attempt%sizes(0)
-         if (is_expected(attempt)) exit
+         if (is_expected(attempt) .or. is_clear(attempt)) exit
          if (allocated(u)) deallocate (u)
       end do
    end subroutine try_part
@@ -205,6 +266,13 @@ contains
 
       is_expected = attempt%n_moving > 0 .and. attempt%bearable >= attempt%expected(1) .and. attempt%bearable <= attempt%expected(2)
    end function is_expected
+
+   !> Whether given limits have not borne the part, and nothing better is to be expected of another way: almost all of it, or nothing.
+   pure logical function is_clear(attempt)
+      type(attempt_type), intent(in) :: attempt
+
+      is_clear = attempt%n_moving >= clear .and. (attempt%bearable > below_limit .or. attempt%bearable <= least_share)
+   end function is_clear
 
    !> Whether the increment has taken more iterations than one that ends.
    pure logical function is_given_up(analysis)

@@ -9,7 +9,7 @@ module newton_iterations
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: model_type
-   use newton_trial, only: attempt_type, commit, evaluate, evaluate_at, most_iterations, search, swap, trial_type
+   use newton_trial, only: attempt_type, commit, evaluate, evaluate_at, search, swap, trial_type
    use numbers, only: first_largest
    use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, laws_at, loose_joints, next_laws, &
                             residual_of, straight_law
@@ -248,7 +248,7 @@ contains
          attempt%converged = attempt%converged .or. (attempt%carried .and. now%size <= rounding)
          attempt%converged = attempt%converged .and. is_exact(attempt) .and. .not. attempt%moves
          attempt%sizes(n) = merge(huge(1.0_wp), now%size, attempt%moves)
-         attempt%ends = n == most_iterations
+         attempt%ends = n == attempt%most
          if (attempt%with_limits) then
             call judge_limits(model, system, analysis, now, attempt)
          else
