@@ -341,6 +341,8 @@ for sheet in "$sheet8" "$sheet6"; do
       edge8 edge8 "$sheet;SPC1,1,1,1,4,8;$load"
       run edge8 && for node in 2 6 3; do near "$words, ${load%%,*}: node $node" "$(moved edge8 $node 1)" 0.1 1e-6; done
    done
+   edge8 edge8 "$sheet;SPC1,1,1,1,4,8;FORCEM,1,100.0,1.0,0.0,0.0,7" && sed -i 's/^CBAR,9.*/CBAR,9,7,6,2\nCROD,10,7,6,3/' "$work/edge8.bdf"
+   run edge8 && for node in 2 6 3; do near "$words marked by halves: node $node" "$(moved edge8 $node 1)" 0.1 1e-6; done
    edge8 edge8_joint "$sheet;$pressed8;JOINT,1,1,7"
    run edge8_joint && ask "$words pressed evenly" edge8_joint all 'pressure = 10 within 1e-7 and lambda = 0.01 within 1e-10 and area > 0'
    for side in 7,8 8,7; do # a solid of another mesh behind the joint
