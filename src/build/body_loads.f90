@@ -12,7 +12,8 @@ module body_loads
    use isoparametric, only: body_forces
    use kinds, only: wp
    use load_data, only: gravity_card
-   use mass_matrix, only: area_mass, bar_mass, scalar_mass
+   use bubble_mass, only: area_mass
+   use mass_matrix, only: bar_mass, scalar_mass
    use mesh_queries, only: element_points, is_beam, is_scalar_point, is_shell, n_points, node_kind
    use model_data, only: a_point, freedoms_type, mesh_type, stage_load_type
    use model_kind, only: space_hint
@@ -204,7 +205,7 @@ contains
                call body_forces(law_of(mesh, e), mesh%x(:d, corners), &
                                 mesh%properties(mesh%element_property(e))%rho*field%uniform(:d), f)
             else ! from the translational mass alone: at constant speed rotations do not accelerate
-               call scalar_mass(mesh, e, m)
+               call scalar_mass(mesh, e, .false., m) ! weight does not depend on MASS
                do k = 1, size(corners)
                   a(:, k) = acceleration_at(field, mesh%x(:, corners(k)))
                end do
