@@ -336,9 +336,9 @@ module bulk_data
 
    !> All cards of a deck.
    type, public :: bulk_data_type
-      integer :: n_cards = 0                               !! number of cards of all kinds
-      integer, allocatable :: part_lines(:)                !! lines of BEGIN SUPER, where the parts of the deck begin
-      integer :: n_manual = 0                              !! parts whose nodes are joined to others by number alone
+      integer :: n_cards = 0, n_manual = 0                 !! cards of all kinds; parts joined to others by node numbers alone
+      integer, allocatable :: part_lines(:), joined(:, :)  !! lines of BEGIN SUPER; (4, pairs) of SECONCT: GA, GB, line, data field
+      real(wp) :: join_distance = 0.0_wp                   !! the largest TOL of SEBULK and SECONCT [length]
       type(ignored_entries_type) :: ignored                !! entries without effect, also of case control
       type(parameters_type) :: parameters
       type(grid_card), allocatable         :: grid(:)
