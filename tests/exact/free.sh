@@ -103,3 +103,11 @@ run free_bolt && {
    near 'free solid bolt: preload' "$("$query" "$work/free_bolt.bolt.csv" rows 'stage = 1' rows 'increment = max(increment)' print force)" 6000 1e-6
    same 'free solid bolt: no strain in six modes' "$(awk -F, '$1 == 2 && $2 <= 6 && $3 == 0' "$work/free_bolt.modes.csv" | wc -l)" 6
 }
+
+# ---- a free beam of ten elements whose nodes all are nodes of one RBE3, the mean motion: f = 4.7300407^2/(2 pi L^2) sqrt(E I/(rho A))
+{
+   printf '%s\n' 'SOL 103' 'CEND' 'METHOD = 1' 'BEGIN BULK' 'EIGRL,1,,,8' 'PARAM,COUPMASS,1' 'PBAR,1,1,100.0,800.0,900.0,1500.0' 'MAT1,1,2.1E5,,0.3,7.85E-9'
+   awk 'BEGIN { for (i = 1; i <= 11; i++) printf "GRID,%d,,%.1f,0.0,0.0\n", i, 100*(i - 1); for (i = 1; i <= 10; i++) printf "CBAR,%d,1,%d,%d,0.0,0.0,1.0\n", i, i, i + 1 }'
+   printf '%s\n' 'GRID,20,,500.0,0.0,50.0' 'RBE3,30,,20,123456,1.0,123,1,2' ',3,4,5,6,7,8,9,10' ',11,1.0,4,1' 'ENDDATA'
+} > "$work/free_mean.bdf"
+run free_mean && near 'free, all nodes in an RBE3' "$(mode free_mean 7 frequency)" '4.7300407^2/(2*pi*1000^2)*sqrt(2.1E5*800/(7.85E-9*100))' 1e-3

@@ -158,6 +158,13 @@ says 'large displacements: said' "$work/habit_others.log" 'PARAM LGDISP: displac
 habit dmap 'COMPILE (.*line 2): the DMAP up to CEND is not followed' << END
 SOL 101;COMPILE SEMG;ALTER 'KJJZ'(,-1);MATPRN KJJZ// \$;SPC = 9 \$;CEND;SPC = 1;LOAD = 2;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;ENDDATA
 END
+habit missing_dmap "INCLUDE: '/nowhere/alter.v9' cannot be read: .*line 2); before CEND such a file has DMAP, which is not followed" << END
+SOL 101;include '/nowhere/alter.v9';CEND;SPC = 1;LOAD = 2;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;ENDDATA
+END
+for head in "CEND;include '/nowhere/cards.bdf'" "include '/nowhere/sol.inc';CEND"; do
+   cards habit_missing <<< "$head;SPC = 1;LOAD = 2;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;ENDDATA"
+   run habit_missing 2 && says "${head%%;*}, a file that is missing" "$work/habit_missing.log" 'cannot be read: no such file'
+done
 # an INCLUDE over two lines; the file of another, beside the deck although another folder has the INCLUDE
 mkdir -p "$work/habit_parts/deeper"
 cards habit_grid <<< "$habits_grid"
