@@ -23,11 +23,11 @@ module nastran_words
       'TRIM', 'FMETHOD', 'AESYMXZ', 'AESYMXY', 'AECONFIG', 'AEROF', 'APRESSURE', 'MONITOR', 'DIVERG', & ! air
       'CMETHOD', 'TSTEP', 'TSTEPNL', 'IC', 'RIGID', 'NLOPRM', 'BC', 'SEQDEP'] ! of other kinds of analysis
    ! of the bulk data: plots, and properties and materials of unsupported elements
-   character(8), parameter :: card_names(141) = [character(8) :: &
+   character(8), parameter :: card_names(140) = [character(8) :: &
       'MAT4', 'MAT5', 'DTI', 'BCTPARM', 'BGPARM', &
       'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBCOMP', &
       'PBEND', 'PBUSH1D', 'PCOMPS', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &
-      'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PWELD', 'MAT3', 'MAT9', &
+      'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PWELD', 'MAT3', &
       'MAT10', 'MAT11', 'TABLEM1', 'MDLPRM', 'ABSNMVS', 'ABSTRCT', &
       'DEBUG', 'USET', 'USET1', 'SNORM', 'SEQGP', 'CBARAO', 'RVDOF', 'RVDOF1', 'TABLEM2', 'TABLEM3', 'TABLEM4', 'TABLEST', &
       'MATHP', 'PDAMPT', 'PDAMP5', 'PFASTT', 'ACMODL', 'SWLDPRM', 'GROUP', &
