@@ -23,7 +23,7 @@ module nastran_words
       'TRIM', 'FMETHOD', 'AESYMXZ', 'AESYMXY', 'AECONFIG', 'AEROF', 'APRESSURE', 'MONITOR', 'DIVERG', & ! air
       'CMETHOD', 'TSTEP', 'TSTEPNL', 'IC', 'RIGID', 'NLOPRM', 'BC', 'SEQDEP'] ! of other kinds of analysis
    ! of the bulk data: plots, and properties and materials of unsupported elements
-   character(8), parameter :: card_names(140) = [character(8) :: &
+   character(8), parameter :: card_names(141) = [character(8) :: &
       'MAT4', 'MAT5', 'DTI', 'BCTPARM', 'BGPARM', &
       'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBCOMP', &
       'PBEND', 'PBUSH1D', 'PCOMPS', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &
@@ -44,7 +44,7 @@ module nastran_words
       'TLOAD1', 'TLOAD2', 'TSTEP', 'TSTEP1', 'TSTEPNL', 'TIC', 'EIGB', 'EIGC', 'EIGP', 'TF', 'NLPCI', 'NLSTEP', 'RANDT1', &
       'RANDPS', 'TABRND1', 'TABRNDG', 'DEFORM', &
       ! superelements, and points of controls without structure
-      'SELABEL', 'SETREE', 'SEBNDRY', 'EPOINT']
+      'SELABEL', 'SETREE', 'SEBNDRY', 'SEELT', 'EPOINT']
 
    ! with an effect on a response: springs that depend on the frequency
    character(6), parameter, public :: of_response(1) = [character(6) :: 'PELAST']

@@ -152,7 +152,7 @@ habit no_begin 'no BEGIN BULK: the cards begin in .*habit_no_begin.bdf, line 5' 
 habit others 'SOL 200: the design of the property cards is analysed once' << END
 SOL 200;CEND;DESOBJ = 1;DESSUB = 2;ANALYSIS = STATICS;SPC = 1;LOAD = 2;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;DEBUG,192,2;USET,U2,1,123;OMIT1,123,7
 DESVAR,1,T,1.;DVPREL1,1,PSHELL,1,T;+,1,1.;DCONSTR,1,2,3.;AEROS,,,1.,1.,1.;CAERO1,1,1;SET1,1,1,THRU,8;SNORM,1,,0.,0.,1.;TABRND1,1;+,0.,1.,ENDT
-ASET1,123,1,THRU,8;MATT1,1,7;TABLEM1,7;+,0.,1.,1.,1.,ENDT;CDAMP2,91,5.,5,3;LSEQ,9,8,2;PARAM,SOLLIB,IntMKL,0,1,1.-6;PARAM,LGDISP,1;ENDDATA
+ASET1,123,1,THRU,8;SEELT,2,1;MATT1,1,7;TABLEM1,7;+,0.,1.,1.,1.,ENDT;CDAMP2,91,5.,5,3;LSEQ,9,8,2;PARAM,SOLLIB,IntMKL,0,1,1.-6;PARAM,LGDISP,1;ENDDATA
 END
 says 'large displacements: said' "$work/habit_others.log" 'PARAM LGDISP: displacements are small here'
 habit dmap 'COMPILE (.*line 2): the DMAP up to CEND is not followed' << END
