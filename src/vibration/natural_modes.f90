@@ -237,6 +237,7 @@ contains
       end do
       if (.not. scale > 0.0_wp) scale = 1.0_wp ! nodal masses only: the search finds its own scale
       spectrum%shift = -scale
+      before = -scale
       do trial = 1, most_trials
          call factorise_at(model, structure, spectrum%shift, system, failure)
          if (failure%raised .and. trial > 1) then ! what seemed the first mode with strain is a rigid-body mode but for rounding
