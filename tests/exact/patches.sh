@@ -79,6 +79,13 @@ run fibres && {
       "$(awk "BEGIN { $fibres; printf \"%.12g\", 1000*((2*s11 - 2*s12 - s66)*s*c^3 - (2*s22 - 2*s12 - s66)*s^3*c) }")" 1e-6
 }
 
+sed 's/^LOAD = 1/TEMPERATURE(LOAD) = 3/; /^FORCE/d; s/^\*,,4000.0$/*,,4000.0,,1.0-6\n*,3.0-5,2.0-5,,\n*,,/; s/^ENDDATA/TEMPD,3,10.0\n&/' "$work/fibres.bdf" > "$work/fibres_warm.bdf"
+run fibres_warm && {
+   near 'fibres off the axis, warmed: its length' "$(moved fibres_warm 5 1)" '(0.75*1e-6 + 0.25*3e-5)*100' 1e-6
+   near 'fibres off the axis, warmed: its shear' "$(moved fibres_warm 5 2)" '-2.9e-5*0.8660254038*100' 3e-6
+   near 'fibres off the axis, warmed: its thickness' "$(moved fibres_warm 6 3)" '2e-5*10' 1e-6
+}
+
 # ---- shells: a rectangle of 24 x 12 bears constant stress under the nodal forces of that stress, which have no moments, and under PLOADM ----
 
 # shell_patch NAME MESH STRESS...: 4 x 3 cells. MESH: words of even (else nodes lie anywhere, those of the sides on the sides), quad, tria, mixed (else),
