@@ -30,19 +30,26 @@ contains
    pure subroutine build(self, ids)
       class(id_table_type), intent(inout) :: self
       integer, intent(in)                 :: ids(:)
-      integer :: k, n
 
-      n = size(ids)
       call sorted_order(ids, self%positions)
       self%ids = ids(self%positions)
+      call tabulate(self)
+   end subroutine build
+
+   !> Make the direct table of the numbers, if these are dense.
+   pure subroutine tabulate(self)
+      class(id_table_type), intent(inout) :: self
+      integer :: k, n
+
+      n = size(self%ids)
       if (allocated(self%direct)) deallocate (self%direct)
       if (n == 0) return
       if (int(self%ids(n), long) - self%ids(1) >= int(sparsest, long)*n) return
       allocate (self%direct(self%ids(1):self%ids(n)), source=0)
       do k = n, 1, -1
-         self%direct(ids(k)) = k
+         self%direct(self%ids(k)) = self%positions(k)
       end do
-   end subroutine build
+   end subroutine tabulate
 
    !> Add the numbers IDS with their POSITIONS; a number already in the table keeps its position.
    pure subroutine add(self, ids, positions)
@@ -55,7 +62,7 @@ contains
       call sorted_order(self%ids, order)
       self%ids = self%ids(order)
       self%positions = self%positions(order)
-      if (allocated(self%direct)) deallocate (self%direct)
+      call tabulate(self)
    end subroutine add
 
    !> The position of ID, 0 where it is not in the table, the first position of a repeated ID.

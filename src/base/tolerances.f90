@@ -42,6 +42,8 @@ module tolerances
    ! ---- places
    real(wp), parameter :: zero_coordinate = 1.0e-12_wp !! of the distance of points and systems: a point on an axis
    real(wp), parameter :: on_axis = 1.0e-9_wp        !! of the distance from the origin: r and theta have no directions
+   real(wp), parameter :: no_coupling = 1.0e-9_wp    !! of the largest term of a MAT9: its axes are those of the model
+   real(wp), parameter :: part_distance = 1.0e-5_wp  !! as given: nodes of two superelements at one place, NASTRAN's default of TOL
    real(wp), parameter :: equal_distance = 1.0e-9_wp !! of the extent of the model: nodes at one distance from a given place
    real(wp), parameter :: same_gap_point = 1.0e-9_wp !! of the extent of a gap table: its points coincide
    real(wp), parameter :: flat_height = 1.0e-13_wp   !! of the square of that extent: four points on a circle

@@ -4,7 +4,7 @@ module body_loads
    use beam_cards, only: load_types
    use beam_element, only: beam_axes, beam_length, beam_line_load, beam_nodal_forces, beam_point_load, beam_section_at
    use body_elements, only: law_of
-   use bulk_data, only: beam_load_card
+   use bulk_data, only: beam_load_card, bulk_data_type
    use deck_check, only: checked_deck
    use displacement_systems, only: rectangular_axes
    use element_kinds, only: kind_edge2, max_nodes
@@ -12,7 +12,8 @@ module body_loads
    use isoparametric, only: body_forces
    use kinds, only: wp
    use load_data, only: gravity_card
-   use mass_matrix, only: area_mass, bar_mass, scalar_mass
+   use bubble_mass, only: area_mass
+   use mass_matrix, only: bar_mass, scalar_mass
    use mesh_queries, only: element_points, is_beam, is_scalar_point, is_shell, n_points, node_kind
    use model_data, only: a_point, freedoms_type, mesh_type, stage_load_type
    use model_kind, only: space_hint
@@ -50,6 +51,30 @@ contains
                             ', but a plane model lies in x-y'//space_hint(mesh))
    end subroutine check_plane
 
+   !> Whether a body, a bar or a node has a mass.
+   pure logical function has_mass(deck, mesh)
+      type(checked_deck), intent(in) :: deck
+      type(mesh_type), intent(in)    :: mesh
+
+      has_mass = any(mesh%properties%rho > 0.0_wp) .or. any(mesh%properties%extra_mass > 0.0_wp) .or. &
+                 any(deck%bulk%beam_property%extra_mass > 0.0_wp) .or. any(deck%bulk%mass%mass > 0.0_wp) .or. &
+                 any(mesh%bars%mass > 0.0_wp)
+   end function has_mass
+
+   !> Whether SET has no forces and pressures, nor a LOAD that adds other sets to it.
+   pure logical function is_alone(bulk, set)
+      type(bulk_data_type), intent(in) :: bulk
+      integer, intent(in)              :: set
+      integer :: k
+
+      is_alone = all(bulk%force%set /= set) .and. all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set)
+      do k = 1, size(bulk%load)
+         associate (parts => bulk%load(k)%sets)
+            is_alone = is_alone .and. (all(parts /= set) .or. all(parts == set))
+         end associate
+      end do
+   end function is_alone
+
    !> The FIELDS of the GRAV, ACCEL1 and RFORCE cards. Errors: no mass; a direction or an axis that the model does not have.
    subroutine find_fields(deck, mesh, fields)
       type(checked_deck), intent(in) :: deck
@@ -73,9 +98,13 @@ contains
                if (mesh%axisymmetric .and. abs(field%uniform(1)) > zero_component*norm2(field%uniform)) &
                   call deck%field_error(field%line, 'N1', 'not zero, but in an axisymmetric model gravity acts along y')
             end if
-            if (all(mesh%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp) .and. &
-                all(mesh%bars%mass <= 0.0_wp)) call deck%errors%add(field%line, &
-               deck%card_on(field%line)//': no body has a mass; give RHO on its MAT1')
+            if (has_mass(deck, mesh)) cycle
+            if (is_alone(deck%bulk, field%set)) then
+               call deck%errors%add(field%line, deck%card_on(field%line)//': no body has a mass; give RHO on its MAT1')
+            else
+               call deck%errors%warn(deck%card_on(field%line)//' ('//deck%text%place(field%line)//') has no effect: no body '// &
+                                     'has a mass; RHO on MAT1 would give one')
+            end if
          end associate
       end do
 
@@ -204,7 +233,7 @@ contains
                call body_forces(law_of(mesh, e), mesh%x(:d, corners), &
                                 mesh%properties(mesh%element_property(e))%rho*field%uniform(:d), f)
             else ! from the translational mass alone: at constant speed rotations do not accelerate
-               call scalar_mass(mesh, e, m)
+               call scalar_mass(mesh, e, .false., m) ! weight does not depend on MASS
                do k = 1, size(corners)
                   a(:, k) = acceleration_at(field, mesh%x(:, corners(k)))
                end do

@@ -11,6 +11,7 @@ module element_build
    use model_data, only: mesh_type, property_type
    use node_build, only: blank_node, find_nodes
    use shell_membrane, only: flat_coordinates
+   use solid_materials, only: take_solid_material
    use spring_build, only: is_bar
    use structural_build, only: is_beam_edge
    use text_tools, only: integer_text, one_of
@@ -82,6 +83,7 @@ contains
                property%damping = deck%bulk%mat1(k)%damping
                property%reference = deck%bulk%mat1(k)%reference
                if (allocated(card%plies)) call take_laminate(card, property)
+               if (allocated(deck%bulk%mat1(k)%solid)) call take_solid_material(deck, mesh, card, deck%bulk%mat1(k), property)
             else if (card%material > 0) then
                call deck%field_error(card%line, card%material_at, 'there is no MAT1 '//integer_text(card%material))
             end if
@@ -90,11 +92,12 @@ contains
 
    contains
 
-      !> MAT2 and MAT8, number K, are for shells.
+      !> MAT2 and MAT8, number K, are for shells, MAT9 is for solids.
       subroutine check_plate_material(k, card, state)
          integer, intent(in)             :: k, state
          type(property_card), intent(in) :: card
 
+         if (deck%bulk%mat1(k)%name == 'MAT9') return
          if (deck%bulk%mat1(k)%name /= 'MAT1' .and. state /= shell) call deck%field_error(card%line, card%material_at, &
             deck%bulk%mat1(k)%name//' '//integer_text(card%material)//' is for shells: PCOMP, or PSHELL with MID2, in a model '// &
             'of space; expected a MAT1')

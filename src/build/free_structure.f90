@@ -29,7 +29,6 @@ contains
       type(joints_type), intent(in) :: joints
       type(freedoms_type), intent(inout) :: freedoms
       integer  :: body(mesh%n_elements), body_of(mesh%n_nodes), a, b, c, e, i, k, n
-      integer, allocatable :: dependent(:)
       logical  :: may_be(mesh%n_nodes)
       real(wp) :: along(3), off(mesh%n_nodes), turn(3)
       logical  :: are_free(size(deck%control%stages)), is_held, relieved
@@ -54,16 +53,12 @@ contains
       do e = 1, mesh%n_elements
          body_of(element_points(mesh, e)) = body(e)
       end do
-      may_be = body_of == maxloc([(count(body_of == i), i = 1, n)], dim=1)
-      if (size(mesh%node_system) > 0) may_be = may_be .and. mesh%node_system(:size(may_be)) == 0
-      dependent = [([deck%rigid(i)%nodes, deck%rigid(i)%node], i = 1, size(deck%rigid)), &
-                   (deck%bulk%equation(i)%node, i = 1, size(deck%bulk%equation))]
-      do i = 1, size(dependent) ! these nodes depend on each other
-         k = mesh%node_table%find(dependent(i))
-         if (k > 0) may_be(k) = .false.
-      end do
-      do i = 1, size(may_be)
-         may_be(i) = may_be(i) .and. .not. is_face_node(mesh, i) .and. mesh%duplicate(i) == 0
+      do i = 1, 2                                   ! nodes of no rigid element and equation; where there is none, independent ones
+         may_be = body_of == maxloc([(count(body_of == k), k = 1, n)], dim=1)
+         if (size(mesh%node_system) > 0) may_be = may_be .and. mesh%node_system(:size(may_be)) == 0
+         may_be = may_be .and. .not. depend(deck, mesh, all_of_them=i == 1)
+         may_be = may_be .and. mesh%duplicate == 0 .and. .not. [(is_face_node(mesh, k), k = 1, size(may_be))]
+         if (any(may_be)) exit
       end do
       if (is_held) then
          call hold_rest(mesh, may_be, freedoms)
@@ -99,6 +94,39 @@ contains
       turn = cross(along, mesh%x(:, c) - mesh%x(:, a))
       call hold(mesh, freedoms, c, first_largest(abs(turn)))
    end subroutine hold_free_structure
+
+   !> Which nodes depend on others by rigid elements and equations; ALL_OF_THEM: or others on them.
+   pure function depend(deck, mesh, all_of_them) result(does)
+      type(checked_deck), intent(in) :: deck
+      type(mesh_type), intent(in)    :: mesh
+      logical, intent(in)            :: all_of_them
+      logical :: does(mesh%n_nodes)
+      integer :: i
+
+      does = .false.
+      do i = 1, size(deck%bulk%equation)
+         call note(deck%bulk%equation(i)%node)
+      end do
+      do i = 1, size(deck%rigid)
+         associate (rigid => deck%rigid(i), all_nodes => all_of_them .or. allocated(deck%rigid(i)%um_nodes) .or. &
+                                                         deck%rigid(i)%is_rod)
+            if (all_nodes .or. .not. rigid%is_mean) call note(rigid%nodes)
+            if (all_nodes .or. rigid%is_mean) call note([rigid%node])
+         end associate
+      end do
+
+   contains
+
+      pure subroutine note(ids)
+         integer, intent(in) :: ids(:)
+         integer :: k
+
+         do k = 1, size(ids)
+            if (mesh%node_table%find(ids(k)) > 0) does(mesh%node_table%find(ids(k))) = .true.
+         end do
+      end subroutine note
+
+   end function depend
 
    !> MODEL without its supports, or those of SUPORT where it has any; the condition on the axis of a ring remains.
    pure subroutine release_supports(model)

@@ -15,12 +15,11 @@ module inertia_relief
    use free_structure, only: beside
    use interface_operator, only: named_node
    use kinds, only: wp
-   use mass_matrix, only: area_mass, form_mass, mass_matrix_type, mass_times, total_mass
-   use mesh_queries, only: element_points, is_shell, n_points, node_kind, place_in_kind, point_of
+   use mass_matrix, only: form_mass, mass_matrix_type, mass_times, total_mass
+   use mesh_queries, only: n_points, node_kind, place_in_kind, point_of
    use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, model_type, n_sections, supported
    use numbers, only: identity
    use stage_plan, only: stage_plan_type
-   use structural_elements, only: add_bubble_load
    use text_tools, only: integer_text, real_text
    use tolerances, only: balanced
    use unknowns, only: motions_at, n_motions, node_axes
@@ -45,7 +44,6 @@ contains
       real(wp), allocatable :: r(:, :, :), mr(:, :, :) ! (dimension, n_nodes, motions): about the centre of mass, rotations by 1/extent
       real(wp), allocatable :: g(:, :), inverse(:, :), n(:, :)
       real(wp) :: a(n_motions(model%mesh%dimension)), centre(3), extent, force(3), whole, inertia(6)
-      real(wp) :: inside(3, model%mesh%n_nodes)     ! on the bubbles of shells
       integer  :: c, d, k, s
       logical  :: ok
       character(:), allocatable :: name
@@ -93,17 +91,9 @@ contains
             a = [(sum([(dot_product(loads%force(:d, k), r(:, loads%node(k), c)), k = 1, loads%n)]), c = 1, size(a))]
             a = matmul(n, matmul(inverse, matmul(transpose(n), a)))
             deallocate (inverse)
-            inside = 0.0_wp
-            do k = 1, model%mesh%n_elements
-               if (.not. is_shell(model%mesh, k)) cycle
-               associate (nodes => element_points(model%mesh, k))
-                  call add_bubble_load(model%mesh, k, -spread(area_mass(model%mesh, k), 1, 3)*reshape( &
-                     matmul(reshape(r(:, nodes, :), [d*size(nodes), size(a)]), a), [d, size(nodes)]), inside)
-               end associate
-            end do
             do k = 1, size(mr, 2)
-               force = inside(:, k)
-               force(:d) = force(:d) - matmul(mr(:, k, :), a)
+               force = 0.0_wp
+               force(:d) = -matmul(mr(:, k, :), a)
                if (any(abs(force) > 0.0_wp)) call add_force(k, force, loads)
             end do
             call deck%errors%warn(name//': stage '//integer_text(s)//' has the inertia forces of the acceleration '// &

@@ -12,6 +12,7 @@ module model_build
    use determinate_joints, only: find_determinate_joints
    use first_pressures, only: find_first_pressures
    use displacement_systems, only: couple_node_systems, find_node_systems
+   use edge_halves, only: join_halves
    use element_build, only: marked_side
    use element_unknowns, only: make_table
    use free_structure, only: check_balance, hold_free_structure
@@ -159,6 +160,7 @@ contains
       is_whole = .not. deck%mesh_is_faulty()
       if (.not. is_whole) return
       call build_shells(deck, mesh)
+      call join_halves(mesh, sides)
       call build_surfaces(deck, sides, mesh)
       is_whole = .not. deck%mesh_is_faulty()
       if (.not. is_whole) return

@@ -12,6 +12,7 @@ module node_build
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
    use model_data, only: mesh_type
+   use part_nodes, only: join_part_nodes
    use text_tools, only: integer_text, plural
    use tolerances, only: zero_coordinate
    implicit none
@@ -39,7 +40,7 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(grid_card), intent(inout)  :: cards(:) !! those of blocks last
       type(mesh_type), intent(inout) :: mesh
-      integer, allocatable :: order(:)
+      integer, allocatable :: one_as(:), order(:), stays(:)
       integer :: i, system
 
       do i = 1, size(cards)
@@ -56,8 +57,11 @@ contains
       end do
       call deck%report_repeated('node', cards%id, cards%line, &
                                 n_cards=size(deck%bulk%grid) + count(cards%is_scalar))
-      call sorted_order(cards%id, order)
-      mesh%n_nodes = size(cards)
+      call join_part_nodes(deck, cards, one_as)
+      stays = pack([(i, i = 1, size(cards))], [(one_as(i) == i, i = 1, size(cards))])
+      call sorted_order(cards(stays)%id, order)
+      order = stays(order)
+      mesh%n_nodes = size(order)
       mesh%node_id = cards(order)%id
       if (any(cards%is_scalar)) mesh%is_scalar = cards(order)%is_scalar
       allocate (mesh%x(3, mesh%n_nodes))
@@ -65,6 +69,10 @@ contains
          mesh%x(:, i) = cards(order(i))%x
       end do
       call mesh%node_table%build(mesh%node_id)
+      associate (gone => pack([(i, i = 1, size(cards))], [(one_as(i) /= i, i = 1, size(cards))]))
+         if (size(gone) > 0) call mesh%node_table%add(cards(gone)%id, [(mesh%node_table%find(cards(one_as(gone(i)))%id), &
+                                                                       i = 1, size(gone))])
+      end associate
    end subroutine build_nodes
 
    !> The scalar points of DECK: those of SPOINT, and others that CELAS3, CELAS4, CMASS3 and CMASS4 name.
@@ -109,10 +117,7 @@ contains
       mesh%n_nodes = size(mesh%node_id)
       mesh%x = reshape([mesh%x, x], [3, mesh%n_nodes])
       if (size(mesh%duplicate) > 0) mesh%duplicate = [mesh%duplicate, spread(0, 1, size(x, 2))]
-      call mesh%node_table%build(mesh%node_id)
-      associate (named => mesh%placed%id > 0 .and. mesh%placed%node > 0)
-         call mesh%node_table%add(pack(mesh%placed%id, named), pack(mesh%placed%node, named))
-      end associate
+      call mesh%node_table%add(mesh%node_id(mesh%n_nodes - size(x, 2) + 1:), [(k, k = mesh%n_nodes - size(x, 2) + 1, mesh%n_nodes)])
    end subroutine append_nodes
 
    !> The highest node number of the model, with those of NODEAT.

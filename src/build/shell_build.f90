@@ -193,6 +193,8 @@ contains
       if (k == 0) return
       associate (material => deck%bulk%mat1(k))
          is_isotropic = material%name == 'MAT1'
+         if (material%name == 'MAT9' .and. at > 0) call deck%field_error(line, at, 'MAT9 '//integer_text(id)// &
+                                                      ' is for solids; expected MAT1, MAT2 or MAT8', called='MID')
          stress = material%stress
          expansions = material%expansions
          shear = material%shear_moduli

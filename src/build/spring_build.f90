@@ -118,6 +118,8 @@ contains
          if (prod%material > 0) call deck%field_error(prod%line, 'MID', 'there is no MAT1 '//integer_text(prod%material))
          return
       end if
+      if (deck%bulk%mat1(material)%name /= 'MAT1') call deck%field_error(prod%line, 'MID', deck%bulk%mat1(material)%name//' '// &
+         integer_text(prod%material)//' is no material of bars; expected a MAT1')
       if (any(bar%nodes == 0)) return
       along = mesh%x(:, bar%nodes(2)) - mesh%x(:, bar%nodes(1))
       length = norm2(along)

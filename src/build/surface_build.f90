@@ -1,6 +1,7 @@
 !> Marked surfaces: the body elements and the orientation of their sides, and the tributary areas of their nodes.
 module surface_build
    use deck_check, only: checked_deck
+   use edge_halves, only: half_edge_text
    use element_build, only: marked_side
    use element_kinds, only: element_table, is_second_order, max_side_nodes
    use elasticity, only: plane_stress
@@ -140,7 +141,8 @@ contains
             if (found > 0) other = found
          end do
          if (owner == 0) then
-            call deck%errors%add(side%line, 'the '//side_name(mesh, nodes)//' is no side of a body element')
+            call deck%errors%add(side%line, 'the '//side_name(mesh, nodes)//' is no side of a body element'// &
+                                 half_edge_text(mesh, nodes))
             return
          end if
          side_nodes = shell_face(mesh, owner, nodes)

@@ -47,8 +47,7 @@ contains
                                     'TEMPRB with set '//integer_text(reference%id))
                cycle
             end if
-            if (all(abs(mesh%properties%alpha) <= 0.0_wp) .and. all(abs(mesh%bars%expansion) <= 0.0_wp) .and. &
-                size(expansions) == 0) then
+            if (.not. (expands(mesh) .or. size(expansions) > 0)) then
                call deck%errors%add(reference%line, 'TEMPERATURE: nothing expands; give A on a MAT1')
                cycle
             end if
@@ -86,6 +85,18 @@ contains
       call deck%errors%warn(reference_words(deck, mesh, freedoms, history))
       call deck%errors%warn(squeeze_words(deck, mesh, history))
    end subroutine build_temperatures
+
+   !> Whether a body, a shell or a bar expands with temperature.
+   pure logical function expands(mesh)
+      type(mesh_type), intent(in) :: mesh
+      integer :: i
+
+      expands = any(abs(mesh%properties%alpha) > 0.0_wp) .or. any(abs(mesh%bars%expansion) > 0.0_wp)
+      if (.not. allocated(mesh%structural%shells)) return
+      do i = 1, size(mesh%structural%shells) ! a MAT8 may expand in one direction alone
+         expands = expands .or. any(abs(mesh%structural%shells(i)%heat) > 0.0_wp)
+      end do
+   end function expands
 
    !> A warning for the RBE2 that squeezes its nodes most, because the body at them expands otherwise than the element; '' where none
    !! does.

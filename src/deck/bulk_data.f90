@@ -93,7 +93,7 @@ module bulk_data
       integer  :: state = plane_stress                  ! of elasticity
       real(wp) :: thickness = 0.0_wp                    ! of a PSHELL
       logical  :: incompatible = .false.                ! modes of Wilson and Taylor
-      integer  :: bending = 0, shear = 0                ! MID2 and MID3 of a PSHELL, 0: blank
+      integer  :: bending = 0, shear = 0, system = 0    ! MID2 and MID3 of a PSHELL, 0: blank; CORDM of a PSOLID
       logical  :: bends_alone = .false.                 ! MID1 is blank: no membrane; MATERIAL is MID2
       real(wp) :: inertia_ratio = 1.0_wp, shear_ratio = 5.0_wp/6.0_wp ! 12I/T**3, TS/T
       real(wp) :: extra_mass = 0.0_wp                   ! NSM, per area
@@ -169,11 +169,11 @@ module bulk_data
       integer  :: line = 0, id = 0
       logical  :: bars_only = .false., reference_given = .false. ! no NU for bodies; TREF is given
       real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
-      real(wp) :: shear = 0.0_wp                        ! G of torsion and transverse shear
+      real(wp) :: shear = 0.0_wp, damping = 0.0_wp      ! G of torsion and transverse shear; GE
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF
-      real(wp) :: damping = 0.0_wp                      ! GE
+      real(wp), allocatable :: solid(:, :)              ! (6, 7) of a MAT9: stress of unit strains, then A1 to A6
       real(wp) :: strength = 0.0_wp                     ! ST, 0: blank
-      character(4) :: name = 'MAT1'                     ! MAT2 or MAT8: of shells alone, with the values below
+      character(4) :: name = 'MAT1'                     ! MAT9; MAT2 or MAT8: of shells alone, with the values below
       real(wp) :: stress(3, 3) = 0.0_wp, expansions(3) = 0.0_wp, shear_moduli(2) = 0.0_wp
    end type mat1_card
 
@@ -336,9 +336,9 @@ module bulk_data
 
    !> All cards of a deck.
    type, public :: bulk_data_type
-      integer :: n_cards = 0                               !! number of cards of all kinds
-      integer, allocatable :: part_lines(:)                !! lines of BEGIN SUPER, where the parts of the deck begin
-      integer :: n_manual = 0                              !! parts whose nodes are joined to others by number alone
+      integer :: n_cards = 0, n_manual = 0                 !! cards of all kinds; parts joined to others by node numbers alone
+      integer, allocatable :: part_lines(:), joined(:, :)  !! lines of BEGIN SUPER; (4, pairs) of SECONCT: GA, GB, line, data field
+      real(wp) :: join_distance = 0.0_wp                   !! the largest TOL of SEBULK and SECONCT [length]
       type(ignored_entries_type) :: ignored                !! entries without effect, also of case control
       type(parameters_type) :: parameters
       type(grid_card), allocatable         :: grid(:)

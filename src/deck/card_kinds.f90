@@ -60,7 +60,7 @@ contains
       loose = 0
       n_loose = 0
       is_open = .false.
-      allocate (bulk%part_lines(0))
+      allocate (bulk%part_lines(0), bulk%joined(4, 0))
       do while (cursor <= text%n)
          at = cursor
          cursor = cursor + 1
@@ -151,6 +151,9 @@ contains
             if (card%name == 'CQUAD9') then
                call errors%add(card%line, 'CQUAD9 is a complete element of nine nodes; expected a CQUAD8, no node inside'// &
                                complete_remedy, 1, 8)
+            else if (card%name == 'SELOC') then
+               call errors%add(card%line, 'SELOC moves a part of the deck; expected the GRID of the part where they stand in '// &
+                               'the structure', 1, 8)
             else if (card%name /= '') then
                call errors%add(card%line, ''''//trim(card%name)//''' is not a card of jointfem; see input/cards.md', 1, 8)
             end if

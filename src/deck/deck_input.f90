@@ -12,7 +12,7 @@ module deck_input
    use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
    use, intrinsic :: iso_fortran_env, only: int16
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jiwan, read_jnorm, read_joint, read_jshear, read_pjoint
-   use laminate_cards, only: read_laminate, read_plate_material
+   use laminate_cards, only: read_laminate, read_plate_material, read_solid_material
    use matrix_cards, only: read_dmig, read_retained
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_own_temperature, read_pressure, read_surface_load, &
                          read_temperature
@@ -71,6 +71,7 @@ contains
       call add(['NODEAT'], read_place)
       call add(['MAT1'], read_mat1)
       call add(['MAT2', 'MAT8'], read_plate_material, joins=.true.)
+      call add(['MAT9'], read_solid_material, joins=.true.)
       call add(['BSURF  ', 'BSURFS ', 'BCPROP ', 'BCPROPS', 'BCRPARA'], read_region)
       cards%of_mesh = .true.
       call add(['BCTSET', 'BGSET '], read_pair)

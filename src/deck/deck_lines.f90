@@ -2,6 +2,7 @@
 !! name goes on on the next line, and takes the name; interprets a line that repeats the card before it with some fields changed.
 !! Source of the last: MSC Nastran, Getting Started Guide, replication of bulk data.
 module deck_lines
+   use c_library, only: is_regular_file
    use, intrinsic :: iso_fortran_env, only: int8
    use field_rules, only: parse_integer, parse_real
    use kinds, only: long, wp
@@ -9,7 +10,7 @@ module deck_lines
    implicit none
    private
 
-   public :: scan_line, is_include, is_open, file_named_by, repeats_of, repeated
+   public :: scan_line, is_executive, is_include, is_open, file_named_by, path_beside, repeats_of, repeated
 
    !> Place of a line. Its card part is the line without its comment ($ to the end) and without trailing blanks.
    type, public :: line_place
@@ -110,6 +111,42 @@ contains
          if (path(k:k) == '\') path(k:k) = '/' ! a deck from Windows
       end do
    end function file_named_by
+
+   !> The PATH that an INCLUDE in the file PARENT names: beside this file, or else, if it exists there, beside the file DECK.
+   function path_beside(path, parent, deck) result(full)
+      character(*), intent(in)  :: path, parent, deck
+      character(:), allocatable :: full
+
+      full = path
+      if (path(1:1) == '/') return
+      full = parent(:index(parent, '/', back=.true.))//path
+      if (is_regular_file(full)) return
+      if (is_regular_file(deck(:index(deck, '/', back=.true.))//path)) full = deck(:index(deck, '/', back=.true.))//path
+   end function path_beside
+
+   !> Whether the line that begins at AT in BYTES stands in executive control: behind SOL, and before CEND.
+   logical function is_executive(bytes, at)
+      character(*), intent(in)  :: bytes
+      integer(long), intent(in) :: at
+
+      is_executive = begins_with(bytes(:at - 1), 'SOL ') .and. .not. begins_with(bytes(:at - 1), 'CEND') .and. &
+                     .not. begins_with(bytes(:at - 1), 'BEGIN') .and. begins_with(bytes(at:), 'CEND')
+   end function is_executive
+
+   !> Whether a line of BYTES begins with WORD.
+   logical function begins_with(bytes, word)
+      character(*), intent(in) :: bytes, word
+      integer(long) :: next, start
+
+      begins_with = .false.
+      start = 1
+      do while (start <= len(bytes, long) .and. .not. begins_with)
+         next = index(bytes(start:), achar(10), kind=long)
+         if (next == 0) next = len(bytes, long) - start + 2
+         begins_with = index(upper(adjustl(bytes(start:min(start + next - 2, start + 79))))//' ', word) == 1
+         start = start + next
+      end do
+   end function begins_with
 
    !> How many cards LINE repeats: 0 where it repeats none, 1 for '=, *(1), =, ==' and 'PBAR,102,=,==', N for '=(N)' and '=N', which
    !! repeat the STEPS of a line before; -1 where these cannot be read.

@@ -1,7 +1,7 @@
 !> The parts of a deck with partitioned superelements: BEGIN SUPER = n begins part n, in which the cards of a superelement follow.
 !! All parts are one structure, of which nothing is reduced: its answer is exact where NASTRAN's depends on the reduction. All parts
-!! share one numbering. A node, property or material that several parts give by the same card is one; SECONCT of different numbers,
-!! SELOC and copies of parts are errors.
+!! share one numbering. A node, property or material that several parts give by the same card is one; SELOC and copies of parts are
+!! errors. Which nodes of different numbers are one node, part_nodes decides.
 module deck_parts
    use bulk_data, only: bulk_data_type
    use card_fields, only: card_fields_type
@@ -9,14 +9,15 @@ module deck_parts
    use deck_cards, only: card_type, read_card
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
-   use field_rules, only: parse_integer
+   use field_rules, only: parse_integer, positive
+   use kinds, only: wp
    use, intrinsic :: iso_fortran_env, only: int16, int64
    use lists, only: sorted_order
-   use text_tools, only: integer_text, plural, upper
+   use text_tools, only: plural, upper
    implicit none
    private
 
-   public :: part_of_begin, drop_repeated, check_parts, read_part
+   public :: part_of_begin, part_at, drop_repeated, check_parts, read_part
 
    ! cards that mean the same when they are given twice, by their first letters: nodes, axes, materials, tables, supports and sets
    character(6), parameter :: same_twice(14) = [character(6) :: 'GRID', 'GRDSET', 'SPOINT', 'CORD', 'MAT', 'TABLE', 'TABDMP', &
@@ -128,60 +129,66 @@ contains
       if (name == 'SPCD' .or. name == 'MATT1') is_same_twice = .false.
    end function is_same_twice
 
-   !> Say what parts are here, and which nodes NASTRAN would join.
+   !> Say what the parts are.
    subroutine check_parts(bulk, errors)
       type(bulk_data_type), intent(in)     :: bulk
       type(deck_error_list), intent(inout) :: errors
-      integer, allocatable        :: order(:)
-      integer(int64), allocatable :: key(:)
-      integer :: first(2), i, j, n
 
       call errors%warn('BEGIN SUPER: '//plural(size(bulk%part_lines), 'part')//' and the main bulk data are one structure, in '// &
                        'one numbering; nothing is reduced, and every SUBCASE is of the whole structure')
-      allocate (key(size(bulk%grid)), source=no_bytes)
-      do i = 1, size(bulk%grid)
-         call add_to_checksum(transfer([bulk%grid(i)%x], repeat('x', 24)), key(i))
-      end do
-      call sorted_order(int(ibits(key, 0, 31)), order)
-      n = 0
-      do i = 2, size(order)
-         do j = i - 1, 1, -1
-            if (ibits(key(order(j)), 0, 31) /= ibits(key(order(i)), 0, 31)) exit
-            associate (a => bulk%grid(order(j)), b => bulk%grid(order(i)))
-               if (a%is_scalar .or. b%is_scalar .or. a%cp /= b%cp .or. key(order(j)) /= key(order(i)) .or. a%id == b%id) cycle
-               if (part_at(bulk, a%line) == part_at(bulk, b%line)) cycle
-               n = n + 1
-               if (n == 1) first = [a%id, b%id]
-            end associate
-         end do
-      end do
-      if (n > 0 .and. bulk%n_manual < size(bulk%part_lines)) &
-         call errors%warn(plural(n, 'pair')//' of nodes of two parts at one place are not joined, the first '// &
-                          integer_text(first(1))//' and '//integer_text(first(2))//'; NASTRAN joins such nodes unless SEBULK '// &
-                          'has MANUAL: give them one number, or RBE2')
    end subroutine check_parts
 
-   !> SEBULK and SECONCT: a part is itself, where its GRID cards are, and is joined to others by nodes of the same number.
+   !> SEBULK and SECONCT: a part is itself, where its GRID cards are, and is joined to others by nodes of the same number, by pairs
+   !! GA and GB, or GA1 THRU GA2, GB1 THRU GB2, and by nodes at one place.
    subroutine read_part(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       character(8) :: word
-      integer :: k, seid
-      logical :: is_one
+      real(wp) :: tolerance
+      integer, parameter :: ids(2) = [1, huge(1)]
+      integer :: at, ends(4), i, k, seid
+      logical :: ok(4)
 
       call card%field(merge('SEIDA', 'SEID ', card%name == 'SECONCT'), seid)
       if (card%name == 'SEBULK') then
-         call card%word('TYPE', '|PRIMARY|', word)
-         call card%skip(['RSEID'])
+         if (card%text_at(2) /= '' .and. card%text_at(2) /= 'PRIMARY') &
+            call card%wrong_entry(2, 'TYPE', 'makes a part of the cards of another one, or of a file; expected PRIMARY, or blank')
+         call card%skip(['TYPE ', 'RSEID'])
          call card%word('METHOD', '|AUTO|MANUAL|', word)
          if (word == 'MANUAL') bulk%n_manual = bulk%n_manual + 1
+         call card%field('TOL', tolerance, positive, default=0.0_wp)
+         bulk%join_distance = max(bulk%join_distance, tolerance)
          return
       end if
       call card%field('SEIDB', seid, default=0, least=0)
-      do k = 9, card%n - 1, 2
-         is_one = card%text_at(k) == card%text_at(k + 1) .or. any(['THRU' == card%text_at(k), 'THRU' == card%text_at(k + 1)])
-         if (.not. is_one) call card%error_at(k + 1, 'GB: '''//card%text_at(k + 1)//''' where GA is '//card%text_at(k)// &
-                                              '; expected one number in both parts')
+      call card%field('TOL', tolerance, positive, default=0.0_wp)
+      bulk%join_distance = max(bulk%join_distance, tolerance)
+      k = 9
+      do while (k <= card%n)
+         at = k
+         if (card%text_at(k) == '' .and. (k == card%n .or. card%text_at(min(k + 1, card%n)) == '')) then
+            k = k + 2
+            cycle
+         end if
+         call card%integer_at(k, 'GA', ends(1), ok(1), bounds=ids)
+         if (card%text_at(k + 1) == 'THRU') then
+            call card%integer_at(k + 2, 'GA', ends(2), ok(2), bounds=ids)
+            call card%integer_at(k + 3, 'GB', ends(3), ok(3), bounds=ids)
+            call card%integer_at(k + 5, 'GB', ends(4), ok(4), bounds=ids)
+            if (all(ok) .and. ends(2) - ends(1) /= ends(4) - ends(3)) then
+               call card%error_at(k + 5, 'GB: expected as many nodes as GA1 THRU GA2')
+               ok = .false.
+            end if
+            k = k + 6
+         else
+            call card%integer_at(k + 1, 'GB', ends(3), ok(3), bounds=ids)
+            ends(2) = ends(1)
+            ok([2, 4]) = .true.
+            k = k + 2
+         end if
+         if (.not. all(ok) .or. ends(1) == ends(3)) cycle
+         bulk%joined = reshape([bulk%joined, [([ends(1) + i, ends(3) + i, card%line, at], i = 0, ends(2) - ends(1))]], &
+                               [4, size(bulk%joined, 2) + max(0, ends(2) - ends(1) + 1)])
       end do
    end subroutine read_part
 

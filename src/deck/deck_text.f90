@@ -4,7 +4,7 @@ module deck_text
    use checksum, only: add_to_checksum, no_bytes
    use terminal, only: standard_input
    use deck_errors, only: deck_error_list
-   use deck_lines, only: file_named_by, is_include, is_open, line_place, repeated, repeats_of, scan_line
+   use deck_lines, only: file_named_by, is_executive, is_include, is_open, line_place, path_beside, repeated, repeats_of, scan_line
    use deck_parameters, only: fill_parameters, parameter_type
    use kinds, only: long
    use lists, only: first_not_below
@@ -249,18 +249,14 @@ contains
          text%is_text = .false.
       end if
       start = 1
-      if (length >= 3) then
-         if (text%files(me)%bytes(1:3) == char(239)//char(187)//char(191)) start = 4 ! UTF-8 byte order mark
-      end if
+      if (index(text%files(me)%bytes(:min(3_long, length)), char(239)//char(187)//char(191)) == 1) start = 4 ! UTF-8 byte order mark
       number = 0
       statement = ''
       opened = 0
       starts_part = .true. ! at the start of the file, and after the lines of another file
       do while (start <= length)
          number = number + 1
-         if (starts_part) then
-            call start_part()
-         end if
+         if (starts_part) call start_part()
          call add_line()
          call scan_line(text%files(me)%bytes, start, text%lines(text%n), next, bad)
          if (bad >= 0) then
@@ -366,7 +362,7 @@ contains
       character(*), intent(in)             :: statement
       logical, intent(out)                 :: followed !! lines of another file were added
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: folder, path, resolved
+      character(:), allocatable :: path, resolved
       integer :: ancestor
 
       followed = .false.
@@ -375,14 +371,7 @@ contains
          call errors%add(here, 'INCLUDE: expected a file name, INCLUDE ''mesh.bdf''')
          return
       end if
-      if (path(1:1) /= '/') then ! beside the file of the INCLUDE, or else beside the deck
-         folder = text%files(me)%path(:index(text%files(me)%path, '/', back=.true.))
-         if (.not. is_regular_file(folder//path)) then
-            if (is_regular_file(text%files(1)%path(:index(text%files(1)%path, '/', back=.true.))//path)) &
-               folder = text%files(1)%path(:index(text%files(1)%path, '/', back=.true.))
-         end if
-         path = folder//path
-      end if
+      path = path_beside(path, text%files(me)%path, text%files(1)%path)
       resolved = true_path(path)
       ancestor = me
       do while (ancestor > 0)
@@ -398,8 +387,13 @@ contains
          return
       end if
       if (is_regular_file(path)) call add_file(text, path, me, depth + 1, errors, followed)
-      if (.not. followed) call errors%add(here, 'INCLUDE: '''//path(:min(len(path), 200))// &
-                                          ''' cannot be read: no such file, or not a file')
+      if (followed) return
+      path = 'INCLUDE: '''//path(:min(len(path), 200))//''' cannot be read: no such file, or not a file'
+      if (.not. is_executive(text%files(me)%bytes, text%lines(here)%start)) then
+         call errors%add(here, path)
+      else
+         call errors%warn(path//' ('//text%place(here)//'); before CEND such a file has DMAP, which is not followed')
+      end if
    end subroutine follow_include
 
 end module deck_text

@@ -1,4 +1,4 @@
-!> Reads the cards of laminates and of plates without isotropy: PCOMP, PCOMPG, MAT2 and MAT8.
+!> Reads the cards of laminates and of materials without isotropy: PCOMP, PCOMPG, MAT2, MAT8 and MAT9.
 module laminate_cards
    use bulk_data, only: bulk_data_type, ply_card
    use card_fields, only: card_fields_type
@@ -8,7 +8,7 @@ module laminate_cards
    implicit none
    private
 
-   public :: read_laminate, read_plate_material
+   public :: read_laminate, read_plate_material, read_solid_material
 
 contains
 
@@ -62,6 +62,45 @@ contains
          if (material%damping > 0.0_wp) call bulk%ignored%wait('GE of '//material%name, card%line, needs_response=.false.)
       end associate
    end subroutine read_plate_material
+
+   !> MAT9: a material of solids by its matrix, upper triangle, in the order xx, yy, zz, xy, yz, zx.
+   subroutine read_solid_material(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      character(3) :: names(21)
+      real(wp) :: g(21), expansions(6)
+      integer  :: i, j, n
+
+      associate (material => bulk%mat1(card%i))
+         material%name = 'MAT9'
+         call card%field('MID', material%id)
+         n = 0
+         allocate (material%solid(6, 7), source=0.0_wp)
+         do i = 1, 6
+            do j = i, 6
+               n = n + 1
+               names(n) = 'G'//integer_text(i)//integer_text(j)
+            end do
+         end do
+         call card%field(names, g, default=0.0_wp)
+         call card%field('RHO', material%rho, not_negative, default=0.0_wp)
+         call card%field(['A1', 'A2', 'A3', 'A4', 'A5', 'A6'], expansions, default=0.0_wp)
+         call card%field('TREF', material%reference, default=0.0_wp)
+         call card%field('GE', material%damping, not_negative, default=0.0_wp)
+         call card%finish(material%line)
+         n = 0
+         do i = 1, 6
+            do j = i, 6
+               n = n + 1
+               material%solid(i, j) = g(n)
+               material%solid(j, i) = g(n)
+            end do
+         end do
+         material%solid(:, 7) = expansions
+         material%reference_given = card%given('TREF')
+         if (material%damping > 0.0_wp) call bulk%ignored%wait('GE of MAT9', card%line, needs_response=.false.)
+      end associate
+   end subroutine read_solid_material
 
    !> PCOMP: a laminate, its plies from the lower face to the upper one; blank MID and T are those of the ply before. PCOMPG: the same
    !! with the numbers of the plies. Bonding strength and theory of failure have no effect.

@@ -27,7 +27,7 @@ module nastran_words
       'MAT4', 'MAT5', 'DTI', 'BCTPARM', 'BGPARM', &
       'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBCOMP', &
       'PBEND', 'PBUSH1D', 'PCOMPS', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &
-      'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PWELD', 'MAT3', 'MAT9', &
+      'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PWELD', 'MAT3', &
       'MAT10', 'MAT11', 'TABLEM1', 'MDLPRM', 'ABSNMVS', 'ABSTRCT', &
       'DEBUG', 'USET', 'USET1', 'SNORM', 'SEQGP', 'CBARAO', 'RVDOF', 'RVDOF1', 'TABLEM2', 'TABLEM3', 'TABLEM4', 'TABLEST', &
       'MATHP', 'PDAMPT', 'PDAMP5', 'PFASTT', 'ACMODL', 'SWLDPRM', 'GROUP', &
@@ -44,7 +44,7 @@ module nastran_words
       'TLOAD1', 'TLOAD2', 'TSTEP', 'TSTEP1', 'TSTEPNL', 'TIC', 'EIGB', 'EIGC', 'EIGP', 'TF', 'NLPCI', 'NLSTEP', 'RANDT1', &
       'RANDPS', 'TABRND1', 'TABRNDG', 'DEFORM', &
       ! superelements, and points of controls without structure
-      'SELABEL', 'SETREE', 'SEBNDRY', 'EPOINT']
+      'SELABEL', 'SETREE', 'SEBNDRY', 'SEELT', 'EPOINT']
 
    ! with an effect on a response: springs that depend on the frequency
    character(6), parameter, public :: of_response(1) = [character(6) :: 'PELAST']

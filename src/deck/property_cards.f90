@@ -61,7 +61,7 @@ contains
    !> PAXIS: a body of revolution about y; its mesh lies in x >= 0. PSOLID: solids. CHEXA of 8 and CPENTA of 6 nodes have
    !! incompatible modes, as NASTRAN's have bubble functions, unless ISOP selects full integration. NASTRAN's reduced shear
    !! integration without bubble functions is not available; the incompatible modes also remove parasitic shear in bending. Output
-   !! requests and the system of an isotropic material have no effect.
+   !! requests have no effect, nor has the system of an isotropic material.
    subroutine read_body_property(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -75,7 +75,7 @@ contains
          property%state = axisymmetric
          bulk%paxis(card%i) = property
       else
-         call card%skip(['CORDM'])
+         call card%field('CORDM', property%system, default=0, least=-1)
          call card%word('IN', '|BUBBLE|GAUSS|TWO|THREE|0|1|2|3|', other)
          call card%skip(['STRESS'])
          call card%word('ISOP', '|MODES|PLAIN|FULL|REDUCED|0|1|2|3|', isop)

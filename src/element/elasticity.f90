@@ -18,6 +18,7 @@ module elasticity
 
    integer, parameter, public :: n_stresses(6) = [3, 3, 4, 6, 6, 6] !! number of components of each state
    integer, parameter, public :: max_stresses = 6
+   integer, parameter, public :: strain_of(3, 3) = reshape([1, 4, 6, 4, 2, 5, 6, 5, 3], [3, 3]) !! component of the pair of axes p, q
 
 contains
 

@@ -25,8 +25,9 @@ module element_mapping
       integer  :: state = 0                               !! plane_stress ... solid
       real(wp) :: thickness = 1.0_wp                      !! of a plane body [length]; not used by the others
       logical  :: incompatible = .false.                  !! with the modes of Wilson and Taylor, if the kind has them
-      real(wp) :: d(max_stresses, max_stresses)           !! [D]: isotropic, or orthotropic along the axes [pressure]
-      real(wp) :: expansion(3)                            !! free thermal strains per degree [1/temperature]
+      logical  :: is_coupled = .false.                    !! a solid that is not orthotropic along the axes
+      real(wp) :: d(max_stresses, max_stresses)           !! [D]: unless coupled, orthotropic along the axes [pressure]
+      real(wp) :: expansion(max_stresses)                 !! free thermal strains per degree [1/temperature]
    end type element_law
 
    !> The nodes of one element and the quantities that are the same at all its points. The arrays have no default.

@@ -8,7 +8,7 @@
 !! Taylor, Beresford, Wilson 1976; consistent mass: Archer, J. Struct. Div. ASCE 89 (1963) 161-178; lumped mass, positive for
 !! second-order elements too: Hinton, Rock, Zienkiewicz, Earthquake Engng Struct. Dyn. 4 (1976) 245-249.
 module isoparametric
-   use elasticity, only: axisymmetric, solid
+   use elasticity, only: axisymmetric, max_stresses, solid, strain_of
    use element_kinds, only: element_table, max_nodes, max_side_nodes, side_kind
    use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes, two_pi
    use kinds, only: wp
@@ -102,6 +102,22 @@ contains
       end do
    end subroutine condensed_stiffness
 
+   !> [B_i]^T [D] [B_j] of a solid with any [D]; G(a, b) = integral of the products of the derivatives of N_i along a and N_j along b.
+   pure function coupled_block(d, g) result(block)
+      real(wp), intent(in) :: d(:, :), g(3, 3)
+      real(wp) :: block(3, 3)
+      integer  :: a, b, p
+
+      block = 0.0_wp
+      do b = 1, 3
+         do a = 1, 3
+            do p = 1, 3
+               block(p, :) = block(p, :) + d(strain_of(p, a), strain_of(:, b))*g(a, b)
+            end do
+         end do
+      end do
+   end function coupled_block
+
    !> [B_i]^T [D] [B_j] for all i <= j of N shape functions. Strains in the plane: xx = g_x u, yy = g_y v, xy = g_y u + g_x v;
    !! axisymmetric: rr = g_r u, zz = g_z v, theta theta = h u, rz = g_z u + g_r v, where h = N/r; of a solid: xx = g_x u,
    !! yy = g_y v, zz = g_z w, xy = g_y u + g_x v, yz = g_z v + g_y w, zx = g_x w + g_z u.
@@ -122,6 +138,10 @@ contains
             associate (d => law%d, g => products(:, :, pair))
                select case (law%state)
                case (solid)
+                  if (law%is_coupled) then
+                     full(r:r + 2, c:c + 2) = coupled_block(d, g)
+                     cycle
+                  end if
                   full(r, c) = d(1, 1)*g(1, 1) + d(4, 4)*g(2, 2) + d(6, 6)*g(3, 3)
                   full(r + 1, c) = d(2, 1)*g(2, 1) + d(4, 4)*g(1, 2)
                   full(r + 2, c) = d(3, 1)*g(3, 1) + d(6, 6)*g(1, 3)
@@ -319,12 +339,14 @@ contains
       real(wp), intent(out) :: f(max_unknowns)                          !! [force]
       type(element_map)      :: map
       type(integration_rule) :: rule
-      real(wp) :: g(3, max_shapes), n(max_nodes), stress(3), volume, weighted_rise
+      real(wp) :: g(3, max_shapes), n(max_nodes), of_all(max_stresses), stress(3), volume, weighted_rise
       integer  :: d, i, k, p
 
       call map_element(law, x, map)
       d = merge(3, 2, law%state == solid)
-      stress = matmul(law%d(:3, :3), law%expansion)
+      stress = matmul(law%d(:3, :3), law%expansion(:3))
+      of_all = 0.0_wp
+      if (law%is_coupled) of_all = matmul(law%d, law%expansion)
       f = 0.0_wp
       call body_rule(law%kind, law%state == axisymmetric, rule)
       do k = 1, rule%n
@@ -332,6 +354,10 @@ contains
          call shape_values(law%kind, rule%point(:, k), n)
          weighted_rise = rule%weight(k)*volume*dot_product(n(:map%n), rise(:map%n))
          do i = 1, map%n + map%n_modes
+            if (law%is_coupled) then
+               f(3*i - 2:3*i) = f(3*i - 2:3*i) + matmul(reshape(of_all(pack(strain_of, .true.)), [3, 3]), g(:, i))*weighted_rise
+               cycle
+            end if
             f(d*(i - 1) + 1:d*i) = f(d*(i - 1) + 1:d*i) + g(:d, i)*(stress(:d)*weighted_rise)
             if (law%state == axisymmetric) f(2*i - 1) = f(2*i - 1) + g(3, i)*(stress(3)*weighted_rise) ! the hoop
          end do

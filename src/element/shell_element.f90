@@ -20,7 +20,7 @@ module shell_element
    private
 
    public :: form, kind_of, map_of, node_normal, node_thickness, section_heat, section_stiffness, shell_bubble_load, &
-             shell_products, shell_stiffness, shell_strains, shell_thermal_forces
+             shell_bubble_mass, shell_products, shell_stiffness, shell_strains, shell_thermal_forces
 
    integer, parameter, public :: most_shell_nodes = 8
 
@@ -253,6 +253,46 @@ contains
       call form(law, map, spread(0.0_wp, 1, map%n), 0.0_wp, k, whole, load)
       f(:, :2*map%n) = reshape(whole(:6*map%n), [3, 2*map%n])
    end subroutine shell_bubble_load
+
+   !> The mass that the bubble of an element of eight nodes adds between its nodal values, P^T T + T^T P. T gives the amplitudes of
+   !! the displacements of the bubble from the nodal values, where no force acts on any amplitude; those of the rotations of the bubble
+   !! are without inertia. P = S + c T/2, S = integral of q N_i b along the axes of the bubble, c = integral of q b^2.
+   pure subroutine shell_bubble_mass(law, x, q, p, t)
+      type(shell_law), intent(in) :: law
+      real(wp), intent(in)        :: x(:, :)         !! (3, 8) [length]
+      real(wp), intent(in)        :: q(:)            !! (8) mass per area [force time^2/length^3]
+      real(wp), intent(out)       :: p(3, 48), t(3, 48)
+      type(shell_map) :: map
+      real(wp) :: a(3, 2), all_amplitudes(6, 48), b, c, k(most_columns, most_columns), n(max_nodes), f(most_columns), s(8), w
+      integer  :: i, j
+
+      map = map_of(law, x)
+      call form(law, map, spread(0.0_wp, 1, 8), 0.0_wp, k, f)
+      do i = 1, 6                                   ! in the order in which form has left their rows
+         all_amplitudes(i, :) = -k(48 + i, :48)
+         do j = 1, i - 1
+            all_amplitudes(i, :) = all_amplitudes(i, :) - k(48 + i, 48 + j)*all_amplitudes(j, :)
+         end do
+         all_amplitudes(i, :) = all_amplitudes(i, :)/k(48 + i, 48 + i)
+      end do
+      t = all_amplitudes(:3, :)
+      s = 0.0_wp
+      c = 0.0_wp
+      do i = 1, map%rule%n
+         associate (point => map%rule%point(:, i))
+            call shape_values(kind_of(8), point, n)
+            b = bubble(point)
+            a = tangents(x, point)
+            w = map%rule%weight(i)*norm2(cross(a(:, 1), a(:, 2)))*dot_product(q, n(:8))
+         end associate
+         s = s + w*b*(n(:8) + b*map%curved%weights)
+         c = c + w*b**2
+      end do
+      p = 0.5_wp*c*t
+      do i = 1, 8
+         p(:, 3*i - 2:3*i) = p(:, 3*i - 2:3*i) + s(i)*transpose(map%curved%bubble_axes)
+      end do
+   end subroutine shell_bubble_mass
 
    !> The unit normal of an element at its node I.
    pure function node_normal(x, i) result(normal)

@@ -114,6 +114,7 @@ contains
       if (present(rise)) then ! the free thermal expansion has no stress
          call shape_values(law%kind, point, shape)
          direct = merge(3, 2, law%state == solid .or. law%state == axisymmetric)
+         if (law%is_coupled) direct = 6
          strain(:direct) = strain(:direct) - law%expansion(:direct)*dot_product(shape(:size(rise)), rise)
       end if
       m = n_stresses(law%state)

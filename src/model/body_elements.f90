@@ -299,6 +299,10 @@ contains
       associate (property => mesh%properties(mesh%element_property(e)))
          law_of = make_element_law(mesh%element_kind(e), property%state, property%e, property%nu, property%thickness, &
                                    property%incompatible, property%alpha)
+         if (.not. allocated(property%solid)) return
+         law_of%d = property%solid(:, :6)
+         law_of%expansion = property%solid(:, 7)
+         law_of%is_coupled = property%is_coupled
       end associate
    end function law_of
 

@@ -3,6 +3,7 @@
 !! Beams, elements behind a pretension section and the inertia of rotations have matrices of their own.
 module mass_matrix
    use beam_element, only: beam_mass
+   use bubble_mass, only: add_bubble_mass, add_bubble_products, area_mass, bubble_mass_type, find_bubble_masses
    use body_elements, only: coupled_stiffness, law_of
    use element_kinds, only: element_table, max_section_dofs, max_nodes
    use element_unknowns, only: displaced_nodes, nodes_of_unknowns
@@ -19,7 +20,7 @@ module mass_matrix
    implicit none
    private
 
-   public :: area_mass, bar_mass, scalar_mass, n_masses, form_mass, mass_times, total_mass
+   public :: bar_mass, scalar_mass, n_masses, form_mass, mass_times, total_mass
    public :: coupled_dynamic_stiffness, coupled_bar_mass, coupled_point_mass, mass_nodes
 
    integer, parameter :: worth_threads = 10000 ! number of nodes from which on threads are used
@@ -31,6 +32,7 @@ module mass_matrix
       real(wp), allocatable :: value(:)      !! [force time^2/length]
       integer, allocatable  :: whole(:)      !! elements with matrices of their own: beams, and elements behind sections
       integer, allocatable  :: turning(:)    !! masses at nodes with rotations, CMASS and CONM1: positions in model%mesh%masses
+      type(bubble_mass_type), allocatable :: bubbles(:)
    end type mass_matrix_type
 
 contains
@@ -42,23 +44,13 @@ contains
       n_masses = size(model%mesh%masses)
    end function n_masses
 
-   !> Mass per area at the nodes of shell E [force time^2/length^3].
-   pure function area_mass(mesh, e) result(m)
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)         :: e
-      real(wp) :: m(element_table(mesh%element_kind(e))%n_nodes)
-
-      associate (property => mesh%properties(mesh%element_property(e)))
-         m = property%rho*node_thickness(mesh%structural%shells(mesh%structural%place(e)), size(m)) + property%extra_mass
-      end associate
-   end function area_mass
-
    !> Mass between the points of element E (no beam), the same for every component of their displacements [force time^2/length].
    !! Of a shell: between its corners, and between its rotations the rotary inertia of the thickness, divided by the arms; the
    !! drilling rotation has this inertia too. Lumped mass has no rotary inertia.
-   pure subroutine scalar_mass(mesh, e, m)
+   pure subroutine scalar_mass(mesh, e, lumped, m)
       type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
+      logical, intent(in)          :: lumped
       real(wp), intent(inout)      :: m(:, :) !! (nodes, nodes), set here
       integer :: i, n
 
@@ -68,7 +60,7 @@ contains
             associate (x => mesh%x(:, corners), t => node_thickness(mesh%structural%shells(mesh%structural%place(e)), n))
                m(:2*n, :2*n) = 0.0_wp
                call shell_products(x, area_mass(mesh, e), m(:n, :n))
-               if (.not. mesh%lumped) call shell_products(x, property%rho*t**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
+               if (.not. lumped) call shell_products(x, property%rho*t**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
             end associate
             do i = n + 1, 2*n
                associate (arm => mesh%rotations(mesh%rotation_of(corners(i - n)))%arm)
@@ -80,7 +72,7 @@ contains
             call shape_products(law_of(mesh, e), mesh%x(:mesh%dimension, corners), m)
             m(:n, :n) = property%rho*m(:n, :n)
          end if
-         if (mesh%lumped) call lump(m(:n, :n))
+         if (lumped) call lump(m(:n, :n))
       end associate
    end subroutine scalar_mass
 
@@ -100,11 +92,12 @@ contains
       d = model%mesh%dimension
       n = element_table(model%mesh%element_kind(e))%n_nodes
       if (is_shell(model%mesh, e)) n = 2*n ! with their rotations
-      call scalar_mass(model%mesh, e, scalar)
+      call scalar_mass(model%mesh, e, model%mesh%lumped, scalar)
       m(:d*n, :d*n) = 0.0_wp
       do c = 1, d
          m(c:d*n:d, c:d*n:d) = scalar(:n, :n)
       end do
+      call add_bubble_mass(model%mesh, e, m)
       call extend_stiffness(model, e, m)
    end subroutine whole_mass
 
@@ -213,9 +206,10 @@ contains
       mass%whole = pack([(e, e = 1, model%mesh%n_elements)], [(has_own_matrix(model, e), e = 1, model%mesh%n_elements)])
       do e = 1, model%mesh%n_elements
          if (has_own_matrix(model, e)) cycle
-         call scalar_mass(model%mesh, e, m)
+         call scalar_mass(model%mesh, e, model%mesh%lumped, m)
          call add(displaced_nodes(model%freedoms, e), m)
       end do
+      call find_bubble_masses(model, mass%bubbles)
       do i = 1, n_bars(model%mesh)
          associate (bar => model%mesh%bars(i))
             if (bar%mass > 0.0_wp) call add(bar%nodes, bar_mass(model%mesh, i))
@@ -309,13 +303,15 @@ contains
    end subroutine lay_out
 
    !> F = [m] {A}. Each node is computed by one thread.
-   subroutine mass_times(model, mass, a, f)
+   subroutine mass_times(model, mass, a, f, bubbles)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
       real(wp), contiguous, intent(in)   :: a(:, :) !! (dimension, n_nodes), with the nodes of rotations and sections
       real(wp), contiguous, intent(out)  :: f(:, :) !! likewise
+      logical, intent(in), optional      :: bubbles !! of shells; default: with them
       real(wp) :: m(max_section_dofs, max_section_dofs), s(3)
       integer  :: i, k, n
+      logical  :: has_bubbles
 
       !$omp parallel do default(shared) private(k, s) if(model%mesh%n_nodes > worth_threads)
       do i = 1, model%mesh%n_nodes
@@ -328,6 +324,9 @@ contains
          f(:, i) = s(:size(a, 1))
       end do
       !$omp end parallel do
+      has_bubbles = .true.
+      if (present(bubbles)) has_bubbles = bubbles
+      if (has_bubbles) call add_bubble_products(mass%bubbles, a, f)
       do i = 1, size(mass%whole)
          associate (nodes => displaced_nodes(model%freedoms, mass%whole(i)))
             n = model%mesh%dimension*size(nodes)
@@ -353,7 +352,8 @@ contains
 
    !> Total mass, centre of mass, and moments and products of inertia about the axes through the centre, (I_xx, I_yy, I_zz, I_xy,
    !! I_yz, I_zx), products as the integral of x y dm; all from [m] alone. In a plane model I_zz is that of the plane bodies. In an
-   !! axisymmetric model the moments are zero, because those of its plane are not the moments of a body in space.
+   !! axisymmetric model the moments are zero, because those of its plane are not the moments of a body in space. Bubbles of shells
+   !! have no part in them: their amplitudes are zero in rigid-body motions.
    subroutine total_mass(model, mass, total, centre, inertia)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
@@ -369,7 +369,7 @@ contains
       a = 0.0_wp
       a(1, :n_points(model%mesh)) = 1.0_wp
       where (model%mesh%is_scalar) a(1, :size(model%mesh%is_scalar)) = 0.0_wp
-      call mass_times(model, mass, a, f)
+      call mass_times(model, mass, a, f, bubbles=.false.)
       total = sum(f(1, :n_points(model%mesh)))
       centre = 0.0_wp
       inertia = 0.0_wp
@@ -381,7 +381,7 @@ contains
          a = 0.0_wp
          a(1, :n_points(model%mesh)) = x(c, :n_points(model%mesh)) - centre(c)
          where (model%mesh%is_scalar) a(1, :size(model%mesh%is_scalar)) = 0.0_wp
-         call mass_times(model, mass, a, f)
+         call mass_times(model, mass, a, f, bubbles=.false.)
          second(:, c) = matmul(x, f(1, :)) - centre*sum(f(1, :))
       end do
       if (model%mesh%dimension == 2) second(3, :) = 0.0_wp

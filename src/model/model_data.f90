@@ -19,16 +19,15 @@ module model_data
 
    !> Section and material of body elements.
    type, public :: property_type
-      integer  :: id = 0
-      integer  :: state = plane_stress       !! of stress: plane_stress ... solid, as in elasticity
+      integer  :: id = 0, state = plane_stress !! of stress: plane_stress ... solid, as in elasticity
       real(wp) :: thickness = 0.0_wp         !! of a plane body [length]
       real(wp) :: e = 0.0_wp, nu = 0.0_wp    !! [pressure], [-]
       real(wp) :: rho = 0.0_wp               !! mass density [force x time^2/length^4]
       real(wp) :: alpha = 0.0_wp             !! thermal expansion [1/temperature]
       real(wp) :: reference = 0.0_wp         !! TREF, temperature without thermal strain [temperature]
-      real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
-      real(wp) :: strength = 0.0_wp          !! ST, 0: not given [pressure]
-      logical  :: incompatible = .false.     !! modes of Wilson and Taylor
+      real(wp) :: damping = 0.0_wp, strength = 0.0_wp !! GE, structural damping [-]; ST, 0: not given [pressure]
+      real(wp), allocatable :: solid(:, :)   !! (6, 7) of a MAT9: [D], then the free thermal strains per degree
+      logical  :: incompatible = .false., is_coupled = .false. !! modes of Wilson and Taylor; MAT9: not orthotropic along x, y, z
       real(wp) :: extra_mass = 0.0_wp        !! NSM of a shell, mass per unit area [force x time^2/length^3]
       real(wp) :: fibre(2) = 0.0_wp          !! Z1, Z2 of a shell: heights above its mean plane where stresses are reported [length]
    end type property_type

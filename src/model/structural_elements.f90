@@ -12,7 +12,7 @@ module structural_elements
    implicit none
    private
 
-   public :: structural_stress, nodal_values, between_own, onto_own, add_bubble_load
+   public :: structural_stress, nodal_values, between_own, onto_own, own_to_values, add_bubble_load
    public :: bar_elongation, thermal_tension, add_axial_force, add_bar_forces, bar_stiffness, unit_tension, matrix_forces
 
    integer, parameter, public :: most_own = 16 !! own nodes of an element: its nodes and their rotations

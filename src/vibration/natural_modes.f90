@@ -126,7 +126,9 @@ contains
          if (.not. failure%raised .and. (trial > 1 .or. .not. allocated(spectrum%lambda))) &
             call find_eigenpairs(model, structure%mass, system, n, structure%tolerance, spectrum%lambda, spectrum%x, failure)
          if (failure%raised) return
+         last = spectrum%n_rigid
          if (spectrum%shift < 0.0_wp) call count_rigid(model, structure, system, spectrum) ! an earlier trial may have missed one
+         spectrum%n_rigid = max(last, spectrum%n_rigid)
          spectrum%lambda(:spectrum%n_rigid) = 0.0_wp
          associate (lambda => spectrum%lambda, wanted => spectrum%n_wanted)
             if (wanted == below_end - spectrum%n_before) then ! the whole range, which has been counted; a mode may be at its end
@@ -207,7 +209,7 @@ contains
       class(equation_system), allocatable, intent(out) :: system
       type(failure_type), intent(inout)  :: failure
       type(failure_type) :: loose
-      real(wp) :: extent, first, scale
+      real(wp) :: before, extent, first, scale
       integer  :: i, trial
 
       spectrum%shift = 0.0_wp
@@ -235,9 +237,20 @@ contains
       end do
       if (.not. scale > 0.0_wp) scale = 1.0_wp ! nodal masses only: the search finds its own scale
       spectrum%shift = -scale
+      before = -scale
       do trial = 1, most_trials
          call factorise_at(model, structure, spectrum%shift, system, failure)
+         if (failure%raised .and. trial > 1) then ! what seemed the first mode with strain is a rigid-body mode but for rounding
+            spectrum%shift = before
+            failure = failure_type()
+            call factorise_at(model, structure, spectrum%shift, system, failure)
+            associate (lambda => spectrum%lambda, m => size(spectrum%lambda))
+               spectrum%n_rigid = findloc(lambda(:m - 1) < rigid_motion*lambda(2:m), .true., dim=1, back=.true.)
+            end associate
+            exit
+         end if
          if (failure%raised) return
+         before = spectrum%shift
          call find_eigenpairs(model, structure%mass, system, n, structure%tolerance, spectrum%lambda, spectrum%x, failure)
          if (failure%raised) return
          call count_rigid(model, structure, system, spectrum)

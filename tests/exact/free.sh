@@ -103,3 +103,24 @@ run free_bolt && {
    near 'free solid bolt: preload' "$("$query" "$work/free_bolt.bolt.csv" rows 'stage = 1' rows 'increment = max(increment)' print force)" 6000 1e-6
    same 'free solid bolt: no strain in six modes' "$(awk -F, '$1 == 2 && $2 <= 6 && $3 == 0' "$work/free_bolt.modes.csv" | wc -l)" 6
 }
+
+# ---- a free beam of ten elements whose nodes all are nodes of one RBE3, the mean motion: f = 4.7300407^2/(2 pi L^2) sqrt(E I/(rho A))
+{
+   printf '%s\n' 'SOL 103' 'CEND' 'METHOD = 1' 'BEGIN BULK' 'EIGRL,1,,,8' 'PARAM,COUPMASS,1' 'PBAR,1,1,100.0,800.0,900.0,1500.0' 'MAT1,1,2.1E5,,0.3,7.85E-9'
+   awk 'BEGIN { for (i = 1; i <= 11; i++) printf "GRID,%d,,%.1f,0.0,0.0\n", i, 100*(i - 1); for (i = 1; i <= 10; i++) printf "CBAR,%d,1,%d,%d,0.0,0.0,1.0\n", i, i, i + 1 }'
+   printf '%s\n' 'GRID,20,,500.0,0.0,50.0' 'RBE3,30,,20,123456,1.0,123,1,2' ',3,4,5,6,7,8,9,10' ',11,1.0,4,1' 'ENDDATA'
+} > "$work/free_mean.bdf"
+run free_mean && near 'free, all nodes in an RBE3' "$(mode free_mean 7 frequency)" '4.7300407^2/(2*pi*1000^2)*sqrt(2.1E5*800/(7.85E-9*100))' 1e-3
+
+# ---- a free slender beam of long and very short elements, 500 and 1: its stiffness hides the rigid-body motions by rounding, so that no shift
+# of the size of what seems the first frequency can be factorised
+{
+   printf '%s\n' 'SOL 103' 'CEND' 'METHOD = 1' 'BEGIN BULK' 'EIGRL,1,,,8' 'PARAM,COUPMASS,1' 'PBAR,1,1,12.0,12.0,15.0,25.0' 'MAT1,1,7.0E7,2.6E7,,2.7E-6' 'GRID,1,,0.0,0.0,0.0'
+   awk 'BEGIN { for (k = 2; k <= 22; k++) { x += k % 2 ? 1 : 500; printf "GRID,%d,,%.3f,%.3f,0.0\nCBAR,%d,1,%d,%d,0.0,0.0,1.0\n", k, 0.6*x, 0.8*x, k, k - 1, k } }'
+   echo ENDDATA
+} > "$work/free_slender.bdf"
+run free_slender && {
+   near 'free, slender: rigid-body modes' "$(mode free_slender 6 frequency)" 0 0 1e-12
+   near 'free, slender: bending' "$(mode free_slender 7 frequency)" '4.7300407^2/(2*pi*5510^2)*sqrt(7E7/2.7E-6)' 1e-4
+   near 'free, slender: bending about the other axis' "$(mode free_slender 8 frequency)" '4.7300407^2/(2*pi*5510^2)*sqrt(7E7*15/(2.7E-6*12))' 1e-4
+}

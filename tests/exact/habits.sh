@@ -152,12 +152,19 @@ habit no_begin 'no BEGIN BULK: the cards begin in .*habit_no_begin.bdf, line 5' 
 habit others 'SOL 200: the design of the property cards is analysed once' << END
 SOL 200;CEND;DESOBJ = 1;DESSUB = 2;ANALYSIS = STATICS;SPC = 1;LOAD = 2;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;DEBUG,192,2;USET,U2,1,123;OMIT1,123,7
 DESVAR,1,T,1.;DVPREL1,1,PSHELL,1,T;+,1,1.;DCONSTR,1,2,3.;AEROS,,,1.,1.,1.;CAERO1,1,1;SET1,1,1,THRU,8;SNORM,1,,0.,0.,1.;TABRND1,1;+,0.,1.,ENDT
-ASET1,123,1,THRU,8;MATT1,1,7;TABLEM1,7;+,0.,1.,1.,1.,ENDT;CDAMP2,91,5.,5,3;LSEQ,9,8,2;PARAM,SOLLIB,IntMKL,0,1,1.-6;PARAM,LGDISP,1;ENDDATA
+ASET1,123,1,THRU,8;SEELT,2,1;MATT1,1,7;TABLEM1,7;+,0.,1.,1.,1.,ENDT;CDAMP2,91,5.,5,3;LSEQ,9,8,2;PARAM,SOLLIB,IntMKL,0,1,1.-6;PARAM,LGDISP,1;ENDDATA
 END
 says 'large displacements: said' "$work/habit_others.log" 'PARAM LGDISP: displacements are small here'
 habit dmap 'COMPILE (.*line 2): the DMAP up to CEND is not followed' << END
 SOL 101;COMPILE SEMG;ALTER 'KJJZ'(,-1);MATPRN KJJZ// \$;SPC = 9 \$;CEND;SPC = 1;LOAD = 2;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;ENDDATA
 END
+habit missing_dmap "INCLUDE: '/nowhere/alter.v9' cannot be read: .*line 2); before CEND such a file has DMAP, which is not followed" << END
+SOL 101;include '/nowhere/alter.v9';CEND;SPC = 1;LOAD = 2;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;ENDDATA
+END
+for head in "CEND;include '/nowhere/cards.bdf'" "include '/nowhere/sol.inc';CEND"; do
+   cards habit_missing <<< "$head;SPC = 1;LOAD = 2;BEGIN BULK;$habits_grid;$habits_cube;$habits_rest;ENDDATA"
+   run habit_missing 2 && says "${head%%;*}, a file that is missing" "$work/habit_missing.log" 'cannot be read: no such file'
+done
 # an INCLUDE over two lines; the file of another, beside the deck although another folder has the INCLUDE
 mkdir -p "$work/habit_parts/deeper"
 cards habit_grid <<< "$habits_grid"

@@ -175,3 +175,20 @@ run point_loads && {
    near 'a force along a bar' "$(moved point_loads 2 2)" '1000*400^2*(3*1000 - 400)/(6*210000*8e4)' 3e-6
    near 'a torque along a bar' "$(table point_loads 'ROTATIONS OF REFERENCE NODES' | awk '$1 == 2 { print $2 }')" '1e6*250/(210000/2.6*6e4)' 3e-6
 }
+
+# ---- a material that expands along 2 alone, mass by NSM alone, and gravity beside another load without any mass
+laminates_sheet() { # NAME CASE CARDS
+   printf '%b\n' "SPC = 1\n$2\nBEGIN BULK" 'GRID,1,,0.0,0.0,0.0\nGRID,2,,10.0,0.0,0.0\nGRID,3,,10.0,10.0,0.0\nGRID,4,,0.0,10.0,0.0\nCQUAD4,1,1,1,2,3,4' \
+      'SPC1,1,123456,1\nSPC1,1,23456,2\nSPC1,1,3456,3,4\nSPC1,1,1,4' "$3" ENDDATA > "$work/$1.bdf"
+   run "$1"
+}
+laminates_sheet expands_along_2 'MODEL = SPACE\nTEMPERATURE = 2' 'PSHELL,1,1,0.5,1\nMAT8,1,1.0+4,2.0+4,0.2,5.0+3\n,0.0,3.0-5\nTEMPD,2,100.0' && {
+   near 'expansion along 2 alone' "$(moved expands_along_2 3 2)" '3e-5*100*10' 1e-6
+   near 'expansion along 2 alone: none along 1' "$(moved expands_along_2 3 1)" 0 0 1e-12
+}
+laminates_sheet nsm_weight 'MODEL = SPACE\nLOAD = 1' 'PSHELL,1,1,0.5,1,,,,3.0-3\nMAT1,1,1.0+4,,0.0\nGRAV,1,,1000.0,1.0' &&
+   near 'weight of NSM alone' "$(total nsm_weight LOADS 1)" '3e-3*100*1000' 1e-9
+laminates_sheet no_weight 'LOAD = 1' 'PSHELL,1,1,0.5\nMAT1,1,1.0+4,,0.0\nGRAV,1,,1000.0,1.0\nFORCE,1,2,,10.0,1.0\nFORCE,1,3,,10.0,1.0' && {
+   near 'gravity without mass beside forces' "$(moved no_weight 2 1)" '20*10/(1e4*0.5*10)' 1e-6
+   says 'gravity without mass' "$work/no_weight.log" 'GRAV (.*) has no effect: no body has a mass'
+}

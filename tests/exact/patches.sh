@@ -46,6 +46,46 @@ for kind in hexa hexa_plain penta penta_plain tetra hexa20 penta15 tetra10 equat
       END { if (nodes < 16 || elements < 7) print nodes " nodes, " elements " elements"; print "checked " n }' "$work/patch_$kind.out"
 done
 
+# MAT9, any matrix, warmed: the stress is [D] ({epsilon} - {alpha} 10), the strains are 1E-3; then the axes of the material turned by CORDM
+patches_matrix='3000 1000 800 100 50 -60 2500 700 -80 90 40 2000 30 -20 110 900 60 -70 800 50 700'
+sed 's/^MAT1.*/MAT9,1,3.0+6,1.0+6,8.0+5,1.0+5,5.0+4,-6.0+4,2.5+6\n+,7.0+5,-8.0+4,9.0+4,4.0+4,2.0+6,3.0+4,-2.0+4,1.1+5\n+,9.0+5,6.0+4,-7.0+4,8.0+5,5.0+4,7.0+5,,1.0-5\n+,2.0-5,-3.0-5,4.0-6,-5.0-6,6.0-6\nTEMPD,3,10.0/' \
+   "$work/patch.inc" > "$work/matrix.inc"
+for kind in hexa penta tetra hexa20 penta15 tetra10; do
+   sed "s/'patch.inc'/'matrix.inc'/; s/^  LOAD = 1/&\nTEMPERATURE(LOAD) = 3/" "$work/patch_$kind.bdf" > "$work/patch_matrix.bdf"
+   run patch_matrix && judge "patch test of C${kind^^} of MAT9" -v matrix="$patches_matrix" '
+      function size(x) { return x < 0 ? -x : x }
+      BEGIN { split(matrix, g, " "); split("1 2 -3 0.4 -0.5 0.6", alpha, " ")
+         for (i = 1; i <= 6; i++) for (j = i; j <= 6; j++) { n++; s[i] += g[n]*(1 - 0.1*alpha[j]); if (j > i) s[j] += g[n]*(1 - 0.1*alpha[i]) }
+         n = 0 }
+      / STRESSES/ { on = 1 }
+      / REACTIONS| BALANCE/ { on = 0 }
+      on && $1 + 0 == $1 && NF == 10 { n++; for (k = 1; k <= 6; k++) if (!(size($(4 + k) - s[k]) <= 4e-6*size(s[k]))) print "element " $1 ": " $(4 + k) ", expected " s[k] }
+      END { if (n < 7) print n " elements"; print "checked " n }' "$work/patch_matrix.out"
+done
+# a bar of 10 x 1 x 1 whose fibres are 30 degrees off its axis, pulled by 100: R. M. Jones, Mechanics of Composite Materials, section 2.8
+awk 'BEGIN {
+   e1 = 140000; e2 = 10000; e3 = 8000; a = 1/e1; b = 1/e2; c = 1/e3; f = -0.3/e1; g = -0.25/e1; h = -0.4/e2
+   det = a*(b*c - h*h) - f*(f*c - g*h) + g*(f*h - b*g)
+   print "SPC = 1\nLOAD = 1\nBEGIN BULK\nPSOLID,1,9,5\nCORD2R,5,,0.0,0.0,0.0,0.0,0.0,1.0\n+,0.8660254037844387,0.5,0.0"
+   for (n = 0; n < 8; n++) printf "GRID,%d,,%.1f,%.1f,%.1f\n", n + 1, n < 4 ? 0 : 10, int(n/2) % 2, n % 2
+   print "CHEXA,1,1,1,5,7,3,2,6\n+,8,4\nSPC1,1,1,1,2,3,4\nSPC1,1,23,1\nSPC1,1,3,3"
+   for (n = 5; n < 9; n++) print "FORCE,1," n ",,25.0,1.0,0.0,0.0"
+   printf "MAT9*,9,%.10E,%.10E,%.10E\n*,,,,%.10E\n", (b*c - h*h)/det, (g*h - f*c)/det, (f*h - b*g)/det, (a*c - g*g)/det
+   printf "*,%.10E,,,\n*,%.10E\n*,5000.0,,,3000.0\n*,,4000.0\nENDDATA\n", (f*g - a*h)/det, (a*b - f*f)/det }' > "$work/fibres.bdf"
+fibres='s = 0.5; c = 0.75^0.5; s11 = 1/140000; s12 = -0.3/140000; s22 = 1/10000; s66 = 1/5000'
+run fibres && {
+   near 'fibres off the axis: its strain' "$(moved fibres 5 1)" "$(awk "BEGIN { $fibres; printf \"%.12g\", 1000*(s11*c^4 + (2*s12 + s66)*s^2*c^2 + s22*s^4) }")" 1e-6
+   near 'fibres off the axis: its shear' "$(moved fibres 5 2)" \
+      "$(awk "BEGIN { $fibres; printf \"%.12g\", 1000*((2*s11 - 2*s12 - s66)*s*c^3 - (2*s22 - 2*s12 - s66)*s^3*c) }")" 1e-6
+}
+
+sed 's/^LOAD = 1/TEMPERATURE(LOAD) = 3/; /^FORCE/d; s/^\*,,4000.0$/*,,4000.0,,1.0-6\n*,3.0-5,2.0-5,,\n*,,/; s/^ENDDATA/TEMPD,3,10.0\n&/' "$work/fibres.bdf" > "$work/fibres_warm.bdf"
+run fibres_warm && {
+   near 'fibres off the axis, warmed: its length' "$(moved fibres_warm 5 1)" '(0.75*1e-6 + 0.25*3e-5)*100' 1e-6
+   near 'fibres off the axis, warmed: its shear' "$(moved fibres_warm 5 2)" '-2.9e-5*0.8660254038*100' 3e-6
+   near 'fibres off the axis, warmed: its thickness' "$(moved fibres_warm 6 3)" '2e-5*10' 1e-6
+}
+
 # ---- shells: a rectangle of 24 x 12 bears constant stress under the nodal forces of that stress, which have no moments, and under PLOADM ----
 
 # shell_patch NAME MESH STRESS...: 4 x 3 cells. MESH: words of even (else nodes lie anywhere, those of the sides on the sides), quad, tria, mixed (else),

@@ -341,6 +341,8 @@ for sheet in "$sheet8" "$sheet6"; do
       edge8 edge8 "$sheet;SPC1,1,1,1,4,8;$load"
       run edge8 && for node in 2 6 3; do near "$words, ${load%%,*}: node $node" "$(moved edge8 $node 1)" 0.1 1e-6; done
    done
+   edge8 edge8 "$sheet;SPC1,1,1,1,4,8;FORCEM,1,100.0,1.0,0.0,0.0,7" && sed -i 's/^CBAR,9.*/CBAR,9,7,6,2\nCROD,10,7,6,3/' "$work/edge8.bdf"
+   run edge8 && for node in 2 6 3; do near "$words marked by halves: node $node" "$(moved edge8 $node 1)" 0.1 1e-6; done
    edge8 edge8_joint "$sheet;$pressed8;JOINT,1,1,7"
    run edge8_joint && ask "$words pressed evenly" edge8_joint all 'pressure = 10 within 1e-7 and lambda = 0.01 within 1e-10 and area > 0'
    for side in 7,8 8,7; do # a solid of another mesh behind the joint
@@ -450,13 +452,13 @@ done
 # eights NAME N SHAPE CARDS [CONTROL]
 eights() {
    { printf '%b\n' "MODEL = SPACE\n${5:-SPC = 1\nSUBCASE 1\n  LOAD = 1}\nBEGIN BULK\nPSHELL,1,1,1.0,1,,1\nMAT1,1,1.0+5,,0.0,1.0-3"
-      awk -v n="$2" -v shape="$3" 'BEGIN {
+      awk -v n="$2" -v shape="$3" -v cd="$(grep -o 'CORD2C,5' <<<"$4" | cut -c 8)" 'BEGIN {
          for (i = 0; i <= 2*n; i++) for (j = 0; j < 3; j++) {
             if (i % 2 && j == 1) continue
             id[i, j] = ++k; a = i*atan2(1, 0)/(2*n); x = 50*i/n
             if (shape == "skewed" && i > 0 && i < 2*n) x += 4*(i % 4 == 2 ? j - 1 : i % 2 ? 0 : 1 - j)
             if (shape != "cylinder") printf "GRID,%d,,%.10f,%.1f,0.0\n", k, x, 15*j
-            if (shape == "cylinder") printf "GRID,%d,,%.10f,%.10f,%.1f\n", k, 100*cos(a), 100*sin(a), 25*j
+            if (shape == "cylinder") printf "GRID,%d,,%.10f,%.10f,%.1f,%s\n", k, 100*cos(a), 100*sin(a), 25*j, cd
             if (i == 0) printf "SPC1,1,%s,%d\n", shape == "cylinder" ? 246 : 123456, k
             if (i == 2*n && shape == "cylinder") printf "SPC1,1,156,%d\n", k
          }
@@ -473,10 +475,17 @@ both() { set -- "$1" $(spread_of "$2" "$3") "$4" "$5"; near "$1: least" "$2" "$4
 for n in 1 2 4; do
    eights eights_weight $n strip 'GRAV,1,,1000.0,1.0,0.0,0.0' && both "$n CQUAD8 under their weight" eights_weight 1.00000E+02 '1*100^2/(2e5)' 2e-6
 done
+eights eights_weight 2 strip 'GRAV,1,,1000.0,1.0,0.0,0.0' 'MASS = LUMPED\nSPC = 1\nSUBCASE 1\n  LOAD = 1' && \
+   both '2 CQUAD8 under their weight, MASS = LUMPED' eights_weight 1.00000E+02 '1*100^2/(2e5)' 2e-6
 eights eights_skewed 4 skewed 'GRAV,1,,1000.0,1.0,0.0,0.0' && both 'CQUAD8, trapezoids, under their weight' eights_skewed 1.00000E+02 '1*100^2/(2e5)' 2.5e-3
 # f = k/(4 L) sqrt(E/rho); elements of second order with consistent masses: their error falls with the fourth power of the length
 eights eights_modes 2 strip 'EIGRL,1,,,1\nSPC1,2,23456,1,THRU,13\nSPCADD,3,1,2' 'SOL = 103\nSPC = 3\nMETHOD = 1' && near 'two CQUAD8: f along the strip' \
    "$(awk -F, 'NR == 2 { print $3 }' "$work/eights_modes.modes.csv")" '1e8^0.5/400' 3e-4
+# a cylinder that breathes, f = sqrt(E/rho)/(2 pi R), radial displacements alone: the inner node moves with the others
+for n in 1 2 4; do
+   eights eights_breathes $n cylinder "EIGRL,1,,,1\nCORD2C,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nSPC1,2,23456,1,THRU,$((5*n + 3))" 'SOL = 103\nSPC = 2\nMETHOD = 1' && \
+      near "$n CQUAD8 round a quarter that breathes: f" "$(awk -F, 'NR == 2 { print $3 }' "$work/eights_breathes.modes.csv")" '1e8^0.5/(2*3.14159265358979*100)' "0.033/$n"
+done
 for n in 2 4; do
    eights eights_blown $n cylinder "PLOAD2,1,1.0,1,THRU,$n" && both "$n CQUAD8 round a quarter, pressed" eights_blown r '100^2/1e5' 4.5e-3
    eights eights_spun $n cylinder 'RFORCE,1,,,1.0,0.0,0.0,1.0' && both "$n CQUAD8 round a quarter, turning" eights_spun r '(2*3.14159265)^2*1e-3*100^3/1e5' 4e-3

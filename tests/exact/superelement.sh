@@ -136,6 +136,19 @@ superelement_parts parts_tied 13 'RBE2,99,3,1356,13' && {
    near 'parts tied by RBE2: the deflection' "$(moved parts_tied 5 3)" '10*400^3/(3*2.1E5*800)' 1e-5
    says 'nodes at one place' "$work/parts_tied.log" '1 pair of nodes of two parts at one place are not joined, the first 3 and 13'
 }
+# other numbers in the second part: joined by their place, or by SECONCT, one pair or ranges
+superelement_parts parts_placed 13 && {
+   near 'parts joined by place: the deflection' "$(moved parts_placed 5 3)" '10*400^3/(3*2.1E5*800)' 1e-5
+   near 'parts joined by place: the first mode' "$(mode parts_placed 1 frequency)" "$(mode parts 1 frequency)" 1e-12
+   says 'nodes at one place' "$work/parts_placed.log" '1 pair of nodes of two parts at one place, the first 3 and 13, are one node each'
+}
+for pairs in 13,3 13,THRU,13,3,THRU,3; do
+   superelement_parts parts_joined 13 > /dev/null
+   sed -i "s/^SEBULK,2,PRIMARY/SEBULK,2,PRIMARY,,MANUAL\nSECONCT,2,0\n,$pairs/" "$work/parts_joined.bdf"
+   run parts_joined && near "parts joined by SECONCT $pairs: the first mode" "$(mode parts_joined 1 frequency)" "$(mode parts 1 frequency)" 1e-12
+done
+superelement_parts parts_apart 13 '' > /dev/null; sed -i 's/^SEBULK,2,PRIMARY/SEBULK,2,PRIMARY,,MANUAL/' "$work/parts_apart.bdf"
+run parts_apart 3 && says 'MANUAL keeps nodes at one place apart' "$work/parts_apart.log" '13 at 3: the bodies come apart there'
 
 # ---- what cannot be
 superelement_beams bare 'SPC = 1\nOUTPUT = LAST, DMIG\nLOAD = 10' 'FORCE,10,5,,10.0,1.0,2.0,3.0' 2 && says 'no ASET' "$work/bare.log" 'DMIG needs ASET'
