@@ -120,7 +120,7 @@ broken() {
       $(ls "$work"/threads/release/*.o | grep -v "/$name.o") "$work/broken/$name.o" "$work/threads/view.o" \
       "$work/threads/blas.o" $libraries
    for seed in 1 2 3 4 5 6; do # on a busy machine one thread may happen to do all
-      OMP_NUM_THREADS=4 TASKS_SEED=$seed "$work/broken/jointfem" -q -o "$work/results" "$work/$deck.bdf" > "$log" 2>&1
+      OMP_NUM_THREADS=4 TASKS_SEED=$seed timeout 120 "$work/broken/jointfem" -q -o "$work/results" "$work/$deck.bdf" > "$log" 2>&1
       grep -q 'ThreadSanitizer: data race' "$log" && break
    done
    if grep -q 'ThreadSanitizer: data race' "$log"; then
