@@ -9,7 +9,7 @@ module newton_trial
    use joint_work, only: work_along
    use kinds, only: wp
    use model_data, only: model_type
-   use normal_stiffness, only: branch_load, branch_unload, normal_state
+   use normal_stiffness, only: branch_load, branch_reload, branch_unload, normal_state
    use tolerances, only: rounding_of_forces, tight_direction
    implicit none
    private
@@ -264,8 +264,9 @@ contains
             call analysis%energy(element%joint)%add(work_along(model%joints%list(element%joint)%law, element%area, state, movement))
             was = state%normal%branch
             state = trial%states(i)
-            if (was == branch_load .and. state%normal%branch == branch_unload .and. state%normal%lambda_a - state%normal%lambda &
-                <= rounding_of_forces*maxval(abs(analysis%u(:, system%interface(i)%node)))) state%normal%branch = branch_load
+            if (was == branch_load .and. any(state%normal%branch == [branch_unload, branch_reload]) .and. &
+                state%normal%lambda_a - state%normal%lambda <= rounding_of_forces &
+                *maxval(abs(analysis%u(:, system%interface(i)%node)))) state%normal%branch = branch_load
             state%shear%k_s = [trial%tangent(1, 1, i), trial%tangent(2, 2, i)]
             call rest_when_open(state, movement)
             analysis%record%kind(i) = kind_on_branch(state%normal%branch)
