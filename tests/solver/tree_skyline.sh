@@ -45,6 +45,7 @@ for deck in input/*.bdf $here/*.bdf; do
    name=$(basename "$deck" .bdf)
    tol=1.E-13 share=1e-9
    grep -qx "$name" tests/compare/ten_digits.txt && tol=1.E-10 share=1e-6
+   [ "$name" != konter_friction ] || share=1e-8 # joints of 1E6 and 1E8 N/mm3 beside displacements of 1.5 mm: the last digits of these are 1E-10 N/mm2 and more
    with_solver "$deck" TREE $tol > "$work/tree/$name.bdf"
    with_solver "$deck" SKYLINE $tol > "$work/skyline/$name.bdf"
    compare_within $share
