@@ -265,7 +265,7 @@ contains
                ' is a bolt; expected a section constant along it')
             if (law%is_cut .and. (any(abs(law%offset) > 0.0_wp) .or. any(law%released([1, 7])))) call deck%errors%add(card%line, &
                'beam '//integer_text(card%id)//' is a bolt; expected no offsets, and no pin along it')
-            if (.not. beam_length(law, x) > 0.0_wp) then
+            if (.not. beam_length(law, x)**3 > 0.0_wp) then ! the bending stiffness divides by it
                call deck%errors%add(card%line, 'beam '//integer_text(card%id)//' has no length')
                cycle
             end if
